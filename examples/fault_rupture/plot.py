@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: BSL-1.0
+"""plot.py OUTPUT_DIR: the figures of a fault rupture, in the manner of the study's figs. 1a, 3, 5 and 6."""
+
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import numpy as np
+import scarp_figures as figures
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize, PowerNorm
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator, NullFormatter
+from matplotlib.tri import Triangulation
+from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
+
+STUDY_OUTCROP = -12.5       # [m], where the study's surface starts to deflect, sec. 4.1
+CENTRIFUGE_OUTCROP = -9.8   # [m], the experiment as the study states it, sec. 4.1
+PROBES = {"A": BLUE, "B": VERMILION}
+STRAIN_COLOURS = "magma_r"
+
+
+def packing(folder):
+    return figures.draw_packing(folder, "Packing of an integration point")
+
+
+def read_steps(folder, shares):
+    """[(h/H, grid, file)] of the steps nearest to these shares of the last throw, in order, none twice."""
+    series = figures.read_pvd(folder / "fields.pvd")
+    last = series[-1][0]
+    steps = sorted({min(series, key=lambda step: abs(step[0] - share * last)) for share in shares})
+    return [(throw, figures.read_vtu(path), path) for throw, path in steps if throw > 0.0 or len(steps) == 1]
+
+
+def deviatoric_percent(grid, path):
+    return 100.0 * figures.field(grid.at_cells, "deviatoric_strain", path)
+
+
+def colour_limit(strain):
+    """A round number that leaves out the few most sheared elements at the fault tip. [%]"""
+    finite = strain[np.isfinite(strain)]
+    high = np.percentile(finite, 99.0) if finite.size else 0.0
+    if not high > 0.0:
+        return 1.0
+    step = 10.0 ** np.floor(np.log10(high)) / 2.0
+    return float(np.ceil(high / step) * step)
+
+
+def draw_cells(axes, grid, values, norm, edge=0.15):
+    cells = PolyCollection(grid.points[grid.cells], array=values, cmap=STRAIN_COLOURS, norm=norm,
+                           edgecolor="#00000055" if edge else "face", linewidth=edge or 0.2)
+    axes.add_collection(cells)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.grid(False)
+    return cells
+
+
+def read_probe(folder, name):
+    return figures.read_csv(folder / f"probe_{name}.csv", ["throw_over_depth", "eps_q", "eps_v", "q", "contact_fabric",
+                                                           "particle_fabric", "void_ratio"])
+
+
+def read_probes(folder):
+    """{name: table} of the probes that can be read; says why another one cannot, fails when none can."""
+    tables = {}
+    troubles = []
+    for name in PROBES:
+        try:
+            tables[name] = read_probe(folder, name)
+        except figures.InputError as trouble:
+            troubles.append(trouble)
+    if not tables:
+        raise troubles[0]
+    for trouble in troubles:
+        print(f"a probe is left out: {trouble}", file=sys.stderr)
+    return tables
+
+
+def probe_place(folder, name, throw, grid):
+    """Centre [m] of the one element that shows the probe's void ratio and fabric at this throw, else None."""
+    try:
+        probe = read_probe(folder, name)
+    except figures.InputError:
+        return None
+    row = np.argmin(np.abs(probe["throw_over_depth"] - throw))
+    if not np.isclose(probe["throw_over_depth"][row], throw, rtol=1e-9, atol=1e-12):
+        return None
+    alike = np.ones(len(grid.cells), dtype=bool)
+    for quantity in ("void_ratio", "contact_fabric", "particle_fabric"):
+        if quantity not in grid.at_cells:
+            return None
+        alike &= np.isclose(grid.at_cells[quantity], probe[quantity][row], rtol=1e-6, atol=0.0)
+    place = grid.points[grid.cells[alike]].mean(axis=1)
+    return place[0] if len(place) == 1 else None
+
+
+def draw_settlement(fig, axes, grid, path):
+    """Filled contours of the vertical displacement; its own triangulation of each element."""
+    settlement = -figures.field(grid.at_nodes, "displacement", path)[:, 1]
+    corners = grid.cells.shape[1]
+    triangles = np.vstack([grid.cells[:, [0, k, k + 1]] for k in range(1, corners - 1)])
+    high = max(settlement.max(), 1e-6)
+    levels = MaxNLocator(10).tick_values(settlement.min() if settlement.min() < -0.02 * high else 0.0, high)
+    settlement = np.clip(settlement, levels[0], levels[-1])
+    mesh = Triangulation(*grid.points.T, triangles)
+    filled = axes.tricontourf(mesh, settlement, levels=levels, cmap="Blues")
+    lines = [level for level in levels if settlement.min() < level < settlement.max()]
+    if lines:
+        axes.tricontour(mesh, settlement, levels=lines, colors=BLACK, linewidths=0.4)
+    fig.colorbar(filled, ax=axes, label="settlement [m]", aspect=14)
+    axes.set_aspect("equal")
+    axes.grid(False)
+
+
+def status_note(grid):
+    """How many elements do not simply answer "ok"; the numbers are those of core/status.hpp."""
+    status = grid.at_cells.get("status", np.zeros(0))
+    counts = {"fluid": np.count_nonzero(status == 1), "failed": np.count_nonzero(status > 1)}
+    return "".join(f", {count} elements {name}" for name, count in counts.items() if count)
+
+
+def deformation(folder):
+    throw, grid, path = read_steps(folder, [1.0])[0]
+    strain = deviatoric_percent(grid, path)
+    fig, (upper, lower) = plt.subplots(2, 1, figsize=(7.6, 5.8), sharex=True, sharey=True)
+    cells = draw_cells(upper, grid, strain, Normalize(0.0, colour_limit(strain)))
+    fig.colorbar(cells, ax=upper, label="deviatoric strain [%]", extend="max", aspect=14)
+    for name in PROBES:
+        place = probe_place(folder, name, throw, grid)
+        if place is not None:
+            upper.plot(*place, "o", markersize=5, color="white", markeredgecolor=PROBES[name], markeredgewidth=1.6)
+            upper.annotate(name, place, xytext=(6, 4), textcoords="offset points", color=PROBES[name], weight="bold",
+                           path_effects=[withStroke(linewidth=2.0, foreground="white")])
+    upper.set_ylabel("y [m]")
+    upper.set_title(f"Deformed mesh at h/H = {throw:.3g}", loc="left")
+    upper.set_title(f"largest strain {np.nanmax(strain):.3g} %{status_note(grid)}", loc="right", fontsize=7.5)
+    draw_settlement(fig, lower, grid, path)
+    lower.set(xlabel="x [m]", ylabel="y [m]")
+    lower.set_title("Vertical displacement", loc="left")
+    return fig
+
+
+def strain_development(folder):
+    steps = read_steps(folder, [1 / 8, 1 / 4, 1 / 2, 1])
+    limit = colour_limit(deviatoric_percent(*steps[-1][1:]))
+    norm = PowerNorm(0.5, 0.0, limit)  # the young band is faint beside the old one
+    fig, panels = plt.subplots(len(steps), 1, figsize=(6.4, 0.6 + 2.0 * len(steps)), sharex=True, squeeze=False)
+    for axes, (throw, grid, path) in zip(panels[:, 0], steps):
+        cells = draw_cells(axes, grid, deviatoric_percent(grid, path), norm, edge=0.0)
+        axes.set(ylabel="y [m]", title=f"h/H = {throw:.3g}")
+    panels[-1, 0].set_xlabel("x [m]")
+    fig.colorbar(cells, ax=panels[:, 0], label="deviatoric strain [%], square-root scale", extend="max", aspect=35)
+    return fig
+
+
+def surface_profiles(table):
+    """[(h/H, x [m], settlement [m])] of about six throws, spread evenly, the last one among them."""
+    throws = np.unique(table["throw_over_depth"])
+    throws = throws[throws > 0.0]
+    if throws.size == 0:
+        raise figures.InputError("'surface.csv' holds no throw above zero (the fault has not moved yet): let it run on")
+    shown = {int(np.argmin(np.abs(throws - share * throws[-1]))) for share in np.linspace(1 / 6, 1, 6)}
+    for throw in throws[sorted(shown)]:
+        rows = np.flatnonzero(table["throw_over_depth"] == throw)
+        rows = rows[np.argsort(table["x_initial"][rows])]
+        yield throw, table["x"][rows], table["settlement"][rows]
+
+
+def outcrop_marks(axes, summary):
+    marks = [(figures.finite(summary.get("outcrop_x")), VERMILION, "-", "outcrop here, last throw"),
+             (figures.finite(summary.get("steepest_x")), GREEN, "-.", "steepest slope here, last throw"),
+             (STUDY_OUTCROP, BLACK, "--", "study's text, surface starts to deflect"),
+             (CENTRIFUGE_OUTCROP, GREY, ":", "centrifuge, as the study states it")]
+    return [axes.axvline(x, color=colour, linestyle=line, linewidth=1.1, label=f"{text}: {x:.1f} m")
+            for x, colour, line, text in marks if x is not None]
+
+
+def layer_depth(folder):
+    """[m], of the first region before it moved"""
+    _, grid, path = read_steps(folder, [0.0])[0]
+    initial = grid.points - figures.field(grid.at_nodes, "displacement", path)[:, :2]
+    soil = grid.cells[figures.field(grid.at_cells, "region", path) == 0]
+    return float(np.ptp(initial[soil, 1]))
+
+
+def surface(folder):
+    table = figures.read_csv(folder / "surface.csv", ["throw_over_depth", "x_initial", "x", "settlement"])
+    profiles = list(surface_profiles(table))
+    summary = figures.read_summary(folder)
+    depth = layer_depth(folder)
+    fig, (upper, lower) = plt.subplots(2, 1, figsize=(7.0, 6.6), sharex=True)
+    colours = plt.get_cmap("viridis_r")(np.linspace(0.15, 1.0, len(profiles)))
+    lines = []
+    for colour, (throw, x, settlement) in zip(colours, profiles):
+        lines += upper.plot(x, settlement / depth, ".-", color=colour, markersize=3, label=f"h/H = {throw:.3g}")
+        lower.plot(x, settlement / (throw * depth), ".-", color=colour, markersize=3)
+    outcrop_marks(upper, summary)
+    marks = outcrop_marks(lower, summary)
+    for axes in (upper, lower):
+        axes.invert_yaxis()
+    upper.secondary_xaxis("top", functions=(lambda x: x / depth, lambda ratio: ratio * depth)).set_xlabel("x/H [-]")
+    upper.set_ylabel("settlement over depth of layer [-]")
+    lower.set(xlabel="x [m]", ylabel="settlement over throw [-]")
+    upper.legend(handles=lines, loc="lower left")
+    lower.legend(handles=marks, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=2)
+    return fig
+
+
+def probes(folder):
+    fig, (stress, volume) = plt.subplots(2, 1, figsize=(5.4, 6.0), sharex=True)
+    for name, probe in read_probes(folder).items():
+        strain = 100.0 * probe["eps_q"]
+        line = {"color": PROBES[name], "linestyle": "-" if name == "A" else "--"}
+        stress.plot(strain, 1e-3 * probe["q"], label=f"{name}, to h/H = {probe['throw_over_depth'][-1]:.3g}", **line)
+        volume.plot(strain, 100.0 * probe["eps_v"], **line)
+        for axes, values in ((stress, 1e-3 * probe["q"]), (volume, 100.0 * probe["eps_v"])):
+            axes.plot(strain[-1], values[-1], "o", color=PROBES[name], markersize=4)
+    volume.axhline(0.0, color=BLACK, linewidth=0.8)
+    stress.set(ylabel="deviatoric stress q [kPa]", title="Response at the probes")
+    stress.set_ylim(bottom=min(0.0, stress.get_ylim()[0]))
+    volume.set(xlabel="deviatoric strain [%]", ylabel="volumetric strain [%]\n(contraction positive)")
+    stress.legend()
+    return fig
+
+
+def fabric(folder):
+    fig, axes = plt.subplots(figsize=(5.4, 3.8))
+    for name, probe in read_probes(folder).items():
+        strain = 100.0 * probe["eps_q"]
+        axes.plot(strain, probe["contact_fabric"], color=PROBES[name], label=f"{name}: contact normals, Fc")
+        axes.plot(strain, probe["particle_fabric"], "--", color=PROBES[name], label=f"{name}: long axes, Fp")
+    axes.set(xlabel="deviatoric strain [%]", ylabel="fabric anisotropy [-]", title="Fabric at the probes",
+             ylim=(0.0, None))
+    axes.legend(ncol=2, loc="lower center", bbox_to_anchor=(0.5, -0.42))
+    return fig
+
+
+def attempts_of(table):
+    """Row slices of the attempts at load steps: another step, or iterations counted anew, is another attempt."""
+    starts = np.flatnonzero((np.diff(table["step"]) != 0) | (np.diff(table["iteration"]) <= 0)) + 1
+    bounds = [0, *starts, len(table["step"])]
+    return [slice(first, end) for first, end in zip(bounds, bounds[1:])]
+
+
+def residual_tolerance(summary):
+    known = (figures.finite(summary.get(key)) for key in ("residual_tolerance", "tolerance"))
+    return next((value for value in known if value is not None and value > 0.0), None)
+
+
+def convergence(folder):
+    table = figures.read_csv(folder / "convergence.csv",
+                             ["step", "throw_over_depth", "iteration", "residual", "accepted", "dem_steps"])
+    tolerance = residual_tolerance(figures.read_summary(folder))
+    attempts = attempts_of(table)
+    accepted = np.array([table["accepted"][attempt].max() > 0.0 for attempt in attempts])
+    count = np.arange(1, len(table["step"]) + 1)
+    fig, (residual, effort, work) = plt.subplots(3, 1, figsize=(7.6, 7.0), height_ratios=(3, 2, 2))
+
+    for attempt, good in zip(attempts, accepted):
+        residual.plot(count[attempt], table["residual"][attempt], ".-", linewidth=0.6, markersize=2.5,
+                      color=figures.SKY if good else VERMILION)
+    ends = np.array([attempt.stop - 1 for attempt in attempts])
+    residual.plot(count[ends[accepted]], table["residual"][ends[accepted]], "o", color=BLUE, markersize=3,
+                  label="accepted")
+    if not accepted.all():
+        residual.plot(count[ends[~accepted]], table["residual"][ends[~accepted]], "x", color=VERMILION, markersize=5,
+                      label="not accepted")
+    if tolerance is not None:
+        residual.axhline(tolerance, color=BLACK, linestyle="--", linewidth=1.0, label=f"tolerance {tolerance:g}")
+    residual.set(yscale="log", xlabel="iterations since the start", ylabel="force residual [-]")
+    residual.yaxis.set_major_formatter("{x:g}")
+    residual.yaxis.set_minor_formatter(NullFormatter())
+    residual.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, title="Convergence of the load steps",
+                    title_fontsize=9)
+
+    throw = table["throw_over_depth"][ends]
+    iterations = np.array([attempt.stop - attempt.start for attempt in attempts])
+    effort.plot(throw[accepted], iterations[accepted], ".", color=BLUE)
+    effort.plot(throw[~accepted], iterations[~accepted], "x", color=VERMILION)
+    effort.set(ylabel="iterations per\nload step [-]", ylim=(0.0, None))
+    work.plot(table["throw_over_depth"], 1e-6 * np.cumsum(table["dem_steps"]), color=GREEN)
+    work.set(xlabel="throw over depth of layer, h/H [-]", ylabel="DEM steps so far [million]", ylim=(0.0, None))
+    work.sharex(effort)
+    return fig
+
+
+if __name__ == "__main__":
+    figures.draw_all({"packing": packing, "deformation": deformation, "strain_development": strain_development,
+                      "surface": surface, "probes": probes, "fabric": fabric, "convergence": convergence})

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/dem/cloud.hpp"
+#include "scarp/dem/grading.hpp"
+#include "scarp/dem/preparation.hpp"
+#include "scarp/homogenise/balance.hpp"
+#include "scarp/homogenise/fabric.hpp"
+
+namespace rve_biaxial {
+
+using Packing = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
+
+/// What the user may choose; the rest is the study's material.
+struct Choice {
+  int grains = 400;
+  double preparation_friction = 0.1;
+  double pressure = 2e5;           ///< [Pa]
+  double strain = 0.2;             ///< axial logarithmic strain at the end
+  double strain_per_step = 2e-6;   ///< axial, of one DEM step
+};
+
+/// Geotechnical view, compression positive, strains logarithmic. Stresses are means over the steps since the former row,
+/// everything else is the state at the row's strain.
+struct Row {
+  double axial_strain = 0.0;
+  double lateral_strain = 0.0;
+  double volumetric_strain = 0.0;
+  double axial_stress = 0.0;    ///< [Pa]
+  double lateral_stress = 0.0;  ///< [Pa]
+  double void_ratio = 0.0;
+  double coordination = 0.0;
+  double contact_fabric = 0.0;
+  double particle_fabric = 0.0;
+  double unbalanced_ratio = 0.0;
+  double sliding_share = 0.0;
+};
+
+struct Result {
+  std::uint64_t seed = 0;
+  scarp::Verdict prepared;
+  scarp::Verdict sheared;
+  Packing consolidated;
+  std::vector<Row> rows;
+};
+
+/// The contact law of the study's grains, section 3.1.
+inline scarp::LinearFrictional study_law() {
+  return {.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
+}
+
+/// The study's grains: "radius between 4 mm and 6 mm" read as the semi-major axis, aspect 0.75.
+inline scarp::Prepared<Packing> consolidated_packing(Choice const& choice, std::uint64_t seed) {
+  scarp::Cloud<scarp::EllipseGrading> const cloud{.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75},
+                                                  .grains = choice.grains,
+                                                  .density = 2650.0,
+                                                  .thickness = 0.2,
+                                                  .seed = seed};
+  scarp::IsotropicPreparation const preparation{.pressure = choice.pressure,
+                                                .preparation_friction = choice.preparation_friction};
+  return preparation.prepare(cloud.make<Packing>(), study_law());
+}
+
+inline Row describe(Packing const& packing, double axial_strain, double volumetric_strain,
+                    scarp::Tensor<2> const& stress) {
+  auto const law = study_law();
+  auto const state = scarp::balance(packing, law);
+  return {.axial_strain = axial_strain,
+          .lateral_strain = volumetric_strain - axial_strain,
+          .volumetric_strain = volumetric_strain,
+          .axial_stress = -stress(1, 1),
+          .lateral_stress = -stress(0, 0),
+          .void_ratio = packing.void_ratio(),
+          .coordination = scarp::coordination(packing, law),
+          .contact_fabric = scarp::fabric_anisotropy(scarp::contact_fabric(packing, law)),
+          .particle_fabric = scarp::fabric_anisotropy(scarp::particle_fabric(packing)),
+          .unbalanced_ratio = state.unbalanced_ratio,
+          .sliding_share = state.sliding_share};
+}
+
+/// Drained biaxial compression: yy shortens at a constant rate, a servo keeps sigma_xx at the pressure, no shear strain.
+inline void compress(Packing packing, Choice const& choice, Result& result) {
+  constexpr double strain_per_row = 2.5e-4;
+  // The lateral stress lags behind its target by rate x modulus x response steps: 0.6 % of 200 kPa by default.
+  scarp::Servo const servo{.response_steps = 20.0};
+  scarp::ComponentLoading<2> loading;
+  loading.stress_controlled[0] = true;
+  loading.stress(0) = -choice.pressure;
+  loading.strain_per_step(1) = -choice.strain_per_step;
+
+  auto const law = study_law();
+  scarp::TimeStepper<Packing> stepper;
+  scarp::Servo::Drive<Packing> drive(servo, packing, law, loading);
+  double const first_area = packing.cell.determinant();
+  result.rows.push_back(describe(packing, 0.0, 0.0, scarp::balance(packing, law).stress));
+  long const steps = std::lround(choice.strain / choice.strain_per_step);
+  long const steps_per_row = std::max(1L, std::lround(strain_per_row / choice.strain_per_step));
+  scarp::Tensor<2> sum = scarp::Tensor<2>::Zero();
+  for (long step = 1; step <= steps; ++step) {
+    result.sheared = drive.step(stepper);
+    if (!result.sheared.acceptable()) return;
+    sum += drive.seen().stress;
+    if (step % steps_per_row != 0) continue;
+    double const volumetric_strain = -std::log(packing.cell.determinant() / first_area);
+    result.rows.push_back(describe(packing, static_cast<double>(step) * choice.strain_per_step, volumetric_strain,
+                                   sum / static_cast<double>(steps_per_row)));
+    sum.setZero();
+  }
+}
+
+inline Result run_seed(Choice const& choice, std::uint64_t seed) {
+  Result result{.seed = seed, .prepared = {}, .sheared = {}, .consolidated = {}, .rows = {}};
+  auto prepared = consolidated_packing(choice, seed);
+  result.prepared = prepared.verdict;
+  result.consolidated = prepared.packing;
+  if (result.prepared.acceptable()) compress(std::move(prepared.packing), choice, result);
+  return result;
+}
+
+}  // namespace rve_biaxial

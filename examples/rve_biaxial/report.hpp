@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/io/csv.hpp"
+#include "strength.hpp"
+
+namespace rve_biaxial {
+
+inline void write_curves(std::filesystem::path const& folder, std::vector<Result> const& results) {
+  scarp::CsvTable table({"seed", "axial_strain", "lateral_strain", "volumetric_strain", "axial_stress",
+                         "lateral_stress", "void_ratio", "coordination", "contact_fabric", "particle_fabric",
+                         "unbalanced_ratio", "sliding_share"});
+  for (auto const& result : results) {
+    for (auto const& row : result.rows) {
+      table.add(result.seed, row.axial_strain, row.lateral_strain, row.volumetric_strain, row.axial_stress,
+                row.lateral_stress, row.void_ratio, row.coordination, row.contact_fabric, row.particle_fabric,
+                row.unbalanced_ratio, row.sliding_share);
+    }
+  }
+  table.write(folder / "biaxial.csv");
+}
+
+/// The packing after consolidation: lengths [m], forces [N].
+inline void write_packing(std::filesystem::path const& folder, Packing const& packing) {
+  scarp::CsvTable grains({"x", "y", "a", "b", "cos", "sin"});
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    auto const size = packing.population->size(i);
+    grains.add(packing.position(i, 0), packing.position(i, 1), size[0], size[1], packing.orientation(i, 0),
+               packing.orientation(i, 1));
+  }
+  scarp::CsvTable contacts({"x1", "y1", "x2", "y2", "normal_force"});
+  scarp::for_each_contact(packing, study_law(), [&](scarp::Contact<2> const& contact) {
+    double const x = packing.position(contact.first, 0);
+    double const y = packing.position(contact.first, 1);
+    contacts.add(x, y, x + contact.branch(0), y + contact.branch(1), contact.normal_force);
+  });
+  scarp::CsvTable cell({"a1x", "a1y", "a2x", "a2y"});
+  cell.add(packing.cell(0, 0), packing.cell(1, 0), packing.cell(0, 1), packing.cell(1, 1));
+  grains.write(folder / "packing_grains.csv");
+  contacts.write(folder / "packing_contacts.csv");
+  cell.write(folder / "packing_cell.csv");
+}
+
+inline std::vector<double> all_windows(double smoothing) {
+  std::vector<double> windows{0.005, 0.01, 0.03, 0.05};
+  if (std::find(windows.begin(), windows.end(), smoothing) == windows.end()) windows.push_back(smoothing);
+  std::sort(windows.begin(), windows.end());
+  return windows;
+}
+
+inline nlohmann::json to_json(Spread const& spread) {
+  return {{"mean", spread.mean}, {"standard_deviation", spread.deviation}};
+}
+
+inline nlohmann::json summarise(Choice const& choice, std::vector<Result> const& results, double smoothing) {
+  nlohmann::json summary;
+  summary["definitions"] = {
+      {"view", "compression positive, logarithmic strains, stresses in Pa"},
+      {"phi_max", "degrees; eq. 8 of the study, sin phi = (s1/s3 - 1)/(s1/s3 + 1), with s1/s3 the mean axial over the mean "
+                  "lateral stress within a window of axial strain; largest over all windows inside the test"},
+      {"psi_max", "degrees; eq. 9 of the study, sin psi = (de1/de3 + 1)/(1 - de1/de3), with the strain increments from end "
+                  "to end of the window; largest over all windows inside the test"},
+      {"window", "width in axial strain; `smoothing` is the one that the table shows"},
+      {"void_ratio", "area of voids over area of grains after consolidation, overlaps not subtracted"},
+      {"standard_deviation", "of the sample over the seeds"}};
+  summary["choice"] = {{"grains", choice.grains},
+                       {"preparation_friction", choice.preparation_friction},
+                       {"pressure", choice.pressure},
+                       {"strain", choice.strain},
+                       {"strain_per_step", choice.strain_per_step},
+                       {"smoothing", smoothing}};
+  summary["reference"] = {{"study", {{"phi_max", 30.8}, {"psi_max", 6.6}, {"void_ratio_range", {0.160, 0.179}}}},
+                          {"sudodem", {{"phi_max", 33.8}, {"void_ratio", 0.173}}}};
+  auto const windows = all_windows(smoothing);
+  std::vector<double> void_ratios;
+  for (auto const& result : results) {
+    void_ratios.push_back(result.rows.front().void_ratio);
+    nlohmann::json entry{{"seed", result.seed},
+                         {"void_ratio", result.rows.front().void_ratio},
+                         {"coordination", result.rows.front().coordination},
+                         {"peaks", nlohmann::json::array()}};
+    for (double const window : windows) {
+      auto const peak = peak_angles(result.rows, window);  // NaN becomes null
+      entry["peaks"].push_back({{"window", window},
+                                {"phi_max", peak.friction_angle},
+                                {"phi_max_axial_strain", peak.friction_strain},
+                                {"psi_max", peak.dilation_angle},
+                                {"psi_max_axial_strain", peak.dilation_strain}});
+    }
+    summary["seeds"].push_back(entry);
+  }
+  summary["void_ratio"] = to_json(spread_of(void_ratios));
+  for (double const window : windows) {
+    std::vector<double> friction;
+    std::vector<double> dilation;
+    for (auto const& result : results) {
+      auto const peak = peak_angles(result.rows, window);
+      friction.push_back(peak.friction_angle);
+      dilation.push_back(peak.dilation_angle);
+    }
+    summary["windows"].push_back(
+        {{"window", window}, {"phi_max", to_json(spread_of(friction))}, {"psi_max", to_json(spread_of(dilation))}});
+  }
+  return summary;
+}
+
+inline void write_all(std::filesystem::path const& folder, Choice const& choice, std::vector<Result> const& results,
+                      double smoothing) {
+  std::filesystem::create_directories(folder);
+  write_curves(folder, results);
+  write_packing(folder, results.front().consolidated);
+  scarp::write_file(folder / "summary.json", summarise(choice, results, smoothing).dump(2) + "\n");
+}
+
+}  // namespace rve_biaxial

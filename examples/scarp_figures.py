@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Reads what the examples write (CSV, JSON, VTU, PVD) and holds what their figures share."""
+
+import base64
+import csv
+import itertools
+import json
+import os
+import pathlib
+import sys
+import typing
+import xml.etree.ElementTree as xml
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.patches import Polygon
+
+# Colours that stay apart for colour-blind readers [Okabe & Ito 2008, "Color Universal Design"].
+BLUE, VERMILION, GREEN, ORANGE, SKY, PURPLE = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7"
+BLACK, GREY, PALE = "#222222", "#8A8A8A", "#D8D8D8"
+
+plt.rcParams.update({
+    "figure.constrained_layout.use": True, "savefig.dpi": 160,
+    "font.size": 9, "axes.titlesize": 9, "axes.labelsize": 9, "legend.fontsize": 8, "legend.frameon": False,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "axes.axisbelow": True,
+    "grid.color": "#E6E6E6", "grid.linewidth": 0.6, "lines.linewidth": 1.5, "axes.unicode_minus": True,
+})
+
+
+class InputError(Exception):
+    """The figure cannot be drawn; the text is one line: "problem (why): suggestion"."""
+
+
+def require_file(path):
+    if not path.is_file():
+        raise InputError(f"there is no '{path}' (the run did not write it, or has not come so far): run the example")
+
+
+def number(cell):
+    """A table's cell as a number, true and false as 1 and 0, no number as NaN."""
+    try:
+        return float(cell)
+    except ValueError:
+        return {"true": 1.0, "false": 0.0}.get(cell.strip().lower(), np.nan)
+
+
+def read_csv(path, columns):
+    """Table with a header line -> {column: array}; a last line that an interruption cut off is left out."""
+    require_file(path)
+    text = path.read_text()
+    lines = text[: text.rfind("\n") + 1].splitlines()
+    header = next(csv.reader(lines[:1]), [])
+    missing = [name for name in columns if name not in header]
+    if missing:
+        raise InputError(f"'{path}' has no column '{missing[0]}' (it has: {', '.join(header)}): run the example anew")
+    rows = list(csv.reader(lines[1:]))
+    for line, row in enumerate(rows, start=2):
+        if len(row) != len(header):
+            raise InputError(f"'{path}', line {line}, has {len(row)} cells (its header has {len(header)}): run anew")
+    if not rows:
+        raise InputError(f"'{path}' holds no rows (the run has not come so far): let it run on")
+    return {name: np.array([number(row[k]) for row in rows]) for k, name in enumerate(header)}
+
+
+def read_summary(folder):
+    """What the run said about itself, empty while it has not finished."""
+    path = folder / "summary.json"
+    try:
+        summary = json.loads(path.read_text()) if path.is_file() else {}
+        return summary if isinstance(summary, dict) else {}
+    except ValueError as trouble:
+        raise InputError(f"'{path}' is no JSON ({trouble}): run the example anew") from None
+
+
+def finite(value):
+    """The value when it is a finite number, else None."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return float(value) if is_number and np.isfinite(value) else None
+
+
+class Grid(typing.NamedTuple):
+    points: np.ndarray  # [m], shape (nodes, 2)
+    cells: np.ndarray   # node numbers, shape (cells, 3) or (cells, 4)
+    at_nodes: dict
+    at_cells: dict
+
+
+def read_vtu(path):
+    """An unstructured grid of triangles or quadrilaterals as io/vtu.hpp writes it."""
+    require_file(path)
+    try:
+        root = xml.parse(path).getroot()
+        order = "<" if root.get("byte_order") == "LittleEndian" else ">"
+        kinds = {"Float64": "f8", "Int32": "i4", "UInt8": "u1"}
+
+        def array(item):
+            data = base64.b64decode(item.text)
+            length = int(np.frombuffer(data, order + "u8", 1)[0])
+            if len(data) != 8 + length:
+                raise ValueError(f"array '{item.get('Name')}' is cut off")
+            values = np.frombuffer(data, order + kinds[item.get("type")], offset=8)
+            components = int(item.get("NumberOfComponents", 1))
+            return values if components == 1 else values.reshape(-1, components)
+
+        piece = root.find("UnstructuredGrid/Piece")
+        arrays = {part.tag: {item.get("Name"): array(item) for item in part} for part in piece}
+        offsets = arrays["Cells"]["offsets"]
+        corners = int(offsets[0]) if len(offsets) else 0
+        if corners not in (3, 4) or np.any(np.diff(offsets) != corners):
+            raise ValueError("its cells are not all triangles or all quadrilaterals")
+        return Grid(arrays["Points"]["Points"][:, :2], arrays["Cells"]["connectivity"].reshape(-1, corners),
+                    arrays["PointData"], arrays["CellData"])
+    except (xml.ParseError, ValueError, KeyError, TypeError, AttributeError, IndexError) as trouble:
+        raise InputError(f"'{path}' cannot be read ({trouble}): run the example anew") from None
+
+
+def read_pvd(path):
+    """[(time, file)] of the files that are there, in the order of the series."""
+    require_file(path)
+    try:
+        items = xml.parse(path).getroot().findall("Collection/DataSet")
+        series = [(float(item.get("timestep")), path.parent / item.get("file")) for item in items]
+    except (xml.ParseError, ValueError, TypeError) as trouble:
+        raise InputError(f"'{path}' cannot be read ({trouble}): run the example anew") from None
+    series = [(time, file) for time, file in series if file.is_file()]
+    if not series:
+        raise InputError(f"'{path}' lists no file that is there (the run has not come so far): let it run on")
+    return series
+
+
+def field(values, name, path):
+    if name not in values:
+        raise InputError(f"'{path}' has no field '{name}' (it has: {', '.join(values)}): run the example anew")
+    return values[name]
+
+
+def draw_packing(folder, title):
+    """Grains with force chains, their widths proportional to the normal force, in the periodic cell; lengths in mm."""
+    grains = read_csv(folder / "packing_grains.csv", ["x", "y", "a", "b", "cos", "sin"])
+    contacts = read_csv(folder / "packing_contacts.csv", ["x1", "y1", "x2", "y2", "normal_force"])
+    cell = read_csv(folder / "packing_cell.csv", ["a1x", "a1y", "a2x", "a2y"])
+    base = 1e3 * np.array([[cell["a1x"][0], cell["a2x"][0]], [cell["a1y"][0], cell["a2y"][0]]])
+    if not (np.isfinite(base).all() and np.linalg.det(base) > 0.0):
+        raise InputError(f"'{folder / 'packing_cell.csv'}' holds no cell (inverted or NaN): run the example anew")
+
+    centres = 1e3 * np.column_stack([grains["x"], grains["y"]])
+    relative = np.linalg.solve(base, centres.T).T
+    corner = np.round(2.0 * (relative.mean(axis=0) - 0.5)) / 2.0  # cells start at the origin or are centred there
+    home = np.floor(relative - corner)
+    centres = centres - home @ base.T
+    start = 1e3 * np.column_stack([contacts["x1"], contacts["y1"]])
+    branch = 1e3 * np.column_stack([contacts["x2"], contacts["y2"]]) - start
+    start = start - np.floor(np.linalg.solve(base, start.T).T - corner) @ base.T
+
+    fig, axes = plt.subplots(figsize=(5.2, 5.2))
+    outline = (corner + np.array([[0, 0], [1, 0], [1, 1], [0, 1]])) @ base.T
+    angle = np.degrees(np.arctan2(grains["sin"], grains["cos"]))
+    images = [base @ np.array(shift) for shift in itertools.product((-1, 0, 1), repeat=2)]
+    for image in images:
+        own = not image.any()
+        axes.add_collection(EllipseCollection(
+            2e3 * grains["a"], 2e3 * grains["b"], angle, units="xy", offsets=centres + image,
+            offset_transform=axes.transData, zorder=2 if own else 1, facecolor="#F4E3C1" if own else "#F5F5F5",
+            edgecolor="#8C7A55" if own else "#DADADA", linewidth=0.4))
+    carrying = contacts["normal_force"] > 0.0
+    force = contacts["normal_force"][carrying]
+    frame = axes.add_patch(Polygon(outline, closed=True, fill=False, edgecolor=BLACK, linewidth=1.0, zorder=4))
+    points_per_newton = 1.0 / force.mean() if len(force) else 0.0
+    for image in images:
+        ends = start[carrying] + image
+        chains = LineCollection(np.stack([ends, ends + branch[carrying]], axis=1), colors=BLUE, capstyle="round",
+                                linewidths=points_per_newton * force, zorder=3)
+        axes.add_collection(chains)
+        chains.set_clip_path(frame)  # a chain that leaves the cell comes in again on the other side
+    margin = 0.03 * np.ptp(outline, axis=0).max()
+    axes.set(xlim=(outline[:, 0].min() - margin, outline[:, 0].max() + margin), xlabel="x [mm]",
+             ylim=(outline[:, 1].min() - margin, outline[:, 1].max() + margin), ylabel="y [mm]", aspect="equal",
+             title=f"{title}: {len(centres)} grains, {len(force)} contacts")
+    axes.grid(False)
+    if len(force):
+        for sample in sorted({float(f"{times * force.mean():.1g}") for times in (1.0, 2.0, 4.0)}):
+            axes.plot([], [], color=BLUE, linewidth=points_per_newton * sample, label=f"{sample:g} N")
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=3, title="normal force")
+    return fig
+
+
+def save(fig, path):
+    path.parent.mkdir(exist_ok=True)
+    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
+    try:
+        fig.savefig(partial, format="png")
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
+        plt.close(fig)
+
+
+def draw_all(figures):
+    """figures: {name: function(folder) -> figure}. Draws each that can be drawn into OUTPUT_DIR/figures/ and ends the
+    program: 0 when all were drawn, 1 when some could not be, 2 for a wrong call."""
+    if len(sys.argv) != 2:
+        print(f"usage: {sys.argv[0]} OUTPUT_DIR   (the folder that the example wrote)", file=sys.stderr)
+        sys.exit(2)
+    folder = pathlib.Path(sys.argv[1])
+    if not folder.is_dir():
+        print(f"there is no folder '{folder}' (nothing to draw): give the one that the example wrote", file=sys.stderr)
+        sys.exit(2)
+    status = 0
+    for name, draw in figures.items():
+        try:
+            path = folder / "figures" / f"{name}.png"
+            save(draw(folder), path)
+            print(path)
+        except (InputError, OSError) as trouble:
+            print(f"{name}.png is not drawn: {trouble}", file=sys.stderr)
+            plt.close("all")
+            status = 1
+    sys.exit(status)

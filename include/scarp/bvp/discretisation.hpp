@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/kinematics.hpp"
+#include "scarp/bvp/sparsity.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
+
+namespace scarp {
+
+/// Finite elements on a mesh: displacement increments to gradients at the integration points, stresses at the points to
+/// nodal forces and stiffness. Knows no material; keeps only the committed positions of the nodes.
+/// Degree of freedom = dim * node + axis; point = (number of an element's quadrature points) * element + its own
+/// number. All sums run in the order of the elements, so that the same input gives the same bits.
+template <ReferenceElement Element, Kinematics Motion = UpdatedLagrangian>
+class Discretisation {
+ public:
+  static constexpr int dim = Element::dim;
+  static constexpr int points_per_element = quadrature_size<Element>;
+
+  /// thickness [m] out of the plane; in 3D it is 1
+  /// \throws InputError for an invalid mesh or thickness
+  explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0)
+      : mesh_((validate(mesh), std::move(mesh))), thickness_(thickness), positions_(mesh_.nodes), sparsity_(mesh_) {
+    require_positive("thickness", thickness);
+    if (dim == 3 && thickness != 1.0) {
+      refuse("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
+    }
+  }
+
+  Mesh<Element> const& mesh() const { return mesh_; }
+  double thickness() const { return thickness_; }
+  int node_count() const { return detail::count(mesh_.nodes); }
+  int dof_count() const { return dim * node_count(); }
+  int point_count() const { return points_per_element * detail::count(mesh_.elements); }
+
+  /// Committed positions of the nodes [m].
+  std::vector<Vector<dim>> const& positions() const { return positions_; }
+
+  /// Where a point is in the committed configuration; surface_level [m] is the height of the ground surface.
+  Site<dim> site(int point, double surface_level) const {
+    int const element = point / points_per_element;
+    auto const where = Element::quadrature()[detail::index(point % points_per_element)];
+    auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions_);
+    Vector<dim> const position = rows.transpose() * Element::shape(where.xi);
+    return {point, mesh_.element_region[detail::index(element)], position, surface_level - position(dim - 1)};
+  }
+
+  /// Displacement gradient of the increment at every point, for the material.
+  /// increment [m], shape (dof_count); out: shape (point_count), always filled
+  /// \return the first element whose Jacobian is not positive (or NaN) after the increment, if there is one
+  std::optional<int> gradients(Eigen::VectorXd const& increment, std::span<Gradient<dim>> out) const {
+    require_length("displacement increment", increment.size(), dof_count());
+    require_length("gradients", std::ssize(out), point_count());
+    std::optional<int> inverted;
+    for_each_point(reference(), [&](int element, int point, SpatialShape<Element> const& shape) {
+      auto const moves = element_part(increment, element);
+      Gradient<dim> const gradient = moves.transpose() * shape.gradients;
+      out[detail::index(point)] = Motion::template seen<dim>(gradient);
+      if (Motion::follows_motion && !inverted && !((Tensor<dim>::Identity() + gradient).determinant() > 0.0)) {
+        inverted = element;
+      }
+    });
+    return inverted;
+  }
+
+  /// \f$ f_{a} = \int \sigma \nabla N_a\,dv \f$ [N]; out: shape (dof_count), overwritten
+  /// stresses [Pa] at the end of the increment, shape (point_count)
+  void internal_force(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
+                      Eigen::VectorXd& out) const {
+    require_length("displacement increment", increment.size(), dof_count());
+    require_length("stresses", std::ssize(stresses), point_count());
+    out.setZero(dof_count());
+    for_each_point(balanced(increment), [&](int element, int point, SpatialShape<Element> const& shape) {
+      Tensor<dim> const stress = from_voigt_stress<dim, double>(stresses[detail::index(point)]);
+      Corners<Element, dim> const forces = shape.volume * shape.gradients * stress;
+      auto const& nodes = mesh_.elements[detail::index(element)];
+      for (int a = 0; a < Element::nodes; ++a) {
+        out.template segment<dim>(dim * nodes[detail::index(a)]) += forces.row(a).transpose();
+      }
+    });
+  }
+
+  /// Derivative of the internal force [N/m] with respect to a further displacement from the end of the increment.
+  /// tangents [Pa]: change of the co-rotated Cauchy stress with the strain of that further displacement
+  /// out: overwritten; its memory is used again when it comes from an earlier call
+  void stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
+                 std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const {
+    require_length("displacement increment", increment.size(), dof_count());
+    require_length("stresses", std::ssize(stresses), point_count());
+    require_length("tangents", std::ssize(tangents), point_count());
+    sparsity_.reset(out);
+    double* const values = out.valuePtr();
+    for_each_point(balanced(increment), [&](int element, int point, SpatialShape<Element> const& shape) {
+      auto const& stress = stresses[detail::index(point)];
+      auto const& tangent = tangents[detail::index(point)];
+      int const* to = sparsity_.addresses().data() + element * entries_per_element;
+      for (int b = 0; b < Element::nodes; ++b) {
+        for (int k = 0; k < dim; ++k) {
+          Gradient<dim> further = Gradient<dim>::Zero();
+          further.row(k) = shape.gradients.row(b);
+          Tensor<dim> const flux = Motion::template flux_change<dim>(further, stress, tangent);
+          Corners<Element, dim> const column = shape.volume * shape.gradients * flux.transpose();
+          for (int a = 0; a < Element::nodes; ++a) {
+            for (int i = 0; i < dim; ++i) {
+              values[*to++] += column(a, i);
+            }
+          }
+        }
+      }
+    });
+  }
+
+  Eigen::SparseMatrix<double> stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
+                                        std::span<VoigtTangent<dim> const> tangents) const {
+    Eigen::SparseMatrix<double> matrix;
+    stiffness(increment, stresses, tangents, matrix);
+    return matrix;
+  }
+
+  /// Volume [m3] of each point, thickness included, in the configuration that forces are balanced in.
+  std::vector<double> volumes(Eigen::VectorXd const& increment) const {
+    require_length("displacement increment", increment.size(), dof_count());
+    std::vector<double> volumes(detail::index(point_count()));
+    for_each_point(balanced(increment), [&](int, int point, SpatialShape<Element> const& shape) {
+      volumes[detail::index(point)] = shape.volume;
+    });
+    return volumes;
+  }
+
+  /// Makes the configuration at the end of the increment the committed one.
+  /// \throws InputError when the increment is not finite; nothing has moved then
+  void commit(Eigen::VectorXd const& increment) {
+    require_length("displacement increment", increment.size(), dof_count());
+    if (!increment.allFinite()) {
+      refuse("the displacement increment is not finite (a diverged step must not be committed): cut the load step");
+    }
+    positions_ = moved(increment);
+  }
+
+  /// Puts the committed positions [m] back to ones that were saved.
+  void restore(std::vector<Vector<dim>> positions) {
+    require_length("saved positions", std::ssize(positions), node_count());
+    positions_ = std::move(positions);
+  }
+
+ private:
+  static constexpr std::ptrdiff_t entries_per_element = Element::nodes * dim * Element::nodes * dim;
+
+  static void require_length(char const* what, std::ptrdiff_t length, int wanted) {
+    if (length != wanted) {
+      refuse("{}: {} entries are given ({} are needed): size it by dof_count, point_count or node_count", what, length,
+             wanted);
+    }
+  }
+
+  /// Configuration that gradients of an increment refer to.
+  std::vector<Vector<dim>> const& reference() const {
+    if constexpr (Motion::follows_motion) {
+      return positions_;
+    } else {
+      return mesh_.nodes;
+    }
+  }
+
+  /// Configuration that forces are balanced in.
+  std::vector<Vector<dim>> balanced(Eigen::VectorXd const& increment) const {
+    if constexpr (Motion::follows_motion) {
+      return moved(increment);
+    } else {
+      return mesh_.nodes;
+    }
+  }
+
+  std::vector<Vector<dim>> moved(Eigen::VectorXd const& increment) const {
+    auto nodes = positions_;
+    for (int n = 0; n < node_count(); ++n) {
+      nodes[detail::index(n)] += increment.template segment<dim>(dim * n);
+    }
+    return nodes;
+  }
+
+  Corners<Element, dim> element_part(Eigen::VectorXd const& field, int element) const {
+    Corners<Element, dim> rows;
+    auto const& nodes = mesh_.elements[detail::index(element)];
+    for (int a = 0; a < Element::nodes; ++a) {
+      rows.row(a) = field.template segment<dim>(dim * nodes[detail::index(a)]).transpose();
+    }
+    return rows;
+  }
+
+  /// visit(element, point, shape) for all points in order, on the elements as they are at the given positions.
+  template <class Visit>
+  void for_each_point(std::vector<Vector<dim>> const& nodes, Visit&& visit) const {
+    int point = 0;
+    for (int element = 0; element < detail::count(mesh_.elements); ++element) {
+      auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], nodes);
+      for (auto const& where : Element::quadrature()) {
+        auto shape = spatial_shape<Element>(rows, where);
+        shape.volume *= thickness_;
+        visit(element, point++, shape);
+      }
+    }
+  }
+
+  Mesh<Element> mesh_;
+  double thickness_;
+  std::vector<Vector<dim>> positions_;
+  Sparsity sparsity_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <concepts>
+#include <string_view>
+#include <type_traits>
+
+#include "scarp/bvp/discretisation.hpp"
+
+namespace scarp {
+
+/// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
+/// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
+/// force_of_region(number of a region): b [N/m3], shape (dim)
+template <class Element, class Motion, class ForceOfRegion>
+  requires std::convertible_to<std::invoke_result_t<ForceOfRegion const&, int>, Vector<Element::dim>> Eigen::VectorXd
+  body_force(Discretisation<Element, Motion> const& discretisation, ForceOfRegion const& force_of_region) {
+    constexpr int dim = Element::dim;
+    auto const& mesh = discretisation.mesh();
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
+    for (int e = 0; e < detail::count(mesh.elements); ++e) {
+      auto const& nodes = mesh.elements[detail::index(e)];
+      Vector<dim> const per_volume = force_of_region(mesh.element_region[detail::index(e)]);
+      auto const rows = corners<Element, dim>(nodes, mesh.nodes);
+      for (auto const& where : Element::quadrature()) {
+        ShapeValues<Element> const shape = Element::shape(where.xi);
+        double const volume = discretisation.thickness() * where.weight * measure<Element, dim>(rows, where.xi);
+        for (int a = 0; a < Element::nodes; ++a) {
+          forces.template segment<dim>(dim * nodes[detail::index(a)]) += shape(a) * volume * per_volume;
+        }
+      }
+    }
+    return forces;
+  }
+
+/// Nodal forces [N], shape (dof_count), consistent with a force per area [Pa] on a boundary of the initial mesh:
+/// \f$ f_a = \int N_a t\,dA \f$. A dead load: it follows neither the size nor the direction of the deformed boundary.
+/// \throws InputError for an unknown boundary
+template <class Element, class Motion>
+Eigen::VectorXd traction(Discretisation<Element, Motion> const& discretisation, std::string_view boundary_name,
+                         Vector<Element::dim> const& per_area) {
+  using Facet = typename Element::Facet;
+  constexpr int dim = Element::dim;
+  auto const& mesh = discretisation.mesh();
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
+  for (auto const& facet : boundary(mesh, boundary_name)) {
+    auto const rows = corners<Facet, dim>(facet, mesh.nodes);
+    for (auto const& where : Facet::quadrature()) {
+      ShapeValues<Facet> const shape = Facet::shape(where.xi);
+      double const area = discretisation.thickness() * where.weight * measure<Facet, dim>(rows, where.xi);
+      for (int a = 0; a < Facet::nodes; ++a) {
+        forces.template segment<dim>(dim * facet[detail::index(a)]) += shape(a) * area * per_area;
+      }
+    }
+  }
+  return forces;
+}
+
+}  // namespace scarp

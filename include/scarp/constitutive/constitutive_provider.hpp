@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
+#include "scarp/core/status.hpp"
+#include "scarp/core/voigt.hpp"
+
+namespace scarp {
+
+/// Where a material point sits when its state is made.
+template <int Dim>
+struct Site {
+  int index = 0;                                       ///< number of the point in its mesh
+  int region = 0;                                      ///< number of the region in its mesh
+  Vector<Dim> position = Vector<Dim>::Zero();          ///< [m]
+  double depth = 0.0;                                  ///< below the ground surface [m]
+};
+
+/// Answer of a material point to an increment.
+template <int Dim>
+struct Response {
+  VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy [Pa] at the end of the increment, tension positive
+  Verdict verdict;
+};
+
+template <class Model>
+concept HasState = std::copyable<typename Model::State>;
+
+template <class Model>
+concept HasDimension = requires { requires Model::dim == 2 || Model::dim == 3; };
+
+template <class Model>
+concept MakesInitialState = HasState<Model> && HasDimension<Model> && requires(Model const& model, Site<Model::dim> const& site) {
+  { model.initial_state(site) } -> std::same_as<typename Model::State>;
+};
+
+/// respond(committed, increment, trial): pure; `committed` is never touched, `trial` is overwritten.
+template <class Model>
+concept Responds =
+    HasState<Model> && HasDimension<Model> &&
+    requires(Model const& model, typename Model::State const& committed, Gradient<Model::dim> const& increment,
+             typename Model::State& trial) {
+      { model.respond(committed, increment, trial) } -> std::same_as<Response<Model::dim>>;
+    };
+
+/// stress(state): the Cauchy stress [Pa] that a state carries.
+template <class Model>
+concept TellsStress = HasState<Model> && HasDimension<Model> && requires(Model const& model, typename Model::State const& state) {
+  { model.stress(state) } -> std::same_as<VoigtStress<Model::dim>>;
+};
+
+/// tangent(state): stiffness for a further increment from `state`; asked for only where a solver wants it.
+template <class Model>
+concept GivesTangent = HasState<Model> && HasDimension<Model> && requires(Model const& model, typename Model::State const& state) {
+  { model.tangent(state) } -> std::same_as<VoigtTangent<Model::dim>>;
+};
+
+/// A material model at an integration point: immutable parameters plus a copyable state.
+template <class Model>
+concept ConstitutiveProvider = MakesInitialState<Model> && Responds<Model> && TellsStress<Model> && GivesTangent<Model>;
+
+/// A provider whose work for a load step is fixed once, from the step's first increment, so that its answer stays a
+/// smooth function of the increment while the solver iterates: plan(committed, predicted), respond(..., plan). Where an answer
+/// is `not_converged` in the end, refined(plan) works harder.
+template <class Model>
+concept PlansWork =
+    ConstitutiveProvider<Model> && requires { typename Model::Plan; } &&
+    requires(Model const& model, typename Model::State const& committed, Gradient<Model::dim> const& increment,
+             typename Model::State& trial, typename Model::Plan const& plan) {
+      { model.plan(committed, increment) } -> std::same_as<typename Model::Plan>;
+      { model.refined(plan) } -> std::same_as<typename Model::Plan>;
+      { model.respond(committed, increment, trial, plan) } -> std::same_as<Response<Model::dim>>;
+    };
+
+struct NoPlan {};
+
+namespace detail {
+template <class Model>
+struct PlanOf {
+  using type = NoPlan;
+};
+template <PlansWork Model>
+struct PlanOf<Model> {
+  using type = typename Model::Plan;
+};
+}  // namespace detail
+
+/// The plan type of a provider; `NoPlan` for one that needs none.
+template <class Model>
+using PlanOf = typename detail::PlanOf<Model>::type;
+
+}  // namespace scarp

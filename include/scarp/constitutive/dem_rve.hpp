@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/core/logarithm.hpp"
+#include "scarp/dem/time_stepping.hpp"
+#include "scarp/homogenise/contact_tangent.hpp"
+
+namespace scarp {
+
+/// Stiffness of a packing as a provider's tangent: eq. 6 of the study, all contacts elastic under uniform strain.
+struct ElasticContactTangent {
+  template <class PackingType>
+  VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
+    return to_voigt_tangent<PackingType::dim>(contact_tangent(packing, law));
+  }
+};
+
+/// at(site): the packing that a point starts with.
+template <class Source, class PackingType>
+concept PackingSource = requires(Source const& source, Site<PackingType::dim> const& site) {
+  { source.at(site) } -> std::convertible_to<PackingType>;
+};
+
+/// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
+/// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the answer is Love and Weber's stress at its end.
+/// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
+template <class PackingType, class Source, class Tangent = ElasticContactTangent, class Damping = LocalDamping>
+  requires PackingSource<Source, PackingType>
+struct DemRve {
+  static constexpr int dim = PackingType::dim;
+  using Law = typename PackingType::Law;
+  using Plan = int;  ///< DEM time steps of one response
+
+  struct State {
+    PackingType packing;
+    VoigtStress<dim> stress = VoigtStress<dim>::Zero();  ///< [Pa], tension positive
+    double unbalanced_ratio = 0.0;                       ///< mean net force of a grain over mean contact force
+    Verdict verdict{};
+  };
+
+  Law law{};
+  Source source{};
+  double strain_per_step = 1e-5;      ///< largest strain component of one DEM step
+  double inertial_number = 2e-3;      ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
+  int least_steps = 20;               ///< of one response, however small the increment
+  int most_steps = 20'000;
+  double unbalanced_tolerance = 0.05; ///< asked of every response
+  double loose_pressure = 0.0;        ///< [Pa]; a packing at less is judged and driven as if it carried this much
+  double time_step_share = 1.0;       ///< of the critical step's lower bound
+  Damping damping{};
+  Tangent tangent_policy{};
+
+  State initial_state(Site<dim> const& site) const {
+    State state;
+    state.packing = source.at(site);
+    Stepper stepper = make_stepper();
+    state.verdict = observe(stepper, state);
+    return state;
+  }
+
+  VoigtStress<dim> stress(State const& state) const { return state.stress; }
+
+  VoigtTangent<dim> tangent(State const& state) const { return tangent_policy(state.packing, law); }
+
+  Plan plan(State const& committed, Gradient<dim> const& increment) const {
+    double const largest = ((increment + increment.transpose()) / 2.0).cwiseAbs().maxCoeff();
+    if (!std::isfinite(largest)) return least_steps;
+    auto const& population = *committed.packing.population;
+    double const pressure = std::max({mean_pressure(committed.stress), loose_pressure, 1e-9});
+    // n time steps of dt make the strain rate largest / (n dt).
+    double const time_step = time_step_share * committed.packing.pairs.critical_step;
+    double const slowness = 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
+    double const steps = std::max(largest / strain_per_step, largest * slowness / (time_step * inertial_number));
+    return static_cast<int>(std::clamp(std::ceil(steps), static_cast<double>(least_steps), static_cast<double>(most_steps)));
+  }
+
+  /// Twice the steps, hence half the rate.
+  Plan refined(Plan steps) const { return std::min(2 * steps, most_steps); }
+
+  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial) const {
+    return respond(committed, increment, trial, plan(committed, increment));
+  }
+
+  /// A response that is not balanced to the tolerance is `not_converged`; refined(plan) asks for a slower one.
+  /// Fails with `not_finite` on NaN or an increment beyond the logarithm's range, with `cell_collapsed` when the cell gets
+  /// too thin for its grains; `fluid` without contacts.
+  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial, Plan steps) const {
+    thread_local Stepper stepper;
+    stepper.damping = damping;
+    stepper.time_step_share = time_step_share;
+    trial = committed;
+    Tensor<dim> const strain_step = logarithm_of_increment<dim>(increment) / steps;
+    trial.verdict = {};
+    if (!strain_step.allFinite()) trial.verdict = {Status::failed, Reason::not_finite};
+    for (int step = 0; step < steps && trial.verdict.acceptable(); ++step) {
+      trial.verdict = stepper.step(trial.packing, law, strain_step);
+    }
+    if (trial.verdict.acceptable()) trial.verdict = observe(stepper, trial);
+    return {trial.stress, trial.verdict};
+  }
+
+ private:
+  using Stepper = TimeStepper<PackingType, Damping>;
+
+  static double mean_pressure(VoigtStress<dim> const& stress) { return -stress.template head<dim>().sum() / dim; }
+
+  Stepper make_stepper() const {
+    Stepper stepper;
+    stepper.damping = damping;
+    stepper.time_step_share = time_step_share;
+    return stepper;
+  }
+
+  Verdict observe(Stepper& stepper, State& state) const {
+    StepObservation<dim> seen;
+    if (Verdict const verdict = stepper.observe(state.packing, law, seen); !verdict.acceptable()) return verdict;
+    if (!seen.stress.allFinite()) return {Status::failed, Reason::not_finite};
+    state.stress = to_voigt_stress<dim>(seen.stress);
+    state.unbalanced_ratio = seen.unbalanced_ratio;
+    if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
+    double const pressure = mean_pressure(state.stress);
+    double const weight = pressure < loose_pressure ? std::max(pressure, 0.0) / loose_pressure : 1.0;
+    if (weight * seen.unbalanced_ratio > unbalanced_tolerance) return {Status::not_converged, Reason::unbalanced};
+    return {};
+  }
+};
+
+}  // namespace scarp

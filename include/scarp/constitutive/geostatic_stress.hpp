@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+
+#include "scarp/core/voigt.hpp"
+
+namespace scarp {
+
+/// at(depth): the stress [Pa], tension positive, that a point at `depth` [m] below the ground surface starts with.
+template <class Field, int Dim>
+concept InitialStressField = requires(Field const& field, double depth) {
+  { field.at(depth) } -> std::same_as<VoigtStress<Dim>>;
+};
+
+/// Level ground at rest: vertical \f$ \sigma_v = -(q + \gamma z) \f$, horizontal \f$ \sigma_h = K_0 \sigma_v \f$, no shear.
+/// The vertical is the last axis; compression is negative.
+template <int Dim>
+struct GeostaticStress {
+  double surcharge = 0.0;    ///< q [Pa], vertical pressure on the ground surface, positive in compression
+  double unit_weight = 0.0;  ///< gamma [N/m3]
+  double k0 = 1.0;           ///< horizontal over vertical stress
+
+  /// depth [m]; a point above the ground surface carries the surcharge only
+  VoigtStress<Dim> at(double depth) const {
+    double const vertical = -(surcharge + unit_weight * std::max(depth, 0.0));
+    VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
+    stress.template head<Dim - 1>().setConstant(k0 * vertical);
+    stress(Dim - 1) = vertical;
+    return stress;
+  }
+};
+
+template <int Dim>
+struct StressFree {
+  VoigtStress<Dim> at(double) const { return VoigtStress<Dim>::Zero(); }
+};
+
+static_assert(InitialStressField<GeostaticStress<2>, 2> && InitialStressField<GeostaticStress<3>, 3>);
+static_assert(InitialStressField<StressFree<2>, 2> && InitialStressField<StressFree<3>, 3>);
+
+}  // namespace scarp

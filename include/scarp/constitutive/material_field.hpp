@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <concepts>
+#include <span>
+#include <vector>
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+
+namespace scarp {
+
+/// What a solver asks of the material side of a model, point by point; points are numbered as in the discretisation.
+/// Calls for different points may run at the same time.
+template <class Field>
+concept MaterialField = requires { requires Field::dim == 2 || Field::dim == 3; } &&
+                        requires(Field& field, Field const& constant, int point, Gradient<Field::dim> const& increment) {
+                          { constant.point_count() } -> std::same_as<int>;
+                          { field.plan(point, increment) };
+                          { field.refine_plan(point) };
+                          { field.respond(point, increment) } -> std::same_as<Response<Field::dim>>;
+                          { constant.work(point) } -> std::same_as<long>;
+                          { constant.committed_stress(point) } -> std::same_as<VoigtStress<Field::dim>>;
+                          { constant.committed_tangent(point) } -> std::same_as<VoigtTangent<Field::dim>>;
+                          { constant.trial_tangent(point) } -> std::same_as<VoigtTangent<Field::dim>>;
+                          { field.commit() };
+                        };
+
+/// Committed and trial states of one provider at a set of points.
+template <ConstitutiveProvider Provider>
+class ProviderField {
+ public:
+  static constexpr int dim = Provider::dim;
+  using State = typename Provider::State;
+
+  ProviderField(Provider provider, std::span<Site<dim> const> sites) : provider_(std::move(provider)) {
+    committed_.reserve(sites.size());
+    for (auto const& site : sites) committed_.push_back(provider_.initial_state(site));
+    trial_ = committed_;
+    plans_.resize(sites.size());
+  }
+
+  Provider const& provider() const { return provider_; }
+  int point_count() const { return static_cast<int>(committed_.size()); }
+  State const& committed(int point) const { return committed_[number(point)]; }
+  State const& trial(int point) const { return trial_[number(point)]; }
+
+  /// Fixes the work of a point for the load step that begins; nothing to do for providers without plan.
+  void plan(int point, Gradient<dim> const& predicted) {
+    if constexpr (PlansWork<Provider>) plans_[number(point)] = provider_.plan(committed_[number(point)], predicted);
+  }
+
+  /// Lets a point whose answer is `not_converged` work harder in this load step.
+  void refine_plan(int point) {
+    if constexpr (PlansWork<Provider>) plans_[number(point)] = provider_.refined(plans_[number(point)]);
+  }
+
+  Response<dim> respond(int point, Gradient<dim> const& increment) {
+    std::size_t const k = number(point);
+    if constexpr (PlansWork<Provider>) {
+      return provider_.respond(committed_[k], increment, trial_[k], plans_[k]);
+    } else {
+      return provider_.respond(committed_[k], increment, trial_[k]);
+    }
+  }
+
+  /// Steps of inner work that one response of this point takes.
+  long work(int point) const {
+    if constexpr (PlansWork<Provider>) {
+      return static_cast<long>(plans_[number(point)]);
+    } else {
+      static_cast<void>(point);
+      return 0;
+    }
+  }
+
+  VoigtStress<dim> committed_stress(int point) const { return provider_.stress(committed_[number(point)]); }
+  VoigtTangent<dim> committed_tangent(int point) const { return provider_.tangent(committed_[number(point)]); }
+  VoigtTangent<dim> trial_tangent(int point) const { return provider_.tangent(trial_[number(point)]); }
+
+  /// The trial states become the committed ones.
+  void commit() { committed_.swap(trial_); }
+
+ private:
+  static std::size_t number(int point) { return static_cast<std::size_t>(point); }
+
+  Provider provider_;
+  std::vector<State> committed_;
+  std::vector<State> trial_;
+  std::vector<PlanOf<Provider>> plans_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace scarp {
+
+/// `Count` arrays of equal length in one block (structure of arrays). Each column is padded with the fill value to a
+/// multiple of eight so that vector loops need no tail. `Count` zero takes no memory.
+template <class Scalar, int Count>
+class Columns {
+ public:
+  static constexpr std::size_t padding = 8;
+
+  Columns() = default;
+  explicit Columns(std::size_t rows, Scalar fill = Scalar(0)) { resize(rows, fill); }
+
+  void resize(std::size_t rows, Scalar fill = Scalar(0)) {
+    rows_ = rows;
+    stride_ = (rows + padding - 1) / padding * padding;
+    if constexpr (Count > 0) values_.assign(stride_ * Count, fill);
+  }
+
+  std::size_t rows() const { return rows_; }
+  std::size_t padded_rows() const { return stride_; }
+
+  Scalar* column(int k) { return values_.data() + static_cast<std::size_t>(k) * stride_; }
+  Scalar const* column(int k) const { return values_.data() + static_cast<std::size_t>(k) * stride_; }
+
+  Scalar& operator()(std::size_t row, int k) { return column(k)[row]; }
+  Scalar operator()(std::size_t row, int k) const { return column(k)[row]; }
+
+  std::array<Scalar, Count> row(std::size_t r) const {
+    std::array<Scalar, Count> values{};
+    for (int k = 0; k < Count; ++k) values[static_cast<std::size_t>(k)] = (*this)(r, k);
+    return values;
+  }
+
+  void set_row(std::size_t r, std::array<Scalar, Count> const& values) {
+    for (int k = 0; k < Count; ++k) (*this)(r, k) = values[static_cast<std::size_t>(k)];
+  }
+
+  std::size_t bytes() const { return values_.capacity() * sizeof(Scalar); }
+
+  friend bool operator==(Columns const&, Columns const&) = default;
+
+ private:
+  std::vector<Scalar> values_;
+  std::size_t rows_ = 0;
+  std::size_t stride_ = 0;
+};
+
+template <class Scalar>
+class Columns<Scalar, 0> {
+ public:
+  Columns() = default;
+  explicit Columns(std::size_t, Scalar = Scalar(0)) {}
+  void resize(std::size_t, Scalar = Scalar(0)) {}
+  std::array<Scalar, 0> row(std::size_t) const { return {}; }
+  void set_row(std::size_t, std::array<Scalar, 0> const&) {}
+  std::size_t bytes() const { return 0; }
+  friend bool operator==(Columns const&, Columns const&) = default;
+};
+
+}  // namespace scarp

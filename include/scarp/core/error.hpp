@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace scarp {
+
+/// Wrong input at a boundary of the library; the text reads "problem (why): suggestion".
+class InputError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// \throws InputError always, with the formatted text
+template <class... Arguments>
+[[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  throw InputError(fmt::format(text, std::forward<Arguments>(arguments)...));
+}
+
+/// \throws InputError unless value is finite and above zero
+inline double require_positive(std::string_view what, double value) {
+  if (!(std::isfinite(value) && value > 0.0)) {
+    refuse("{} is {} (it must be finite and above zero): give a positive number", what, value);
+  }
+  return value;
+}
+
+/// \throws InputError unless value is finite and not below zero
+inline double require_not_negative(std::string_view what, double value) {
+  if (!(std::isfinite(value) && value >= 0.0)) {
+    refuse("{} is {} (it must be finite and not negative): give zero or a positive number", what, value);
+  }
+  return value;
+}
+
+/// \throws InputError unless value is finite
+inline double require_finite(std::string_view what, double value) {
+  if (!std::isfinite(value)) {
+    refuse("{} is {} (it must be finite): give an ordinary number", what, value);
+  }
+  return value;
+}
+
+}  // namespace scarp

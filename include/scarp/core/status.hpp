@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace scarp {
+
+/// How an answer was reached. Anything but `ok` and `fluid` must not be committed.
+enum class Status : std::uint8_t {
+  ok,             ///< the answer meets what was asked
+  fluid,          ///< no contacts carry force: stress and tangent are zero, legitimately
+  not_converged,  ///< bounded work was spent, the asked accuracy was not reached
+  failed          ///< no meaningful answer exists (NaN, exploded, impossible input)
+};
+
+/// Why a status is not `ok`.
+enum class Reason : std::uint8_t {
+  none,
+  no_contacts,
+  unbalanced,         ///< the packing did not settle to the asked unbalanced-force ratio
+  unreachable,        ///< a servo target was not reached within the allowed work
+  not_finite,         ///< NaN or infinity in state or answer
+  too_deep,           ///< grains overlap more deeply than their curvature allows
+  cell_collapsed,     ///< the periodic cell is inverted or thinner than two grains
+  element_inverted,   ///< an element's Jacobian is not positive
+  iterations_spent,   ///< the iteration limit was reached above the asked residual
+  singular_system,    ///< the linear system could not be factorised
+  step_too_small,     ///< cutting the load step went below its smallest size
+  interrupted         ///< stopped from outside
+};
+
+struct Verdict {
+  Status status = Status::ok;
+  Reason reason = Reason::none;
+
+  constexpr bool acceptable() const { return status == Status::ok || status == Status::fluid; }
+  friend constexpr bool operator==(Verdict const&, Verdict const&) = default;
+};
+
+constexpr std::string_view name(Status status) {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::fluid: return "fluid";
+    case Status::not_converged: return "not_converged";
+    case Status::failed: return "failed";
+  }
+  return "unknown";
+}
+
+constexpr std::string_view name(Reason reason) {
+  switch (reason) {
+    case Reason::none: return "none";
+    case Reason::no_contacts: return "no_contacts";
+    case Reason::unbalanced: return "unbalanced";
+    case Reason::unreachable: return "unreachable";
+    case Reason::not_finite: return "not_finite";
+    case Reason::too_deep: return "too_deep";
+    case Reason::cell_collapsed: return "cell_collapsed";
+    case Reason::element_inverted: return "element_inverted";
+    case Reason::iterations_spent: return "iterations_spent";
+    case Reason::singular_system: return "singular_system";
+    case Reason::step_too_small: return "step_too_small";
+    case Reason::interrupted: return "interrupted";
+  }
+  return "unknown";
+}
+
+}  // namespace scarp

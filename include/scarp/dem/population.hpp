@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "scarp/core/columns.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/shape/particle_shape.hpp"
+
+namespace scarp {
+
+/// The grains of a packing as far as they never change: sizes, masses, inertias. One copy serves every state.
+/// `thickness` [m] is the out-of-plane length in 2D and 1 in 3D, so that content x thickness is a volume.
+template <ParticleShape Shape, class Scalar = double>
+class Population {
+ public:
+  using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;
+
+  /// density [kg/m3] \throws InputError on an empty list or sizes that are not finite and positive
+  Population(std::vector<Size> const& sizes, double density, double thickness) : density_(density), thickness_(thickness) {
+    require_positive("grain density", density);
+    require_positive("out-of-plane thickness", thickness);
+    if (sizes.empty()) refuse("a packing of zero grains was asked for (nothing can carry stress): give at least one grain");
+    size_.resize(sizes.size(), Scalar(1));
+    inverse_mass_.resize(sizes.size());
+    inverse_inertia_.resize(sizes.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      for (int k = 0; k < Shape::size_count; ++k) {
+        size_(i, k) = static_cast<Scalar>(require_positive("grain size", sizes[i][static_cast<std::size_t>(k)]));
+      }
+      double const content = Shape::content(sizes[i]);
+      double const mass = density * content * thickness;
+      content_ += content;
+      mass_ += mass;
+      inverse_mass_(i, 0) = static_cast<Scalar>(1.0 / mass);
+      inverse_inertia_(i, 0) = static_cast<Scalar>(1.0 / (mass * Shape::gyration_squared(sizes[i])));
+      largest_radius_ = std::max(largest_radius_, Shape::bounding_radius(sizes[i]));
+      largest_eccentricity_ = std::max(largest_eccentricity_, Shape::eccentricity(sizes[i]));
+    }
+  }
+
+  std::size_t count() const { return size_.rows(); }
+  double density() const { return density_; }
+  double thickness() const { return thickness_; }
+  /// Sum of the grains' areas (2D) [m2] or volumes (3D) [m3].
+  double content() const { return content_; }
+  double mass() const { return mass_; }
+  double largest_radius() const { return largest_radius_; }
+  double largest_eccentricity() const { return largest_eccentricity_; }
+
+  Size size(std::size_t grain) const {
+    Size values;
+    for (int k = 0; k < Shape::size_count; ++k) {
+      values[static_cast<std::size_t>(k)] = static_cast<double>(size_(grain, k));
+    }
+    return values;
+  }
+  Columns<Scalar, Shape::size_count> const& sizes() const { return size_; }
+  /// [1/kg]; zero in the padding, which therefore never moves
+  Scalar const* inverse_mass() const { return inverse_mass_.column(0); }
+  /// [1/(kg m2)]
+  Scalar const* inverse_inertia() const { return inverse_inertia_.column(0); }
+
+ private:
+  double density_;
+  double thickness_;
+  double content_ = 0.0;
+  double mass_ = 0.0;
+  double largest_radius_ = 0.0;
+  double largest_eccentricity_ = 0.0;
+  Columns<Scalar, Shape::size_count> size_;
+  Columns<Scalar, 1> inverse_mass_;
+  Columns<Scalar, 1> inverse_inertia_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <vector>
+
+#include "scarp/dem/servo.hpp"
+
+namespace scarp {
+
+/// A packing and whether it got where it was to go.
+template <class PackingType>
+struct Prepared {
+  PackingType packing;
+  Verdict verdict;
+};
+
+/// From a loose cloud to a packing under isotropic pressure: consolidation at a *preparation friction*, the knob of the
+/// density, then relaxation at the law's own friction. The cell may tilt, so that no shear stress is left.
+struct IsotropicPreparation {
+  double pressure = 0.0;               ///< [Pa], positive
+  double preparation_friction = 0.1;   ///< 0 gives the densest packing
+  Servo consolidation{};
+  Servo relaxation{.unbalanced_tolerance = 1e-5};
+
+  /// \throws InputError for a pressure that is not positive or a negative friction
+  template <class PackingType>
+    requires Frictional<typename PackingType::Law>
+  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law) const {
+    require_positive("pressure of the preparation", pressure);
+    require_not_negative("preparation friction", preparation_friction);
+    constexpr int dim = PackingType::dim;
+    VoigtStress<dim> target = VoigtStress<dim>::Zero();
+    target.template head<dim>().setConstant(-pressure);
+    auto const loading = ComponentLoading<dim>::all_stress(target);
+    TimeStepper<PackingType> stepper;
+    auto const final_friction = law.friction;
+    law.friction = preparation_friction;
+    Verdict verdict = consolidation.reach(stepper, cloud, law, loading);
+    if (verdict.acceptable()) {
+      law.friction = final_friction;
+      verdict = relaxation.reach(stepper, cloud, law, loading);
+    }
+    cloud.rest();
+    return {std::move(cloud), verdict};
+  }
+};
+
+/// One-dimensional compression of one packing, as under the growing overburden of level ground: lateral strain zero, shear
+/// stress zero, vertical stress (last axis) through a list of targets. A copy is kept at each.
+struct OneDimensionalCompression {
+  Servo servo{.fastest = 1e-5, .stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-4};
+
+  /// vertical_pressures [Pa], positive, increasing
+  /// \return one packing per pressure; the list ends early at one whose verdict is not acceptable
+  template <class PackingType>
+  std::vector<Prepared<PackingType>> compress(PackingType packing, typename PackingType::Law const& law,
+                                              std::vector<double> const& vertical_pressures) const {
+    constexpr int dim = PackingType::dim;
+    ComponentLoading<dim> loading;
+    for (int k = dim - 1; k < voigt_size<dim>; ++k) loading.stress_controlled[static_cast<std::size_t>(k)] = true;
+    TimeStepper<PackingType> stepper;
+    std::vector<Prepared<PackingType>> column;
+    for (double const pressure : vertical_pressures) {
+      loading.stress(dim - 1) = -require_positive("vertical pressure", pressure);
+      Verdict const verdict = servo.reach(stepper, packing, law, loading);
+      packing.rest();
+      column.push_back({packing, verdict});
+      if (!verdict.acceptable()) break;
+    }
+    return column;
+  }
+};
+
+}  // namespace scarp

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+
+#include "scarp/element/line2.hpp"
+
+namespace scarp {
+
+/// Square [-1, 1] x [-1, 1], nodes counter-clockwise from (-1, -1), bilinear shapes
+/// \f$ N_a = (1 + \xi_a \xi)(1 + \eta_a \eta)/4 \f$, two-by-two Gauss points.
+struct Quad4 {
+  using Facet = Line2;
+
+  static constexpr int dim = 2;
+  static constexpr int nodes = 4;
+  static constexpr int facet_nodes = 2;
+  static constexpr int vtk_cell_type = 9;
+
+  static ShapeValues<Quad4> shape(Vector<2> const& xi) {
+    Signs const c = signs();
+    return (1.0 + c.col(0).array() * xi(0)) * (1.0 + c.col(1).array() * xi(1)) / 4.0;
+  }
+
+  static ShapeGradients<Quad4> shape_gradients(Vector<2> const& xi) {
+    Signs const c = signs();
+    ShapeGradients<Quad4> gradients;
+    gradients.col(0) = c.col(0).array() * (1.0 + c.col(1).array() * xi(1)) / 4.0;
+    gradients.col(1) = c.col(1).array() * (1.0 + c.col(0).array() * xi(0)) / 4.0;
+    return gradients;
+  }
+
+  static std::array<QuadraturePoint<2>, 4> quadrature() {
+    double const g = 1.0 / std::sqrt(3.0);
+    return {{{{-g, -g}, 1.0}, {{g, -g}, 1.0}, {{g, g}, 1.0}, {{-g, g}, 1.0}}};
+  }
+
+  static constexpr std::array<std::array<int, 2>, 4> facets() { return {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}; }
+
+ private:
+  using Signs = Eigen::Matrix<double, 4, 2>;
+
+  static Signs signs() {
+    Signs c;
+    c << -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0;
+    return c;
+  }
+};
+
+static_assert(ReferenceElement<Quad4>);
+
+}  // namespace scarp

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <tuple>
+
+#include "scarp/core/tensor.hpp"
+
+namespace scarp {
+
+/// A sampling point of a reference element: local coordinates and weight (the weights add up to the reference volume).
+template <int Dim>
+struct QuadraturePoint {
+  Vector<Dim> xi = Vector<Dim>::Zero();
+  double weight = 0.0;
+};
+
+/// Value of each shape function, shape (nodes).
+template <class Element>
+using ShapeValues = Eigen::Matrix<double, Element::nodes, 1>;
+
+/// Derivative of each shape function, shape (nodes, dim).
+template <class Element>
+using ShapeGradients = Eigen::Matrix<double, Element::nodes, Element::dim>;
+
+template <class Element>
+concept HasNodes = requires {
+  requires Element::dim >= 1 && Element::dim <= 3;
+  requires Element::nodes > Element::dim;
+};
+
+template <class Element>
+concept GivesShapes = HasNodes<Element> && requires(Vector<Element::dim> const& xi) {
+  { Element::shape(xi) } -> std::same_as<ShapeValues<Element>>;
+  { Element::shape_gradients(xi) } -> std::same_as<ShapeGradients<Element>>;
+};
+
+/// quadrature(): a constexpr-sized array of points.
+template <class Element>
+concept GivesQuadrature = HasNodes<Element> && requires {
+  requires std::tuple_size_v<decltype(Element::quadrature())>
+  >= 1;
+  { Element::quadrature()[0] } -> std::convertible_to<QuadraturePoint<Element::dim>>;
+};
+
+/// Anything that can be integrated over: an element, or the side of one.
+template <class Element>
+concept ReferenceCell = GivesShapes<Element> && GivesQuadrature<Element>;
+
+/// facets(): the local nodes of each side, in an order that runs with the outward normal's right-hand rule
+/// (in 2D counter-clockwise around the element).
+template <class Element>
+concept HasFacets = HasNodes<Element> && ReferenceCell<typename Element::Facet> && requires {
+  requires Element::Facet::dim == Element::dim - 1;
+  requires Element::facet_nodes == Element::Facet::nodes;
+  { Element::facets()[0] } -> std::convertible_to<std::array<int, Element::facet_nodes>>;
+};
+
+template <class Element>
+concept HasVtkCellType = requires {
+  { Element::vtk_cell_type } -> std::convertible_to<int>;
+};
+
+/// A finite element on its reference shape, without state: all members are static.
+template <class Element>
+concept ReferenceElement = ReferenceCell<Element> && HasFacets<Element> && HasVtkCellType<Element>;
+
+/// Number of integration points of an element.
+template <GivesQuadrature Element>
+inline constexpr int quadrature_size = static_cast<int>(std::tuple_size_v<decltype(Element::quadrature())>);
+
+}  // namespace scarp

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <vector>
+
+#include "scarp/dem/contacts.hpp"
+
+namespace scarp {
+
+/// Stress and equilibrium of a packing, from one pass over its contacts.
+template <int Dim>
+struct Balance {
+  Tensor<Dim> stress = Tensor<Dim>::Zero();  ///< Love and Weber, \f$ \sigma = -\frac1V \sum f \otimes l \f$ [Pa], tension positive
+  std::size_t contacts = 0;
+  double mean_contact_force = 0.0;           ///< [N]
+  double mean_unbalanced_force = 0.0;        ///< mean over the grains of |sum of forces| [N]
+  double unbalanced_ratio = 0.0;             ///< mean unbalanced over mean contact force; zero without contacts
+  double sliding_share = 0.0;                ///< contacts at the friction limit, as a share of all
+  double deepest_overlap = 0.0;              ///< [m]
+};
+
+/// Eq. 5 of the study, with f the force on the second grain and l the branch from first to second.
+template <class PackingType>
+Balance<PackingType::dim> balance(PackingType const& packing, typename PackingType::Law const& law) {
+  constexpr int dim = PackingType::dim;
+  Balance<dim> result;
+  std::vector<Vector<dim>> net(packing.grain_count(), Vector<dim>::Zero());
+  double sum = 0.0;
+  for_each_contact(packing, law, [&](Contact<dim> const& contact) {
+    ++result.contacts;
+    result.stress -= contact.force * contact.branch.transpose();
+    net[contact.first] -= contact.force;
+    net[contact.second] += contact.force;
+    sum += contact.force.norm();
+    result.deepest_overlap = std::max(result.deepest_overlap, contact.touch.overlap);
+    if constexpr (Frictional<typename PackingType::Law> && dim == 2) {
+      constexpr double at_limit = 1.0 - 1e-9;  // clamped values sit on the limit to round-off
+      if (std::abs(contact.shear) >= at_limit * law.friction * contact.normal_force) result.sliding_share += 1.0;
+    }
+  });
+  result.stress /= packing.volume();
+  if (result.contacts == 0) return result;
+  double unbalanced = 0.0;
+  for (auto const& force : net) unbalanced += force.norm();
+  result.mean_unbalanced_force = unbalanced / static_cast<double>(net.size());
+  result.mean_contact_force = sum / static_cast<double>(result.contacts);
+  result.unbalanced_ratio = result.mean_unbalanced_force / result.mean_contact_force;
+  result.sliding_share /= static_cast<double>(result.contacts);
+  return result;
+}
+
+}  // namespace scarp

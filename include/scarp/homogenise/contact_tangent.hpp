@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/core/voigt.hpp"
+#include "scarp/dem/contacts.hpp"
+
+namespace scarp {
+
+/// Fourth-order modulus D_ijkl [Pa] as a matrix with row i + Dim j and column k + Dim l.
+template <int Dim>
+using FullTangent = Eigen::Matrix<double, Dim * Dim, Dim * Dim>;
+
+/// Elastic tangent under uniform strain, eq. 6 of the study (Kruyt and Rothenburg 1998), every contact counted whatever its
+/// shear force: \f$ D_{ijkl} = \frac1V \sum (k_n n_i l_j n_k l_l + k_t t_i l_j t_k l_l) \f$. An upper bound.
+template <class PackingType>
+FullTangent<PackingType::dim> contact_tangent(PackingType const& packing, typename PackingType::Law const& law) {
+  constexpr int dim = PackingType::dim;
+  FullTangent<dim> sum = FullTangent<dim>::Zero();
+  for_each_contact(packing, law, [&](Contact<dim> const& contact) {
+    ContactStiffness const stiffness = law.stiffness(contact.touch.overlap);
+    Vector<dim> const n = contact.normal();
+    Tensor<dim> const across = Tensor<dim>::Identity() - n * n.transpose();  // sum of t (x) t over the tangent plane
+    Tensor<dim> const spring = stiffness.normal * n * n.transpose() + stiffness.tangential * across;
+    for (int j = 0; j < dim; ++j) {
+      for (int l = 0; l < dim; ++l) {
+        sum.template block<dim, dim>(dim * j, dim * l) += contact.branch(j) * contact.branch(l) * spring;
+      }
+    }
+  });
+  return sum / packing.volume();
+}
+
+/// Part of a modulus that maps engineering strain to symmetric stress (minor symmetries imposed by averaging).
+template <int Dim>
+VoigtTangent<Dim> to_voigt_tangent(FullTangent<Dim> const& full) {
+  VoigtTangent<Dim> voigt;
+  constexpr auto indices = voigt_indices<Dim>();
+  for (int p = 0; p < voigt_size<Dim>; ++p) {
+    auto const [i, j] = indices[static_cast<std::size_t>(p)];
+    for (int q = 0; q < voigt_size<Dim>; ++q) {
+      auto const [k, l] = indices[static_cast<std::size_t>(q)];
+      voigt(p, q) = (full(i + Dim * j, k + Dim * l) + full(j + Dim * i, k + Dim * l) + full(i + Dim * j, l + Dim * k) +
+                     full(j + Dim * i, l + Dim * k)) /
+                    4.0;
+    }
+  }
+  return voigt;
+}
+
+}  // namespace scarp

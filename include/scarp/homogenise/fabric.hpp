@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+
+#include "scarp/dem/contacts.hpp"
+
+namespace scarp {
+
+/// Second-order fabric \f$ \phi_{ij} = \frac1N \sum n_i n_j \f$, eq. 7 of the study; trace 1.
+template <int Dim>
+using Fabric = Tensor<Dim>;
+
+/// Of the contact normals; isotropic where there is no contact.
+template <class PackingType>
+Fabric<PackingType::dim> contact_fabric(PackingType const& packing, typename PackingType::Law const& law) {
+  constexpr int dim = PackingType::dim;
+  Fabric<dim> sum = Fabric<dim>::Zero();
+  std::size_t count = 0;
+  for_each_contact(packing, law, [&](Contact<dim> const& contact) {
+    sum += contact.normal() * contact.normal().transpose();
+    ++count;
+  });
+  if (count == 0) return Fabric<dim>::Identity() / static_cast<double>(dim);
+  return sum / static_cast<double>(count);
+}
+
+/// Of the grains' longest axes. Only for shapes that have an orientation.
+template <class PackingType>
+Fabric<2> particle_fabric(PackingType const& packing)
+  requires(PackingType::dim == 2 && PackingType::Shape::orientation_count == 2)
+{
+  Fabric<2> sum = Fabric<2>::Zero();
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    Vector<2> const axis(static_cast<double>(packing.orientation(i, 0)), static_cast<double>(packing.orientation(i, 1)));
+    sum += axis * axis.transpose();
+  }
+  return sum / static_cast<double>(packing.grain_count());
+}
+
+/// Deviator in the plane, \f$ F_{ij} = 4(\phi_{ij} - \delta_{ij}/2) \f$ (text after eq. 7 of the study).
+inline Tensor<2> fabric_deviator(Fabric<2> const& fabric) {
+  return 4.0 * (fabric - Tensor<2>::Identity() / 2.0);
+}
+
+/// Intensity of anisotropy in the plane, \f$ F = \sqrt{F_{ij} F_{ij} / 2} \f$.
+inline double fabric_anisotropy(Fabric<2> const& fabric) {
+  return std::sqrt(fabric_deviator(fabric).squaredNorm() / 2.0);
+}
+
+/// Mean number of contacts of a grain, 2 N_c / N_p, grains without contact included.
+template <class PackingType>
+double coordination(PackingType const& packing, typename PackingType::Law const& law) {
+  std::size_t count = 0;
+  for_each_contact(packing, law, [&](auto const&) { ++count; });
+  return 2.0 * static_cast<double>(count) / static_cast<double>(packing.grain_count());
+}
+
+}  // namespace scarp

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#if __has_include(<unistd.h>)
+#include <unistd.h>
+#endif
+
+namespace scarp {
+
+/// A file could not be written or read; the text reads "problem (why): suggestion".
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What must have happened when a file counts as written.
+enum class Durability {
+  handed_over,  ///< the operating system has it: survives the end of the program
+  on_disk       ///< the disk has it: survives a power cut, slower
+};
+
+namespace detail {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
+};
+using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
+
+[[noreturn]] inline void throw_not_written(std::filesystem::path const& path, std::string_view why) {
+  throw FileError(
+      fmt::format("cannot write '{}' ({}): check the folder, its permissions and the free space", path.string(), why));
+}
+
+/// opened: the file to open; wanted: the one that complaints name, in the same folder
+inline OpenFile open_file(std::filesystem::path const& opened, char const* mode, std::filesystem::path const& wanted) {
+  auto const folder = wanted.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw FileError(
+        fmt::format("cannot write '{}' (there is no folder '{}'): create it first", wanted.string(), folder.string()));
+  }
+  OpenFile file(std::fopen(opened.string().c_str(), mode));
+  if (!file) {
+    throw_not_written(wanted, std::strerror(errno));
+  }
+  return file;
+}
+
+inline OpenFile open_file(std::filesystem::path const& path, char const* mode) { return open_file(path, mode, path); }
+
+/// A name beside `path` that no other writer of this machine uses at the same time.
+inline std::filesystem::path partial_name(std::filesystem::path const& path) {
+  static std::atomic<unsigned> calls{0};
+  long process = 0;
+#if __has_include(<unistd.h>)
+  process = static_cast<long>(::getpid());
+#endif
+  auto name = path;
+  name += fmt::format(".partial-{}-{}", process, calls++);
+  return name;
+}
+
+inline bool flush(std::FILE* file, Durability durability) {
+  bool done = std::fflush(file) == 0;
+#if __has_include(<unistd.h>)
+  if (durability == Durability::on_disk) {
+    done = done && ::fsync(::fileno(file)) == 0;
+  }
+#else
+  static_cast<void>(durability);
+#endif
+  return done;
+}
+
+}  // namespace detail
+
+/// Writes a whole file: either all of `content` stands under `path` afterwards, or what was there before.
+/// The content goes to a temporary name in the same folder, which then takes the place of the old file.
+/// \throws FileError when the folder is missing or not writable, or the disk is full
+inline void write_file(std::filesystem::path const& path, std::string_view content,
+                       Durability durability = Durability::handed_over) {
+  if (std::filesystem::is_directory(path)) {
+    throw FileError(fmt::format("cannot write '{}' (it is a folder): give the name of a file", path.string()));
+  }
+  auto const partial = detail::partial_name(path);
+  std::error_code trouble;
+  {
+    auto const file = detail::open_file(partial, "wb", path);
+    bool const written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
+    if (!written || !detail::flush(file.get(), durability)) {
+      std::string const why = std::strerror(errno);
+      std::filesystem::remove(partial, trouble);
+      detail::throw_not_written(path, why);
+    }
+  }
+  std::filesystem::rename(partial, path, trouble);
+  if (trouble) {
+    std::string const why = trouble.message();
+    std::filesystem::remove(partial, trouble);
+    detail::throw_not_written(path, why);
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <concepts>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/core/error.hpp"
+#include "scarp/io/atomic_file.hpp"
+
+namespace scarp {
+
+namespace detail {
+
+/// Numbers in the shortest form that reads back to the same bits; text in quotes where RFC 4180 asks for it.
+template <class Value>
+std::string csv_cell(Value const& value) {
+  if constexpr (std::convertible_to<Value const&, std::string_view>) {
+    std::string_view const text = value;
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+      return std::string(text);
+    }
+    std::string quoted = "\"";
+    for (char const letter : text) {
+      quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+    }
+    return quoted + "\"";
+  } else {
+    return fmt::format("{}", value);
+  }
+}
+
+/// The header line and the width of a table; every row is checked against it.
+class CsvFormat {
+ public:
+  explicit CsvFormat(std::vector<std::string> const& columns) : width_(columns.size()) {
+    if (columns.empty()) {
+      refuse("the table has no columns (a row could hold nothing): name at least one");
+    }
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      auto const& name = columns[k];
+      if (name.empty() || name.find_first_of("\r\n") != std::string::npos) {
+        refuse("column {} of the table is named '{}' (a name is one line of text): give it a name", k, name);
+      }
+      if (std::find(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(k), name) !=
+          columns.begin() + static_cast<std::ptrdiff_t>(k)) {
+        refuse("two columns of the table are named '{}' (a reader could not tell them apart): rename one", name);
+      }
+      header_ += csv_cell(name);
+      header_ += k + 1 < columns.size() ? ',' : '\n';
+    }
+  }
+
+  std::string const& header() const { return header_; }
+
+  template <class... Values>
+  std::string row(Values const&... values) const {
+    require_width(sizeof...(values));
+    std::string line;
+    ((line += csv_cell(values), line += ','), ...);
+    line.back() = '\n';
+    return line;
+  }
+
+  std::string row(std::span<double const> values) const {
+    require_width(values.size());
+    return fmt::format("{}\n", fmt::join(values, ","));
+  }
+
+ private:
+  void require_width(std::size_t cells) const {
+    if (cells != width_) {
+      refuse("a row of {} cells is given (the table has {} columns): give one cell for each column", cells, width_);
+    }
+  }
+
+  std::size_t width_;
+  std::string header_;
+};
+
+}  // namespace detail
+
+/// A table that is collected and then written as a whole; column names carry the unit, such as "throw [m]".
+class CsvTable {
+ public:
+  /// \throws InputError for no columns and for empty or repeated names
+  explicit CsvTable(std::vector<std::string> const& columns) : format_(columns), text_(format_.header()) {}
+
+  /// One cell per column: numbers or text, or a span of numbers.
+  /// \throws InputError for a row of the wrong width
+  template <class... Values>
+  void add(Values const&... values) {
+    text_ += format_.row(values...);
+  }
+
+  std::string const& text() const { return text_; }
+
+  /// \throws FileError when the file cannot be written; an older file of this name is then untouched
+  void write(std::filesystem::path const& path) const { write_file(path, text_); }
+
+ private:
+  detail::CsvFormat format_;
+  std::string text_;
+};
+
+/// What a log does with a file that is already there.
+enum class CsvStart {
+  anew,    ///< replace it
+  resumed  ///< add rows behind the old ones; a last line that an interruption cut off is removed
+};
+
+/// A table on disk that grows row by row; every row is handed to the operating system at once.
+class CsvLog {
+ public:
+  /// \throws InputError for wrong columns, also when an old file that is to be continued has other ones
+  /// \throws FileError when the file cannot be opened
+  CsvLog(std::filesystem::path path, std::vector<std::string> const& columns, CsvStart start = CsvStart::anew)
+      : format_(columns), path_(std::move(path)) {
+    if (start == CsvStart::resumed && std::filesystem::exists(path_)) {
+      keep_complete_rows();
+    } else {
+      write_file(path_, format_.header());
+    }
+    file_ = detail::open_file(path_, "ab");
+  }
+
+  /// \throws InputError for a row of the wrong width, FileError when it cannot be written
+  template <class... Values>
+  void add(Values const&... values) {
+    std::string const line = format_.row(values...);
+    if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0) {
+      detail::throw_not_written(path_, std::strerror(errno));
+    }
+  }
+
+ private:
+  void keep_complete_rows() const {
+    std::ifstream stream(path_, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (!text.starts_with(format_.header())) {
+      refuse("'{}' cannot be continued (its columns are not '{}'): start another file", path_.string(),
+             std::string_view(format_.header()).substr(0, format_.header().size() - 1));
+    }
+    std::size_t const complete = text.find_last_of('\n') + 1;
+    if (complete != text.size()) {
+      write_file(path_, std::string_view(text).substr(0, complete));
+    }
+  }
+
+  detail::CsvFormat format_;
+  std::filesystem::path path_;
+  detail::OpenFile file_;
+};
+
+}  // namespace scarp

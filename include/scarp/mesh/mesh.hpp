@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/core/error.hpp"
+#include "scarp/element/map.hpp"
+
+namespace scarp {
+
+/// Nodes, elements of one kind, the regions they belong to and named sets of element sides. SI units.
+template <ReferenceElement Element>
+struct Mesh {
+  static constexpr int dim = Element::dim;
+
+  std::vector<Vector<dim>> nodes;                         ///< [m]
+  std::vector<std::array<int, Element::nodes>> elements;  ///< node numbers from 0, in the element's own order
+  std::vector<int> element_region;                        ///< for each element a number into `regions`
+  std::vector<std::string> regions;
+  std::map<std::string, std::vector<std::array<int, Element::facet_nodes>>> boundaries;
+};
+
+namespace detail {
+
+template <class Element>
+void validate_sizes(Mesh<Element> const& mesh) {
+  if (mesh.nodes.empty() || mesh.elements.empty()) {
+    refuse("the mesh has {} nodes and {} elements (it is empty): check the generator or the file it came from",
+           mesh.nodes.size(), mesh.elements.size());
+  }
+  if (mesh.element_region.size() != mesh.elements.size()) {
+    refuse("the mesh has {} elements but {} region numbers (each element needs one): fill element_region",
+           mesh.elements.size(), mesh.element_region.size());
+  }
+  for (int e = 0; e < count(mesh.elements); ++e) {
+    int const region = mesh.element_region[index(e)];
+    if (region < 0 || region >= count(mesh.regions)) {
+      refuse("element {} has the region number {} (the mesh names {} regions: {}): name it in regions", e, region,
+             mesh.regions.size(), fmt::join(mesh.regions, ", "));
+    }
+  }
+}
+
+template <class Element>
+void validate_nodes(Mesh<Element> const& mesh) {
+  std::vector<bool> used(mesh.nodes.size(), false);
+  for (int e = 0; e < count(mesh.elements); ++e) {
+    for (int const node : mesh.elements[index(e)]) {
+      if (node < 0 || node >= count(mesh.nodes)) {
+        refuse("element {} names node {} (the mesh has nodes 0 to {}): check the numbering", e, node,
+               mesh.nodes.size() - 1);
+      }
+      used[index(node)] = true;
+    }
+  }
+  for (int n = 0; n < count(mesh.nodes); ++n) {
+    if (!mesh.nodes[index(n)].allFinite()) {
+      refuse("node {} is at ({}) (not a finite position): check the coordinates", n,
+             fmt::join(mesh.nodes[index(n)], ", "));
+    }
+    if (!used[index(n)]) {
+      refuse("node {} at ({}) belongs to no element (its equations would be singular): remove it", n,
+             fmt::join(mesh.nodes[index(n)], ", "));
+    }
+  }
+}
+
+/// A volume below 1e-10 of the element's extent to the power dim counts as zero: it is round-off of flat elements.
+template <class Element>
+void validate_jacobians(Mesh<Element> const& mesh) {
+  for (int e = 0; e < count(mesh.elements); ++e) {
+    auto const rows = corners<Element, Element::dim>(mesh.elements[index(e)], mesh.nodes);
+    double const extent = (rows.colwise().maxCoeff() - rows.colwise().minCoeff()).maxCoeff();
+    for (auto const& point : Element::quadrature()) {
+      double const determinant = measure<Element, Element::dim>(rows, point.xi);
+      if (!(determinant > 1e-10 * std::pow(extent, Element::dim))) {
+        refuse(
+            "element {} (nodes {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way round): "
+            "reorder or move its nodes",
+            e, fmt::join(mesh.elements[index(e)], ", "), determinant, Element::dim);
+      }
+    }
+  }
+}
+
+template <class Element>
+void validate_boundaries(Mesh<Element> const& mesh) {
+  std::vector<std::array<int, Element::facet_nodes>> sides;
+  auto const sorted = [](auto facet) {
+    std::sort(facet.begin(), facet.end());
+    return facet;
+  };
+  for (auto const& element : mesh.elements) {
+    for (auto facet : Element::facets()) {
+      for (int& local : facet) {
+        local = element[index(local)];
+      }
+      sides.push_back(sorted(facet));
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (auto const& [name, facets] : mesh.boundaries) {
+    for (auto const& facet : facets) {
+      if (!std::binary_search(sides.begin(), sides.end(), sorted(facet))) {
+        refuse("boundary '{}' holds the facet ({}) (no element has this side): check its node numbers", name,
+               fmt::join(facet, ", "));
+      }
+    }
+  }
+}
+
+}  // namespace detail
+
+/// \throws InputError for an empty mesh, wrong node or region numbers, positions that are not finite, unused nodes,
+/// elements without positive volume and boundary facets that are no element's side
+template <class Element>
+void validate(Mesh<Element> const& mesh) {
+  detail::validate_sizes(mesh);
+  detail::validate_nodes(mesh);
+  detail::validate_jacobians(mesh);
+  detail::validate_boundaries(mesh);
+}
+
+/// \throws InputError for an unknown name, listing the known ones
+template <class Element>
+std::vector<std::array<int, Element::facet_nodes>> const& boundary(Mesh<Element> const& mesh, std::string_view name) {
+  auto const found = mesh.boundaries.find(std::string(name));
+  if (found == mesh.boundaries.end()) {
+    std::vector<std::string> known;
+    for (auto const& entry : mesh.boundaries) {
+      known.push_back(entry.first);
+    }
+    refuse("there is no boundary '{}' (the mesh has: {}): use one of these names", name, fmt::join(known, ", "));
+  }
+  return found->second;
+}
+
+/// Numbers of the nodes on a boundary, sorted, each once.
+/// \throws InputError for an unknown name, listing the known ones
+template <class Element>
+std::vector<int> boundary_nodes(Mesh<Element> const& mesh, std::string_view name) {
+  std::vector<int> numbers;
+  for (auto const& facet : boundary(mesh, name)) {
+    numbers.insert(numbers.end(), facet.begin(), facet.end());
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+/// \throws InputError for an unknown name, listing the known ones
+template <class Element>
+int region_number(Mesh<Element> const& mesh, std::string_view name) {
+  auto const found = std::find(mesh.regions.begin(), mesh.regions.end(), name);
+  if (found == mesh.regions.end()) {
+    refuse("there is no region '{}' (the mesh has: {}): use one of these names", name, fmt::join(mesh.regions, ", "));
+  }
+  return static_cast<int>(found - mesh.regions.begin());
+}
+
+}  // namespace scarp

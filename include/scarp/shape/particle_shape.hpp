@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+
+namespace scarp {
+
+template <int Dim, class T>
+using Point = std::array<T, static_cast<std::size_t>(Dim)>;
+
+/// Numbers that a rotation rate has: 1 in 2D, 3 in 3D.
+template <int Dim>
+inline constexpr int spin_size = Dim == 2 ? 1 : 3;
+
+/// How two grains meet. `overlap` [m] is the least translation that parts them, positive when they touch; `normal` is the
+/// unit vector of that translation, from the first grain to the second; the arms [m] reach from each centre to the
+/// contact point, the middle between the two support points.
+template <int Dim, class T>
+struct Touch {
+  T overlap;
+  Point<Dim, T> normal;
+  Point<Dim, T> arm_first;
+  Point<Dim, T> arm_second;
+};
+
+/// Everything in the same file and frame: `size` are the shape's parameters of one grain [m], `pose` what the contact
+/// search needs of a grain at its present orientation.
+template <class Shape>
+concept HasGrainSize = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size) {
+  { Shape::content(size) } -> std::same_as<double>;          // area (2D) [m2] or volume [m3]
+  { Shape::gyration_squared(size) } -> std::same_as<double>;  // second moment about the centre / content [m2]
+  { Shape::bounding_radius(size) } -> std::same_as<double>;   // [m]
+  { Shape::eccentricity(size) } -> std::same_as<double>;      // largest change of the support function per radian [m]
+  { Shape::least_curvature_radius(size) } -> std::same_as<double>;  // [m]
+};
+
+template <class Shape>
+concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size,
+                           std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation) {
+  {
+    Shape::pose(size, orientation)
+  } -> std::same_as<std::array<double, static_cast<std::size_t>(Shape::pose_count)>>;
+};
+
+/// touch(first, second, branch, normal): `branch` from the first centre to the second; `normal` a unit vector to start
+/// from where the shape remembers one (`remembers_normal`), ignored otherwise.
+template <class Shape>
+concept Touches = requires(std::array<double, static_cast<std::size_t>(Shape::pose_count)> const& pose,
+                           Point<Shape::dim, double> const& branch) {
+  { Shape::touch(pose, pose, branch, branch) } -> std::same_as<Touch<Shape::dim, double>>;
+  { Shape::remembers_normal } -> std::convertible_to<bool>;
+};
+
+/// A grain shape: static functions only, templates over the scalar so that packs of lanes pass through.
+template <class Shape>
+concept ParticleShape = HasGrainSize<Shape> && HasPose<Shape> && Touches<Shape>;
+
+}  // namespace scarp

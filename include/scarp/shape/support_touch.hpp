@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+
+#include "scarp/core/constant.hpp"
+#include "scarp/shape/particle_shape.hpp"
+
+namespace scarp {
+
+/// Support function of a convex, centrally symmetric plane shape along a unit normal n(phi): value h [m], slope
+/// dh/dphi [m] and radius of curvature h + d2h/dphi2 [m] of the boundary at the support point.
+template <class T>
+struct Support {
+  T value;
+  T slope;
+  T curvature_radius;
+};
+
+/// One Newton step for the normal n that minimises \f$ f(\phi) = h_A(n) + h_B(n) - d \cdot n \f$, from a given start.
+/// \f$ f'' = \rho_A + \rho_B - f \f$. Overlap and arms are carried to the new normal by their own expansions, so that one
+/// evaluation serves both: error in the normal is second order in the correction, in the overlap third order, and both
+/// vanish at rest. Repeat with the returned normal until it stands still for a new pair.
+/// branch d [m] from the first centre to the second; `normal` a unit vector
+template <class Shape, class Pose, class T>
+Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> const& branch, Point<2, T> const& normal) {
+  using std::max;
+  using std::min;
+  using std::sqrt;
+  Point<2, T> const tangent{-normal[1], normal[0]};
+  Support<T> const a = Shape::support(first, normal);
+  Support<T> const b = Shape::support(second, normal);
+  T const along = branch[0] * normal[0] + branch[1] * normal[1];
+  T const across = branch[0] * tangent[0] + branch[1] * tangent[1];
+  T const depth = a.value + b.value - along;
+  T const slope = a.slope + b.slope - across;
+  T const curvature = a.curvature_radius + b.curvature_radius - depth;
+  T const largest_turn = constant<T>(0.5);  // radians; keeps a poor start from overshooting
+  T const turn = max(min(-slope / curvature, largest_turn), -largest_turn);
+
+  T const shrink = constant<T>(1) / sqrt(constant<T>(1) + turn * turn);
+  Point<2, T> const turned{(normal[0] + turn * tangent[0]) * shrink, (normal[1] + turn * tangent[1]) * shrink};
+  T const overlap = depth + constant<T>(0.5) * slope * turn;
+  // Support points: h n + h' t, which move along t by the radius of curvature per radian.
+  T const half = constant<T>(0.5);
+  T const level = (a.value - b.value) * half;
+  T const shift = (a.slope - b.slope + turn * (a.curvature_radius - b.curvature_radius)) * half;
+  Point<2, T> const middle{half * branch[0] + level * normal[0] + shift * tangent[0],
+                           half * branch[1] + level * normal[1] + shift * tangent[1]};
+  return {overlap, turned, middle, {middle[0] - branch[0], middle[1] - branch[1]}};
+}
+
+}  // namespace scarp

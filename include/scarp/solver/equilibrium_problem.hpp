@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "scarp/bvp/constraints.hpp"
+#include "scarp/constitutive/material_field.hpp"
+#include "scarp/solver/executor.hpp"
+
+namespace scarp {
+
+/// Forces that an increment of displacement meets.
+struct Evaluation {
+  Eigen::VectorXd unbalanced;   ///< internal minus external force of all degrees of freedom [N]
+  double residual = 0.0;        ///< |unbalanced| over free dofs / |reactions|, Euclidean norms
+  Verdict verdict;              ///< of the worst point
+  int worst_point = -1;         ///< that is not acceptable, -1 for none
+  long inner_steps = 0;         ///< DEM steps of all points
+};
+
+/// A boundary-value problem in increments: discretisation, materials, constraints whose load factor grows, and dead loads.
+template <class DiscretisationType, MaterialField Materials, class Executor>
+class EquilibriumProblem {
+ public:
+  static constexpr int dim = DiscretisationType::dim;
+
+  /// dead_load [N], shape (dof_count)
+  EquilibriumProblem(DiscretisationType discretisation, Materials materials, Constraints constraints,
+                     Eigen::VectorXd dead_load, Executor& executor)
+      : discretisation_(std::move(discretisation)),
+        materials_(std::move(materials)),
+        constraints_(std::move(constraints)),
+        dead_load_(std::move(dead_load)),
+        executor_(executor),
+        free_dofs_(constraints_.free_dofs()),
+        gradients_(points()),
+        responses_(points()) {
+    if (materials_.point_count() != discretisation_.point_count()) {
+      refuse("materials are given for {} points (the mesh has {}): make one field over all sites", materials_.point_count(),
+             discretisation_.point_count());
+    }
+    if (dead_load_.size() != discretisation_.dof_count()) {
+      refuse("the dead load has {} entries (the mesh has {} degrees of freedom): size it by dof_count", dead_load_.size(),
+             discretisation_.dof_count());
+    }
+  }
+
+  DiscretisationType const& discretisation() const { return discretisation_; }
+  Materials const& materials() const { return materials_; }
+  Constraints const& constraints() const { return constraints_; }
+  std::vector<int> const& free_dofs() const { return free_dofs_; }
+  Executor& executor() const { return executor_; }
+
+  /// Gradients and answers of the last evaluation.
+  std::vector<Gradient<dim>> const& gradients() const { return gradients_; }
+  std::vector<Response<dim>> const& responses() const { return responses_; }
+
+  std::vector<VoigtStress<dim>> committed_stresses() const {
+    std::vector<VoigtStress<dim>> values(points());
+    for (std::size_t k = 0; k < points(); ++k) values[k] = materials_.committed_stress(static_cast<int>(k));
+    return values;
+  }
+
+  /// Largest component of all points' gradients in the last plan or evaluation.
+  double largest_gradient() const {
+    double largest = 0.0;
+    for (auto const& gradient : gradients_) largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
+    return largest;
+  }
+
+  /// Fixes every point's work for the load step from a predicted increment; the points' gradients are kept.
+  Verdict plan(Eigen::VectorXd const& increment) {
+    if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
+    if (discretisation_.gradients(increment, gradients_)) return {Status::failed, Reason::element_inverted};
+    for (int point = 0; point < discretisation_.point_count(); ++point) {
+      materials_.plan(point, gradients_[static_cast<std::size_t>(point)]);
+    }
+    return {};
+  }
+
+  /// Lets every point respond to an increment from its committed state and adds up the forces.
+  Evaluation evaluate(Eigen::VectorXd const& increment) {
+    Evaluation evaluation;
+    if (!increment.allFinite()) {
+      evaluation.verdict = {Status::failed, Reason::not_finite};
+      return evaluation;
+    }
+    if (auto const inverted = discretisation_.gradients(increment, gradients_)) {
+      evaluation.verdict = {Status::failed, Reason::element_inverted};
+      evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
+      return evaluation;
+    }
+    std::vector<int> all(points());
+    std::iota(all.begin(), all.end(), 0);
+    respond(all, evaluation);
+    add_up(increment, evaluation);
+    return evaluation;
+  }
+
+  /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
+  /// of the last evaluation.
+  Evaluation refine(Eigen::VectorXd const& increment) {
+    std::vector<int> unconverged;
+    for (int point = 0; point < discretisation_.point_count(); ++point) {
+      if (responses_[static_cast<std::size_t>(point)].verdict.status == Status::not_converged) unconverged.push_back(point);
+    }
+    for (int const point : unconverged) materials_.refine_plan(point);
+    Evaluation evaluation;
+    respond(unconverged, evaluation);
+    add_up(increment, evaluation);
+    return evaluation;
+  }
+
+  /// Forces of the committed state.
+  Evaluation evaluate_committed() {
+    auto const committed = committed_stresses();
+    for (std::size_t k = 0; k < points(); ++k) {
+      gradients_[k].setZero();
+      responses_[k] = {committed[k], {}};
+    }
+    Evaluation evaluation;
+    add_up(Eigen::VectorXd::Zero(discretisation_.dof_count()), evaluation);
+    return evaluation;
+  }
+
+  /// Stiffness [N/m] at an increment with the stresses of the last evaluation.
+  void stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
+                 Eigen::SparseMatrix<double>& matrix) const {
+    discretisation_.stiffness(increment, stresses(), tangents, matrix);
+  }
+
+  /// Tangents of all points, of their committed or their trial states.
+  std::vector<VoigtTangent<dim>> committed_tangents() const {
+    return all_tangents([&](int point) { return materials_.committed_tangent(point); });
+  }
+  std::vector<VoigtTangent<dim>> trial_tangents() const {
+    return all_tangents([&](int point) { return materials_.trial_tangent(point); });
+  }
+
+  /// Makes the increment and the points' trial states the committed ones.
+  void commit(Eigen::VectorXd const& increment) {
+    discretisation_.commit(increment);
+    materials_.commit();
+  }
+
+ private:
+  std::size_t points() const { return static_cast<std::size_t>(discretisation_.point_count()); }
+
+  std::vector<VoigtStress<dim>> stresses() const {
+    std::vector<VoigtStress<dim>> values(points());
+    for (std::size_t k = 0; k < points(); ++k) values[k] = responses_[k].stress;
+    return values;
+  }
+
+  void respond(std::vector<int> const& selected, Evaluation& evaluation) {
+    executor_.for_each(static_cast<int>(selected.size()), [&](int task) {
+      int const point = selected[static_cast<std::size_t>(task)];
+      auto const k = static_cast<std::size_t>(point);
+      responses_[k] = materials_.respond(point, gradients_[k]);
+    });
+    for (int const point : selected) {
+      Verdict const verdict = responses_[static_cast<std::size_t>(point)].verdict;
+      evaluation.inner_steps += materials_.work(point);
+      if (!verdict.acceptable() && (evaluation.worst_point < 0 || verdict.status > evaluation.verdict.status)) {
+        evaluation.verdict = verdict;
+        evaluation.worst_point = point;
+      }
+    }
+  }
+
+  template <class TangentOf>
+  std::vector<VoigtTangent<dim>> all_tangents(TangentOf const& tangent_of) const {
+    std::vector<VoigtTangent<dim>> values(points());
+    executor_.for_each(discretisation_.point_count(),
+                       [&](int point) { values[static_cast<std::size_t>(point)] = tangent_of(point); });
+    return values;
+  }
+
+  void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) const {
+    discretisation_.internal_force(increment, stresses(), evaluation.unbalanced);
+    evaluation.unbalanced -= dead_load_;
+    double free = 0.0;
+    for (int const dof : free_dofs_) free += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
+    double prescribed = 0.0;
+    for (int const dof : constraints_.prescribed_dofs()) prescribed += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
+    // A body held nowhere has no reactions: measure against the loads.
+    double const scale = prescribed > 0.0 ? prescribed : dead_load_.squaredNorm();
+    evaluation.residual = free == 0.0 ? 0.0 : std::sqrt(free / scale);
+    if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable()) {
+      evaluation.verdict = {Status::failed, Reason::not_finite};
+    }
+  }
+
+  DiscretisationType discretisation_;
+  Materials materials_;
+  Constraints constraints_;
+  Eigen::VectorXd dead_load_;
+  Executor& executor_;
+  std::vector<int> free_dofs_;
+  std::vector<Gradient<dim>> gradients_;
+  std::vector<Response<dim>> responses_;
+};
+
+}  // namespace scarp

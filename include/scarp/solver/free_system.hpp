@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "scarp/bvp/constraints.hpp"
+
+namespace scarp {
+
+/// Part of a stiffness matrix that belongs to the free degrees of freedom, and the coupling to prescribed displacements.
+class FreeSystem {
+ public:
+  explicit FreeSystem(Constraints const& constraints) : free_dofs_(constraints.free_dofs()) {
+    free_index_.assign(static_cast<std::size_t>(constraints.dof_count()), -1);
+    for (std::size_t k = 0; k < free_dofs_.size(); ++k) free_index_[static_cast<std::size_t>(free_dofs_[k])] = static_cast<int>(k);
+  }
+
+  Eigen::SparseMatrix<double> matrix(Eigen::SparseMatrix<double> const& full) const {
+    Eigen::Index const size = static_cast<Eigen::Index>(free_dofs_.size());
+    Eigen::SparseMatrix<double> part(size, size);
+    part.reserve(full.nonZeros());
+    for (Eigen::Index column = 0; column < size; ++column) {
+      part.startVec(column);
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(full, free_dofs_[static_cast<std::size_t>(column)]); entry; ++entry) {
+        int const row = free_index_[static_cast<std::size_t>(entry.row())];
+        if (row >= 0) part.insertBack(row, column) = entry.value();
+      }
+    }
+    part.finalize();
+    return part;
+  }
+
+  Eigen::VectorXd gather(Eigen::VectorXd const& full) const {
+    Eigen::VectorXd part(static_cast<Eigen::Index>(free_dofs_.size()));
+    for (std::size_t k = 0; k < free_dofs_.size(); ++k) part(static_cast<Eigen::Index>(k)) = full(free_dofs_[k]);
+    return part;
+  }
+
+  /// Writes the free entries into a full vector and leaves the prescribed ones.
+  void scatter(Eigen::VectorXd const& part, Eigen::VectorXd& full) const {
+    for (std::size_t k = 0; k < free_dofs_.size(); ++k) full(free_dofs_[k]) = part(static_cast<Eigen::Index>(k));
+  }
+
+ private:
+  std::vector<int> free_dofs_;
+  std::vector<int> free_index_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/core/voigt.hpp"
+
+namespace scarp {
+
+/// The provider's tangent at the start of the step, unchanged while it iterates (modified Newton).
+struct FrozenTangent {
+  template <int Dim>
+  VoigtTangent<Dim> start(VoigtTangent<Dim> const& provider, VoigtTangent<Dim> const&) const {
+    return provider;
+  }
+
+  template <int Dim>
+  VoigtTangent<Dim> update(VoigtTangent<Dim> const& tangent, VoigtTangent<Dim> const&, EngineeringStrain<Dim> const&,
+                           VoigtStress<Dim> const&) const {
+    return tangent;
+  }
+};
+
+}  // namespace scarp

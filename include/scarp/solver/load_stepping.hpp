@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "scarp/core/error.hpp"
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// Watches a run: called after every attempt at a step, accepted or not; may ask to stop between attempts.
+template <class Observer, class Problem>
+concept ObservesSteps = requires(Observer& observer, Problem const& problem, StepReport const& report) {
+  observer.attempted(problem, report);
+  { observer.wants_stop() } -> std::convertible_to<bool>;
+};
+
+struct NoObserver {
+  template <class Problem>
+  void attempted(Problem const&, StepReport const&) {}
+  bool wants_stop() const { return false; }
+};
+
+/// How far a run came.
+struct RunReport {
+  Verdict verdict;
+  Reason last_failure = Reason::none;   ///< why the last refused attempt was refused
+  int worst_point = -1;                 ///< material point of that attempt, -1 for none
+  double load = 0.0;                    ///< load factor of the committed state
+  int steps = 0;                        ///< accepted
+  int refused = 0;                      ///< attempts that were rolled back
+  long iterations = 0;                  ///< of all attempts
+  long inner_steps = 0;                 ///< DEM steps of all attempts
+  double largest_residual = 0.0;        ///< of the accepted steps
+  double material_seconds = 0.0;
+  double seconds = 0.0;
+};
+
+/// Raises the load factor in steps that adapt themselves: the prediction's largest displacement gradient limits a step before
+/// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved. Only
+/// a step whose residual and points are all acceptable is committed.
+struct LoadStepping {
+  double first = 1e-3;               ///< load increment of the first step
+  double smallest = 1e-7;            ///< increment below which the run gives up
+  double largest = 1e300;
+  double largest_gradient = 0.01;    ///< of the prediction at any point
+  double growth = 1.4;               ///< after at most `few` iterations
+  int few = 6;
+  double shrinkage = 0.75;           ///< after more than `many` iterations
+  int many = 10;
+
+  /// From load factor `from` to `to` (above it). The problem's committed state must belong to `from`.
+  /// \throws InputError for increments or bounds that are not finite and positive
+  template <class Solver, class Problem, class Observer>
+    requires ObservesSteps<Observer, Problem>
+  RunReport run(Solver const& solver, Problem& problem, double from, double to, Observer& observer) const {
+    require_positive("first load increment", first);
+    require_positive("smallest load increment", smallest);
+    require_positive("largest gradient of a load step", largest_gradient);
+    typename Solver::template Session<Problem> session(solver, problem);
+    RunReport run;
+    run.load = from;
+    double increment = std::min({first, largest, to - from});
+    bool fresh = true;  // the session must be readied from a new committed state
+    while (run.load < to) {
+      if (observer.wants_stop()) {
+        run.verdict = {Status::not_converged, Reason::interrupted};
+        return run;
+      }
+      StepReport step;
+      step.step = run.steps + 1;
+      auto const started = std::chrono::steady_clock::now();
+      Eigen::VectorXd displacement;
+      if (fresh) step.verdict = session.begin();
+      fresh = false;
+      if (step.verdict.acceptable()) {
+        displacement = limited_prediction(session, problem, increment);
+        step.load_increment = increment;
+        step.load = to - run.load - increment < smallest ? to : run.load + increment;
+        session.correct(displacement, step);
+      }
+      step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+      bool const accepted = step.verdict.acceptable();
+      if (accepted) session.accept(displacement);
+      count(run, step, accepted);
+      observer.attempted(problem, step);
+      if (accepted) {
+        fresh = true;
+        if (step.iterations() <= few) increment *= growth;
+        if (step.iterations() > many) increment *= shrinkage;
+      } else {
+        increment *= 0.5;
+        fresh = true;
+        if (increment < smallest) {
+          run.verdict = {Status::not_converged, Reason::step_too_small};
+          return run;
+        }
+      }
+      increment = std::min({increment, largest, std::max(to - run.load, smallest)});
+    }
+    return run;
+  }
+
+ private:
+  /// Cuts the increment until the prediction strains no point more than allowed; the prediction is nearly linear in it.
+  template <class Session, class Problem>
+  Eigen::VectorXd limited_prediction(Session const& session, Problem& problem, double& increment) const {
+    for (;;) {
+      Eigen::VectorXd const displacement = session.predict(increment);
+      problem.plan(displacement);
+      double const ratio = problem.largest_gradient() / largest_gradient;
+      // Part of a prediction may come from the present imbalance, which no smaller increment takes away.
+      if (!(ratio > 1.001) || increment < 2.0 * smallest) return displacement;
+      increment = std::max(increment * std::max(1.0 / ratio, 0.3), smallest);
+    }
+  }
+
+  static void count(RunReport& run, StepReport const& step, bool accepted) {
+    run.iterations += step.iterations();
+    run.inner_steps += step.inner_steps;
+    run.material_seconds += step.material_seconds;
+    run.seconds += step.seconds;
+    if (accepted) {
+      ++run.steps;
+      run.load = step.load;
+      run.largest_residual = std::max(run.largest_residual, step.residual());
+    } else {
+      ++run.refused;
+      run.last_failure = step.verdict.reason;
+      run.worst_point = step.worst_point;
+    }
+  }
+};
+
+}  // namespace scarp

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "scarp/solver/equilibrium_problem.hpp"
+#include "scarp/solver/free_system.hpp"
+#include "scarp/solver/plain_step.hpp"
+#include "scarp/solver/point_secant.hpp"
+#include "scarp/solver/sparse_lu.hpp"
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// Newton-type iteration for one load step. Every iteration restarts the points from their committed states with the whole
+/// increment; the tangent rule says what the points' tangents become on the way, the mixing what the correction becomes.
+template <class TangentRule = PointSecant, class Mixing = PlainStep, class LinearSolver = SparseLu>
+struct QuasiNewton {
+  double tolerance = 5e-3;    ///< force residual relative to the reactions
+  int most_iterations = 30;
+  double hopeless = 10.0;     ///< residual beyond which a step is given up
+  int most_refinements = 4;   ///< of points that have not converged when the forces have
+  TangentRule rule{};
+  Mixing mixing{};
+
+  /// The iteration on one problem: factorisation and what the points' tangents have learned.
+  template <class Problem>
+  class Session {
+   public:
+    static constexpr int dim = Problem::dim;
+
+    Session(QuasiNewton const& settings, Problem& problem)
+        : settings_(settings), mixing_(settings.mixing), problem_(problem), system_(problem.constraints()) {}
+
+    /// Readies a step from the committed state: tangents, factorisation, present imbalance.
+    Verdict begin() {
+      provider_ = problem_.committed_tangents();
+      if (learned_.empty()) learned_ = provider_;
+      working_.resize(provider_.size());
+      for (std::size_t k = 0; k < working_.size(); ++k) {
+        working_[k] = settings_.rule.template start<dim>(provider_[k], learned_[k]);
+      }
+      committed_ = problem_.evaluate_committed();
+      problem_.stiffness(Eigen::VectorXd::Zero(committed_.unbalanced.size()), working_, stiffness_);
+      return linear_.factorize(system_.matrix(stiffness_));
+    }
+
+    /// First guess of the displacement increment for a growth of the load factor.
+    Eigen::VectorXd predict(double load_increment) const {
+      Eigen::VectorXd increment = problem_.constraints().displacement(load_increment);
+      Eigen::VectorXd const force = -system_.gather(committed_.unbalanced + stiffness_ * increment);
+      system_.scatter(linear_.solve(force), increment);
+      return increment;
+    }
+
+    /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
+    void correct(Eigen::VectorXd& increment, StepReport& report) {
+      if (report.verdict = problem_.plan(increment); !report.verdict.acceptable()) return;
+      report.largest_gradient = problem_.largest_gradient();
+      mixing_.forget();
+      last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
+      last_stresses_ = problem_.committed_stresses();
+      for (;;) {
+        Evaluation evaluation = timed(report, [&] { return problem_.evaluate(increment); });
+        report.residuals.push_back(evaluation.residual);
+        // Points that miss only their own accuracy are given more work before the step counts as done.
+        for (int k = 0; k < settings_.most_refinements && evaluation.residual <= settings_.tolerance &&
+                        report.verdict.status == Status::not_converged;
+             ++k) {
+          evaluation = timed(report, [&] { return problem_.refine(increment); });
+          report.residuals.back() = evaluation.residual;
+        }
+        if (report.verdict.status == Status::failed) return;
+        learn();
+        if (evaluation.residual <= settings_.tolerance) return;
+        if (report.iterations() >= settings_.most_iterations || evaluation.residual > settings_.hopeless) {
+          report.verdict = {Status::not_converged, Reason::iterations_spent};
+          return;
+        }
+        problem_.stiffness(increment, working_, stiffness_);
+        if (report.verdict = linear_.factorize(system_.matrix(stiffness_)); !report.verdict.acceptable()) return;
+        Eigen::VectorXd const correction = linear_.solve(-system_.gather(evaluation.unbalanced));
+        system_.scatter(mixing_.next(system_.gather(increment), correction), increment);
+      }
+    }
+
+    /// Commits an increment in equilibrium and keeps what the step has learned.
+    void accept(Eigen::VectorXd const& increment) {
+      problem_.commit(increment);
+      learned_ = working_;
+    }
+
+   private:
+    template <class Evaluate>
+    static Evaluation timed(StepReport& report, Evaluate&& evaluate) {
+      auto const started = std::chrono::steady_clock::now();
+      Evaluation evaluation = evaluate();
+      report.material_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+      report.inner_steps += evaluation.inner_steps;
+      report.verdict = evaluation.verdict;
+      report.worst_point = evaluation.worst_point;
+      return evaluation;
+    }
+
+    void learn() {
+      for (std::size_t k = 0; k < working_.size(); ++k) {
+        Gradient<dim> const& gradient = problem_.gradients()[k];
+        VoigtStress<dim> const& stress = problem_.responses()[k].stress;
+        working_[k] = settings_.rule.template update<dim>(
+            working_[k], provider_[k], to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
+            stress - last_stresses_[k]);
+        last_gradients_[k] = gradient;
+        last_stresses_[k] = stress;
+      }
+    }
+
+    QuasiNewton const& settings_;
+    Mixing mixing_;
+    Problem& problem_;
+    FreeSystem system_;
+    LinearSolver linear_;
+    Eigen::SparseMatrix<double> stiffness_;
+    Evaluation committed_;
+    std::vector<VoigtTangent<dim>> provider_;
+    std::vector<VoigtTangent<dim>> working_;
+    std::vector<VoigtTangent<dim>> learned_;
+    std::vector<Gradient<dim>> last_gradients_;
+    std::vector<VoigtStress<dim>> last_stresses_;
+  };
+};
+
+}  // namespace scarp

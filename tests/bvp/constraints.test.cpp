@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/bvp/constraints.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "scarp/mesh/rectangle_mesh.hpp"
+
+namespace {
+
+scarp::Constraints on_square() { return scarp::Constraints(scarp::RectangleMesh{}.generate()); }  // five nodes
+
+}  // namespace
+
+TEST_CASE("prescribed degrees of freedom come sorted with their rates, whatever the order of the calls") {
+  auto constraints = on_square();
+  constraints.move(3, 1, -1.0);
+  constraints.fix(0);
+  constraints.move(1, 0, 0.5);
+  CHECK(constraints.prescribed_dofs() == std::vector<int>{0, 1, 2, 7});
+  CHECK(constraints.rates() == std::vector<double>{0.0, 0.0, 0.5, -1.0});
+}
+
+TEST_CASE("free degrees of freedom are numbered without gaps") {
+  auto constraints = on_square();
+  constraints.fix(0, 1);
+  constraints.fix(2, 0);
+  auto const free = constraints.free_dofs();
+  CHECK(free == std::vector<int>{0, 2, 3, 5, 6, 7, 8, 9});
+  CHECK(constraints.free_count() == 8);
+  for (int k = 0; k < static_cast<int>(free.size()); ++k) {
+    CHECK(constraints.free_index(free[static_cast<std::size_t>(k)]) == k);
+  }
+  CHECK(constraints.free_index(1) == -1);
+  CHECK(constraints.free_index(4) == -1);
+  CHECK(constraints.is_prescribed(4));
+  CHECK_FALSE(constraints.is_prescribed(5));
+}
+
+TEST_CASE("displacements follow the load factor") {
+  auto constraints = on_square();
+  constraints.move(1, 1, -2.0);
+  constraints.fix(0, 0);
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(10);
+  expected(3) = -0.5;
+  CHECK(constraints.displacement(0.25) == expected);
+}
+
+TEST_CASE("the same prescription twice is one, two different ones are refused") {
+  auto constraints = on_square();
+  constraints.move(1, 0, 0.5);
+  CHECK_NOTHROW(constraints.move(1, 0, 0.5));
+  CHECK(constraints.prescribed_dofs().size() == 1);
+  CHECK_THROWS_WITH_AS(constraints.fix(1, 0),
+                       "node 1, axis 0 is prescribed twice (rates 0.5 and 0 differ): decide for one of them",
+                       scarp::InputError);
+  CHECK(constraints.rates() == std::vector<double>{0.5});
+}
+
+TEST_CASE("nodes, axes and rates that do not exist are refused") {
+  auto constraints = on_square();
+  CHECK_THROWS_AS(constraints.fix(5, 0), scarp::InputError);
+  CHECK_THROWS_AS(constraints.fix(-1, 0), scarp::InputError);
+  CHECK_THROWS_AS(constraints.fix(0, 2), scarp::InputError);
+  CHECK_THROWS_AS(constraints.move(0, 0, std::numeric_limits<double>::quiet_NaN()), scarp::InputError);
+}

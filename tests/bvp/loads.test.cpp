@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/bvp/loads.hpp"
+
+#include <doctest/doctest.h>
+
+#include "bvp/sample_problems.hpp"
+#include "scarp/mesh/fault_mesh.hpp"
+
+namespace {
+
+template <int Dim>
+scarp::Vector<Dim> sum(Eigen::VectorXd const& forces) {
+  return forces.reshaped(Dim, forces.size() / Dim).rowwise().sum();
+}
+
+}  // namespace
+
+TEST_CASE("body forces add up to the weight of each region") {
+  scarp::FaultMesh const scene{.size = 2.5, .footing = scarp::Footing{-12.0, 7.0, 1.5}};
+  scarp::Discretisation<scarp::Tri3> const disc(scene.generate(), 0.2);
+  int const footing = scarp::region_number(disc.mesh(), "footing");
+  auto const forces =
+      scarp::body_force(disc, [&](int region) { return scarp::Vector<2>(0.0, region == footing ? -25e3 : -16e3); });
+  // Analytic: (75 x 25 m2 of soil, 7 x 1.5 m2 of footing) times 0.2 m; round-off of some thousand terms.
+  CHECK(sum<2>(forces).y() == doctest::Approx(-0.2 * (75.0 * 25.0 * 16e3 + 7.0 * 1.5 * 25e3)).epsilon(1e-12));
+  CHECK(sum<2>(forces).x() == 0.0);
+}
+
+TEST_CASE_TEMPLATE("body forces keep the moment of the weight on distorted meshes", Element, scarp::Tri3, scarp::Quad4,
+                   scarp::Tet4) {
+  constexpr int dim = Element::dim;
+  scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(3));
+  scarp::Vector<dim> const gravity = -20e3 * scarp::Vector<dim>::Unit(dim - 1);
+  auto const forces = scarp::body_force(disc, [&](int) { return gravity; });
+  double lever = 0.0;
+  for (int n = 0; n < disc.node_count(); ++n) {
+    lever += disc.mesh().nodes[static_cast<std::size_t>(n)](0) * forces(dim * n + dim - 1);
+  }
+  // Analytic: unit block, centre at 1/2. Shapes reproduce linear functions; the quadrature of Tri3, Tet4 and of
+  // bilinear Quad4 (x times the Jacobian is at most cubic along an axis) is exact for them.
+  CHECK(lever == doctest::Approx(-20e3 / 2.0).epsilon(1e-13));
+  CHECK(sum<dim>(forces)(dim - 1) == doctest::Approx(-20e3).epsilon(1e-13));
+}
+
+TEST_CASE("a traction adds up to its resultant and is shared by length") {
+  scarp::Discretisation<scarp::Tri3> const disc(
+      scarp::RectangleMesh{.width = 3.0, .height = 2.0, .columns = 3, .rows = 2}.generate(), 0.5);
+  auto const forces = scarp::traction(disc, "top", {1e3, -2e3});
+  CHECK((sum<2>(forces) - scarp::Vector<2>(1e3 * 3.0 * 0.5, -2e3 * 3.0 * 0.5)).norm() < 1e-9);
+  for (int const node : scarp::boundary_nodes(disc.mesh(), "top")) {
+    double const x = disc.mesh().nodes[static_cast<std::size_t>(node)].x();
+    double const share = x == 0.0 || x == 3.0 ? 0.5 : 1.0;  // analytic: half of each 1 m facet to each of its ends
+    CHECK(forces(2 * node + 1) == doctest::Approx(-2e3 * 0.5 * share).epsilon(1e-15));
+  }
+}
+
+TEST_CASE("a pressure on the side of a block in space adds up to its area") {
+  auto mesh = sample::distorted_block<scarp::Tet4>(2);
+  for (auto const& element : mesh.elements) {
+    for (auto facet : scarp::Tet4::facets()) {
+      bool on_top = true;
+      for (int& local : facet) {
+        local = element[static_cast<std::size_t>(local)];
+        on_top = on_top && mesh.nodes[static_cast<std::size_t>(local)].z() == 1.0;
+      }
+      if (on_top) {
+        mesh.boundaries["top"].push_back(facet);
+      }
+    }
+  }
+  scarp::Discretisation<scarp::Tet4> const disc(mesh);
+  CHECK(sum<3>(scarp::traction(disc, "top", {0.0, 0.0, -3e3})).z() == doctest::Approx(-3e3).epsilon(1e-13));
+}
+
+TEST_CASE("loads stay when the mesh moves") {
+  scarp::Discretisation<scarp::Tri3> disc(scarp::RectangleMesh{.columns = 2, .rows = 2}.generate());
+  auto const weight = [](int) { return scarp::Vector<2>(0.0, -1.0); };
+  auto const before = scarp::body_force(disc, weight);
+  auto const pressed_before = scarp::traction(disc, "top", {0.0, -1.0});
+  disc.commit(sample::random_increment(disc.dof_count(), 0.1, 2));
+  CHECK(scarp::body_force(disc, weight) == before);
+  CHECK(scarp::traction(disc, "top", {0.0, -1.0}) == pressed_before);
+}
+
+TEST_CASE("a traction on an unknown boundary is refused") {
+  scarp::Discretisation<scarp::Tri3> const disc(scarp::RectangleMesh{}.generate());
+  CHECK_THROWS_AS(scarp::traction(disc, "roof", {0.0, -1.0}), scarp::InputError);
+}

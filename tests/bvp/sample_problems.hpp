@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseLU>
+
+#include <array>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "scarp/bvp/constraints.hpp"
+#include "scarp/bvp/discretisation.hpp"
+#include "scarp/core/random.hpp"
+#include "scarp/element/quad4.hpp"
+#include "scarp/element/tet4.hpp"
+#include "scarp/mesh/rectangle_mesh.hpp"
+
+/// Small distorted meshes for every element, and what the tests of the finite-element side do with them.
+namespace sample {
+
+/// Unit square or cube of `cells` cells along each axis, interior nodes moved at random.
+template <class Element>
+scarp::Mesh<Element> distorted_block(int cells);
+
+template <>
+inline scarp::Mesh<scarp::Tri3> distorted_block<scarp::Tri3>(int cells) {
+  return scarp::RectangleMesh{.columns = cells, .rows = cells, .distortion = 0.2, .seed = 5}.generate();
+}
+
+/// Grid nodes with the interior ones moved; node (i, j, k) has the number i + n (j + n k).
+template <int Dim>
+std::vector<scarp::Vector<Dim>> grid_nodes(int cells) {
+  scarp::Random random(5);
+  int const lines = cells + 1;
+  int total = 1;
+  for (int axis = 0; axis < Dim; ++axis) {
+    total *= lines;
+  }
+  std::vector<scarp::Vector<Dim>> nodes;
+  for (int n = 0; n < total; ++n) {
+    scarp::Vector<Dim> node;
+    bool inside = true;
+    int rest = n;
+    for (int axis = 0; axis < Dim; ++axis) {
+      int const line = rest % lines;
+      rest /= lines;
+      inside = inside && line > 0 && line < cells;
+      node(axis) = static_cast<double>(line) / cells;
+    }
+    for (int axis = 0; axis < Dim; ++axis) {
+      double const move = random.uniform(-0.15, 0.15) / cells;
+      node(axis) += inside ? move : 0.0;
+    }
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+template <>
+inline scarp::Mesh<scarp::Quad4> distorted_block<scarp::Quad4>(int cells) {
+  int const lines = cells + 1;
+  scarp::Mesh<scarp::Quad4> mesh;
+  mesh.nodes = grid_nodes<2>(cells);
+  mesh.regions = {"soil"};
+  for (int j = 0; j < cells; ++j) {
+    for (int i = 0; i < cells; ++i) {
+      int const first = i + lines * j;
+      mesh.elements.push_back({first, first + 1, first + 1 + lines, first + lines});
+      mesh.element_region.push_back(0);
+    }
+  }
+  return mesh;
+}
+
+/// Every cube is cut into six tetrahedra along its space diagonal (Kuhn's division).
+template <>
+inline scarp::Mesh<scarp::Tet4> distorted_block<scarp::Tet4>(int cells) {
+  int const lines = cells + 1;
+  scarp::Mesh<scarp::Tet4> mesh;
+  mesh.nodes = grid_nodes<3>(cells);
+  mesh.regions = {"soil"};
+  std::array<int, 3> const steps{1, lines, lines * lines};
+  constexpr std::array<std::array<std::size_t, 3>, 6> orders{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  for (int k = 0; k < cells; ++k) {
+    for (int j = 0; j < cells; ++j) {
+      for (int i = 0; i < cells; ++i) {
+        int const corner = i + lines * (j + lines * k);
+        for (std::size_t o = 0; o < orders.size(); ++o) {
+          int const first = corner + steps[orders[o][0]];
+          int const second = first + steps[orders[o][1]];
+          int const last = second + steps[orders[o][2]];
+          bool const even = o < 3;  // odd orders would turn the tetrahedron over
+          mesh.elements.push_back({corner, even ? first : second, even ? second : first, last});
+          mesh.element_region.push_back(0);
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+/// Increment of every node by a displacement gradient: u = G X.
+template <int Dim>
+Eigen::VectorXd affine(std::vector<scarp::Vector<Dim>> const& positions, scarp::Gradient<Dim> const& gradient) {
+  Eigen::VectorXd increment(Dim * static_cast<int>(positions.size()));
+  for (int n = 0; n < static_cast<int>(positions.size()); ++n) {
+    increment.segment<Dim>(Dim * n) = gradient * positions[static_cast<std::size_t>(n)];
+  }
+  return increment;
+}
+
+/// A displacement gradient with stretch, shear and rotation; entries up to `size`.
+template <int Dim>
+scarp::Gradient<Dim> general_gradient(double size) {
+  scarp::Random random(3);
+  scarp::Gradient<Dim> gradient;
+  for (auto& entry : gradient.reshaped()) {
+    entry = random.uniform(-size, size);
+  }
+  return gradient;
+}
+
+inline Eigen::VectorXd random_increment(int length, double size, std::uint64_t seed) {
+  scarp::Random random(seed);
+  Eigen::VectorXd increment(length);
+  for (auto& entry : increment) {
+    entry = random.uniform(-size, size);
+  }
+  return increment;
+}
+
+/// Stress and tangent of a material at all points.
+template <class Provider>
+struct PointStates {
+  static constexpr int dim = Provider::dim;
+  std::vector<typename Provider::State> states;
+  std::vector<scarp::VoigtStress<dim>> stresses;
+  std::vector<scarp::VoigtTangent<dim>> tangents;
+};
+
+/// Answers of the material to an increment from `committed` states.
+template <class Provider, class Discretisation>
+PointStates<Provider> answers(Provider const& provider, Discretisation const& disc,
+                              std::vector<typename Provider::State> const& committed,
+                              Eigen::VectorXd const& increment) {
+  constexpr int dim = Provider::dim;
+  auto const size = static_cast<std::size_t>(disc.point_count());
+  std::vector<scarp::Gradient<dim>> gradients(size);
+  disc.gradients(increment, gradients);
+  PointStates<Provider> points;
+  for (std::size_t p = 0; p < size; ++p) {
+    typename Provider::State trial = committed[p];
+    points.stresses.push_back(provider.respond(committed[p], gradients[p], trial).stress);
+    points.tangents.push_back(provider.tangent(trial));
+    points.states.push_back(trial);
+  }
+  return points;
+}
+
+/// Nodes on the outline of the unit block.
+template <class Element>
+std::vector<int> outline(scarp::Mesh<Element> const& mesh) {
+  std::vector<int> nodes;
+  for (int n = 0; n < static_cast<int>(mesh.nodes.size()); ++n) {
+    auto const& node = mesh.nodes[static_cast<std::size_t>(n)];
+    if (node.minCoeff() == 0.0 || node.maxCoeff() == 1.0) {
+      nodes.push_back(n);
+    }
+  }
+  return nodes;
+}
+
+/// Solves the free rows of K x = f with x = 0 at prescribed degrees of freedom.
+inline Eigen::VectorXd solve_free(Eigen::SparseMatrix<double> const& matrix, scarp::Constraints const& constraints,
+                                  Eigen::VectorXd const& force) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
+      int const row = constraints.free_index(static_cast<int>(entry.row()));
+      int const free_column = constraints.free_index(column);
+      if (row >= 0 && free_column >= 0) {
+        entries.emplace_back(row, free_column, entry.value());
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> reduced(constraints.free_count(), constraints.free_count());
+  reduced.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> const factors(reduced);
+  if (factors.info() != Eigen::Success) {
+    throw std::runtime_error("the stiffness of a sample problem could not be factorised");
+  }
+  auto const free = constraints.free_dofs();
+  Eigen::VectorXd reduced_force(constraints.free_count());
+  for (int k = 0; k < constraints.free_count(); ++k) {
+    reduced_force(k) = force(free[static_cast<std::size_t>(k)]);
+  }
+  Eigen::VectorXd const reduced_solution = factors.solve(reduced_force);
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(force.size());
+  for (int k = 0; k < constraints.free_count(); ++k) {
+    solution(free[static_cast<std::size_t>(k)]) = reduced_solution(k);
+  }
+  return solution;
+}
+
+}  // namespace sample

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/core/error.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TEST_CASE("a refusal carries the formatted text and is an invalid argument") {
+  CHECK_THROWS_WITH_AS(scarp::refuse("region {} is unknown (the mesh has {}): choose one of them", 7, 3),
+                       "region 7 is unknown (the mesh has 3): choose one of them", scarp::InputError);
+  CHECK_THROWS_AS(scarp::refuse("nothing to say"), std::invalid_argument);
+}
+
+TEST_CASE("an accepted number comes back unchanged") {
+  double const smallest = std::numeric_limits<double>::denorm_min();
+  CHECK(scarp::require_positive("thickness", smallest) == smallest);
+  CHECK(scarp::require_not_negative("friction", 0.0) == 0.0);
+  CHECK(scarp::require_finite("depth", -3.5) == -3.5);
+}
+
+TEST_CASE("zero is not positive but not negative either") {
+  CHECK_THROWS_AS(scarp::require_positive("thickness", 0.0), scarp::InputError);
+  CHECK_NOTHROW(scarp::require_not_negative("thickness", 0.0));
+}
+
+TEST_CASE("negative numbers are refused by name and value") {
+  CHECK_THROWS_WITH_AS(scarp::require_positive("thickness", -0.5),
+                       "thickness is -0.5 (it must be finite and above zero): give a positive number",
+                       scarp::InputError);
+  CHECK_THROWS_WITH_AS(scarp::require_not_negative("friction", -0.25),
+                       "friction is -0.25 (it must be finite and not negative): give zero or a positive number",
+                       scarp::InputError);
+}
+
+TEST_CASE("infinity and NaN are refused everywhere") {
+  for (double const value : {infinity, -infinity, not_a_number}) {
+    CAPTURE(value);
+    CHECK_THROWS_AS(scarp::require_positive("depth", value), scarp::InputError);
+    CHECK_THROWS_AS(scarp::require_not_negative("depth", value), scarp::InputError);
+    CHECK_THROWS_AS(scarp::require_finite("depth", value), scarp::InputError);
+  }
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/io/atomic_file.hpp"
+
+#include <doctest/doctest.h>
+
+#include "io/scratch_folder.hpp"
+
+TEST_CASE("a file is written as a whole and leaves nothing beside it") {
+  ScratchFolder const folder;
+  std::string const bytes("line\nzero\0and more", 18);
+  scarp::write_file(folder / "a.txt", bytes);
+  CHECK(content(folder / "a.txt") == bytes);
+  scarp::write_file(folder / "a.txt", "short", scarp::Durability::on_disk);
+  CHECK(content(folder / "a.txt") == "short");
+  scarp::write_file(folder / "empty.txt", "");
+  CHECK(content(folder / "empty.txt").empty());
+  CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("a missing folder is named in the complaint") {
+  ScratchFolder const folder;
+  auto const path = folder / "missing/a.txt";
+  std::string complaint;
+  try {
+    scarp::write_file(path, "text");
+  } catch (scarp::FileError const& error) {
+    complaint = error.what();
+  }
+  CHECK(complaint == "cannot write '" + path.string() + "' (there is no folder '" + path.parent_path().string() +
+                         "'): create it first");
+}
+
+TEST_CASE("the old file stays as it was when the new one cannot take its place") {
+  ScratchFolder const folder;
+  std::filesystem::create_directory(folder / "results");
+  scarp::write_file(folder / "results/old.txt", "precious");
+  CHECK_THROWS_AS(scarp::write_file(folder / "results", "text"), scarp::FileError);  // the name of a folder
+  CHECK(content(folder / "results/old.txt") == "precious");
+  CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("the old file stays as it was when the new one cannot be created") {
+  ScratchFolder const folder;
+  // A name of 250 characters is allowed, but not the longer temporary name beside it: writing fails before anything is
+  // touched. (Permissions would not stop a test that runs as root.)
+  std::string const name(250, 'x');
+  { std::ofstream(folder / name) << "precious"; }
+  REQUIRE(content(folder / name) == "precious");
+  CHECK_THROWS_AS(scarp::write_file(folder / name, "text"), scarp::FileError);
+  CHECK(content(folder / name) == "precious");
+  CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("a full disk is an error and not a shorter file") {
+  if (std::filesystem::exists("/dev/full")) {
+    auto const file = scarp::detail::open_file("/dev/full", "wb");
+    CHECK(std::fwrite("text", 1, 4, file.get()) == 4);  // still in the buffer
+    CHECK_FALSE(scarp::detail::flush(file.get(), scarp::Durability::handed_over));
+  }
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/io/csv.hpp"
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+
+#include "io/scratch_folder.hpp"
+#include "scarp/core/random.hpp"
+
+namespace {
+
+std::vector<std::string> lines_of(std::string const& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("numbers come back from a table with the same bits") {
+  scarp::CsvTable table({"throw [m]"});
+  scarp::Random random(17);
+  std::vector<double> numbers{0.1, 1.0 / 3.0, -0.0, 1e300, std::numeric_limits<double>::denorm_min()};
+  for (int k = 0; k < 1000; ++k) {
+    numbers.push_back(std::ldexp(random.uniform(-1.0, 1.0), static_cast<int>(random.next() % 2000) - 1000));
+  }
+  for (double const number : numbers) {
+    table.add(number);
+  }
+  auto const lines = lines_of(table.text());
+  REQUIRE(lines.size() == numbers.size() + 1);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    double const back = std::strtod(lines[k + 1].c_str(), nullptr);
+    CHECK(std::bit_cast<std::uint64_t>(back) == std::bit_cast<std::uint64_t>(numbers[k]));
+  }
+}
+
+TEST_CASE("a table holds text and whole numbers beside numbers, and quotes what needs it") {
+  scarp::CsvTable table({"step", "status", "says \"why\", in words", "force [N]"});
+  table.add(3, "ok", std::string("a,b"), 0.5);
+  table.add(4, std::string_view("not_converged"), "he said \"no\"", -2.0);
+  // Expected by RFC 4180: quotes around, quotes inside doubled.
+  CHECK(table.text() ==
+        "step,status,\"says \"\"why\"\", in words\",force [N]\n3,ok,\"a,b\",0.5\n4,not_converged,\"he said "
+        "\"\"no\"\"\",-2\n");
+}
+
+TEST_CASE("a span of numbers is a row") {
+  scarp::CsvTable table({"x [m]", "y [m]"});
+  std::vector<double> const row{0.25, -1.5};
+  table.add(std::span<double const>(row));
+  CHECK(table.text() == "x [m],y [m]\n0.25,-1.5\n");
+  CHECK_THROWS_AS(table.add(std::span<double const>(row).first(1)), scarp::InputError);
+}
+
+TEST_CASE("rows of the wrong width are refused and not kept") {
+  scarp::CsvTable table({"a", "b"});
+  CHECK_THROWS_WITH_AS(table.add(1.0),
+                       "a row of 1 cells is given (the table has 2 columns): give one cell for each column",
+                       scarp::InputError);
+  CHECK_THROWS_AS(table.add(1.0, 2.0, 3.0), scarp::InputError);
+  CHECK(table.text() == "a,b\n");
+}
+
+TEST_CASE("tables without columns and with empty or repeated names are refused") {
+  CHECK_THROWS_AS(scarp::CsvTable({}), scarp::InputError);
+  CHECK_THROWS_AS(scarp::CsvTable({"a", ""}), scarp::InputError);
+  CHECK_THROWS_AS(scarp::CsvTable({"a", "b", "a"}), scarp::InputError);
+  CHECK_THROWS_AS(scarp::CsvTable({"two\nlines"}), scarp::InputError);
+}
+
+TEST_CASE("a table is written as a whole") {
+  ScratchFolder const folder;
+  scarp::CsvTable table({"a"});
+  table.add(1);
+  table.write(folder / "t.csv");
+  CHECK(content(folder / "t.csv") == "a\n1\n");
+}
+
+TEST_CASE("a row of a log is on its way to the disk as soon as it is added") {
+  ScratchFolder const folder;
+  scarp::CsvLog log(folder / "log.csv", {"a", "b"});
+  CHECK(content(folder / "log.csv") == "a,b\n");
+  log.add(1, 2.5);
+  CHECK(content(folder / "log.csv") == "a,b\n1,2.5\n");
+  CHECK_THROWS_AS(log.add(1), scarp::InputError);
+  CHECK(content(folder / "log.csv") == "a,b\n1,2.5\n");
+}
+
+TEST_CASE("a log starts anew or goes on behind its last complete row") {
+  ScratchFolder const folder;
+  {
+    scarp::CsvLog log(folder / "log.csv", {"a", "b"});
+    log.add(1, 2);
+  }
+  {
+    std::ofstream(folder / "log.csv", std::ios::app) << "3,";  // what an interruption leaves
+  }
+  {
+    scarp::CsvLog log(folder / "log.csv", {"a", "b"}, scarp::CsvStart::resumed);
+    log.add(5, 6);
+  }
+  CHECK(content(folder / "log.csv") == "a,b\n1,2\n5,6\n");
+  { scarp::CsvLog const log(folder / "log.csv", {"a", "b"}); }
+  CHECK(content(folder / "log.csv") == "a,b\n");
+  { scarp::CsvLog const log(folder / "new.csv", {"a"}, scarp::CsvStart::resumed); }
+  CHECK(content(folder / "new.csv") == "a\n");
+}
+
+TEST_CASE("a log with other columns is not continued and not touched") {
+  ScratchFolder const folder;
+  scarp::write_file(folder / "log.csv", "x,y\n1,2\n");
+  CHECK_THROWS_AS(scarp::CsvLog(folder / "log.csv", {"a", "b"}, scarp::CsvStart::resumed), scarp::InputError);
+  CHECK(content(folder / "log.csv") == "x,y\n1,2\n");
+}
+
+TEST_CASE("a log in a missing folder is refused") {
+  ScratchFolder const folder;
+  CHECK_THROWS_AS(scarp::CsvLog(folder / "missing/log.csv", {"a"}), scarp::FileError);
+}

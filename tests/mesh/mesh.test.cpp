@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/mesh/mesh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "scarp/element/tri3.hpp"
+
+namespace {
+
+using Mesh = scarp::Mesh<scarp::Tri3>;
+
+struct NotAnElement {};
+template <class Element>
+concept MakesMesh = requires {
+  typename scarp::Mesh<Element>;
+};
+static_assert(MakesMesh<scarp::Tri3> && !MakesMesh<NotAnElement> && !MakesMesh<scarp::Line2>);
+
+/// Unit square of two triangles.
+Mesh square() {
+  Mesh mesh;
+  mesh.nodes = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  mesh.elements = {{0, 1, 2}, {0, 2, 3}};
+  mesh.element_region = {0, 1};
+  mesh.regions = {"sand", "clay"};
+  mesh.boundaries["bottom"] = {{0, 1}};
+  mesh.boundaries["sides"] = {{3, 0}, {1, 2}};
+  return mesh;
+}
+
+std::string complaint(Mesh const& mesh) {
+  try {
+    scarp::validate(mesh);
+  } catch (scarp::InputError const& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool says(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a sound mesh is accepted") { CHECK(complaint(square()) == ""); }
+
+TEST_CASE("an empty mesh is refused") { CHECK(says(complaint(Mesh{}), "empty")); }
+
+TEST_CASE("an element that names a node beyond the last is refused with its number") {
+  auto mesh = square();
+  mesh.elements[1][2] = 4;
+  CHECK(says(complaint(mesh), "element 1 names node 4"));
+  mesh.elements[1][2] = -1;
+  CHECK(says(complaint(mesh), "element 1 names node -1"));
+}
+
+TEST_CASE("a node that is not at a finite place is refused with its number") {
+  auto mesh = square();
+  mesh.nodes[2].x() = std::numeric_limits<double>::infinity();
+  CHECK(says(complaint(mesh), "node 2 is at (inf"));
+}
+
+TEST_CASE("elements that are turned over, flat or flat up to round-off are refused with their number") {
+  auto mesh = square();
+  std::swap(mesh.elements[1][0], mesh.elements[1][1]);
+  CHECK(says(complaint(mesh), "element 1 (nodes 2, 0, 3) has the Jacobian -1"));
+  mesh = square();
+  mesh.nodes[3] = {0.5, 0.5};
+  CHECK(says(complaint(mesh), "element 1"));
+  mesh.nodes[3] = {0.5, 0.5 + 1e-13};
+  CHECK(says(complaint(mesh), "element 1"));
+}
+
+TEST_CASE("a node that no element uses is refused") {
+  auto mesh = square();
+  mesh.nodes.emplace_back(7.0, 7.0);
+  CHECK(says(complaint(mesh), "node 4 at (7, 7) belongs to no element"));
+}
+
+TEST_CASE("region numbers without a name and missing region numbers are refused") {
+  auto mesh = square();
+  mesh.element_region[0] = 2;
+  CHECK(says(complaint(mesh), "element 0 has the region number 2 (the mesh names 2 regions: sand, clay)"));
+  mesh.element_region = {0};
+  CHECK(says(complaint(mesh), "2 elements but 1 region numbers"));
+}
+
+TEST_CASE("a boundary facet that is no element's side is refused") {
+  auto mesh = square();
+  mesh.boundaries["bottom"] = {{1, 3}};
+  CHECK(says(complaint(mesh), "boundary 'bottom' holds the facet (1, 3)"));
+}
+
+TEST_CASE("boundary nodes come sorted and once each") {
+  auto mesh = square();
+  mesh.boundaries["ring"] = {{3, 0}, {1, 2}, {0, 1}, {2, 3}};
+  CHECK(scarp::boundary_nodes(mesh, "ring") == std::vector<int>{0, 1, 2, 3});
+}
+
+TEST_CASE("unknown names are refused with the known ones") {
+  CHECK_THROWS_WITH_AS(scarp::boundary_nodes(square(), "top"),
+                       "there is no boundary 'top' (the mesh has: bottom, sides): use one of these names",
+                       scarp::InputError);
+  CHECK_THROWS_WITH_AS(scarp::region_number(square(), "rock"),
+                       "there is no region 'rock' (the mesh has: sand, clay): use one of these names",
+                       scarp::InputError);
+  CHECK(scarp::region_number(square(), "clay") == 1);
+}
