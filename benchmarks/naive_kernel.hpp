@@ -138,8 +138,7 @@ class NaiveKernel {
     double const x = grain.xx * nx + grain.xy * ny;
     double const y = grain.xy * nx + grain.yy * ny;
     double const value = std::sqrt(x * nx + y * ny);
-    return {value, (y * nx - x * ny) / value,
-            (grain.xx * grain.yy - grain.xy * grain.xy) / (value * value * value)};
+    return {value, (y * nx - x * ny) / value, (grain.xx * grain.yy - grain.xy * grain.xy) / (value * value * value)};
   }
 
   static Meeting meet(Pair& pair, Grain const& one, Grain const& two, double dx, double dy) {

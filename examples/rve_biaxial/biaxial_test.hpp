@@ -19,9 +19,9 @@ using Packing = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 struct Choice {
   int grains = 400;
   double preparation_friction = 0.1;
-  double pressure = 2e5;           ///< [Pa]
-  double strain = 0.2;             ///< axial logarithmic strain at the end
-  double strain_per_step = 2e-6;   ///< axial, of one DEM step
+  double pressure = 2e5;          ///< [Pa]
+  double strain = 0.2;            ///< axial logarithmic strain at the end
+  double strain_per_step = 2e-6;  ///< axial, of one DEM step
 };
 
 /// Geotechnical view, compression positive, strains logarithmic. Stresses are means over the steps since the former row,

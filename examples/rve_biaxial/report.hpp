@@ -63,19 +63,18 @@ inline nlohmann::json summarise(Choice const& choice, std::vector<Result> const&
   nlohmann::json summary;
   summary["definitions"] = {
       {"view", "compression positive, logarithmic strains, stresses in Pa"},
-      {"phi_max", "degrees; eq. 8 of the study, sin phi = (s1/s3 - 1)/(s1/s3 + 1), with s1/s3 the mean axial over the mean "
-                  "lateral stress within a window of axial strain; largest over all windows inside the test"},
-      {"psi_max", "degrees; eq. 9 of the study, sin psi = (de1/de3 + 1)/(1 - de1/de3), with the strain increments from end "
-                  "to end of the window; largest over all windows inside the test"},
+      {"phi_max",
+       "degrees; eq. 8 of the study, sin phi = (s1/s3 - 1)/(s1/s3 + 1), with s1/s3 the mean axial over the mean "
+       "lateral stress within a window of axial strain; largest over all windows inside the test"},
+      {"psi_max",
+       "degrees; eq. 9 of the study, sin psi = (de1/de3 + 1)/(1 - de1/de3), with the strain increments from end "
+       "to end of the window; largest over all windows inside the test"},
       {"window", "width in axial strain; `smoothing` is the one that the table shows"},
       {"void_ratio", "area of voids over area of grains after consolidation, overlaps not subtracted"},
       {"standard_deviation", "of the sample over the seeds"}};
-  summary["choice"] = {{"grains", choice.grains},
-                       {"preparation_friction", choice.preparation_friction},
-                       {"pressure", choice.pressure},
-                       {"strain", choice.strain},
-                       {"strain_per_step", choice.strain_per_step},
-                       {"smoothing", smoothing}};
+  summary["choice"] = {
+      {"grains", choice.grains}, {"preparation_friction", choice.preparation_friction}, {"pressure", choice.pressure},
+      {"strain", choice.strain}, {"strain_per_step", choice.strain_per_step},           {"smoothing", smoothing}};
   summary["reference"] = {{"study", {{"phi_max", 30.8}, {"psi_max", 6.6}, {"void_ratio_range", {0.160, 0.179}}}},
                           {"sudodem", {{"phi_max", 33.8}, {"void_ratio", 0.173}}}};
   auto const windows = all_windows(smoothing);

@@ -28,8 +28,9 @@ CLI::Validator number_from(double least, bool inclusive, double most) {
         double value = 0.0;
         bool const fits = CLI::detail::lexical_cast(given, value) && std::isfinite(value) &&
                           (inclusive ? value >= least : value > least) && value <= most;
-        return fits ? ""s : fmt::format("'{}' is out of range (it must be a number {} {} and at most {})", given,
-                                        inclusive ? "from" : "above", least, most);
+        return fits ? ""s
+                    : fmt::format("'{}' is out of range (it must be a number {} {} and at most {})", given,
+                                  inclusive ? "from" : "above", least, most);
       },
       text);
 }
@@ -48,8 +49,9 @@ void declare_options(CLI::App& app, Options& options) {
   auto& choice = options.choice;
   app.add_option("--grains", choice.grains, "grains of the RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--seeds", options.seeds, "number of packings")->check(CLI::Range(1, 10'000));
-  app.add_option("--seed", options.seed, "seed of the first packing; the others follow");
-  app.add_option("--preparation-friction", choice.preparation_friction, "friction during consolidation, sets the density")
+  app.add_option("--seed", options.seed, "seed of the first packing; the others follow")->check(CLI::NonNegativeNumber);
+  app.add_option("--preparation-friction", choice.preparation_friction,
+                 "friction during consolidation, sets the density")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--pressure", choice.pressure, "of the consolidation and of the lateral stress [Pa]")
       ->check(number_from(0.0, false, 1e9));

@@ -21,9 +21,9 @@ using Discs = scarp::Packing<scarp::Disc, scarp::LinearFrictional>;
 using Ellipses = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 using SmoothDiscs = scarp::Packing<scarp::Disc, scarp::Frictionless>;
 
-inline constexpr double density = 2650.0;   // [kg/m3], the study's grains
-inline constexpr double thickness = 0.2;    // [m]
-inline constexpr double pressure = 2e5;     // [Pa]
+inline constexpr double density = 2650.0;  // [kg/m3], the study's grains
+inline constexpr double thickness = 0.2;   // [m]
+inline constexpr double pressure = 2e5;    // [Pa]
 
 inline scarp::LinearFrictional study_law() {
   return {.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
@@ -35,7 +35,8 @@ PackingType place(Tensor<2> const& cell, std::vector<typename PackingType::Shape
                   std::vector<Vector<2>> const& places, std::vector<double> const& angles = {}) {
   using Scalar = typename PackingType::Scalar;
   PackingType packing;
-  packing.population = std::make_shared<scarp::Population<typename PackingType::Shape, Scalar> const>(sizes, density, thickness);
+  packing.population =
+      std::make_shared<scarp::Population<typename PackingType::Shape, Scalar> const>(sizes, density, thickness);
   packing.cell = cell;
   packing.position.resize(sizes.size());
   packing.orientation.resize(sizes.size());

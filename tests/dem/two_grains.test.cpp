@@ -29,8 +29,7 @@ typename PackingType::Shape::template Size<double> size_along_x() {
 template <class PackingType>
 PackingType free_pair(double overlap) {
   auto const size = size_along_x<PackingType>();
-  return place<PackingType>(Tensor<2>::Identity(), {size, size},
-                            {{0.5, 0.5}, {0.5 + 2.0 * reach - overlap, 0.5}});
+  return place<PackingType>(Tensor<2>::Identity(), {size, size}, {{0.5, 0.5}, {0.5 + 2.0 * reach - overlap, 0.5}});
 }
 
 /// The same two grains in a cell so narrow that each touches the other on both sides: an endless row along x, in which
@@ -66,7 +65,8 @@ double leap_frog_from_rest(double frequency, double time_step, int steps) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("a pair released from overlap parts with the frequency of its spring", PackingType, Discs, Ellipses) {
+TEST_CASE_TEMPLATE("a pair released from overlap parts with the frequency of its spring", PackingType, Discs,
+                   Ellipses) {
   constexpr double overlap = 1e-6;
   auto packing = free_pair<PackingType>(overlap);
   auto stepper = undamped<PackingType>(0.05);
@@ -110,8 +110,8 @@ TEST_CASE_TEMPLATE("a collision lasts half a period of the spring and keeps the 
   CHECK(packing.velocity(1, 0) == doctest::Approx(speed).epsilon(1e-3));
 }
 
-TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then swings on its springs", PackingType, Discs,
-                   Ellipses) {
+TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then swings on its springs", PackingType,
+                   Discs, Ellipses) {
   constexpr double overlap = 1e-6;
   constexpr double relative = 4e-3;  // speed of the second grain past the first [m/s]
   auto packing = row<PackingType>(overlap);
@@ -170,7 +170,8 @@ TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then 
   CHECK(smallest == doctest::Approx(-limit).epsilon(1e-2));
 }
 
-TEST_CASE_TEMPLATE("grains of a row spin on their tangential springs with their inertia", PackingType, Discs, Ellipses) {
+TEST_CASE_TEMPLATE("grains of a row spin on their tangential springs with their inertia", PackingType, Discs,
+                   Ellipses) {
   constexpr double overlap = 1e-6;
   auto packing = row<PackingType>(overlap);
   auto stepper = undamped<PackingType>(0.05);
@@ -181,8 +182,7 @@ TEST_CASE_TEMPLATE("grains of a row spin on their tangential springs with their 
   // Analytic: two contacts, both grains roll into them, I w^2 = 4 k_t (r - overlap/2)^2; the normal force
   // of an ellipse's tip adds a share of about overlap / r = 2e-4 of it.
   double const arm = reach - overlap / 2.0;
-  double const frequency =
-      2.0 * arm * std::sqrt(law.tangential_stiffness * packing.population->inverse_inertia()[0]);
+  double const frequency = 2.0 * arm * std::sqrt(law.tangential_stiffness * packing.population->inverse_inertia()[0]);
   double const phase = 2.0 * std::asin(frequency * time_step / 2.0);
   int const last = static_cast<int>(6.28 / phase);
   REQUIRE(last > 50);

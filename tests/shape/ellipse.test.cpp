@@ -22,9 +22,7 @@ static_assert(!scarp::ParticleShape<ShapeWithoutTouch>, "a shape that cannot tel
 
 struct Placed {
   double a, b, angle;
-  std::array<double, 3> pose() const {
-    return Ellipse::pose<double>({a, b}, {std::cos(angle), std::sin(angle)});
-  }
+  std::array<double, 3> pose() const { return Ellipse::pose<double>({a, b}, {std::cos(angle), std::sin(angle)}); }
   /// Support function in the frame of the axes, written without the library.
   double support(double direction) const {
     return std::hypot(a * std::cos(direction - angle), b * std::sin(direction - angle));
@@ -75,7 +73,8 @@ TEST_CASE("the overlap of two ellipses is the least of all directions") {
     // Independent minimum: the grid lies above it by at most f''/2 (pi / 1e5)^2 with f'' below 20 here, that is 1e-8.
     CHECK(touch.overlap <= least + 1e-13);
     CHECK(touch.overlap > least - 1e-8);
-    CHECK(touch.overlap == doctest::Approx(pair.gap_function(std::atan2(touch.normal[1], touch.normal[0]))).epsilon(1e-12));
+    CHECK(touch.overlap ==
+          doctest::Approx(pair.gap_function(std::atan2(touch.normal[1], touch.normal[0]))).epsilon(1e-12));
   }
 }
 
@@ -99,7 +98,8 @@ TEST_CASE("the contact point is the middle between the two support points") {
   }
 }
 
-TEST_CASE("one step from a normal that is off by d leaves an overlap error of third and a normal error of second order") {
+TEST_CASE(
+    "one step from a normal that is off by d leaves an overlap error of third and a normal error of second order") {
   scarp::Random random(7);
   for (int k = 0; k < 10; ++k) {
     RandomPair const pair(random);
@@ -107,7 +107,8 @@ TEST_CASE("one step from a normal that is off by d leaves an overlap error of th
     auto const errors = [&](double off) {
       double const c = std::cos(off);
       double const s = std::sin(off);
-      auto const touch = pair.touch({exact.normal[0] * c - exact.normal[1] * s, exact.normal[0] * s + exact.normal[1] * c});
+      auto const touch =
+          pair.touch({exact.normal[0] * c - exact.normal[1] * s, exact.normal[0] * s + exact.normal[1] * c});
       double const turned = touch.normal[0] * exact.normal[1] - touch.normal[1] * exact.normal[0];
       return std::array<double, 2>{std::abs(touch.overlap - exact.overlap), std::abs(turned)};
     };
@@ -131,8 +132,8 @@ TEST_CASE("an ellipse of aspect one is a disc") {
     Point<2, double> const branch{distance * std::cos(direction), distance * std::sin(direction)};
     auto const disc = Disc::touch<double>({first}, {second}, branch, {});
     auto const start = Point<2, double>{std::cos(direction + 0.3), std::sin(direction + 0.3)};
-    auto const ellipse = scarp::settled_touch<Ellipse>(Placed{first, first, 0.4}.pose(), Placed{second, second, 1.4}.pose(),
-                                                       branch, start);
+    auto const ellipse = scarp::settled_touch<Ellipse>(Placed{first, first, 0.4}.pose(),
+                                                       Placed{second, second, 1.4}.pose(), branch, start);
     // Analytic: the same circle; round-off of sizes near one.
     CHECK(std::abs(disc.overlap - (first + second - distance)) < 1e-15);
     CHECK(std::abs(ellipse.overlap - disc.overlap) < 1e-14);

@@ -61,7 +61,8 @@ std::vector<FormerPair<PackingType::dim>> former_pairs(PackingType const& packin
     shift = (renaming.old_to_new * shift).eval();
     PairName<dim> name{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), {}};
     for (std::size_t a = 0; a < name.shift.size(); ++a) {
-      name.shift[a] = static_cast<int>(std::lround(shift(static_cast<int>(a)))) + renaming.moved[j][a] - renaming.moved[i][a];
+      name.shift[a] =
+          static_cast<int>(std::lround(shift(static_cast<int>(a)))) + renaming.moved[j][a] - renaming.moved[i][a];
     }
     int const direction = sign_of(name.shift);
     bool const swapped = direction < 0 || (direction == 0 && i > j);
@@ -173,31 +174,28 @@ void write_members(Pairs& next, std::vector<NearPair<Dim>> const& found, GrainsA
 }
 
 /// Normals of all pairs, and shear forces of those that were listed before.
-template <class Pairs, int Dim>
-void write_memory(Pairs& next, std::vector<NearPair<Dim>> const& found, Pairs const& former) {
+template <class Shape, class Law, class Scalar>
+void write_memory(NearPairs<Shape, Law, Scalar>& next, std::vector<NearPair<Shape::dim>> const& found,
+                  NearPairs<Shape, Law, Scalar> const& former) {
+  constexpr int dim = Shape::dim;
   next.normal.resize(found.size());
   next.shear.resize(found.size());
   for (std::size_t p = 0; p < found.size(); ++p) {
     auto const& pair = found[p];
-    std::array<double, static_cast<std::size_t>(Dim)> const& normal = pair.normal;
-    if constexpr (Pairs::normal_count > 0) {
-      for (int a = 0; a < Dim; ++a) {
-        next.normal(p, a) = static_cast<typename Pairs::Number>(normal[static_cast<std::size_t>(a)]);
-      }
+    if constexpr (Shape::remembers_normal) {
+      for (int a = 0; a < dim; ++a) next.normal(p, a) = static_cast<Scalar>(pair.normal[static_cast<std::size_t>(a)]);
     }
     if (pair.former == nullptr) continue;
     auto shear = former.shear.row(pair.former->row);
-    if constexpr (Dim == 3) {  // a vector on the second grain changes sign with the roles; the plane's number does not
+    if constexpr (dim == 3) {  // a vector on the second grain changes sign with the roles; the plane's number does not
       if (pair.former->swapped) {
         for (auto& component : shear) component = -component;
       }
     }
     next.shear.set_row(p, shear);
   }
-  if constexpr (Pairs::normal_count > 0) {
-    for (std::size_t p = found.size(); p < next.normal.padded_rows(); ++p) {
-      next.normal.column(0)[p] = typename Pairs::Number(1);
-    }
+  if constexpr (Shape::remembers_normal) {
+    for (std::size_t p = found.size(); p < next.normal.padded_rows(); ++p) next.normal.column(0)[p] = Scalar(1);
   }
 }
 

@@ -91,7 +91,8 @@ GrainsAndImages<PackingType::dim> grains_and_images(PackingType const& packing, 
   for (int a = 0; a < dim; ++a) margin(a) = reach * inverse.row(a).norm();
   for (std::size_t i = 0; i < grains; ++i) {
     PlacedGrain<dim> grain{{}, static_cast<std::int32_t>(i), {}};
-    for (int a = 0; a < dim; ++a) grain.place[static_cast<std::size_t>(a)] = static_cast<double>(packing.position(i, a));
+    for (int a = 0; a < dim; ++a)
+      grain.place[static_cast<std::size_t>(a)] = static_cast<double>(packing.position(i, a));
     all.points.push_back(grain);
   }
   int shifts = 1;

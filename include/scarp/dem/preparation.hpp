@@ -19,8 +19,8 @@ struct Prepared {
 struct IsotropicPreparation {
   double pressure = 0.0;               ///< [Pa], positive
   double preparation_friction = 0.1;   ///< 0 gives the densest packing
-  Servo consolidation{};
-  Servo relaxation{.unbalanced_tolerance = 1e-5};
+  Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
+  Servo relaxation{};
 
   /// \throws InputError for a pressure that is not positive or a negative friction
   template <class PackingType>

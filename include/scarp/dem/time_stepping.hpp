@@ -3,24 +3,12 @@
 
 #include <cmath>
 
-#include "scarp/core/constant.hpp"
 #include "scarp/dem/critical_step.hpp"
+#include "scarp/dem/local_damping.hpp"
 #include "scarp/dem/neighbour_list.hpp"
 #include "scarp/dem/pair_loop.hpp"
 
 namespace scarp {
-
-/// Cundall's local damping: the unbalanced force loses the share `factor` where it does work, gains it where it resists.
-struct LocalDamping {
-  double factor = 0.2;
-
-  template <class T>
-  T operator()(T const& force, T const& velocity) const {
-    using std::abs;
-    using std::copysign;
-    return force - constant<T>(factor) * copysign(abs(force), velocity);
-  }
-};
 
 /// What a step can tell of the packing it moved.
 template <int Dim>
@@ -128,7 +116,7 @@ class TimeStepper {
       Lanes speed(Scalar(0));
       for (int a = 0; a < dim; ++a) {
         Lanes velocity = load(packing.velocity.column(a) + start);
-        velocity += damping(force(static_cast<std::size_t>(a)), velocity) * inverse_mass * dt;
+        velocity = damping.next_velocity(velocity, force(static_cast<std::size_t>(a)), inverse_mass * dt);
         store(velocity, packing.velocity.column(a) + start);
         speed += velocity * velocity;
         Lanes moved = velocity * dt;
@@ -138,7 +126,7 @@ class TimeStepper {
         store(moved, packing.position.column(a) + start);
       }
       Lanes spin = load(packing.spin.column(0) + start);
-      spin += damping(force(dim), spin) * inverse_inertia * dt;
+      spin = damping.next_velocity(spin, force(dim), inverse_inertia * dt);
       store(spin, packing.spin.column(0) + start);
       if constexpr (Shape::orientation_count == 2) {
         // Cayley's rotation keeps (cos, sin) a unit vector to round-off.

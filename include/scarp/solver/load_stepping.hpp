@@ -26,14 +26,14 @@ struct NoObserver {
 /// How far a run came.
 struct RunReport {
   Verdict verdict;
-  Reason last_failure = Reason::none;   ///< why the last refused attempt was refused
-  int worst_point = -1;                 ///< material point of that attempt, -1 for none
-  double load = 0.0;                    ///< load factor of the committed state
-  int steps = 0;                        ///< accepted
-  int refused = 0;                      ///< attempts that were rolled back
-  long iterations = 0;                  ///< of all attempts
-  long inner_steps = 0;                 ///< DEM steps of all attempts
-  double largest_residual = 0.0;        ///< of the accepted steps
+  Reason last_failure = Reason::none;  ///< why the last refused attempt was refused
+  int worst_point = -1;                ///< material point of that attempt, -1 for none
+  double load = 0.0;                   ///< load factor of the committed state
+  int steps = 0;                       ///< accepted
+  int refused = 0;                     ///< attempts that were rolled back
+  long iterations = 0;                 ///< of all attempts
+  long inner_steps = 0;                ///< DEM steps of all attempts
+  double largest_residual = 0.0;       ///< of the accepted steps
   double material_seconds = 0.0;
   double seconds = 0.0;
 };
@@ -42,20 +42,46 @@ struct RunReport {
 /// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved. Only
 /// a step whose residual and points are all acceptable is committed.
 struct LoadStepping {
-  double first = 1e-3;               ///< load increment of the first step
-  double smallest = 1e-7;            ///< increment below which the run gives up
+  double first = 1e-3;     ///< load increment of the first step
+  double smallest = 1e-7;  ///< increment below which the run gives up
   double largest = 1e300;
-  double largest_gradient = 0.01;    ///< of the prediction at any point
-  double growth = 1.4;               ///< after at most `few` iterations
+  double largest_gradient = 0.01;  ///< of the prediction at any point
+  double growth = 1.4;             ///< after at most `few` iterations
   int few = 6;
-  double shrinkage = 0.75;           ///< after more than `many` iterations
+  double shrinkage = 0.75;  ///< after more than `many` iterations
   int many = 10;
+
+  /// One step without growth of the load: brings a prepared state into equilibrium, or says why not.
+  template <class Solver, class Problem, class Observer>
+    requires ObservesSteps<Observer, Problem> RunReport settle(Solver const& solver, Problem& problem, double load,
+                                                               Observer& observer)
+  const {
+    typename Solver::template Session<Problem> session(solver, problem);
+    RunReport run;
+    run.load = load;
+    StepReport step;
+    step.load = load;
+    auto const started = std::chrono::steady_clock::now();
+    Eigen::VectorXd displacement;
+    if (step.verdict = session.begin(); step.verdict.acceptable()) {
+      displacement = session.predict(0.0);
+      session.correct(displacement, step);
+    }
+    step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    bool const accepted = step.verdict.acceptable();
+    if (accepted) session.accept(displacement);
+    count(run, step, accepted);
+    run.verdict = step.verdict;
+    observer.attempted(problem, step);
+    return run;
+  }
 
   /// From load factor `from` to `to` (above it). The problem's committed state must belong to `from`.
   /// \throws InputError for increments or bounds that are not finite and positive
   template <class Solver, class Problem, class Observer>
-    requires ObservesSteps<Observer, Problem>
-  RunReport run(Solver const& solver, Problem& problem, double from, double to, Observer& observer) const {
+    requires ObservesSteps<Observer, Problem> RunReport run(Solver const& solver, Problem& problem, double from,
+                                                            double to, Observer& observer)
+  const {
     require_positive("first load increment", first);
     require_positive("smallest load increment", smallest);
     require_positive("largest gradient of a load step", largest_gradient);
@@ -119,8 +145,10 @@ struct LoadStepping {
 
   static void count(RunReport& run, StepReport const& step, bool accepted) {
     run.iterations += step.iterations();
-    run.inner_steps += step.inner_steps;
-    run.material_seconds += step.material_seconds;
+    for (auto const& record : step.history) {
+      run.inner_steps += record.inner_steps;
+      run.material_seconds += record.material_seconds;
+    }
     run.seconds += step.seconds;
     if (accepted) {
       ++run.steps;

@@ -17,10 +17,10 @@ namespace scarp {
 /// increment; the tangent rule says what the points' tangents become on the way, the mixing what the correction becomes.
 template <class TangentRule = PointSecant, class Mixing = PlainStep, class LinearSolver = SparseLu>
 struct QuasiNewton {
-  double tolerance = 5e-3;    ///< force residual relative to the reactions
+  double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 30;
-  double hopeless = 10.0;     ///< residual beyond which a step is given up
-  int most_refinements = 4;   ///< of points that have not converged when the forces have
+  double hopeless = 10.0;    ///< residual beyond which a step is given up
+  int most_refinements = 4;  ///< of points that have not converged when the forces have
   TangentRule rule{};
   Mixing mixing{};
 
@@ -62,14 +62,13 @@ struct QuasiNewton {
       last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
       last_stresses_ = problem_.committed_stresses();
       for (;;) {
-        Evaluation evaluation = timed(report, [&] { return problem_.evaluate(increment); });
-        report.residuals.push_back(evaluation.residual);
+        report.history.emplace_back();
+        Evaluation evaluation = recorded(report, [&] { return problem_.evaluate(increment); });
         // Points that miss only their own accuracy are given more work before the step counts as done.
         for (int k = 0; k < settings_.most_refinements && evaluation.residual <= settings_.tolerance &&
                         report.verdict.status == Status::not_converged;
              ++k) {
-          evaluation = timed(report, [&] { return problem_.refine(increment); });
-          report.residuals.back() = evaluation.residual;
+          evaluation = recorded(report, [&] { return problem_.refine(increment); });
         }
         if (report.verdict.status == Status::failed) return;
         learn();
@@ -93,11 +92,13 @@ struct QuasiNewton {
 
    private:
     template <class Evaluate>
-    static Evaluation timed(StepReport& report, Evaluate&& evaluate) {
+    static Evaluation recorded(StepReport& report, Evaluate&& evaluate) {
       auto const started = std::chrono::steady_clock::now();
       Evaluation evaluation = evaluate();
-      report.material_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-      report.inner_steps += evaluation.inner_steps;
+      auto& record = report.history.back();
+      record.residual = evaluation.residual;
+      record.inner_steps += evaluation.inner_steps;
+      record.material_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
       report.verdict = evaluation.verdict;
       report.worst_point = evaluation.worst_point;
       return evaluation;

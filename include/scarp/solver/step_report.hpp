@@ -7,21 +7,25 @@
 
 namespace scarp {
 
+struct IterationRecord {
+  double residual = 0.0;
+  long inner_steps = 0;           ///< DEM steps of all points
+  double material_seconds = 0.0;  ///< wall time in the material points
+};
+
 /// How one attempt at a load step went.
 struct StepReport {
-  int step = 0;                      ///< number of the accepted step it was to become, from 1
-  double load = 0.0;                 ///< load factor at its end
+  int step = 0;       ///< number of the accepted step it was to become, from 1
+  double load = 0.0;  ///< load factor at its end
   double load_increment = 0.0;
   Verdict verdict;
-  int worst_point = -1;              ///< material point behind a verdict that is not ok, -1 for none
-  std::vector<double> residuals;     ///< one per iteration
-  double largest_gradient = 0.0;     ///< of the prediction, over all points
-  long inner_steps = 0;              ///< DEM steps of all points and iterations
-  double material_seconds = 0.0;     ///< wall time in the material points
-  double seconds = 0.0;              ///< wall time of the attempt
+  int worst_point = -1;  ///< material point behind a verdict that is not ok, -1 for none
+  std::vector<IterationRecord> history;
+  double largest_gradient = 0.0;  ///< of the prediction, over all points
+  double seconds = 0.0;           ///< wall time of the attempt
 
-  int iterations() const { return static_cast<int>(residuals.size()); }
-  double residual() const { return residuals.empty() ? 0.0 : residuals.back(); }
+  int iterations() const { return static_cast<int>(history.size()); }
+  double residual() const { return history.empty() ? 0.0 : history.back().residual; }
 };
 
 }  // namespace scarp

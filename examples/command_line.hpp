@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+namespace examples {
+
+/// Rejects NaN, infinity and text; CLI11's own range checks let NaN pass.
+inline CLI::Validator number_from(double least, bool inclusive, double most) {
+  auto const text = fmt::format("FLOAT {} {}, at most {}", inclusive ? "from" : "above", least, most);
+  return CLI::Validator(
+      [=](std::string& given) {
+        double value = 0.0;
+        bool const fits = CLI::detail::lexical_cast(given, value) && std::isfinite(value) &&
+                          (inclusive ? value >= least : value > least) && value <= most;
+        return fits ? std::string()
+                    : fmt::format("'{}' is out of range (it must be a number {} {} and at most {})", given,
+                                  inclusive ? "from" : "above", least, most);
+      },
+      text);
+}
+
+/// Why a folder cannot take results, or nothing. The folder itself is made when results are written; what it lies in must
+/// exist, unless it is below the default folder "output".
+inline std::string refused_folder(std::string const& given) {
+  std::filesystem::path const folder = given;
+  if (given.empty()) return "the name of the output folder is empty";
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) return "'" + given + "' is a file";
+  auto const parent = std::filesystem::absolute(folder).lexically_normal().parent_path();
+  if (std::filesystem::exists(folder) || std::filesystem::is_directory(parent)) return {};
+  return "there is no folder '" + parent.string() + "' (the output folder would lie in it): create it first";
+}
+
+}  // namespace examples

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sys/resource.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/scene/outcrop.hpp"
+#include "study.hpp"
+
+namespace fault_rupture {
+
+/// The ground after the geostatic stage, before the fault moves.
+struct AtRest {
+  double k0 = 0.0;  ///< mean over the points of horizontal over vertical stress
+  double k0_min = 0.0;
+  double k0_max = 0.0;
+  double void_ratio_min = 0.0;
+  double void_ratio_max = 0.0;
+  double vertical_error = 0.0;  ///< largest |vertical stress / overburden - 1|
+};
+
+template <class Problem>
+AtRest at_rest(Problem const& problem, FreeField const& scene) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  AtRest rest{0.0, infinity, -infinity, infinity, -infinity, 0.0};
+  int const points = problem.discretisation().point_count();
+  for (int point = 0; point < points; ++point) {
+    auto const stress = problem.materials().committed_stress(point);
+    double const depth = problem.discretisation().site(point, scene.layer.depth).depth;
+    double const ratio = stress(0) / stress(1);
+    rest.k0 += ratio / points;
+    rest.k0_min = std::min(rest.k0_min, ratio);
+    rest.k0_max = std::max(rest.k0_max, ratio);
+    double const overburden = scene.surcharge + scene.unit_weight * depth;
+    rest.vertical_error = std::max(rest.vertical_error, std::abs(-stress(1) / overburden - 1.0));
+    problem.materials().visit(point, [&](auto const& field, int local) {
+      double const void_ratio = field.committed(local).packing.void_ratio();
+      rest.void_ratio_min = std::min(rest.void_ratio_min, void_ratio);
+      rest.void_ratio_max = std::max(rest.void_ratio_max, void_ratio);
+    });
+  }
+  return rest;
+}
+
+struct Usage {
+  double cpu_seconds;
+  double peak_memory_bytes;
+};
+
+inline Usage usage() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  auto const seconds = [](timeval const& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return {seconds(used.ru_utime) + seconds(used.ru_stime), 1024.0 * static_cast<double>(used.ru_maxrss)};
+}
+
+template <class Problem>
+nlohmann::ordered_json summary(Choice const& choice, FreeField const& scene, Problem const& problem, AtRest const& rest,
+                               scarp::RunReport const& run, double wall_seconds) {
+  auto const& grid = problem.discretisation();
+  auto const profile =
+      scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface"));
+  auto const found = scarp::outcrop(profile, run.load);
+  Usage const used = usage();
+  constexpr double from_side = 5.0;  // [m], where the far field is read: the sides themselves are prescribed
+  auto const per_throw = [&](double settlement) {
+    return run.load > 0.0 ? settlement / run.load : std::numeric_limits<double>::quiet_NaN();
+  };
+  nlohmann::ordered_json json;
+  json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
+  json["elements"] = grid.mesh().elements.size();
+  json["grains_per_rve"] = choice.grains;
+  json["seed"] = choice.seed;
+  json["throw_over_depth"] = run.load / scene.layer.depth;
+  json["k0"] = rest.k0;
+  json["k0_min"] = rest.k0_min;
+  json["k0_max"] = rest.k0_max;
+  json["void_ratio_min"] = rest.void_ratio_min;
+  json["void_ratio_max"] = rest.void_ratio_max;
+  json["vertical_stress_error"] = rest.vertical_error;
+  json["outcrop_x"] = found.outcrop_x;
+  json["steepest_x"] = found.steepest_x;
+  json["outcrop_width"] = found.width;
+  json["settlement_foot_over_throw"] = per_throw(scarp::settlement_at(profile, scene.layer.left + from_side));
+  json["settlement_hanging_over_throw"] = per_throw(scarp::settlement_at(profile, scene.layer.right - from_side));
+  json["tolerance"] = choice.tolerance;
+  json["max_accepted_residual"] = run.largest_residual;
+  json["steps"] = run.steps;
+  json["refused_steps"] = run.refused;
+  json["last_refusal"] = std::string(name(run.last_failure));
+  json["iterations"] = run.iterations;
+  json["dem_steps"] = run.inner_steps;
+  json["share_of_time_in_rves"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
+  json["threads"] = problem.executor().threads();
+  json["cpu_seconds"] = used.cpu_seconds;
+  json["wall_seconds"] = wall_seconds;
+  json["peak_memory_bytes"] = used.peak_memory_bytes;
+  return json;
+}
+
+/// The run beside the study's numbers, as text.
+inline std::string table(nlohmann::ordered_json const& json) {
+  auto const number = [&](char const* key) { return json[key].is_number() ? json[key].get<double>() : std::nan(""); };
+  std::string text = fmt::format("{:<44} {:>12} {}\n", "quantity", "this run", "  study / yardstick");
+  auto const row = [&](std::string const& what, std::string const& value, char const* reference) {
+    text += fmt::format("{:<44} {:>12}   {}\n", what, value, reference);
+  };
+  row("K0 before faulting, mean", fmt::format("{:.3f}", number("k0")), "about 0.4");
+  row("void ratio over the depth", fmt::format("{:.3f}-{:.3f}", number("void_ratio_min"), number("void_ratio_max")),
+      "0.160-0.179");
+  row("vertical stress against overburden, largest error",
+      fmt::format("{:.2f} %", 100.0 * number("vertical_stress_error")), "0");
+  row("throw / depth", fmt::format("{:.4f}", number("throw_over_depth")), "0.085");
+  row("outcrop_x [m]: steepest line meets the surface", fmt::format("{:.2f}", number("outcrop_x")),
+      "-12.5 (surface starts to deflect); dip alone -14.4");
+  row("steepest_x [m]", fmt::format("{:.2f}", number("steepest_x")), "sharp band: -14.5 to -6.5");
+  row("outcrop_width [m]", fmt::format("{:.2f}", number("outcrop_width")), "mild and broad slope, no figure given");
+  row("settlement of the far foot wall / throw", fmt::format("{:.4f}", number("settlement_foot_over_throw")), "0");
+  row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_over_throw")),
+      "1");
+  row("largest residual of an accepted step", fmt::format("{:.2e}", number("max_accepted_residual")), "not reported");
+  return text;
+}
+
+}  // namespace fault_rupture

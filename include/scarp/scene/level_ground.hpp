@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/dem/cloud.hpp"
+#include "scarp/dem/preparation.hpp"
+
+namespace scarp {
+
+/// A packing could not be brought to where a scene needs it.
+class PreparationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Level ground of packings without a macroscopic solve: all its columns are alike, so one packing is consolidated at a small
+/// pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy.
+template <class Grading>
+struct LevelGround {
+  Cloud<Grading> cloud{};
+  double unit_weight = 15.68e3;  ///< [N/m3]
+  double surcharge = 4e3;        ///< [Pa]
+  IsotropicPreparation preparation{.pressure = 2e3, .preparation_friction = 0.085};
+  OneDimensionalCompression compression{};
+
+  double overburden(double depth) const { return surcharge + unit_weight * depth; }
+
+  /// depths [m], any order; equal ones (to 1e-6 m) share a packing
+  /// \throws PreparationError when a stress is not reached, InputError for bad parameters
+  template <class PackingType>
+  PackingsByDepth<PackingType> make(typename PackingType::Law const& law, std::vector<double> depths) const {
+    std::sort(depths.begin(), depths.end());
+    depths.erase(std::unique(depths.begin(), depths.end(), [](double a, double b) { return b - a < 1e-6; }),
+                 depths.end());
+    std::vector<double> pressures;
+    for (double const depth : depths) pressures.push_back(overburden(depth));
+    auto const base = preparation.prepare(cloud.template make<PackingType>(), law);
+    if (!base.verdict.acceptable()) {
+      throw PreparationError(fmt::format("the packing did not reach {} Pa ({}): try another seed or a higher pressure",
+                                         preparation.pressure, name(base.verdict.reason)));
+    }
+    auto column = compression.compress(base.packing, law, pressures);
+    if (!column.back().verdict.acceptable()) {
+      throw PreparationError(
+          fmt::format("the column of packings stopped at {} Pa vertical stress ({}): try another seed",
+                      pressures[column.size() - 1], name(column.back().verdict.reason)));
+    }
+    PackingsByDepth<PackingType> ground{std::move(depths), {}};
+    for (auto& prepared : column) ground.packings.push_back(std::move(prepared.packing));
+    return ground;
+  }
+};
+
+}  // namespace scarp

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <boost/hana/for_each.hpp>
+#include <boost/hana/tuple.hpp>
+
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// Several observers as one; each hears of every attempt, any may ask to stop.
+template <class... Parts>
+struct Observers {
+  boost::hana::tuple<Parts...> parts;
+
+  explicit Observers(Parts... each) : parts(std::move(each)...) {}
+
+  template <class Problem>
+  void attempted(Problem const& problem, StepReport const& report) {
+    boost::hana::for_each(parts, [&](auto& part) { part.attempted(problem, report); });
+  }
+
+  bool wants_stop() const {
+    bool stop = false;
+    boost::hana::for_each(parts, [&](auto const& part) { stop = stop || part.wants_stop(); });
+    return stop;
+  }
+};
+
+/// Observer behaviour of one that never stops a run.
+struct NeverStops {
+  static bool wants_stop() { return false; }
+};
+
+}  // namespace scarp

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <boost/hana/for_each.hpp>
+#include <boost/hana/transform.hpp>
+#include <boost/hana/tuple.hpp>
+#include <boost/hana/unpack.hpp>
+#include <string>
+#include <vector>
+
+#include "scarp/bvp/discretisation.hpp"
+#include "scarp/constitutive/material_field.hpp"
+
+namespace scarp {
+
+/// A named region of the mesh and the provider of its points.
+template <ConstitutiveProvider ProviderType>
+struct Region {
+  using Provider = ProviderType;
+
+  std::string name;
+  Provider provider;
+};
+
+template <class Provider>
+Region(std::string, Provider) -> Region<Provider>;
+
+/// The material side of a model of several regions, each with its own type of provider: this is where they meet.
+template <ConstitutiveProvider... Providers>
+class RegionMaterials {
+ public:
+  static constexpr int dim = std::common_type_t<std::integral_constant<int, Providers::dim>...>::value;
+  static_assert(((Providers::dim == dim) && ...), "all regions of a scene have the same dimension");
+
+  /// surface_level [m]: height of the ground surface, from which depths are measured
+  /// \throws InputError for a region that the mesh does not have, or one of the mesh without provider
+  template <class Element, class Motion>
+  RegionMaterials(Discretisation<Element, Motion> const& discretisation, double surface_level,
+                  boost::hana::tuple<Region<Providers>...> const& regions)
+      : where_(static_cast<std::size_t>(discretisation.point_count())),
+        fields_(boost::hana::transform(regions, [&, field = 0](auto const& region) mutable {
+          return make_field(discretisation, surface_level, region, field++);
+        })) {
+    for (std::size_t point = 0; point < where_.size(); ++point) {
+      if (where_[point].field >= 0) continue;
+      int const region = discretisation.site(static_cast<int>(point), surface_level).region;
+      refuse("region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
+             discretisation.mesh().regions[static_cast<std::size_t>(region)], point);
+    }
+  }
+
+  int point_count() const { return static_cast<int>(where_.size()); }
+
+  /// Calls visit(field, local point) with the provider field that a point belongs to.
+  template <class Visit>
+  void visit(int point, Visit&& visit) const {
+    visit_in(fields_, point, visit);
+  }
+  template <class Visit>
+  void visit(int point, Visit&& visit) {
+    visit_in(fields_, point, visit);
+  }
+
+  void plan(int point, Gradient<dim> const& predicted) {
+    visit(point, [&](auto& field, int local) { field.plan(local, predicted); });
+  }
+  void refine_plan(int point) {
+    visit(point, [](auto& field, int local) { field.refine_plan(local); });
+  }
+  Response<dim> respond(int point, Gradient<dim> const& increment) {
+    Response<dim> response;
+    visit(point, [&](auto& field, int local) { response = field.respond(local, increment); });
+    return response;
+  }
+  long work(int point) const {
+    long work = 0;
+    visit(point, [&](auto const& field, int local) { work = field.work(local); });
+    return work;
+  }
+  VoigtStress<dim> committed_stress(int point) const {
+    VoigtStress<dim> stress;
+    visit(point, [&](auto const& field, int local) { stress = field.committed_stress(local); });
+    return stress;
+  }
+  VoigtTangent<dim> committed_tangent(int point) const {
+    VoigtTangent<dim> tangent;
+    visit(point, [&](auto const& field, int local) { tangent = field.committed_tangent(local); });
+    return tangent;
+  }
+  VoigtTangent<dim> trial_tangent(int point) const {
+    VoigtTangent<dim> tangent;
+    visit(point, [&](auto const& field, int local) { tangent = field.trial_tangent(local); });
+    return tangent;
+  }
+  void commit() {
+    boost::hana::for_each(fields_, [](auto& field) { field.commit(); });
+  }
+
+ private:
+  struct Place {
+    int field = -1;
+    int local = -1;
+  };
+
+  template <class DiscretisationType, class Provider>
+  ProviderField<Provider> make_field(DiscretisationType const& discretisation, double surface_level,
+                                     Region<Provider> const& region, int field) {
+    int const number = region_number(discretisation.mesh(), region.name);
+    std::vector<Site<dim>> sites;
+    for (int point = 0; point < discretisation.point_count(); ++point) {
+      auto const site = discretisation.site(point, surface_level);
+      if (site.region != number) continue;
+      where_[static_cast<std::size_t>(point)] = {field, static_cast<int>(sites.size())};
+      sites.push_back(site);
+    }
+    return ProviderField<Provider>(region.provider, sites);
+  }
+
+  template <class Fields, class Visit>
+  void visit_in(Fields& fields, int point, Visit& visit) const {
+    Place const place = where_[static_cast<std::size_t>(point)];
+    int number = 0;
+    boost::hana::for_each(fields, [&](auto& field) {
+      if (number++ == place.field) visit(field, place.local);
+    });
+  }
+
+  std::vector<Place> where_;
+  boost::hana::tuple<ProviderField<Providers>...> fields_;
+};
+
+}  // namespace scarp

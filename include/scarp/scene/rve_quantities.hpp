@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scarp/homogenise/fabric.hpp"
+
+namespace scarp {
+
+/// Named numbers of a material point.
+using Quantities = std::vector<std::pair<std::string_view, double>>;
+
+/// What an observer may ask of points that have nothing but stress.
+struct NoQuantities {
+  template <class Provider>
+  Quantities operator()(Provider const&, typename Provider::State const&) const {
+    return {};
+  }
+};
+
+/// Void ratio, fabrics, coordination and balance of points that carry a packing; nothing of others.
+struct RveQuantities {
+  template <class Provider>
+  Quantities operator()(Provider const& provider, typename Provider::State const& state) const {
+    if constexpr (requires { state.packing.void_ratio(); }) {
+      Quantities quantities{
+          {"void_ratio", state.packing.void_ratio()},
+          {"contact_fabric", fabric_anisotropy(contact_fabric(state.packing, provider.law))},
+          {"coordination", coordination(state.packing, provider.law)},
+          {"unbalanced_ratio", state.unbalanced_ratio},
+      };
+      if constexpr (requires { particle_fabric(state.packing); }) {
+        quantities.emplace_back("particle_fabric", fabric_anisotropy(particle_fabric(state.packing)));
+      }
+      return quantities;
+    } else {
+      return {};
+    }
+  }
+};
+
+}  // namespace scarp

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <chrono>
+
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// Ends a run between two attempts once its wall time is spent. [s]; zero means no limit.
+class TimeLimit {
+ public:
+  explicit TimeLimit(double seconds) : seconds_(seconds), started_(std::chrono::steady_clock::now()) {}
+
+  template <class Problem>
+  void attempted(Problem const&, StepReport const&) {}
+
+  bool wants_stop() const {
+    return seconds_ > 0.0 &&
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count() > seconds_;
+  }
+
+ private:
+  double seconds_;
+  std::chrono::steady_clock::time_point started_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/dem/critical_step.hpp"
+
+#include <doctest/doctest.h>
+
+#include "dem/sample_packings.hpp"
+
+namespace {
+
+using samples::SmoothDiscs;
+using scarp::Tensor;
+
+constexpr scarp::Frictionless smooth{.normal_stiffness = 6e6};
+
+/// Largest speed after undamped steps of a lattice that was nudged by 1e-9 m/s at random; `share` of the listed step.
+double speed_after(int steps, double share) {
+  auto packing = samples::triangular_lattice<SmoothDiscs>(4, 5e-3, 1e-2 * (1.0 - 1e-4));
+  scarp::Random random(23);
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    for (int a = 0; a < 2; ++a) packing.velocity(i, a) = random.uniform(-1e-9, 1e-9);
+  }
+  scarp::TimeStepper<SmoothDiscs> stepper;
+  stepper.damping.factor = 0.0;
+  stepper.time_step_share = share;
+  for (int step = 0; step < steps; ++step) {
+    if (!stepper.step(packing, smooth, Tensor<2>::Zero()).acceptable()) return 1e300;
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    largest = std::max(largest, std::hypot(packing.velocity(i, 0), packing.velocity(i, 1)));
+  }
+  return largest;
+}
+
+double bound_of_lattice() {
+  auto packing = samples::triangular_lattice<SmoothDiscs>(4, 5e-3, 1e-2 * (1.0 - 1e-4));
+  REQUIRE(scarp::rebuild_pairs(packing, 1e-4).acceptable());
+  return scarp::critical_step(packing, smooth);
+}
+
+/// Analytic: omega_max^2 = 6 k_n / m at the edge of the Brillouin zone, which a period of four rows contains.
+double exact_limit_of_lattice() {
+  double const mass = samples::density * samples::thickness * scarp::Disc::content({5e-3});
+  return 2.0 / std::sqrt(6.0 * smooth.normal_stiffness / mass);
+}
+
+}  // namespace
+
+TEST_CASE("the critical step of a lattice is a bound below its exact limit") {
+  double const mass = samples::density * samples::thickness * scarp::Disc::content({5e-3});
+  CHECK(exact_limit_of_lattice() == doctest::Approx(0.8165 * std::sqrt(mass / smooth.normal_stiffness)).epsilon(1e-4));
+  double const bound = bound_of_lattice();
+  CHECK(bound <= exact_limit_of_lattice());
+  // Analytic: six equal pairs share each grain, one alone has omega^2 = k_n (6/m + 6/m).
+  CHECK(bound == doctest::Approx(2.0 / std::sqrt(12.0 * smooth.normal_stiffness / mass)).epsilon(1e-12));
+}
+
+TEST_CASE("the scheme is stable at the bound and just below the exact limit, and blows up above it") {
+  double const exact_share = exact_limit_of_lattice() / bound_of_lattice();
+  double const still = speed_after(0, 1.0);
+  CHECK(speed_after(2000, 1.0) < 20.0 * still);
+  CHECK(speed_after(2000, 0.98 * exact_share) < 50.0 * still);  // near the limit leap-frog amplifies, but stays bounded
+  // Analytic: at 1.05 of the limit the worst mode grows by 1.88 per step, by 1e5 within 20 steps.
+  CHECK(speed_after(40, 1.05 * exact_share) > 1e4 * still);
+}
+
+TEST_CASE_TEMPLATE("a consolidated packing stays at rest at its bound", PackingType, samples::Discs,
+                   samples::Ellipses) {
+  auto const law = samples::study_law();
+  auto packing = samples::consolidated<PackingType>(80).packing;
+  scarp::TimeStepper<PackingType> stepper;
+  stepper.damping.factor = 0.0;
+  scarp::StepObservation<2> seen;
+  for (int step = 0; step < 3000; ++step) {
+    REQUIRE(stepper.template step<true>(packing, law, Tensor<2>::Zero(), &seen).acceptable());
+  }
+  CHECK(seen.unbalanced_ratio < 1e-3);  // started at 1e-5; an unstable mode would have grown without bound
+}
+
+TEST_CASE("loose grains have the step of the lightest between two others") {
+  auto const packing = samples::place<SmoothDiscs>(Tensor<2>::Identity(), {{5e-3}, {2e-3}}, {{0.1, 0.1}, {0.7, 0.7}});
+  double const lightest = samples::density * samples::thickness * scarp::Disc::content({2e-3});
+  // Analytic: omega^2 = 4 k_n / m for a grain between two fixed walls whose springs count double.
+  CHECK(scarp::critical_step(packing, smooth) ==
+        doctest::Approx(2.0 / std::sqrt(4.0 * smooth.normal_stiffness / lightest)).epsilon(1e-12));
+}

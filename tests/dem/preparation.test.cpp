@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/dem/preparation.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "dem/sample_packings.hpp"
+#include "scarp/homogenise/balance.hpp"
+
+namespace {
+
+using samples::Discs;
+using samples::Ellipses;
+using scarp::ComponentLoading;
+using scarp::Reason;
+using scarp::Status;
+using scarp::Tensor;
+using scarp::Verdict;
+using scarp::VoigtStress;
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("an isotropic target is reached within its tolerance and in balance", PackingType, Discs, Ellipses) {
+  auto const& prepared = samples::consolidated<PackingType>(80);
+  REQUIRE(prepared.verdict == Verdict{});
+  auto const state = scarp::balance(prepared.packing, samples::study_law());
+  // The servo's own tolerance, 1e-4 of the pressure, with as much again for the last move after its check.
+  CHECK(std::abs(state.stress(0, 0) / samples::pressure + 1.0) < 2e-4);
+  CHECK(std::abs(state.stress(1, 1) / samples::pressure + 1.0) < 2e-4);
+  CHECK(std::abs(state.stress(0, 1) / samples::pressure) < 2e-4);
+  CHECK(state.unbalanced_ratio < 1e-4);
+  CHECK(state.unbalanced_ratio > 0.0);
+}
+
+TEST_CASE("a target that no packing can carry ends as unreachable without any work") {
+  auto packing = samples::consolidated<Ellipses>(80).packing;
+  auto const before = packing;
+  scarp::TimeStepper<Ellipses> stepper;
+  scarp::Servo const servo;
+  for (VoigtStress<2> const& target : {VoigtStress<2>(1e5, -1e5, 0.0), VoigtStress<2>(0.0, 0.0, 0.0),
+                                       VoigtStress<2>(-1e5, std::numeric_limits<double>::quiet_NaN(), 0.0)}) {
+    auto const loading = ComponentLoading<2>::all_stress(target);
+    CHECK(servo.reach(stepper, packing, samples::study_law(), loading) ==
+          Verdict{Status::not_converged, Reason::unreachable});
+    CHECK(packing == before);
+  }
+}
+
+TEST_CASE("a target beyond the strength ends within the allowed steps") {
+  auto packing = samples::consolidated<Ellipses>(80).packing;
+  scarp::TimeStepper<Ellipses> stepper;
+  scarp::Servo const servo{.most_steps = 3000};
+  // A stress ratio of 20 would take a friction angle of 65 degrees.
+  auto const loading = ComponentLoading<2>::all_stress(VoigtStress<2>(-2e4, -4e5, 0.0));
+  auto const verdict = servo.reach(stepper, packing, samples::study_law(), loading);
+  CHECK_FALSE(verdict.acceptable());
+  CHECK(verdict.reason != Reason::none);
+}
+
+TEST_CASE("preparation refuses impossible pressures, frictions and clouds") {
+  auto const nan = std::numeric_limits<double>::quiet_NaN();
+  auto const prepare = [](double pressure, double friction) {
+    scarp::IsotropicPreparation const preparation{.pressure = pressure, .preparation_friction = friction};
+    return preparation.prepare(samples::loose_cloud<Discs>(20, 1), samples::study_law());
+  };
+  CHECK_THROWS_AS(prepare(0.0, 0.1), scarp::InputError);
+  CHECK_THROWS_AS(prepare(nan, 0.1), scarp::InputError);
+  CHECK_THROWS_AS(prepare(1e5, -0.1), scarp::InputError);
+  CHECK_THROWS_AS(samples::loose_cloud<Discs>(0, 1), scarp::InputError);
+  scarp::Cloud<scarp::DiscGrading> crowded{
+      .grading = {1e-3, 1e-3}, .grains = 50, .density = 1.0, .thickness = 1.0, .seed = 1, .filled_share = 0.95};
+  CHECK_THROWS_AS(crowded.make<Discs>(), scarp::InputError);
+  crowded.filled_share = nan;
+  CHECK_THROWS_AS(crowded.make<Discs>(), scarp::InputError);
+  crowded.filled_share = 0.4;
+  crowded.density = -1.0;
+  CHECK_THROWS_AS(crowded.make<Discs>(), scarp::InputError);
+}
+
+TEST_CASE("a cloud touches nowhere and has its grading") {
+  auto const packing = samples::loose_cloud<Ellipses>(100, 5);
+  auto listed = packing;
+  REQUIRE(scarp::rebuild_pairs(listed, 1e-3).acceptable());
+  CHECK(scarp::balance(listed, samples::study_law()).contacts == 0);
+  double smallest = 1.0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    auto const size = packing.population->size(i);
+    smallest = std::min(smallest, size[0]);
+    largest = std::max(largest, size[0]);
+    CHECK(size[1] == doctest::Approx(0.75 * size[0]).epsilon(1e-15));
+  }
+  CHECK(smallest >= 4e-3);
+  CHECK(largest < 6e-3);
+  CHECK(largest - smallest > 1.5e-3);  // a hundred uniform draws fill the range
+}
+
+TEST_CASE("the study's packing has the void ratio of the study") {
+  auto const& prepared = samples::consolidated<Ellipses>(400);
+  REQUIRE(prepared.verdict == Verdict{});
+  // The study (section 3.2): 0.160 to 0.179 throughout its ground; preparation friction 0.1.
+  CHECK(prepared.packing.void_ratio() > 0.160);
+  CHECK(prepared.packing.void_ratio() < 0.179);
+  MESSAGE("void ratio " << prepared.packing.void_ratio());
+}
+
+TEST_CASE("more preparation friction makes a looser packing") {
+  double former = 0.0;
+  for (double const friction : {0.0, 0.1, 0.55}) {
+    scarp::IsotropicPreparation const preparation{.pressure = samples::pressure, .preparation_friction = friction};
+    auto const prepared = preparation.prepare(samples::loose_cloud<Ellipses>(100, 2), samples::study_law());
+    REQUIRE(prepared.verdict.acceptable());
+    CHECK(prepared.packing.void_ratio() > former + 0.01);
+    former = prepared.packing.void_ratio();
+  }
+}
+
+TEST_CASE("two preparations from one seed have the same bits") {
+  scarp::IsotropicPreparation const preparation{.pressure = samples::pressure};
+  auto const again = preparation.prepare(samples::loose_cloud<Ellipses>(80, 1), samples::study_law()).packing;
+  auto const& before = samples::consolidated<Ellipses>(80).packing;
+  CHECK(again.position == before.position);
+  CHECK(again.orientation == before.orientation);
+  CHECK(again.pairs == before.pairs);
+  CHECK(again.cell == before.cell);
+  auto const other = samples::consolidated<Ellipses>(80, 2).packing;
+  CHECK_FALSE(other.position == before.position);
+}
+
+TEST_CASE("one-dimensional compression meets its stresses with an earth pressure at rest like sand") {
+  auto const law = samples::study_law();
+  scarp::IsotropicPreparation const preparation{.pressure = 1e4};
+  auto const start = preparation.prepare(samples::loose_cloud<Ellipses>(200, 3), law);
+  REQUIRE(start.verdict.acceptable());
+  std::vector<double> const pressures{2e4, 1e5, 4e5};
+  auto const column = scarp::OneDimensionalCompression{}.compress(start.packing, law, pressures);
+  REQUIRE(column.size() == pressures.size());
+  double void_ratio = start.packing.void_ratio();
+  for (std::size_t k = 0; k < column.size(); ++k) {
+    CHECK(column[k].verdict.acceptable());
+    Tensor<2> const stress = scarp::balance(column[k].packing, law).stress;
+    // The servo's tolerance, 1e-3 of the target, with as much again for the last move.
+    CHECK(stress(1, 1) == doctest::Approx(-pressures[k]).epsilon(2e-3));
+    CHECK(std::abs(stress(0, 1)) < 2e-3 * pressures[k]);
+    double const k0 = stress(0, 0) / stress(1, 1);
+    MESSAGE("vertical pressure " << pressures[k] << ": K0 " << k0 << ", e " << column[k].packing.void_ratio());
+    // Another code: the prototype's 0.34 to 0.42, the study's about 0.4; wide, because 200 grains scatter. The first
+    // pressure still remembers the isotropic start, where the ratio is one.
+    if (k > 0) {
+      CHECK(k0 > 0.25);
+      CHECK(k0 < 0.6);
+    }
+    CHECK(column[k].packing.void_ratio() < void_ratio);
+    void_ratio = column[k].packing.void_ratio();
+  }
+  CHECK_THROWS_AS(scarp::OneDimensionalCompression{}.compress(start.packing, law, {-1.0}), scarp::InputError);
+}
