@@ -8,6 +8,7 @@
 
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/core/tensor.hpp"
+#include "scarp/dem/local_damping.hpp"
 #include "scarp/dem/packing.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
@@ -34,7 +35,8 @@ class NaiveKernel {
     double nx, ny, shear;
   };
 
-  NaiveKernel(PackingType const& packing, scarp::LinearFrictional const& law, double damping, double time_step)
+  NaiveKernel(PackingType const& packing, scarp::LinearFrictional const& law, scarp::LocalDamping const& damping,
+              double time_step)
       : law_(law), damping_(damping), time_step_(time_step), cell_(packing.cell) {
     auto const& population = *packing.population;
     for (std::size_t i = 0; i < packing.grain_count(); ++i) {
@@ -166,8 +168,9 @@ class NaiveKernel {
     }
   }
 
-  double damped(double force, double velocity) const {
-    return force - damping_ * std::copysign(std::abs(force), velocity);
+  double next(double velocity, double force, double mobility) const {
+    double const damped = force - damping_.factor * std::copysign(std::abs(force), velocity);
+    return (1.0 - damping_.drag) * velocity + damped * mobility * time_step_;
   }
 
   void move(scarp::Tensor<2> const& strain) {
@@ -175,9 +178,9 @@ class NaiveKernel {
     scarp::Tensor<2> const cell_step = identity + strain * (identity + strain / 2.0);  // exponential, strains are tiny
     double const turn = (strain(1, 0) - strain(0, 1)) / 2.0;
     for (auto& grain : grains_) {
-      grain.vx += damped(grain.fx, grain.vx) * grain.inverse_mass * time_step_;
-      grain.vy += damped(grain.fy, grain.vy) * grain.inverse_mass * time_step_;
-      grain.spin += damped(grain.torque, grain.spin) * grain.inverse_inertia * time_step_;
+      grain.vx = next(grain.vx, grain.fx, grain.inverse_mass);
+      grain.vy = next(grain.vy, grain.fy, grain.inverse_mass);
+      grain.spin = next(grain.spin, grain.torque, grain.inverse_inertia);
       double const x = cell_step(0, 0) * grain.x + cell_step(0, 1) * grain.y + grain.vx * time_step_;
       grain.y = cell_step(1, 0) * grain.x + cell_step(1, 1) * grain.y + grain.vy * time_step_;
       grain.x = x;
@@ -187,7 +190,7 @@ class NaiveKernel {
   }
 
   scarp::LinearFrictional law_;
-  double damping_;
+  scarp::LocalDamping damping_;
   double time_step_;
   scarp::Tensor<2> cell_;
   std::vector<Grain> grains_;

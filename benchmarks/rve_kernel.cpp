@@ -162,7 +162,8 @@ void dem_step(benchmark::State& state, int grains) {
 
 /// Largest difference of force [N] and torque over lever [N] between both kernels, relative to the largest contact force.
 template <class PackingType>
-double disagreement(PackingType packing, scarp::LinearFrictional const& law, double damping, double time_step) {
+double disagreement(PackingType packing, scarp::LinearFrictional const& law, scarp::LocalDamping const& damping,
+                    double time_step) {
   scarp_benchmark::NaiveKernel<PackingType> naive(packing, law, damping, time_step);
   scarp::PairScratch<typename PackingType::Shape, double> scratch;
   scarp::Tensor<2> strain;
@@ -191,11 +192,11 @@ void dem_step_naive(benchmark::State& state, int grains) {
   SlowShear shear;
   for (int warm_up = 0; warm_up < 400; ++warm_up) static_cast<void>(stepper.step(packing, law, shear.next()));
   double const time_step = packing.pairs.critical_step;
-  if (!(disagreement(packing, law, stepper.damping.factor, time_step) < 1e-9)) {
+  if (!(disagreement(packing, law, stepper.damping, time_step) < 1e-9)) {
     state.SkipWithError("the naive kernel's forces differ from the library's by more than 1e-9");
     return;
   }
-  scarp_benchmark::NaiveKernel<PackingType> naive(packing, law, stepper.damping.factor, time_step);
+  scarp_benchmark::NaiveKernel<PackingType> naive(packing, law, stepper.damping, time_step);
   for (auto _ : state) naive.step(shear.next());
   benchmark::DoNotOptimize(naive.grains().data());
   tell(state, naive.pair_count(), contact_count(packing, law));

@@ -49,7 +49,8 @@ void declare_options(CLI::App& app, Options& options) {
   auto& choice = options.choice;
   app.add_option("--grains", choice.grains, "grains of the RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--seeds", options.seeds, "number of packings")->check(CLI::Range(1, 10'000));
-  app.add_option("--seed", options.seed, "seed of the first packing; the others follow")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", options.seed, "seed of the first packing; the others follow")
+      ->check(number_from(0.0, true, 1e15));
   app.add_option("--preparation-friction", choice.preparation_friction,
                  "friction during consolidation, sets the density")
       ->check(number_from(0.0, true, 10.0));

@@ -15,7 +15,8 @@ struct LawWithoutStiffness {
   static constexpr bool remembers_shear = false;
   double respond(Approach<2, double> const&, double&) const { return 0.0; }
 };
-static_assert(!scarp::ContactLaw<LawWithoutStiffness>, "a law that cannot tell its stiffness must be refused");
+static_assert(!LawWithoutStiffness::remembers_shear && !scarp::ContactLaw<LawWithoutStiffness>,
+              "a law that cannot tell its stiffness must be refused");
 static_assert(!Frictionless::remembers_shear && LinearFrictional::remembers_shear);
 static_assert(!scarp::Frictional<Frictionless>, "there is no friction to exchange in a frictionless law");
 

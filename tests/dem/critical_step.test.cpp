@@ -20,7 +20,7 @@ double speed_after(int steps, double share) {
     for (int a = 0; a < 2; ++a) packing.velocity(i, a) = random.uniform(-1e-9, 1e-9);
   }
   scarp::TimeStepper<SmoothDiscs> stepper;
-  stepper.damping.factor = 0.0;
+  stepper.damping = {.factor = 0.0, .drag = 0.0};
   stepper.time_step_share = share;
   for (int step = 0; step < steps; ++step) {
     if (!stepper.step(packing, smooth, Tensor<2>::Zero()).acceptable()) return 1e300;
@@ -69,7 +69,7 @@ TEST_CASE_TEMPLATE("a consolidated packing stays at rest at its bound", PackingT
   auto const law = samples::study_law();
   auto packing = samples::consolidated<PackingType>(80).packing;
   scarp::TimeStepper<PackingType> stepper;
-  stepper.damping.factor = 0.0;
+  stepper.damping = {.factor = 0.0, .drag = 0.0};
   scarp::StepObservation<2> seen;
   for (int step = 0; step < 3000; ++step) {
     REQUIRE(stepper.template step<true>(packing, law, Tensor<2>::Zero(), &seen).acceptable());

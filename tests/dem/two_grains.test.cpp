@@ -46,7 +46,7 @@ PackingType row(double overlap) {
 template <class PackingType>
 scarp::TimeStepper<PackingType> undamped(double share) {
   scarp::TimeStepper<PackingType> stepper;
-  stepper.damping.factor = 0.0;
+  stepper.damping = {.factor = 0.0, .drag = 0.0};
   stepper.time_step_share = share;
   return stepper;
 }

@@ -20,7 +20,7 @@ struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 30;
   double hopeless = 10.0;    ///< residual beyond which a step is given up
-  int most_refinements = 4;  ///< of points that have not converged when the forces have
+  int most_refinements = 4;  ///< of points that have not converged, in each iteration
   TangentRule rule{};
   Mixing mixing{};
 
@@ -64,17 +64,15 @@ struct QuasiNewton {
       for (;;) {
         report.history.emplace_back();
         Evaluation evaluation = recorded(report, [&] { return problem_.evaluate(increment); });
-        // Points that miss only their own accuracy are given more work before the step counts as done.
-        for (int k = 0; k < settings_.most_refinements && evaluation.residual <= settings_.tolerance &&
-                        report.verdict.status == Status::not_converged;
-             ++k) {
+        // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
+        for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
           evaluation = recorded(report, [&] { return problem_.refine(increment); });
         }
         if (report.verdict.status == Status::failed) return;
         learn();
-        if (evaluation.residual <= settings_.tolerance) return;
+        if (evaluation.residual <= settings_.tolerance && report.verdict.acceptable()) return;
         if (report.iterations() >= settings_.most_iterations || evaluation.residual > settings_.hopeless) {
-          report.verdict = {Status::not_converged, Reason::iterations_spent};
+          if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
           return;
         }
         problem_.stiffness(increment, working_, stiffness_);

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/solver/load_stepping.hpp"
+
+#include <doctest/doctest.h>
+
+#include "solver/sample_block.hpp"
+
+namespace {
+
+using sample::Softening;
+using scarp::Reason;
+using scarp::Status;
+using scarp::Verdict;
+using SoftBlock = sample::Block<Softening>;
+
+static_assert(scarp::ObservesSteps<scarp::NoObserver, SoftBlock::Problem> &&
+              !scarp::ObservesSteps<scarp::PlainStep, SoftBlock::Problem>);
+
+scarp::LoadStepping stepping() { return {.first = 1e-3, .smallest = 1e-6, .largest = 4e-3, .largest_gradient = 0.1}; }
+
+double largest_strain(SoftBlock::Problem const& problem) {
+  double largest = 0.0;
+  for (int k = 0; k < problem.materials().point_count(); ++k) {
+    largest = std::max(largest, problem.materials().committed(k).strain.norm());
+  }
+  return largest;
+}
+
+/// Largest difference of the top's height to 1 m plus the load.
+double height_error(SoftBlock::Problem const& problem, double load) {
+  double worst = 0.0;
+  for (int const node : scarp::boundary_nodes(problem.discretisation().mesh(), "top")) {
+    worst = std::max(worst, std::abs(problem.discretisation().positions()[static_cast<std::size_t>(node)](1) - 1.0 - load));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("a softening block is pulled past its peak in steps that the observer hears of one by one") {
+  scarp::SerialExecutor serial;
+  auto problem = SoftBlock::make({.reference_strain = 0.02}, serial);
+  auto witness = sample::watch(problem);
+  scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
+  auto const run = stepping().run(solver, problem, 0.0, 0.03, witness);
+  CHECK(run.verdict == Verdict{});
+  CHECK(run.load == 0.03);
+  CHECK(run.largest_residual <= solver.tolerance);
+  CHECK(run.steps + run.refused == static_cast<int>(witness.reports.size()));
+  CHECK(witness.changed_by_refused == 0);
+  CHECK(witness.unchanged_by_accepted == 0);
+  long iterations = 0;
+  double load = 0.0;
+  for (auto const& report : witness.reports) {
+    iterations += report.iterations();
+    if (!report.verdict.acceptable()) continue;
+    CHECK(report.load > load);
+    CHECK(report.load - load == doctest::Approx(report.load_increment).epsilon(1e-9));
+    load = report.load;
+  }
+  CHECK(iterations == run.iterations);
+  // Analytic: prescribed displacement = load factor; a sum of some tens of increments, the last cut off at `smallest`.
+  CHECK(height_error(problem, 0.03) < 1e-6);
+  CHECK(largest_strain(problem) > 0.02);  // beyond the reference strain the law has passed its peak at 0.02/sqrt(2)
+}
+
+TEST_CASE("a step that fails is rolled back to the bit and tried again in smaller ones") {
+  scarp::SerialExecutor serial;
+  auto problem = SoftBlock::make({.largest_increment = 1.5e-3}, serial);
+  auto witness = sample::watch(problem);
+  auto const run = stepping().run(scarp::QuasiNewton<>{}, problem, 0.0, 0.02, witness);
+  CHECK(run.verdict == Verdict{});
+  CHECK(run.load == 0.02);
+  CHECK(run.refused >= 2);
+  CHECK(run.last_failure == Reason::cell_collapsed);
+  CHECK(witness.changed_by_refused == 0);
+  // An attempt after a refused one is half as large.
+  for (std::size_t k = 1; k < witness.reports.size(); ++k) {
+    if (witness.reports[k - 1].verdict.acceptable()) continue;
+    CHECK(witness.reports[k].load_increment == 0.5 * witness.reports[k - 1].load_increment);
+    CHECK(witness.reports[k].step == witness.reports[k - 1].step);
+  }
+  CHECK(height_error(problem, 0.02) < 1e-6);
+}
+
+TEST_CASE("a material that ends somewhere ends the run there, with its reason and its point") {
+  scarp::SerialExecutor serial;
+  constexpr double limit = 0.01;
+  auto problem = SoftBlock::make({.largest_strain = limit}, serial);
+  auto witness = sample::watch(problem);
+  auto const run = stepping().run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 0.1, witness);
+  CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
+  CHECK(run.last_failure == Reason::cell_collapsed);
+  CHECK(run.load > 0.0);
+  CHECK(run.load < 0.1);
+  CHECK(witness.changed_by_refused == 0);
+  CHECK(height_error(problem, run.load) < 1e-6);
+  // Close below the limit: one more step of `smallest` = 1e-6 m on 1 m, concentrated a few times, would cross it.
+  CHECK(largest_strain(problem) <= limit);
+  CHECK(largest_strain(problem) > limit - 1e-5);
+  REQUIRE(run.worst_point >= 0);
+  CHECK(problem.materials().committed(run.worst_point).strain.norm() > limit - 1e-5);
+}
+
+TEST_CASE("a stress that is not a number is reported with its point and never committed") {
+  scarp::SerialExecutor serial;
+  constexpr int silent = 7;
+  auto problem = SoftBlock::make({.largest_strain = 5e-3, .silent_point = silent}, serial);
+  auto witness = sample::watch(problem);
+  auto const run = stepping().run(scarp::QuasiNewton<>{}, problem, 0.0, 0.1, witness);
+  CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
+  CHECK(run.last_failure == Reason::not_finite);
+  CHECK(run.worst_point == silent);
+  CHECK(witness.changed_by_refused == 0);
+  CHECK(run.load > 0.0);
+  for (auto const& stress : problem.committed_stresses()) CHECK(stress.allFinite());
+  for (auto const& position : problem.discretisation().positions()) CHECK(position.allFinite());
+}
+
+TEST_CASE("a stress that is not a number is seen even where no free node feels it") {
+  // One triangle, all nodes prescribed, and a dead load that a residual could be measured against instead.
+  scarp::Mesh<scarp::Tri3> mesh;
+  mesh.nodes = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}};
+  mesh.elements = {{0, 1, 2}, {1, 3, 2}};
+  mesh.element_region = {0, 0};
+  mesh.regions = {"soil"};
+  scarp::Constraints constraints(mesh);
+  for (int const node : {0, 1, 2}) constraints.fix(node);
+  SoftBlock::Grid grid(mesh);
+  std::vector<scarp::Site<2>> sites{grid.site(0, 1.0), grid.site(1, 1.0)};
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(8);
+  load(7) = -1e3;
+  scarp::SerialExecutor serial;
+  SoftBlock::Problem problem(grid, {Softening{.largest_strain = -1.0, .silent_point = 0}, sites}, constraints, load,
+                             serial);
+  auto witness = sample::watch(problem);
+  auto const run = stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, witness);
+  CHECK(run.verdict == Verdict{Status::failed, Reason::not_finite});
+  CHECK(run.worst_point == 0);
+  CHECK(run.steps == 0);
+}
+
+TEST_CASE("iterations that are used up are a failure and nothing is committed") {
+  scarp::SerialExecutor serial;
+  auto problem = SoftBlock::make({.reference_strain = 0.02}, serial);
+  auto witness = sample::watch(problem);
+  sample::Committed<SoftBlock::Problem> const before(problem);
+  scarp::QuasiNewton<> const solver{.tolerance = 1e-30, .most_iterations = 3};
+  auto const run = stepping().run(solver, problem, 0.0, 0.01, witness);
+  CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
+  CHECK(run.last_failure == Reason::iterations_spent);
+  CHECK(run.steps == 0);
+  CHECK(run.load == 0.0);
+  for (auto const& report : witness.reports) CHECK(report.iterations() == 3);
+  CHECK(sample::Committed<SoftBlock::Problem>(problem) == before);
+}
+
+TEST_CASE("an observer stops a run between two attempts") {
+  scarp::SerialExecutor serial;
+  auto problem = SoftBlock::make({.reference_strain = 0.02}, serial);
+  auto witness = sample::watch(problem);
+  witness.stop_after = 3;
+  auto const run = stepping().run(scarp::QuasiNewton<>{}, problem, 0.0, 0.02, witness);
+  CHECK(run.verdict == Verdict{Status::not_converged, Reason::interrupted});
+  CHECK(witness.reports.size() == 3);
+  CHECK(run.load == witness.reports.back().load);
+  CHECK(height_error(problem, run.load) < 1e-6);
+  // What was stopped can go on.
+  witness.stop_after = 1000;
+  CHECK(stepping().run(scarp::QuasiNewton<>{}, problem, run.load, 0.02, witness).verdict == Verdict{});
+}
+
+TEST_CASE("the prediction's largest gradient limits every step before it is tried") {
+  scarp::SerialExecutor serial;
+  auto problem = SoftBlock::make({}, serial);
+  auto witness = sample::watch(problem);
+  auto steps = stepping();
+  steps.largest = 1.0;
+  steps.first = 1.0;
+  steps.largest_gradient = 2e-3;
+  auto const run = steps.run(scarp::QuasiNewton<>{}, problem, 0.0, 0.02, witness);
+  CHECK(run.verdict == Verdict{});
+  CHECK(run.refused == 0);
+  CHECK(run.steps >= 10);  // analytic: the mean strain alone, 0.02, takes ten steps of at most 2e-3
+  for (auto const& report : witness.reports) CHECK(report.largest_gradient <= 1.001 * 2e-3);
+}
+
+TEST_CASE("a body that nothing holds is not called balanced") {
+  scarp::SerialExecutor serial;
+  auto const held = SoftBlock::make({}, serial);
+  auto const& grid = held.discretisation();
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+  Eigen::VectorXd const load = Eigen::VectorXd::Constant(grid.dof_count(), 1e3);
+  SoftBlock::Problem problem(grid, {Softening{}, sites}, scarp::Constraints(grid.mesh()), load, serial);
+  scarp::NoObserver nobody;
+  auto const run = stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, nobody);
+  CHECK_FALSE(run.verdict.acceptable());
+  CHECK(run.steps == 0);
+  CHECK(problem.discretisation().positions() == grid.positions());
+}
+
+TEST_CASE("a run refuses bounds that are no numbers") {
+  scarp::SerialExecutor serial;
+  auto problem = SoftBlock::make({}, serial);
+  scarp::NoObserver nobody;
+  double const nan = std::nan("");
+  scarp::QuasiNewton<> const solver;
+  auto const run = [&](scarp::LoadStepping const& steps, double from, double to) {
+    return steps.run(solver, problem, from, to, nobody);
+  };
+  CHECK_THROWS_WITH_AS(run(stepping(), 0.0, nan), doctest::Contains("load factor"), scarp::InputError);
+  CHECK_THROWS_AS(run(stepping(), nan, 1.0), scarp::InputError);
+  CHECK_THROWS_AS(run(stepping(), 0.0, sample::infinity), scarp::InputError);
+  CHECK_THROWS_AS(run({.first = nan}, 0.0, 1.0), scarp::InputError);
+  CHECK_THROWS_AS(run({.first = 0.0}, 0.0, 1.0), scarp::InputError);
+  CHECK_THROWS_AS(run({.smallest = -1.0}, 0.0, 1.0), scarp::InputError);
+  CHECK_THROWS_AS(run({.largest_gradient = nan}, 0.0, 1.0), scarp::InputError);
+  // Nothing to do is no error.
+  CHECK(run(stepping(), 1.0, 1.0).verdict == Verdict{});
+  CHECK(run(stepping(), 1.0, 1.0).steps == 0);
+}

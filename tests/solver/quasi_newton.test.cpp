@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/solver/quasi_newton.hpp"
+
+#include <doctest/doctest.h>
+
+#include <map>
+
+#include "bvp/sample_problems.hpp"
+#include "scarp/bvp/loads.hpp"
+#include "scarp/solver/anderson_mixing.hpp"
+#include "scarp/solver/frozen_tangent.hpp"
+#include "solver/sample_block.hpp"
+
+namespace {
+
+using scarp::Reason;
+using scarp::Status;
+using scarp::Verdict;
+
+template <class Solver, class Problem>
+scarp::StepReport one_step(Solver const& solver, Problem& problem, double load_increment) {
+  typename Solver::template Session<Problem> session(solver, problem);
+  scarp::StepReport report;
+  REQUIRE(session.begin().acceptable());
+  Eigen::VectorXd increment = session.predict(load_increment);
+  session.correct(increment, report);
+  if (report.verdict.acceptable()) session.accept(increment);
+  return report;
+}
+
+Eigen::VectorXd displacements(scarp::Mesh<scarp::Tri3> const& mesh, std::vector<scarp::Vector<2>> const& positions) {
+  Eigen::VectorXd all(2 * static_cast<int>(positions.size()));
+  for (std::size_t n = 0; n < positions.size(); ++n) {
+    all.segment<2>(2 * static_cast<int>(n)) = positions[n] - mesh.nodes[n];
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("a linear problem is solved by its prediction", Solver, scarp::QuasiNewton<>,
+                   scarp::QuasiNewton<scarp::FrozenTangent>,
+                   scarp::QuasiNewton<scarp::FrozenTangent, scarp::AndersonMixing>) {
+  using Block = sample::Block<sample::Softening>;
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({}, serial);
+  Solver const solver{.tolerance = 1e-10};
+  auto const report = one_step(solver, problem, 0.01);
+  CHECK(report.verdict == Verdict{});
+  CHECK(report.iterations() == 1);
+  // Another path to the same numbers: the direct solution by tests/bvp/sample_problems.hpp. Round-off of two solves.
+  auto const& grid = problem.discretisation();
+  std::vector<scarp::VoigtStress<2>> const none(static_cast<std::size_t>(grid.point_count()),
+                                                scarp::VoigtStress<2>::Zero());
+  std::vector<scarp::VoigtTangent<2>> const tangents(none.size(), sample::elastic_soil().tangent({}));
+  auto const stiffness = grid.stiffness(Eigen::VectorXd::Zero(grid.dof_count()), none, tangents);
+  Eigen::VectorXd const moved = problem.constraints().displacement(0.01);
+  Eigen::VectorXd const direct = moved + sample::solve_free(stiffness, problem.constraints(), -(stiffness * moved));
+  CHECK((displacements(grid.mesh(), grid.positions()) - direct).norm() < 1e-12 * direct.norm());
+}
+
+TEST_CASE("linear elasticity at small strain needs one or two iterations") {
+  scarp::SerialExecutor serial;
+  auto problem = sample::Block<scarp::LinearElastic<2>>::make(sample::elastic_soil(), serial);
+  // The provider's strain measure departs from the linear one by its square: 1e-4 relative at 1e-4, so one correction.
+  auto const report = one_step(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 1e-4);
+  CHECK(report.verdict == Verdict{});
+  CHECK(report.iterations() <= 2);
+}
+
+TEST_CASE("large strains converge to the same state with every tangent rule and mixing") {
+  using Block = sample::Block<scarp::LinearElastic<2>, scarp::UpdatedLagrangian>;
+  scarp::SerialExecutor serial;
+  auto first = Block::make(sample::elastic_soil(), serial);
+  auto second = Block::make(sample::elastic_soil(), serial);
+  auto third = Block::make(sample::elastic_soil(), serial);
+  constexpr double tolerance = 1e-9;
+  constexpr int enough = 100;
+  using Frozen = scarp::QuasiNewton<scarp::FrozenTangent>;
+  using Mixed = scarp::QuasiNewton<scarp::FrozenTangent, scarp::AndersonMixing>;
+  auto const secant = one_step(scarp::QuasiNewton<>{.tolerance = tolerance, .most_iterations = enough}, first, 0.2);
+  auto const frozen = one_step(Frozen{.tolerance = tolerance, .most_iterations = enough}, second, 0.2);
+  auto const mixed = one_step(Mixed{.tolerance = tolerance, .most_iterations = enough}, third, 0.2);
+  REQUIRE(secant.verdict == Verdict{});
+  REQUIRE(frozen.verdict == Verdict{});
+  REQUIRE(mixed.verdict == Verdict{});
+  CHECK(secant.iterations() > 2);  // the problem is not linear
+  // A residual of 1e-9 of the reactions leaves displacements of that order over the block's stiffness: 1e-7 of a metre.
+  for (std::size_t n = 0; n < first.discretisation().positions().size(); ++n) {
+    auto const& place = first.discretisation().positions()[n];
+    CHECK((place - second.discretisation().positions()[n]).norm() < 1e-7);
+    CHECK((place - third.discretisation().positions()[n]).norm() < 1e-7);
+  }
+}
+
+TEST_CASE("a column settles under its own weight by the exact parabola") {
+  constexpr double unit_weight = 18e3;
+  constexpr double height = 6.0;
+  using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
+  Grid grid(scarp::RectangleMesh{.width = 4.0, .height = height, .columns = 4, .rows = 5}.generate(), 0.2);
+  scarp::Constraints constraints(grid.mesh());
+  for (auto const* wall : {"left", "right"}) {
+    for (int const node : scarp::boundary_nodes(grid.mesh(), wall)) constraints.fix(node, 0);
+  }
+  for (int const node : scarp::boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node, 1);
+  Eigen::VectorXd const weight = scarp::body_force(grid, [](int) { return scarp::Vector<2>(0.0, -unit_weight); });
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, height));
+  scarp::SerialExecutor serial;
+  sample::Softening const soil{};
+  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<sample::Softening>, scarp::SerialExecutor>;
+  Problem problem(grid, {soil, sites}, constraints, weight, serial);
+  scarp::NoObserver nobody;
+  auto const run = scarp::LoadStepping{}.settle(scarp::QuasiNewton<>{.tolerance = 1e-10}, problem, 0.0, nobody);
+  REQUIRE(run.verdict == Verdict{});
+  CHECK(run.steps == 1);
+  double const modulus = sample::elastic_soil().lame_lambda + 2.0 * sample::elastic_soil().shear_modulus;
+  int checked = 0;
+  for (int n = 0; n < 5 * 6; ++n) {  // grid nodes come first, centres of the cells later
+    // Analytic: u = -gamma (H y - y^2/2) / M, exact at the grid nodes (see bvp/gravity_column.test.cpp).
+    auto const k = static_cast<std::size_t>(n);
+    double const y = grid.mesh().nodes[k](1);
+    double const moved = problem.discretisation().positions()[k](1) - y;
+    double const exact = -unit_weight * (height * y - y * y / 2.0) / modulus;
+    CHECK(std::abs(moved - exact) < 1e-11 * unit_weight * height * height / modulus);  // round-off of solve and sum
+    checked += y > 0.0 ? 1 : 0;
+  }
+  CHECK(checked == 25);
+}
+
+TEST_CASE("settling that fails commits nothing and says why") {
+  scarp::SerialExecutor serial;
+  using Block = sample::Block<sample::Softening>;
+  auto problem = Block::make({.largest_strain = -1.0}, serial);
+  auto witness = sample::watch(problem);
+  auto const run = scarp::LoadStepping{}.settle(scarp::QuasiNewton<>{}, problem, 0.0, witness);
+  CHECK(run.verdict == Verdict{Status::failed, Reason::cell_collapsed});
+  CHECK(run.refused == 1);
+  CHECK(run.worst_point == 0);
+  CHECK(witness.reports.size() == 1);
+  CHECK(witness.changed_by_refused == 0);
+}
+
+TEST_CASE("every point's plan stays what it was at the start of the load step") {
+  using Block = sample::Block<sample::Planning>;
+  scarp::SerialExecutor serial;
+  sample::Planning const soil;
+  auto problem = Block::make(soil, serial);
+  using Solver = scarp::QuasiNewton<scarp::FrozenTangent>;
+  Solver const solver{.tolerance = 1e-6};
+  for (int step = 0; step < 2; ++step) {
+    soil.calls->clear();
+    auto const report = one_step(solver, problem, 1e-3 * (step + 1));
+    REQUIRE(report.verdict == Verdict{});
+    REQUIRE(report.iterations() > 2);
+    std::map<int, int> first;
+    std::map<int, int> times;
+    long work = 0;
+    for (auto const& call : *soil.calls) {
+      CHECK(first.emplace(call.point, call.plan).first->second == call.plan);
+      ++times[call.point];
+      work += call.plan;
+    }
+    CHECK(static_cast<int>(first.size()) == problem.materials().point_count());
+    for (auto const& [point, count] : times) CHECK(count == report.iterations());
+    long told = 0;
+    for (auto const& record : report.history) told += record.inner_steps;
+    CHECK(told == work);
+  }
+}
+
+TEST_CASE("points short of their own accuracy work harder within the step, the others do not") {
+  using Block = sample::Block<sample::Planning>;
+  scarp::SerialExecutor serial;
+  sample::Planning const soil{.needed = 12'000};
+  auto problem = Block::make(soil, serial);
+  auto const report = one_step(scarp::QuasiNewton<scarp::FrozenTangent>{.tolerance = 1e-6}, problem, 1e-3);
+  REQUIRE(report.verdict == Verdict{});
+  std::map<int, std::vector<int>> plans;
+  for (auto const& call : *soil.calls) plans[call.point].push_back(call.plan);
+  int refined = 0;
+  int left = 0;
+  for (auto const& [point, used] : plans) {
+    CHECK(used.back() >= soil.needed);
+    for (std::size_t k = 1; k < used.size(); ++k) {
+      // Either as before or doubled, and doubled only when it was not enough.
+      CHECK((used[k] == used[k - 1] || (used[k] == 2 * used[k - 1] && used[k - 1] < soil.needed)));
+    }
+    (used.back() > used.front() ? refined : left) += 1;
+  }
+  MESSAGE(refined << " points refined, " << left << " not");
+  CHECK(refined > 0);
+  CHECK(left > 0);
+}
+
+TEST_CASE("points that never converge fail the step with their own reason") {
+  using Block = sample::Block<sample::Planning>;
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({.needed = 2'000'000'000}, serial);
+  auto witness = sample::watch(problem);
+  scarp::LoadStepping const stepping{.first = 1e-3, .smallest = 1e-4};
+  scarp::QuasiNewton<> const solver{.most_iterations = 4, .most_refinements = 2};
+  auto const run = stepping.run(solver, problem, 0.0, 1e-3, witness);
+  CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
+  CHECK(run.last_failure == Reason::unbalanced);
+  CHECK(run.worst_point >= 0);
+  CHECK(run.steps == 0);
+  CHECK(witness.changed_by_refused == 0);
+}
