@@ -44,13 +44,25 @@ void solve(benchmark::State& state) {
 }
 
 BENCHMARK(solve<scarp::PointSecant, scarp::PlainStep>)
-    ->Name("fault/point_secant/plain")->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
+    ->Name("fault/point_secant/plain")
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime();
 BENCHMARK(solve<scarp::PointSecant, scarp::AndersonMixing>)
-    ->Name("fault/point_secant/anderson")->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
+    ->Name("fault/point_secant/anderson")
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime();
 BENCHMARK(solve<scarp::FrozenTangent, scarp::AndersonMixing>)
-    ->Name("fault/frozen/anderson")->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
+    ->Name("fault/frozen/anderson")
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime();
 BENCHMARK(solve<scarp::FrozenTangent, scarp::PlainStep>)
-    ->Name("fault/frozen/plain")->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
+    ->Name("fault/frozen/plain")
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime();
 
 }  // namespace
 

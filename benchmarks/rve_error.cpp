@@ -22,8 +22,10 @@ constexpr double increment = 1e-3;
 
 Packing const& start() {
   static Packing const packing = [] {
-    scarp::Cloud<scarp::EllipseGrading> const cloud{
-        .grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75}, .grains = 400, .density = 2650.0, .thickness = 0.2};
+    scarp::Cloud<scarp::EllipseGrading> const cloud{.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75},
+                                                    .grains = 400,
+                                                    .density = 2650.0,
+                                                    .thickness = 0.2};
     return scarp::IsotropicPreparation{.pressure = pressure}.prepare(cloud.make<Packing>(), law).packing;
   }();
   return packing;

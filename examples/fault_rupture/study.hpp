@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "../study_sand.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/grading.hpp"
 #include "scarp/scene/free_field_fault.hpp"
 #include "scarp/scene/level_ground.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -25,7 +24,7 @@ struct Choice {
   int triangles = 0;  ///< wanted number instead of `size`; 0 for none
   int grains = 400;
   std::uint64_t seed = 1;
-  double preparation_friction = 0.085;
+  double preparation_friction = 0.08;
   double throw_over_depth = 0.085;
   double dip = 60.0;  ///< [degrees]
   double tip = 0.0;   ///< [m]
@@ -57,14 +56,9 @@ inline std::vector<double> depths(scarp::FaultMesh const& layer) {
 inline FreeField make_scene(Choice const& choice) {
   scarp::FaultMesh layer{.tip = choice.tip, .size = choice.size};
   if (choice.triangles > 0) layer = layer.with_about(choice.triangles);
-  constexpr double study_stiffness = 6e6;  // [N/m], normal and tangential
-  scarp::LinearFrictional const law{study_stiffness, study_stiffness, 0.55};
+  auto const law = examples::study_law();
   scarp::LevelGround<scarp::EllipseGrading> ground;
-  ground.cloud = {.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75},
-                  .grains = choice.grains,
-                  .density = 2650.0,
-                  .thickness = 0.2,
-                  .seed = choice.seed};
+  ground.cloud = examples::study_cloud(choice.grains, choice.seed);
   ground.preparation.preparation_friction = choice.preparation_friction;
   auto const packings = ground.make<Grains>(law, depths(layer));
 

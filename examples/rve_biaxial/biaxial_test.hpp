@@ -4,9 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/cloud.hpp"
-#include "scarp/dem/grading.hpp"
+#include "../study_sand.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/fabric.hpp"
@@ -18,10 +16,10 @@ using Packing = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 /// What the user may choose; the rest is the study's material.
 struct Choice {
   int grains = 400;
-  double preparation_friction = 0.1;
-  double pressure = 2e5;          ///< [Pa]
-  double strain = 0.2;            ///< axial logarithmic strain at the end
-  double strain_per_step = 2e-6;  ///< axial, of one DEM step
+  double preparation_friction = 0.12;  ///< puts the void ratio in the study's range
+  double pressure = 2e5;               ///< [Pa]
+  double strain = 0.2;                 ///< axial logarithmic strain at the end
+  double strain_per_step = 2e-6;       ///< axial, of one DEM step
 };
 
 /// Geotechnical view, compression positive, strains logarithmic. Stresses are means over the steps since the former row,
@@ -48,21 +46,12 @@ struct Result {
   std::vector<Row> rows;
 };
 
-/// The contact law of the study's grains, section 3.1.
-inline scarp::LinearFrictional study_law() {
-  return {.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
-}
+using examples::study_law;
 
-/// The study's grains: "radius between 4 mm and 6 mm" read as the semi-major axis, aspect 0.75.
 inline scarp::Prepared<Packing> consolidated_packing(Choice const& choice, std::uint64_t seed) {
-  scarp::Cloud<scarp::EllipseGrading> const cloud{.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75},
-                                                  .grains = choice.grains,
-                                                  .density = 2650.0,
-                                                  .thickness = 0.2,
-                                                  .seed = seed};
   scarp::IsotropicPreparation const preparation{.pressure = choice.pressure,
                                                 .preparation_friction = choice.preparation_friction};
-  return preparation.prepare(cloud.make<Packing>(), study_law());
+  return preparation.prepare(examples::study_cloud(choice.grains, seed).make<Packing>(), study_law());
 }
 
 inline Row describe(Packing const& packing, double axial_strain, double volumetric_strain,

@@ -9,6 +9,7 @@
 
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
+#include "scarp/io/packing_tables.hpp"
 #include "strength.hpp"
 
 namespace rve_biaxial {
@@ -25,27 +26,6 @@ inline void write_curves(std::filesystem::path const& folder, std::vector<Result
     }
   }
   table.write(folder / "biaxial.csv");
-}
-
-/// The packing after consolidation: lengths [m], forces [N].
-inline void write_packing(std::filesystem::path const& folder, Packing const& packing) {
-  scarp::CsvTable grains({"x", "y", "a", "b", "cos", "sin"});
-  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-    auto const size = packing.population->size(i);
-    grains.add(packing.position(i, 0), packing.position(i, 1), size[0], size[1], packing.orientation(i, 0),
-               packing.orientation(i, 1));
-  }
-  scarp::CsvTable contacts({"x1", "y1", "x2", "y2", "normal_force"});
-  scarp::for_each_contact(packing, study_law(), [&](scarp::Contact<2> const& contact) {
-    double const x = packing.position(contact.first, 0);
-    double const y = packing.position(contact.first, 1);
-    contacts.add(x, y, x + contact.branch(0), y + contact.branch(1), contact.normal_force);
-  });
-  scarp::CsvTable cell({"a1x", "a1y", "a2x", "a2y"});
-  cell.add(packing.cell(0, 0), packing.cell(1, 0), packing.cell(0, 1), packing.cell(1, 1));
-  grains.write(folder / "packing_grains.csv");
-  contacts.write(folder / "packing_contacts.csv");
-  cell.write(folder / "packing_cell.csv");
 }
 
 inline std::vector<double> all_windows(double smoothing) {
@@ -69,6 +49,7 @@ inline nlohmann::json summarise(Choice const& choice, std::vector<Result> const&
       {"psi_max",
        "degrees; eq. 9 of the study, sin psi = (de1/de3 + 1)/(1 - de1/de3), with the strain increments from end "
        "to end of the window; largest over all windows inside the test"},
+      {"psi_secant", "degrees; eq. 9 with the increments from the largest contraction to the end of the test"},
       {"window", "width in axial strain; `smoothing` is the one that the table shows"},
       {"void_ratio", "area of voids over area of grains after consolidation, overlaps not subtracted"},
       {"standard_deviation", "of the sample over the seeds"}};
@@ -84,6 +65,7 @@ inline nlohmann::json summarise(Choice const& choice, std::vector<Result> const&
     nlohmann::json entry{{"seed", result.seed},
                          {"void_ratio", result.rows.front().void_ratio},
                          {"coordination", result.rows.front().coordination},
+                         {"psi_secant", secant_dilation_angle(result.rows)},
                          {"peaks", nlohmann::json::array()}};
     for (double const window : windows) {
       auto const peak = peak_angles(result.rows, window);  // NaN becomes null
@@ -96,16 +78,11 @@ inline nlohmann::json summarise(Choice const& choice, std::vector<Result> const&
     summary["seeds"].push_back(entry);
   }
   summary["void_ratio"] = to_json(spread_of(void_ratios));
+  summary["psi_secant"] =
+      to_json(spread_over(results, [](Result const& result) { return secant_dilation_angle(result.rows); }));
   for (double const window : windows) {
-    std::vector<double> friction;
-    std::vector<double> dilation;
-    for (auto const& result : results) {
-      auto const peak = peak_angles(result.rows, window);
-      friction.push_back(peak.friction_angle);
-      dilation.push_back(peak.dilation_angle);
-    }
-    summary["windows"].push_back(
-        {{"window", window}, {"phi_max", to_json(spread_of(friction))}, {"psi_max", to_json(spread_of(dilation))}});
+    auto const [friction, dilation] = peak_spreads(results, window);
+    summary["windows"].push_back({{"window", window}, {"phi_max", to_json(friction)}, {"psi_max", to_json(dilation)}});
   }
   return summary;
 }
@@ -114,7 +91,7 @@ inline void write_all(std::filesystem::path const& folder, Choice const& choice,
                       double smoothing) {
   std::filesystem::create_directories(folder);
   write_curves(folder, results);
-  write_packing(folder, results.front().consolidated);
+  scarp::write_packing_tables(folder, results.front().consolidated, study_law());
   scarp::write_file(folder / "summary.json", summarise(choice, results, smoothing).dump(2) + "\n");
 }
 

@@ -6,11 +6,10 @@
 #include <iostream>
 #include <thread>
 
+#include "../command_line.hpp"
 #include "report.hpp"
 
 namespace {
-
-using namespace std::string_literals;
 
 struct Options {
   rve_biaxial::Choice choice;
@@ -20,32 +19,8 @@ struct Options {
   std::string output = "output/rve_biaxial";
 };
 
-/// Rejects NaN, infinity and text; CLI11's own range checks let NaN pass.
-CLI::Validator number_from(double least, bool inclusive, double most) {
-  auto const text = fmt::format("FLOAT {} {}, at most {}", inclusive ? "from" : "above", least, most);
-  return CLI::Validator(
-      [=](std::string& given) {
-        double value = 0.0;
-        bool const fits = CLI::detail::lexical_cast(given, value) && std::isfinite(value) &&
-                          (inclusive ? value >= least : value > least) && value <= most;
-        return fits ? ""s
-                    : fmt::format("'{}' is out of range (it must be a number {} {} and at most {})", given,
-                                  inclusive ? "from" : "above", least, most);
-      },
-      text);
-}
-
-/// The folder itself is made when results are written; what it lies in must exist, unless it is the default.
-std::string refused_folder(std::string const& given) {
-  std::filesystem::path const folder = given;
-  if (given.empty()) return "the name of the output folder is empty";
-  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) return "'" + given + "' is a file";
-  auto const parent = std::filesystem::absolute(folder).lexically_normal().parent_path();
-  if (std::filesystem::exists(folder) || std::filesystem::is_directory(parent)) return {};
-  return "there is no folder '" + parent.string() + "' (the output folder would lie in it): create it first";
-}
-
 void declare_options(CLI::App& app, Options& options) {
+  using examples::number_from;
   auto& choice = options.choice;
   app.add_option("--grains", choice.grains, "grains of the RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--seeds", options.seeds, "number of packings")->check(CLI::Range(1, 10'000));
@@ -62,7 +37,7 @@ void declare_options(CLI::App& app, Options& options) {
   app.add_option("--smoothing", options.smoothing, "strain window through which the table's peaks are read")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--output", options.output, "folder for biaxial.csv, packing_*.csv, summary.json")
-      ->check([](std::string const& given) { return refused_folder(given); });
+      ->check([](std::string const& given) { return examples::refused_folder(given); });
   app.set_config("--config", "", "file with lines `option = value`");
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.option_defaults()->always_capture_default();
@@ -128,18 +103,14 @@ void print_table(std::vector<rve_biaxial::Result> const& results, Options const&
                result.rows.front().coordination, peak.friction_angle, peak.dilation_angle);
   }
   for (double const window : rve_biaxial::all_windows(options.smoothing)) {
-    std::vector<double> friction;
-    std::vector<double> dilation;
-    for (auto const& result : results) {
-      auto const peak = rve_biaxial::peak_angles(result.rows, window);
-      friction.push_back(peak.friction_angle);
-      dilation.push_back(peak.dilation_angle);
-    }
-    auto const phi = rve_biaxial::spread_of(friction);
-    auto const psi = rve_biaxial::spread_of(dilation);
+    auto const [phi, psi] = rve_biaxial::peak_spreads(results, window);
     fmt::print("window {:<6} phi_max {:6.2f} +- {:.2f}   psi_max {:6.2f} +- {:.2f} degrees\n", window, phi.mean,
                phi.deviation, psi.mean, psi.deviation);
   }
+  auto const secant = rve_biaxial::spread_over(
+      results, [](auto const& result) { return rve_biaxial::secant_dilation_angle(result.rows); });
+  fmt::print("secant from largest contraction to the end: psi {:.2f} +- {:.2f} degrees\n", secant.mean,
+             secant.deviation);
   fmt::print("the study:    phi_max  30.8          psi_max   6.6          (e 0.160 to 0.179, window not stated)\n");
   fmt::print("SudoDEM:      phi_max  33.8                                 (e 0.173)\n");
 }

@@ -55,6 +55,15 @@ inline Peak peak_angles(std::vector<Row> const& rows, double window) {
   return peak;
 }
 
+/// Eq. 9 with the strain increments from the largest contraction to the end of the test [degrees].
+inline double secant_dilation_angle(std::vector<Row> const& rows) {
+  auto const onset = std::max_element(
+      rows.begin(), rows.end(), [](Row const& a, Row const& b) { return a.volumetric_strain < b.volumetric_strain; });
+  double const major = rows.back().axial_strain - onset->axial_strain;
+  double const minor = rows.back().lateral_strain - onset->lateral_strain;
+  return 180.0 / std::numbers::pi * std::asin((major + minor) / (minor - major));
+}
+
 /// Mean and sample standard deviation.
 struct Spread {
   double mean = 0.0;
@@ -69,6 +78,23 @@ inline Spread spread_of(std::vector<double> const& values) {
   for (double const value : values) spread.deviation += (value - spread.mean) * (value - spread.mean) / (count - 1.0);
   spread.deviation = std::sqrt(spread.deviation);
   return spread;
+}
+
+template <class Measure>
+Spread spread_over(std::vector<Result> const& results, Measure const& measure) {
+  std::vector<double> values;
+  for (auto const& result : results) values.push_back(measure(result));
+  return spread_of(values);
+}
+
+struct PeakSpreads {
+  Spread friction;
+  Spread dilation;
+};
+
+inline PeakSpreads peak_spreads(std::vector<Result> const& results, double window) {
+  return {spread_over(results, [&](Result const& result) { return peak_angles(result.rows, window).friction_angle; }),
+          spread_over(results, [&](Result const& result) { return peak_angles(result.rows, window).dilation_angle; })};
 }
 
 }  // namespace rve_biaxial

@@ -172,7 +172,7 @@ TEST_CASE("every point's plan stays what it was at the start of the load step") 
 TEST_CASE("points short of their own accuracy work harder within the step, the others do not") {
   using Block = sample::Block<sample::Planning>;
   scarp::SerialExecutor serial;
-  sample::Planning const soil{.needed = 12'000};
+  sample::Planning const soil{.needed = 11'000};
   auto problem = Block::make(soil, serial);
   auto const report = one_step(scarp::QuasiNewton<scarp::FrozenTangent>{.tolerance = 1e-6}, problem, 1e-3);
   REQUIRE(report.verdict == Verdict{});

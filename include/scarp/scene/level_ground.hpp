@@ -25,7 +25,7 @@ struct LevelGround {
   Cloud<Grading> cloud{};
   double unit_weight = 15.68e3;  ///< [N/m3]
   double surcharge = 4e3;        ///< [Pa]
-  IsotropicPreparation preparation{.pressure = 2e3, .preparation_friction = 0.085};
+  IsotropicPreparation preparation{.pressure = 2e3, .preparation_friction = 0.08};
   OneDimensionalCompression compression{};
 
   double overburden(double depth) const { return surcharge + unit_weight * depth; }

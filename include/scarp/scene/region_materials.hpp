@@ -33,7 +33,7 @@ class RegionMaterials {
   static_assert(((Providers::dim == dim) && ...), "all regions of a scene have the same dimension");
 
   /// surface_level [m]: height of the ground surface, from which depths are measured
-  /// \throws InputError for a region that the mesh does not have, or one of the mesh without provider
+  /// \throws InputError for a region that the mesh does not have, one given twice, or one of the mesh without provider
   template <class Element, class Motion>
   RegionMaterials(Discretisation<Element, Motion> const& discretisation, double surface_level,
                   boost::hana::tuple<Region<Providers>...> const& regions)
@@ -110,6 +110,9 @@ class RegionMaterials {
     for (int point = 0; point < discretisation.point_count(); ++point) {
       auto const site = discretisation.site(point, surface_level);
       if (site.region != number) continue;
+      if (where_[static_cast<std::size_t>(point)].field >= 0) {
+        refuse("region '{}' is given two providers (only one can answer): leave one out", region.name);
+      }
       where_[static_cast<std::size_t>(point)] = {field, static_cast<int>(sites.size())};
       sites.push_back(site);
     }

@@ -34,10 +34,11 @@ class AndersonMixing {
       changes.col(k) = corrections_[i + 1] - corrections_[i];
       moves.col(k) = points_[i + 1] - points_[i];
     }
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(1e-10);  // directions that repeat each other to this share are left out
-    qr.compute(changes);
-    Eigen::VectorXd const weights = qr.solve(correction);
+    // Directions that repeat each other to the threshold are left out; Eigen's plain pivoted QR would divide by them.
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_squares;
+    least_squares.setThreshold(1e-10);
+    least_squares.compute(changes);
+    Eigen::VectorXd const weights = least_squares.solve(correction);
     return point + correction - (moves + changes) * weights;
   }
 

@@ -160,6 +160,8 @@ class EquilibriumProblem {
       int const point = selected[static_cast<std::size_t>(task)];
       auto const k = static_cast<std::size_t>(point);
       responses_[k] = materials_.respond(point, gradients_[k]);
+      // Prescribed nodes would hide a NaN from the residual of the free ones.
+      if (!responses_[k].stress.allFinite()) responses_[k].verdict = {Status::failed, Reason::not_finite};
     });
     for (int const point : selected) {
       Verdict const verdict = responses_[static_cast<std::size_t>(point)].verdict;

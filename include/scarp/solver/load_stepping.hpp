@@ -76,8 +76,8 @@ struct LoadStepping {
     return run;
   }
 
-  /// From load factor `from` to `to` (above it). The problem's committed state must belong to `from`.
-  /// \throws InputError for increments or bounds that are not finite and positive
+  /// From load factor `from` to `to`, not below it. The problem's committed state must belong to `from`.
+  /// \throws InputError for increments that are not finite and positive, load factors that are not finite or fall
   template <class Solver, class Problem, class Observer>
     requires ObservesSteps<Observer, Problem> RunReport run(Solver const& solver, Problem& problem, double from,
                                                             double to, Observer& observer)
@@ -85,6 +85,9 @@ struct LoadStepping {
     require_positive("first load increment", first);
     require_positive("smallest load increment", smallest);
     require_positive("largest gradient of a load step", largest_gradient);
+    require_finite("load factor at the start", from);
+    require_finite("load factor at the end", to);
+    if (to < from) refuse("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
     typename Solver::template Session<Problem> session(solver, problem);
     RunReport run;
     run.load = from;

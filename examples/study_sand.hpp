@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cstdint>
+
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/dem/cloud.hpp"
+#include "scarp/dem/grading.hpp"
+
+namespace examples {
+
+/// The contact law of the study's grains, section 3.1.
+inline scarp::LinearFrictional study_law() {
+  return {.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
+}
+
+/// The study's grains: "radius between 4 mm and 6 mm" read as the semi-major axis, aspect 0.75.
+inline scarp::Cloud<scarp::EllipseGrading> study_cloud(int grains, std::uint64_t seed) {
+  return {.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75},
+          .grains = grains,
+          .density = 2650.0,
+          .thickness = 0.2,
+          .seed = seed};
+}
+
+}  // namespace examples
