@@ -71,7 +71,7 @@ inline FreeField make_scene(Choice const& choice) {
   scene.soil.strain_per_step = choice.strain_per_step;
   scene.soil.least_steps = choice.least_dem_steps;
   scene.soil.unbalanced_tolerance = choice.unbalanced_tolerance;
-  scene.soil.loose_pressure = scene.surcharge / 4.0;
+  scene.soil.loose_pressure = scene.surcharge / 2.0;
   scene.solver.tolerance = choice.tolerance;
   scene.solver.most_iterations = choice.most_iterations;
   scene.stepping.largest_gradient = choice.largest_gradient;

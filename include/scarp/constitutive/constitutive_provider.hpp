@@ -13,10 +13,10 @@ namespace scarp {
 /// Where a material point sits when its state is made.
 template <int Dim>
 struct Site {
-  int index = 0;                                       ///< number of the point in its mesh
-  int region = 0;                                      ///< number of the region in its mesh
-  Vector<Dim> position = Vector<Dim>::Zero();          ///< [m]
-  double depth = 0.0;                                  ///< below the ground surface [m]
+  int index = 0;                               ///< number of the point in its mesh
+  int region = 0;                              ///< number of the region in its mesh
+  Vector<Dim> position = Vector<Dim>::Zero();  ///< [m]
+  double depth = 0.0;                          ///< below the ground surface [m]
 };
 
 /// Answer of a material point to an increment.
@@ -30,31 +30,35 @@ template <class Model>
 concept HasState = std::copyable<typename Model::State>;
 
 template <class Model>
-concept HasDimension = requires { requires Model::dim == 2 || Model::dim == 3; };
+concept HasDimension = requires {
+  requires Model::dim == 2 || Model::dim == 3;
+};
 
 template <class Model>
-concept MakesInitialState = HasState<Model> && HasDimension<Model> && requires(Model const& model, Site<Model::dim> const& site) {
+concept MakesInitialState = HasState<Model> && HasDimension<Model> &&
+    requires(Model const& model, Site<Model::dim> const& site) {
   { model.initial_state(site) } -> std::same_as<typename Model::State>;
 };
 
 /// respond(committed, increment, trial): pure; `committed` is never touched, `trial` is overwritten.
 template <class Model>
-concept Responds =
-    HasState<Model> && HasDimension<Model> &&
+concept Responds = HasState<Model> && HasDimension<Model> &&
     requires(Model const& model, typename Model::State const& committed, Gradient<Model::dim> const& increment,
              typename Model::State& trial) {
-      { model.respond(committed, increment, trial) } -> std::same_as<Response<Model::dim>>;
-    };
+  { model.respond(committed, increment, trial) } -> std::same_as<Response<Model::dim>>;
+};
 
 /// stress(state): the Cauchy stress [Pa] that a state carries.
 template <class Model>
-concept TellsStress = HasState<Model> && HasDimension<Model> && requires(Model const& model, typename Model::State const& state) {
+concept TellsStress = HasState<Model> && HasDimension<Model> &&
+    requires(Model const& model, typename Model::State const& state) {
   { model.stress(state) } -> std::same_as<VoigtStress<Model::dim>>;
 };
 
 /// tangent(state): stiffness for a further increment from `state`; asked for only where a solver wants it.
 template <class Model>
-concept GivesTangent = HasState<Model> && HasDimension<Model> && requires(Model const& model, typename Model::State const& state) {
+concept GivesTangent = HasState<Model> && HasDimension<Model> &&
+    requires(Model const& model, typename Model::State const& state) {
   { model.tangent(state) } -> std::same_as<VoigtTangent<Model::dim>>;
 };
 
@@ -66,14 +70,14 @@ concept ConstitutiveProvider = MakesInitialState<Model> && Responds<Model> && Te
 /// smooth function of the increment while the solver iterates: plan(committed, predicted), respond(..., plan). Where an answer
 /// is `not_converged` in the end, refined(plan) works harder.
 template <class Model>
-concept PlansWork =
-    ConstitutiveProvider<Model> && requires { typename Model::Plan; } &&
-    requires(Model const& model, typename Model::State const& committed, Gradient<Model::dim> const& increment,
-             typename Model::State& trial, typename Model::Plan const& plan) {
-      { model.plan(committed, increment) } -> std::same_as<typename Model::Plan>;
-      { model.refined(plan) } -> std::same_as<typename Model::Plan>;
-      { model.respond(committed, increment, trial, plan) } -> std::same_as<Response<Model::dim>>;
-    };
+concept PlansWork = ConstitutiveProvider<Model> && requires {
+  typename Model::Plan;
+} && requires(Model const& model, typename Model::State const& committed, Gradient<Model::dim> const& increment,
+              typename Model::State& trial, typename Model::Plan const& plan) {
+  { model.plan(committed, increment) } -> std::same_as<typename Model::Plan>;
+  { model.refined(plan) } -> std::same_as<typename Model::Plan>;
+  { model.respond(committed, increment, trial, plan) } -> std::same_as<Response<Model::dim>>;
+};
 
 struct NoPlan {};
 

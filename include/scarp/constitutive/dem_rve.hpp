@@ -44,13 +44,14 @@ struct DemRve {
 
   Law law{};
   Source source{};
-  double strain_per_step = 1e-5;      ///< largest strain component of one DEM step
-  double inertial_number = 2e-3;      ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
-  int least_steps = 20;               ///< of one response, however small the increment
+  double strain_per_step = 1e-5;  ///< largest strain component of one DEM step
+  double inertial_number =
+      5e-3;  ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
+  int least_steps = 20;  ///< of one response, however small the increment
   int most_steps = 20'000;
-  double unbalanced_tolerance = 0.05; ///< asked of every response
-  double loose_pressure = 0.0;        ///< [Pa]; a packing at less is judged and driven as if it carried this much
-  double time_step_share = 1.0;       ///< of the critical step's lower bound
+  double unbalanced_tolerance = 0.05;  ///< asked of every response
+  double loose_pressure = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
+  double time_step_share = 1.0;        ///< of the critical step's lower bound
   Damping damping{};
   Tangent tangent_policy{};
 
@@ -75,7 +76,8 @@ struct DemRve {
     double const time_step = time_step_share * committed.packing.pairs.critical_step;
     double const slowness = 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
     double const steps = std::max(largest / strain_per_step, largest * slowness / (time_step * inertial_number));
-    return static_cast<int>(std::clamp(std::ceil(steps), static_cast<double>(least_steps), static_cast<double>(most_steps)));
+    return static_cast<int>(
+        std::clamp(std::ceil(steps), static_cast<double>(least_steps), static_cast<double>(most_steps)));
   }
 
   /// Twice the steps, hence half the rate.

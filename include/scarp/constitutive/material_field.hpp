@@ -12,18 +12,20 @@ namespace scarp {
 /// What a solver asks of the material side of a model, point by point; points are numbered as in the discretisation.
 /// Calls for different points may run at the same time.
 template <class Field>
-concept MaterialField = requires { requires Field::dim == 2 || Field::dim == 3; } &&
-                        requires(Field& field, Field const& constant, int point, Gradient<Field::dim> const& increment) {
-                          { constant.point_count() } -> std::same_as<int>;
-                          { field.plan(point, increment) };
-                          { field.refine_plan(point) };
-                          { field.respond(point, increment) } -> std::same_as<Response<Field::dim>>;
-                          { constant.work(point) } -> std::same_as<long>;
-                          { constant.committed_stress(point) } -> std::same_as<VoigtStress<Field::dim>>;
-                          { constant.committed_tangent(point) } -> std::same_as<VoigtTangent<Field::dim>>;
-                          { constant.trial_tangent(point) } -> std::same_as<VoigtTangent<Field::dim>>;
-                          { field.commit() };
-                        };
+concept MaterialField = requires {
+  requires Field::dim == 2 || Field::dim == 3;
+}
+&&requires(Field& field, Field const& constant, int point, Gradient<Field::dim> const& increment) {
+  { constant.point_count() } -> std::same_as<int>;
+  {field.plan(point, increment)};
+  {field.refine_plan(point)};
+  { field.respond(point, increment) } -> std::same_as<Response<Field::dim>>;
+  { constant.work(point) } -> std::same_as<long>;
+  { constant.committed_stress(point) } -> std::same_as<VoigtStress<Field::dim>>;
+  { constant.committed_tangent(point) } -> std::same_as<VoigtTangent<Field::dim>>;
+  { constant.trial_tangent(point) } -> std::same_as<VoigtTangent<Field::dim>>;
+  {field.commit()};
+};
 
 /// Committed and trial states of one provider at a set of points.
 template <ConstitutiveProvider Provider>

@@ -21,8 +21,8 @@ struct SamePacking {
 /// Packings prepared for a list of depths; a site gets the one whose depth is nearest.
 template <class PackingType>
 struct PackingsByDepth {
-  std::vector<double> depths;          ///< [m], increasing
-  std::vector<PackingType> packings;   ///< one per depth
+  std::vector<double> depths;         ///< [m], increasing
+  std::vector<PackingType> packings;  ///< one per depth
 
   /// \throws InputError when there is no packing
   PackingType const& at(Site<PackingType::dim> const& site) const {

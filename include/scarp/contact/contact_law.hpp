@@ -45,6 +45,8 @@ concept ContactLaw = std::is_aggregate_v<Law> && RespondsToApproach<Law> && Tell
 
 /// A law whose friction coefficient can be exchanged, as the preparation of a packing needs.
 template <class Law>
-concept Frictional = ContactLaw<Law> && requires(Law law) { law.friction = 0.0; };
+concept Frictional = ContactLaw<Law> && requires(Law law) {
+  law.friction = 0.0;
+};
 
 }  // namespace scarp

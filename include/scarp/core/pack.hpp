@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <experimental/simd>
 
 namespace scarp {
@@ -21,10 +24,105 @@ void store(Pack<Scalar> const& values, Scalar* to) {
   values.copy_to(to, std::experimental::element_aligned);
 }
 
-/// Lane k is base[row[k] * stride].
+/// The compiler's own vector of `Count` scalars, for which it has shuffles.
+template <class Scalar, std::size_t Count>
+struct RawVector {
+  using type [[gnu::vector_size(Count * sizeof(Scalar))]] = Scalar;
+};
+
+/// Four scalars that lie side by side, such as half a grain's row.
 template <class Scalar>
-Pack<Scalar> gather(Scalar const* base, std::int32_t const* row, std::size_t stride) {
-  return Pack<Scalar>([&](auto lane) { return base[static_cast<std::size_t>(row[lane]) * stride]; });
+struct Quad {
+  using Vector = typename RawVector<Scalar, 4>::type;
+
+  Vector value;
+
+  static Quad read(Scalar const* from) {
+    Quad quad;
+    std::memcpy(&quad.value, from, sizeof(Vector));
+    return quad;
+  }
+  void write(Scalar* to) const { std::memcpy(to, &value, sizeof(Vector)); }
+};
+
+namespace detail {
+
+/// Transposes 4 x 4 blocks: entry j of block k of the result's vector i is entry i of block k of the argument's vector j.
+template <class Vector>
+std::array<Vector, 4> transpose_blocks(std::array<Vector, 4> const& rows) {
+  auto const& [a, b, c, d] = rows;
+  if constexpr (sizeof(Vector) / sizeof(a[0]) == 4) {
+    auto const ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+    auto const ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    auto const cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    auto const cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    return {__builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5), __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5),
+            __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7), __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7)};
+  } else {
+    auto const ab_even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+    auto const ab_odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+    auto const cd_even = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+    auto const cd_odd = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+    return {__builtin_shufflevector(ab_even, cd_even, 0, 1, 8, 9, 4, 5, 12, 13),
+            __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 8, 9, 4, 5, 12, 13),
+            __builtin_shufflevector(ab_even, cd_even, 2, 3, 10, 11, 6, 7, 14, 15),
+            __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 10, 11, 6, 7, 14, 15)};
+  }
+}
+
+}  // namespace detail
+
+/// Four neighbouring numbers of one row per lane, as four packs: pack c holds row_of(lane)[c]. Where registers hold four or
+/// eight lanes the rows are read whole and transposed in registers, which takes half the loads of a gather.
+template <class Scalar, class RowOf>
+std::array<Pack<Scalar>, 4> load_quads(RowOf const& row_of) {
+  constexpr std::size_t width = Pack<Scalar>::size();
+  std::array<Pack<Scalar>, 4> packs;
+  if constexpr (width == 4 || width == 8) {
+    using Vector = typename RawVector<Scalar, width>::type;
+    std::array<Vector, 4> rows;
+    for (std::size_t j = 0; j < 4; ++j) {
+      if constexpr (width == 4) {
+        rows[j] = Quad<Scalar>::read(row_of(j)).value;
+      } else {
+        rows[j] = __builtin_shufflevector(Quad<Scalar>::read(row_of(j)).value, Quad<Scalar>::read(row_of(j + 4)).value,
+                                          0, 1, 2, 3, 4, 5, 6, 7);
+      }
+    }
+    auto const columns = detail::transpose_blocks(rows);
+    for (std::size_t c = 0; c < 4; ++c) packs[c] = std::bit_cast<Pack<Scalar>>(columns[c]);
+  } else {
+    for (std::size_t c = 0; c < 4; ++c) {
+      packs[c] = Pack<Scalar>([&](auto lane) { return row_of(static_cast<std::size_t>(lane))[c]; });
+    }
+  }
+  return packs;
+}
+
+/// The reverse in registers: quad k holds lane k of the four packs.
+template <class Scalar>
+std::array<Quad<Scalar>, Pack<Scalar>::size()> to_quads(std::array<Pack<Scalar>, 4> const& packs) {
+  constexpr std::size_t width = Pack<Scalar>::size();
+  std::array<Quad<Scalar>, width> quads;
+  if constexpr (width == 4 || width == 8) {
+    using Vector = typename RawVector<Scalar, width>::type;
+    std::array<Vector, 4> columns;
+    for (std::size_t c = 0; c < 4; ++c) columns[c] = std::bit_cast<Vector>(packs[c]);
+    auto const rows = detail::transpose_blocks(columns);
+    for (std::size_t j = 0; j < 4; ++j) {
+      if constexpr (width == 4) {
+        quads[j].value = rows[j];
+      } else {
+        quads[j].value = __builtin_shufflevector(rows[j], rows[j], 0, 1, 2, 3);
+        quads[j + 4].value = __builtin_shufflevector(rows[j], rows[j], 4, 5, 6, 7);
+      }
+    }
+  } else {
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      for (std::size_t c = 0; c < 4; ++c) quads[lane].value[c] = packs[c][lane];
+    }
+  }
+  return quads;
 }
 
 }  // namespace scarp

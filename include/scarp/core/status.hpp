@@ -18,16 +18,16 @@ enum class Status : std::uint8_t {
 enum class Reason : std::uint8_t {
   none,
   no_contacts,
-  unbalanced,         ///< the packing did not settle to the asked unbalanced-force ratio
-  unreachable,        ///< a servo target was not reached within the allowed work
-  not_finite,         ///< NaN or infinity in state or answer
-  too_deep,           ///< grains overlap more deeply than their curvature allows
-  cell_collapsed,     ///< the periodic cell is inverted or thinner than two grains
-  element_inverted,   ///< an element's Jacobian is not positive
-  iterations_spent,   ///< the iteration limit was reached above the asked residual
-  singular_system,    ///< the linear system could not be factorised
-  step_too_small,     ///< cutting the load step went below its smallest size
-  interrupted         ///< stopped from outside
+  unbalanced,        ///< the packing did not settle to the asked unbalanced-force ratio
+  unreachable,       ///< a servo target was not reached within the allowed work
+  not_finite,        ///< NaN or infinity in state or answer
+  too_deep,          ///< grains overlap more deeply than their curvature allows
+  cell_collapsed,    ///< the periodic cell is inverted or thinner than two grains
+  element_inverted,  ///< an element's Jacobian is not positive
+  iterations_spent,  ///< the iteration limit was reached above the asked residual
+  singular_system,   ///< the linear system could not be factorised
+  step_too_small,    ///< cutting the load step went below its smallest size
+  interrupted        ///< stopped from outside
 };
 
 struct Verdict {

@@ -10,7 +10,7 @@ namespace scarp {
 
 /// Number of independent components of a symmetric tensor: 3 in 2D, 6 in 3D.
 template <int Dim>
-inline constexpr int voigt_size = Dim * (Dim + 1) / 2;
+inline constexpr int voigt_size = Dim*(Dim + 1) / 2;
 
 /// Row and column of each Voigt component: (xx, yy, xy) in 2D, (xx, yy, zz, yz, zx, xy) in 3D.
 template <int Dim>

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "scarp/dem/packing.hpp"
 #include "scarp/core/random.hpp"
+#include "scarp/dem/packing.hpp"
 
 namespace scarp {
 
@@ -19,17 +19,18 @@ struct Cloud {
 
   Grading grading;
   int grains = 0;
-  double density = 0.0;         ///< [kg/m3]
-  double thickness = 0.0;       ///< out of plane [m]
+  double density = 0.0;    ///< [kg/m3]
+  double thickness = 0.0;  ///< out of plane [m]
   std::uint64_t seed = 1;
-  double filled_share = 0.42;   ///< area of the bounding circles over area of the cell
+  double filled_share = 0.42;  ///< area of the bounding circles over area of the cell
 
   /// \throws InputError on counts, sizes or shares that cannot be packed
   template <class PackingType>
   PackingType make() const {
     static_assert(Shape::dim == 2, "placement is written for the plane");
     using Scalar = typename PackingType::Scalar;
-    if (grains < 1) refuse("a packing of {} grains was asked for (nothing can carry stress): give at least one grain", grains);
+    if (grains < 1)
+      refuse("a packing of {} grains was asked for (nothing can carry stress): give at least one grain", grains);
     require_positive("share of the cell filled by the cloud", filled_share);
     Random random(seed);
     std::vector<typename Shape::template Size<double>> sizes;
@@ -54,8 +55,8 @@ struct Cloud {
       bool free = false;
       for (long trial = 0; !free; ++trial) {
         if (trial == most_trials) {
-          refuse("grain {} of {} found no free place (the cloud fills {} of its cell): use a smaller share", i + 1, grains,
-                 filled_share);
+          refuse("grain {} of {} found no free place (the cloud fills {} of its cell): use a smaller share", i + 1,
+                 grains, filled_share);
         }
         Vector<2> place;
         place(0) = random.uniform(0.0, side);

@@ -8,14 +8,14 @@ namespace scarp {
 /// A pair of grains of a packing at rest in its present positions.
 template <int Dim>
 struct Contact {
-  std::size_t pair;                     ///< row in the list of near pairs
-  std::size_t first;                    ///< grain
-  std::size_t second;                   ///< grain; the owner where the pair lists a ghost
+  std::size_t pair;    ///< row in the list of near pairs
+  std::size_t first;   ///< grain
+  std::size_t second;  ///< grain; the owner where the pair lists a ghost
   Touch<Dim, double> touch;
-  Vector<Dim> branch;                   ///< from the first centre to the second [m]
-  Vector<Dim> force;                    ///< on the second grain [N]
-  double normal_force;                  ///< [N], positive in compression
-  Tangential<Dim, double> shear;        ///< tangential force on the second grain [N]
+  Vector<Dim> branch;             ///< from the first centre to the second [m]
+  Vector<Dim> force;              ///< on the second grain [N]
+  double normal_force;            ///< [N], positive in compression
+  Tangential<Dim, double> shear;  ///< tangential force on the second grain [N]
 
   Vector<Dim> normal() const { return Eigen::Map<Vector<Dim> const>(touch.normal.data()); }
 };
@@ -37,7 +37,8 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
     Point<dim, double> start{};
     for (std::size_t a = 0; a < branch.size(); ++a) branch[a] = to[a] - from[a];
     if constexpr (Shape::remembers_normal) {
-      for (std::size_t a = 0; a < start.size(); ++a) start[a] = static_cast<double>(pairs.normal(p, static_cast<int>(a)));
+      for (std::size_t a = 0; a < start.size(); ++a)
+        start[a] = static_cast<double>(pairs.normal(p, static_cast<int>(a)));
     }
     auto const touch = settled_touch<Shape>(grain_pose(packing, i), grain_pose(packing, j), branch, start);
     Contact<dim> contact{p, i, j, touch, Eigen::Map<Vector<dim> const>(branch.data()), {}, 0.0, {}};

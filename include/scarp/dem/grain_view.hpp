@@ -27,7 +27,8 @@ Point<PackingType::dim, double> grain_position(PackingType const& packing, std::
   if (number >= grains) {
     auto const& shift = packing.pairs.ghost_shift[number - grains];
     for (int a = 0; a < dim; ++a) {
-      for (int b = 0; b < dim; ++b) place[static_cast<std::size_t>(a)] += packing.cell(a, b) * shift[static_cast<std::size_t>(b)];
+      for (int b = 0; b < dim; ++b)
+        place[static_cast<std::size_t>(a)] += packing.cell(a, b) * shift[static_cast<std::size_t>(b)];
     }
   }
   return place;
@@ -46,8 +47,8 @@ Touch<Shape::dim, double> settled_touch(Pose const& first, Pose const& second, P
                                         Point<Shape::dim, double> const& start) {
   auto touch = Shape::touch(first, second, branch, start);
   if constexpr (Shape::remembers_normal) {
-    constexpr int most_iterations = 30;      // quadratic convergence: a handful is usual
-    constexpr double still = 1e-28;           // squared change of a unit vector, near round-off
+    constexpr int most_iterations = 30;  // quadratic convergence: a handful is usual
+    constexpr double still = 1e-28;      // squared change of a unit vector, near round-off
     for (int k = 0; k < most_iterations; ++k) {
       auto const before = touch.normal;
       touch = Shape::touch(first, second, branch, before);

@@ -26,8 +26,8 @@ struct NearPairs {
   Columns<Scalar, shear_count> shear;
   std::vector<std::int32_t> ghost_owner;
   std::vector<Shift> ghost_shift;
-  double drift = 0.0;   ///< bound on how far gaps have shrunk since the list was made [m]
-  double skin = -1.0;   ///< gap up to which pairs are listed [m]; negative before the first list
+  double drift = 0.0;          ///< bound on how far gaps have shrunk since the list was made [m]
+  double skin = -1.0;          ///< gap up to which pairs are listed [m]; negative before the first list
   double critical_step = 0.0;  ///< largest stable time step [s] when the list was made
 
   std::size_t count() const { return first.size(); }

@@ -19,10 +19,12 @@ class Population {
   using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;
 
   /// density [kg/m3] \throws InputError on an empty list or sizes that are not finite and positive
-  Population(std::vector<Size> const& sizes, double density, double thickness) : density_(density), thickness_(thickness) {
+  Population(std::vector<Size> const& sizes, double density, double thickness)
+      : density_(density), thickness_(thickness) {
     require_positive("grain density", density);
     require_positive("out-of-plane thickness", thickness);
-    if (sizes.empty()) refuse("a packing of zero grains was asked for (nothing can carry stress): give at least one grain");
+    if (sizes.empty())
+      refuse("a packing of zero grains was asked for (nothing can carry stress): give at least one grain");
     size_.resize(sizes.size(), Scalar(1));
     inverse_mass_.resize(sizes.size());
     inverse_inertia_.resize(sizes.size());

@@ -17,15 +17,16 @@ struct Prepared {
 /// From a loose cloud to a packing under isotropic pressure: consolidation at a *preparation friction*, the knob of the
 /// density, then relaxation at the law's own friction. The cell may tilt, so that no shear stress is left.
 struct IsotropicPreparation {
-  double pressure = 0.0;               ///< [Pa], positive
-  double preparation_friction = 0.1;   ///< 0 gives the densest packing
+  double pressure = 0.0;              ///< [Pa], positive
+  double preparation_friction = 0.1;  ///< 0 gives the densest packing
   Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
   Servo relaxation{};
 
   /// \throws InputError for a pressure that is not positive or a negative friction
   template <class PackingType>
-    requires Frictional<typename PackingType::Law>
-  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law) const {
+    requires Frictional<typename PackingType::Law> Prepared<PackingType> prepare(PackingType cloud,
+                                                                                 typename PackingType::Law law)
+  const {
     require_positive("pressure of the preparation", pressure);
     require_not_negative("preparation friction", preparation_friction);
     constexpr int dim = PackingType::dim;

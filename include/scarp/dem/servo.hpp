@@ -13,7 +13,7 @@ namespace scarp {
 template <int Dim>
 struct ComponentLoading {
   std::array<bool, static_cast<std::size_t>(voigt_size<Dim>)> stress_controlled{};
-  VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();             ///< targets [Pa], tension positive
+  VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< targets [Pa], tension positive
   VoigtStress<Dim> strain_per_step = VoigtStress<Dim>::Zero();
 
   static ComponentLoading all_stress(VoigtStress<Dim> const& target) {
@@ -26,12 +26,12 @@ struct ComponentLoading {
 
 /// Drives stress-controlled components towards their targets: the cell strains in proportion to the missing stress.
 struct Servo {
-  double fastest = 1e-4;              ///< largest strain per step of a controlled component
-  double response_steps = 50.0;       ///< a missing stress is made up in about so many steps
-  double stress_tolerance = 1e-4;     ///< relative to the largest target component
+  double fastest = 1e-4;           ///< largest strain per step of a controlled component
+  double response_steps = 50.0;    ///< a missing stress is made up in about so many steps
+  double stress_tolerance = 1e-4;  ///< relative to the largest target component
   double unbalanced_tolerance = 1e-4;
   long most_steps = 400'000;
-  int check_every = 20;               ///< steps between tests of the stopping rule
+  int check_every = 20;  ///< steps between tests of the stopping rule
 
   /// Cell strain in one step for a missing stress; `modulus` [Pa] is a stiffness scale of the packing. A packing with too
   /// few contacts to be stiff yet is compressed at the fastest rate.
@@ -51,7 +51,8 @@ struct Servo {
   /// Stiffness scale [Pa] that a law's springs give a packing.
   template <class PackingType>
   double modulus(PackingType const& packing, typename PackingType::Law const& law) const {
-    double const length = PackingType::dim == 2 ? packing.population->thickness() : 2.0 * packing.population->largest_radius();
+    double const length =
+        PackingType::dim == 2 ? packing.population->thickness() : 2.0 * packing.population->largest_radius();
     return law.stiffness(0.0).normal / length;
   }
 
@@ -76,7 +77,8 @@ struct Servo {
     Verdict step(Stepper& stepper) {
       Tensor<dim> const strain =
           servo_.strain_step<dim>(loading_, seen_.stress, modulus_, seen_.contacts > fewest_contacts_);
-      if (Verdict const verdict = stepper.template step<true>(packing_, law_, strain, &seen_); !verdict.acceptable()) return verdict;
+      if (Verdict const verdict = stepper.template step<true>(packing_, law_, strain, &seen_); !verdict.acceptable())
+        return verdict;
       if (!seen_.stress.allFinite()) return {Status::failed, Reason::not_finite};
       return {};
     }

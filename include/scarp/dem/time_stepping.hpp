@@ -15,7 +15,7 @@ template <int Dim>
 struct StepObservation {
   Tensor<Dim> stress = Tensor<Dim>::Zero();  ///< Love and Weber [Pa], tension positive
   double contacts = 0.0;
-  double unbalanced_ratio = 0.0;             ///< mean net force of a grain over mean contact force
+  double unbalanced_ratio = 0.0;  ///< mean net force of a grain over mean contact force
 };
 
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient. Holds the scratch memory, so one
@@ -58,8 +58,7 @@ class TimeStepper {
     Tensor<dim> const cell_step = exponential(strain_step);
     move_grains(packing, cell_step, time_step, (strain_step(1, 0) - strain_step(0, 1)) / 2.0);
     packing.cell = (cell_step * packing.cell).eval();
-    packing.pairs.drift +=
-        strain_step.norm() * (2.0 * packing.population->largest_radius() + packing.pairs.skin);
+    packing.pairs.drift += strain_step.norm() * (2.0 * packing.population->largest_radius() + packing.pairs.skin);
     return {};
   }
 
@@ -107,16 +106,14 @@ class TimeStepper {
     for (std::size_t start = 0; start < padded; start += width) {
       Lanes const inverse_mass = load(population.inverse_mass() + start);
       Lanes const inverse_inertia = load(population.inverse_inertia() + start);
-      auto const force = [&](std::size_t component) {
-        Scalar const* base = scratch_.forces.data() + start * force_size + component;
-        return Lanes([&](auto lane) { return base[static_cast<std::size_t>(lane) * force_size]; });
-      };
+      auto const force =
+          load_quads<Scalar>([&](std::size_t lane) { return scratch_.forces.data() + (start + lane) * force_size; });
       Point<dim, Lanes> place;
       for (int a = 0; a < dim; ++a) place[static_cast<std::size_t>(a)] = load(packing.position.column(a) + start);
       Lanes speed(Scalar(0));
       for (int a = 0; a < dim; ++a) {
         Lanes velocity = load(packing.velocity.column(a) + start);
-        velocity = damping.next_velocity(velocity, force(static_cast<std::size_t>(a)), inverse_mass * dt);
+        velocity = damping.next_velocity(velocity, force[static_cast<std::size_t>(a)], inverse_mass * dt);
         store(velocity, packing.velocity.column(a) + start);
         speed += velocity * velocity;
         Lanes moved = velocity * dt;
@@ -126,7 +123,7 @@ class TimeStepper {
         store(moved, packing.position.column(a) + start);
       }
       Lanes spin = load(packing.spin.column(0) + start);
-      spin = damping.next_velocity(spin, force(dim), inverse_inertia * dt);
+      spin = damping.next_velocity(spin, force[dim], inverse_inertia * dt);
       store(spin, packing.spin.column(0) + start);
       if constexpr (Shape::orientation_count == 2) {
         // Cayley's rotation keeps (cos, sin) a unit vector to round-off.

@@ -10,13 +10,14 @@ namespace scarp {
 /// Stress and equilibrium of a packing, from one pass over its contacts.
 template <int Dim>
 struct Balance {
-  Tensor<Dim> stress = Tensor<Dim>::Zero();  ///< Love and Weber, \f$ \sigma = -\frac1V \sum f \otimes l \f$ [Pa], tension positive
+  Tensor<Dim> stress =
+      Tensor<Dim>::Zero();  ///< Love and Weber, \f$ \sigma = -\frac1V \sum f \otimes l \f$ [Pa], tension positive
   std::size_t contacts = 0;
-  double mean_contact_force = 0.0;           ///< [N]
-  double mean_unbalanced_force = 0.0;        ///< mean over the grains of |sum of forces| [N]
-  double unbalanced_ratio = 0.0;             ///< mean unbalanced over mean contact force; zero without contacts
-  double sliding_share = 0.0;                ///< contacts at the friction limit, as a share of all
-  double deepest_overlap = 0.0;              ///< [m]
+  double mean_contact_force = 0.0;     ///< [N]
+  double mean_unbalanced_force = 0.0;  ///< mean over the grains of |sum of forces| [N]
+  double unbalanced_ratio = 0.0;       ///< mean unbalanced over mean contact force; zero without contacts
+  double sliding_share = 0.0;          ///< contacts at the friction limit, as a share of all
+  double deepest_overlap = 0.0;        ///< [m]
 };
 
 /// Eq. 5 of the study, with f the force on the second grain and l the branch from first to second.

@@ -27,21 +27,19 @@ Fabric<PackingType::dim> contact_fabric(PackingType const& packing, typename Pac
 
 /// Of the grains' longest axes. Only for shapes that have an orientation.
 template <class PackingType>
-Fabric<2> particle_fabric(PackingType const& packing)
-  requires(PackingType::dim == 2 && PackingType::Shape::orientation_count == 2)
-{
+Fabric<2> particle_fabric(PackingType const& packing) requires(PackingType::dim == 2 &&
+                                                               PackingType::Shape::orientation_count == 2) {
   Fabric<2> sum = Fabric<2>::Zero();
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-    Vector<2> const axis(static_cast<double>(packing.orientation(i, 0)), static_cast<double>(packing.orientation(i, 1)));
+    Vector<2> const axis(static_cast<double>(packing.orientation(i, 0)),
+                         static_cast<double>(packing.orientation(i, 1)));
     sum += axis * axis.transpose();
   }
   return sum / static_cast<double>(packing.grain_count());
 }
 
 /// Deviator in the plane, \f$ F_{ij} = 4(\phi_{ij} - \delta_{ij}/2) \f$ (text after eq. 7 of the study).
-inline Tensor<2> fabric_deviator(Fabric<2> const& fabric) {
-  return 4.0 * (fabric - Tensor<2>::Identity() / 2.0);
-}
+inline Tensor<2> fabric_deviator(Fabric<2> const& fabric) { return 4.0 * (fabric - Tensor<2>::Identity() / 2.0); }
 
 /// Intensity of anisotropy in the plane, \f$ F = \sqrt{F_{ij} F_{ij} / 2} \f$.
 inline double fabric_anisotropy(Fabric<2> const& fabric) {

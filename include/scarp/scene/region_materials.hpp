@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <boost/hana/at.hpp>
 #include <boost/hana/for_each.hpp>
-#include <boost/hana/transform.hpp>
 #include <boost/hana/tuple.hpp>
-#include <boost/hana/unpack.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scarp/bvp/discretisation.hpp"
@@ -38,9 +38,7 @@ class RegionMaterials {
   RegionMaterials(Discretisation<Element, Motion> const& discretisation, double surface_level,
                   boost::hana::tuple<Region<Providers>...> const& regions)
       : where_(static_cast<std::size_t>(discretisation.point_count())),
-        fields_(boost::hana::transform(regions, [&, field = 0](auto const& region) mutable {
-          return make_field(discretisation, surface_level, region, field++);
-        })) {
+        fields_(make_fields(discretisation, surface_level, regions, std::index_sequence_for<Providers...>{})) {
     for (std::size_t point = 0; point < where_.size(); ++point) {
       if (where_[point].field >= 0) continue;
       int const region = discretisation.site(static_cast<int>(point), surface_level).region;
@@ -101,6 +99,16 @@ class RegionMaterials {
     int field = -1;
     int local = -1;
   };
+
+  /// Every field is told its number: in which order they are made is up to the compiler.
+  template <class DiscretisationType, std::size_t... Numbers>
+  boost::hana::tuple<ProviderField<Providers>...> make_fields(DiscretisationType const& discretisation,
+                                                              double surface_level,
+                                                              boost::hana::tuple<Region<Providers>...> const& regions,
+                                                              std::index_sequence<Numbers...>) {
+    return boost::hana::make_tuple(
+        make_field(discretisation, surface_level, boost::hana::at_c<Numbers>(regions), static_cast<int>(Numbers))...);
+  }
 
   template <class DiscretisationType, class Provider>
   ProviderField<Provider> make_field(DiscretisationType const& discretisation, double surface_level,

@@ -42,20 +42,48 @@ struct Ellipse {
   template <class T>
   static Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& normal) {
     using std::sqrt;
-    T const x = pose[0] * normal[0] + pose[1] * normal[1];
-    T const y = pose[1] * normal[0] + pose[2] * normal[1];
-    T const squared = x * normal[0] + y * normal[1];
-    T const value = sqrt(squared);
-    T const inverse = constant<T>(1) / value;
-    T const slope = (y * normal[0] - x * normal[1]) * inverse;
-    T const determinant = pose[0] * pose[2] - pose[1] * pose[1];
-    return {value, slope, determinant * inverse * inverse * inverse};
+    Ray<T> const along = ray(pose, normal);
+    T const value = sqrt(along.squared);
+    return complete(along, value, constant<T>(1) / value);
+  }
+
+  /// Support functions of both grains of a pair along one normal; their divisions are shared.
+  template <class T>
+  static std::array<Support<T>, 2> supports(std::array<T, 3> const& first, std::array<T, 3> const& second,
+                                            Point<2, T> const& normal) {
+    using std::sqrt;
+    Ray<T> const a = ray(first, normal);
+    Ray<T> const b = ray(second, normal);
+    T const value_a = sqrt(a.squared);
+    T const value_b = sqrt(b.squared);
+    T const inverse = constant<T>(1) / (value_a * value_b);
+    return {complete(a, value_a, inverse * value_b), complete(b, value_b, inverse * value_a)};
   }
 
   template <class T>
   static Touch<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second, Point<2, T> const& branch,
                            Point<2, T> const& normal) {
     return support_touch<Ellipse>(first, second, branch, normal);
+  }
+
+ private:
+  template <class T>
+  struct Ray {
+    T squared;      ///< h^2
+    T slope;        ///< h dh/dphi
+    T determinant;  ///< of A
+  };
+
+  template <class T>
+  static Ray<T> ray(std::array<T, 3> const& pose, Point<2, T> const& normal) {
+    T const x = pose[0] * normal[0] + pose[1] * normal[1];
+    T const y = pose[1] * normal[0] + pose[2] * normal[1];
+    return {x * normal[0] + y * normal[1], y * normal[0] - x * normal[1], pose[0] * pose[2] - pose[1] * pose[1]};
+  }
+
+  template <class T>
+  static Support<T> complete(Ray<T> const& ray, T const& value, T const& inverse) {
+    return {value, ray.slope * inverse, ray.determinant * inverse * inverse * inverse};
   }
 };
 

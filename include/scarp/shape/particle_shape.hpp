@@ -29,7 +29,7 @@ struct Touch {
 /// search needs of a grain at its present orientation.
 template <class Shape>
 concept HasGrainSize = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size) {
-  { Shape::content(size) } -> std::same_as<double>;          // area (2D) [m2] or volume [m3]
+  { Shape::content(size) } -> std::same_as<double>;           // area (2D) [m2] or volume [m3]
   { Shape::gyration_squared(size) } -> std::same_as<double>;  // second moment about the centre / content [m2]
   { Shape::bounding_radius(size) } -> std::same_as<double>;   // [m]
   { Shape::eccentricity(size) } -> std::same_as<double>;      // largest change of the support function per radian [m]
@@ -39,9 +39,7 @@ concept HasGrainSize = requires(std::array<double, static_cast<std::size_t>(Shap
 template <class Shape>
 concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size,
                            std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation) {
-  {
-    Shape::pose(size, orientation)
-  } -> std::same_as<std::array<double, static_cast<std::size_t>(Shape::pose_count)>>;
+  { Shape::pose(size, orientation) } -> std::same_as<std::array<double, static_cast<std::size_t>(Shape::pose_count)>>;
 };
 
 /// touch(first, second, branch, normal): `branch` from the first centre to the second; `normal` a unit vector to start

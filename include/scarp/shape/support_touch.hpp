@@ -28,8 +28,7 @@ Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> con
   using std::min;
   using std::sqrt;
   Point<2, T> const tangent{-normal[1], normal[0]};
-  Support<T> const a = Shape::support(first, normal);
-  Support<T> const b = Shape::support(second, normal);
+  auto const [a, b] = Shape::supports(first, second, normal);
   T const along = branch[0] * normal[0] + branch[1] * normal[1];
   T const across = branch[0] * tangent[0] + branch[1] * tangent[1];
   T const depth = a.value + b.value - along;
@@ -38,7 +37,11 @@ Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> con
   T const largest_turn = constant<T>(0.5);  // radians; keeps a poor start from overshooting
   T const turn = max(min(-slope / curvature, largest_turn), -largest_turn);
 
-  T const shrink = constant<T>(1) / sqrt(constant<T>(1) + turn * turn);
+  // 1/sqrt(1 + excess) by its series: the stored normal is a unit vector and turns little in a step; a poor start of a new
+  // pair becomes one while the touch is iterated.
+  T const excess = (normal[0] * normal[0] + normal[1] * normal[1]) * (constant<T>(1) + turn * turn) - constant<T>(1);
+  T const shrink =
+      constant<T>(1) - excess * (constant<T>(0.5) - excess * (constant<T>(0.375) - excess * constant<T>(0.3125)));
   Point<2, T> const turned{(normal[0] + turn * tangent[0]) * shrink, (normal[1] + turn * tangent[1]) * shrink};
   T const overlap = depth + constant<T>(0.5) * slope * turn;
   // Support points: h n + h' t, which move along t by the radius of curvature per radian.

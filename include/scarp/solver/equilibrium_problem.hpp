@@ -14,11 +14,11 @@ namespace scarp {
 
 /// Forces that an increment of displacement meets.
 struct Evaluation {
-  Eigen::VectorXd unbalanced;   ///< internal minus external force of all degrees of freedom [N]
-  double residual = 0.0;        ///< |unbalanced| over free dofs / |reactions|, Euclidean norms
-  Verdict verdict;              ///< of the worst point
-  int worst_point = -1;         ///< that is not acceptable, -1 for none
-  long inner_steps = 0;         ///< DEM steps of all points
+  Eigen::VectorXd unbalanced;  ///< internal minus external force of all degrees of freedom [N]
+  double residual = 0.0;       ///< |unbalanced| over free dofs / |reactions|, Euclidean norms
+  Verdict verdict;             ///< of the worst point
+  int worst_point = -1;        ///< that is not acceptable, -1 for none
+  long inner_steps = 0;        ///< DEM steps of all points
 };
 
 /// A boundary-value problem in increments: discretisation, materials, constraints whose load factor grows, and dead loads.
@@ -39,12 +39,12 @@ class EquilibriumProblem {
         gradients_(points()),
         responses_(points()) {
     if (materials_.point_count() != discretisation_.point_count()) {
-      refuse("materials are given for {} points (the mesh has {}): make one field over all sites", materials_.point_count(),
-             discretisation_.point_count());
+      refuse("materials are given for {} points (the mesh has {}): make one field over all sites",
+             materials_.point_count(), discretisation_.point_count());
     }
     if (dead_load_.size() != discretisation_.dof_count()) {
-      refuse("the dead load has {} entries (the mesh has {} degrees of freedom): size it by dof_count", dead_load_.size(),
-             discretisation_.dof_count());
+      refuse("the dead load has {} entries (the mesh has {} degrees of freedom): size it by dof_count",
+             dead_load_.size(), discretisation_.dof_count());
     }
   }
 
@@ -105,7 +105,8 @@ class EquilibriumProblem {
   Evaluation refine(Eigen::VectorXd const& increment) {
     std::vector<int> unconverged;
     for (int point = 0; point < discretisation_.point_count(); ++point) {
-      if (responses_[static_cast<std::size_t>(point)].verdict.status == Status::not_converged) unconverged.push_back(point);
+      if (responses_[static_cast<std::size_t>(point)].verdict.status == Status::not_converged)
+        unconverged.push_back(point);
     }
     for (int const point : unconverged) materials_.refine_plan(point);
     Evaluation evaluation;
@@ -187,7 +188,8 @@ class EquilibriumProblem {
     double free = 0.0;
     for (int const dof : free_dofs_) free += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
     double prescribed = 0.0;
-    for (int const dof : constraints_.prescribed_dofs()) prescribed += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
+    for (int const dof : constraints_.prescribed_dofs())
+      prescribed += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
     // A body held nowhere has no reactions: measure against the loads.
     double const scale = prescribed > 0.0 ? prescribed : dead_load_.squaredNorm();
     evaluation.residual = free == 0.0 ? 0.0 : std::sqrt(free / scale);

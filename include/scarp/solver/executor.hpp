@@ -7,7 +7,9 @@ namespace scarp {
 
 /// for_each(count, task): calls task(i) once for every i in [0, count), in any order, perhaps at the same time.
 template <class Executor>
-concept ExecutesTasks = requires(Executor& executor, void (&task)(int)) { executor.for_each(0, task); };
+concept ExecutesTasks = requires(Executor& executor, void (&task)(int)) {
+  executor.for_each(0, task);
+};
 
 /// One task after the other on the calling thread.
 struct SerialExecutor {

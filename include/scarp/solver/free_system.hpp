@@ -13,7 +13,8 @@ class FreeSystem {
  public:
   explicit FreeSystem(Constraints const& constraints) : free_dofs_(constraints.free_dofs()) {
     free_index_.assign(static_cast<std::size_t>(constraints.dof_count()), -1);
-    for (std::size_t k = 0; k < free_dofs_.size(); ++k) free_index_[static_cast<std::size_t>(free_dofs_[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < free_dofs_.size(); ++k)
+      free_index_[static_cast<std::size_t>(free_dofs_[k])] = static_cast<int>(k);
   }
 
   Eigen::SparseMatrix<double> matrix(Eigen::SparseMatrix<double> const& full) const {
@@ -22,7 +23,8 @@ class FreeSystem {
     part.reserve(full.nonZeros());
     for (Eigen::Index column = 0; column < size; ++column) {
       part.startVec(column);
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(full, free_dofs_[static_cast<std::size_t>(column)]); entry; ++entry) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(full, free_dofs_[static_cast<std::size_t>(column)]); entry;
+           ++entry) {
         int const row = free_index_[static_cast<std::size_t>(entry.row())];
         if (row >= 0) part.insertBack(row, column) = entry.value();
       }

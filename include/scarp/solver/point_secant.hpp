@@ -13,9 +13,9 @@ namespace scarp {
 /// one direction. A step starts from a mix of the provider's tangent and what the last step has learned.
 /// The symmetric part is kept above a floor, without which softening makes the system indefinite.
 struct PointSecant {
-  double provider_share = 0.5;         ///< of the provider's tangent in the start of a step; the rest is learned
-  double floor = 0.02;                 ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
-  double least_strain_change = 1e-7;   ///< a smaller change teaches nothing but noise
+  double provider_share = 0.5;        ///< of the provider's tangent in the start of a step; the rest is learned
+  double floor = 0.02;                ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
+  double least_strain_change = 1e-7;  ///< a smaller change teaches nothing but noise
 
   /// Start of a step from the provider's tangent and the one learned in the step before.
   template <int Dim>
@@ -24,8 +24,8 @@ struct PointSecant {
   }
 
   template <int Dim>
-  VoigtTangent<Dim> update(VoigtTangent<Dim> tangent, VoigtTangent<Dim> const& provider, EngineeringStrain<Dim> const& strain_change,
-                           VoigtStress<Dim> const& stress_change) const {
+  VoigtTangent<Dim> update(VoigtTangent<Dim> tangent, VoigtTangent<Dim> const& provider,
+                           EngineeringStrain<Dim> const& strain_change, VoigtStress<Dim> const& stress_change) const {
     double const squared = strain_change.squaredNorm();
     if (!(squared > least_strain_change * least_strain_change)) return tangent;
     tangent += (stress_change - tangent * strain_change) * strain_change.transpose() / squared;

@@ -20,7 +20,8 @@ class ThreadExecutor {
  public:
   /// threads, the calling one included; 0 takes as many as the machine has \throws InputError for a negative number
   explicit ThreadExecutor(int threads = 0) {
-    if (threads < 0) refuse("{} threads were asked for (at least one must work): give a positive number, or 0 for all", threads);
+    if (threads < 0)
+      refuse("{} threads were asked for (at least one must work): give a positive number, or 0 for all", threads);
     if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     for (int k = 1; k < threads; ++k) team_.emplace_back([this](std::stop_token const& stop) { serve(stop); });
   }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+// What changes when every element's elastic law is replaced by a packing of grains? In the program: one template argument.
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/dem/grading.hpp"
+#include "scarp/scene/free_field_fault.hpp"
+#include "scarp/scene/level_ground.hpp"
+#include "scarp/scene/outcrop.hpp"
+#include "scarp/solver/thread_executor.hpp"
+
+using Elastic = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
+using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
+using Sand = scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>;
+
+template <class Soil>
+bool rupture(char const* name, scarp::FreeFieldFault<Soil> const& scene) {
+  scarp::ThreadExecutor executor;
+  scarp::NoObserver nobody;
+  auto problem = scene.problem(executor);
+  bool balanced = scene.settle(problem, nobody).verdict.acceptable();
+  double k0 = 0.0;
+  for (auto const& stress : problem.committed_stresses()) k0 += stress(0) / stress(1);
+  auto const run = scene.rupture(problem, nobody);
+  auto const& mesh = problem.discretisation().mesh();
+  auto const surface = surface_profile(mesh, problem.discretisation().positions(), boundary_nodes(mesh, "surface"));
+  auto const found = scarp::outcrop(surface, run.load);
+  fmt::print("{:<8} K0 {:.3f}  throw {:.3f} m  outcrop_x {:6.2f} m  steepest_x {:6.2f} m\n", name,
+             k0 / problem.materials().point_count(), run.load, found.outcrop_x, found.steepest_x);
+  return balanced && run.verdict.acceptable();
+}
+
+int main() {
+  scarp::FaultMesh const layer{.size = 5.0};
+  auto const elastic = Elastic::from_young_poisson(20e6, 0.3, {.surcharge = 4e3, .unit_weight = 15.68e3, .k0 = 0.4});
+  scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
+  scarp::LevelGround<scarp::EllipseGrading> const ground{{{4e-3, 6e-3, 0.75}, 100, 2650.0, 0.2}};
+  std::vector<double> depths;  // three levels of points in each row of crossed triangles
+  for (double depth = 5.0 / 6.0; depth < layer.depth; depth += 5.0 / 3.0) depths.push_back(depth);
+  Sand const sand{.law = law, .source = ground.make<Grains>(law, depths), .loose_pressure = 1e3};
+  bool const done = rupture<Elastic>("elastic", {.soil = elastic, .layer = layer, .throw_to = 0.25});
+  return rupture<Sand>("grains", {.soil = sand, .layer = layer, .throw_to = 0.25}) && done ? 0 : 1;
+}
