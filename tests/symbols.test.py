@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: BSL-1.0
 """A program that names only linear elasticity contains nothing of the discrete elements.
 
-Environment: CXX (default c++), SCARP_INCLUDES (further include folders, separated by ':').
+Environment: see compiled_symbols.py.
 """
-import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
-root = pathlib.Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from compiled_symbols import included_headers, object_symbols
+
 foreign = re.compile(r"TimeStepper|rebuild_pairs|fabric|nanoflann|PairScratch|Servo|boost::hana")
 
 elastic = """
@@ -34,28 +35,6 @@ scarp::Response<2> run(scarp::DemRve<Discs, scarp::SamePacking<Discs>> const& sa
   return sand.respond(state, gradient, trial);
 }
 """
-
-
-def include_folders():
-    folders = [root / "include"]
-    folders += [pathlib.Path(name) for name in os.environ.get("SCARP_INCLUDES", "").split(":") if name]
-    folders += [path for path in map(pathlib.Path, ("/usr/include/eigen3", "/usr/local/include/eigen3")) if path.is_dir()]
-    return [f"-I{folder}" for folder in folders]
-
-
-def object_symbols(folder, name, source):
-    written = folder / f"{name}.cpp"
-    written.write_text(source)
-    compiled = folder / f"{name}.o"
-    compiler = os.environ.get("CXX", "c++")
-    subprocess.run([compiler, "-std=c++20", "-O0", *include_folders(), "-c", str(written), "-o", str(compiled)], check=True)
-    return subprocess.run(["nm", "-C", str(compiled)], check=True, capture_output=True, text=True).stdout.splitlines()
-
-
-def included_headers(folder, name):
-    compiler = os.environ.get("CXX", "c++")
-    command = [compiler, "-std=c++20", *include_folders(), "-MM", str(folder / f"{name}.cpp")]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 with tempfile.TemporaryDirectory() as scratch:

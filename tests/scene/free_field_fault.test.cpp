@@ -41,7 +41,8 @@ Outcome run_sand(Executor& executor, Observer& observer) {
   auto const& scene = sample::sandy_ground();
   auto problem = scene.problem(executor);
   REQUIRE(scene.settle(problem, observer).verdict == Verdict{});
-  Outcome outcome{scene.rupture(problem, observer), problem.discretisation().positions(), problem.committed_stresses(), {}};
+  Outcome outcome{
+      scene.rupture(problem, observer), problem.discretisation().positions(), problem.committed_stresses(), {}};
   for (int point = 0; point < problem.materials().point_count(); ++point) {
     problem.materials().visit(
         point, [&](auto const& field, int local) { outcome.packings.push_back(field.committed(local).packing); });
@@ -81,7 +82,9 @@ struct FilesAreWhole : scarp::NeverStops {
     std::string const end = "</VTKFile>";
     *seen = 0;
     for (std::sregex_iterator found(list.begin(), list.end(), entry), none; found != none; ++found, ++*seen) {
-      std::string const text = content(folder / (*found)[1].str());
+      std::filesystem::path const file = (*found)[1].str();
+      CHECK(file.is_relative());  // to the folder of the list, so that both can be moved together
+      std::string const text = content(folder / file);
       CHECK(text.find(end, text.size() - std::min(text.size(), end.size() + 2)) != std::string::npos);
     }
     int files = 0;

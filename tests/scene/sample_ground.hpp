@@ -32,7 +32,8 @@ inline scarp::FreeFieldFault<Sand> const& sandy_ground() {
     scene.throw_to = 0.002 * scene.layer.depth;
     scarp::Discretisation<scarp::Tri3> const grid(scene.layer.generate());
     std::vector<double> depths;
-    for (int point = 0; point < grid.point_count(); ++point) depths.push_back(grid.site(point, scene.layer.depth).depth);
+    for (int point = 0; point < grid.point_count(); ++point)
+      depths.push_back(grid.site(point, scene.layer.depth).depth);
     scarp::LevelGround<scarp::EllipseGrading> ground;
     ground.cloud = {.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75},
                     .grains = 36,

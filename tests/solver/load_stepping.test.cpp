@@ -30,7 +30,8 @@ double largest_strain(SoftBlock::Problem const& problem) {
 double height_error(SoftBlock::Problem const& problem, double load) {
   double worst = 0.0;
   for (int const node : scarp::boundary_nodes(problem.discretisation().mesh(), "top")) {
-    worst = std::max(worst, std::abs(problem.discretisation().positions()[static_cast<std::size_t>(node)](1) - 1.0 - load));
+    worst =
+        std::max(worst, std::abs(problem.discretisation().positions()[static_cast<std::size_t>(node)](1) - 1.0 - load));
   }
   return worst;
 }

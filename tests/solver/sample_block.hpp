@@ -17,9 +17,7 @@ namespace sample {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-inline scarp::LinearElastic<2> elastic_soil() {
-  return scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3);
-}
+inline scarp::LinearElastic<2> elastic_soil() { return scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3); }
 
 /// Elasticity that softens smoothly: \f$ \sigma = (r + (1-r) e^{-x^2})\, C \varepsilon,\; x = |\varepsilon|/\varepsilon_0,\;
 /// r = 0.2 \f$ of the total strain. In one dimension its slope falls to \f$ r - 2 (1-r) e^{-3/2} = -0.16 \f$ of the elastic

@@ -34,16 +34,17 @@ struct Servo {
   int check_every = 20;  ///< steps between tests of the stopping rule
 
   /// Cell strain in one step for a missing stress; `modulus` [Pa] is a stiffness scale of the packing. A packing with too
-  /// few contacts to be stiff yet is compressed at the fastest rate.
+  /// few contacts to be stiff and hardly any pressure is compressed at the fastest rate.
   template <int Dim>
   Tensor<Dim> strain_step(ComponentLoading<Dim> const& loading, Tensor<Dim> const& stress, double modulus,
                           bool jammed) const {
+    constexpr double nearly_all = 0.9;  // of the pressure is missing
     VoigtStress<Dim> step = loading.strain_per_step;
     VoigtStress<Dim> const missing = loading.stress - to_voigt_stress<Dim>(stress);
     for (int k = 0; k < voigt_size<Dim>; ++k) {
       if (!loading.stress_controlled[static_cast<std::size_t>(k)]) continue;
       step(k) = std::clamp(missing(k) / (modulus * response_steps), -fastest, fastest);
-      if (!jammed && k < Dim && missing(k) < 0.0) step(k) = -fastest;
+      if (!jammed && k < Dim && missing(k) < nearly_all * loading.stress(k)) step(k) = -fastest;
     }
     return from_voigt_stress<Dim>(step);
   }

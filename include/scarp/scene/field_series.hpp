@@ -92,8 +92,8 @@ class FieldSeries : public NeverStops {
     fields.at_elements.push_back({"status", 1, std::span<int const>(status), {}});
     for (auto const& [name, column] : named)
       fields.at_elements.push_back({name, 1, std::span<double const>(column), {}});
-    auto const file = folder_ / "fields" / fmt::format("step_{:04}.vtu", frame_++);
-    write_vtu(file, mesh, grid.positions(), fields);
+    auto const file = std::filesystem::path("fields") / fmt::format("step_{:04}.vtu", frame_++);
+    write_vtu(folder_ / file, mesh, grid.positions(), fields);
     series_.add(load / load_unit_, file);
   }
 

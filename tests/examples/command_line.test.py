@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Bad input to the example programs gets a message and a non-zero exit, and destroys nothing; a run that is
+stopped leaves whole files. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as xml
+
+programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+FAULT = programs / "fault_rupture"
+BIAXIAL = programs / "rve_biaxial"
+TINY = {"--size": "12", "--grains": "49", "--throw-over-depth": "0.002"}
+TINY_BIAXIAL = {"--grains": "60", "--seeds": "1", "--strain": "0.01", "--smoothing": "0.005"}
+troubles = []
+checks = 0
+
+
+def expect(truth, message):
+    global checks
+    checks += 1
+    if not truth:
+        troubles.append(message)
+
+
+def run(program, *arguments, folder):
+    done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True, timeout=60)
+    return done.returncode, done.stdout + done.stderr
+
+
+def contents(folder):
+    return {path.relative_to(folder): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
+
+
+def old_results(folder):
+    """An output folder of an earlier run: names that a new run would write, and one of the user's own."""
+    (folder / "fields").mkdir(parents=True)
+    for name in ("fields/step_0000.vtu", "fields.pvd", "surface.csv", "probe_A.csv", "probe_B.csv", "convergence.csv",
+                 "packing_grains.csv", "summary.json", "summary.txt", "biaxial.csv", "notes.txt"):
+        (folder / name).write_text(f"old {name}\n")
+
+
+def command(*options):
+    """Later options replace earlier ones: the programs refuse one that is given twice."""
+    merged = {}
+    for given in options:
+        merged.update(given)
+    return [word for option, value in merged.items() for word in ([option, value] if value is not None else [option])]
+
+
+def check_refusal(program, title, option, value, named, files=None):
+    """The program must end with an error that names what is wrong, before it touches the output folder."""
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        old_results(scratch / "out")
+        for name, text in (files or {}).items():
+            (scratch / name).write_text(text)
+        before = contents(scratch)
+        tiny = {"--quick": None, **TINY} if program == FAULT else TINY_BIAXIAL
+        if files:
+            tiny = {name: given for name, given in tiny.items() if name != "--grains"}
+        code, said = run(program, *command(tiny, {"--output": "out"}, {option: value}), folder=scratch)
+        what = f"{program.name}, {title}"
+        expect(code > 0, f"{what}: ended with {code}\n{said}")
+        expect(named in said, f"{what}: the message does not name {named}\n{said}")
+        expect(contents(scratch) == before, f"{what}: files have changed")
+
+
+def check_bad_input():
+    for program in (FAULT, BIAXIAL):
+        check_refusal(program, "unknown option", "--wings", "2", "--wings")
+        check_refusal(program, "zero grains", "--grains", "0", "--grains")
+        check_refusal(program, "text for a number", "--grains", "many", "--grains")
+        check_refusal(program, "number with a tail", "--strain-per-step", "1e-5m", "--strain-per-step")
+        check_refusal(program, "NaN", "--strain-per-step", "nan", "--strain-per-step")
+        check_refusal(program, "infinity", "--strain-per-step", "inf", "--strain-per-step")
+        check_refusal(program, "missing value", "--preparation-friction", None, "--preparation-friction")
+        check_refusal(program, "missing folder", "--output", "no/where/out", "--output")
+        check_refusal(program, "file as folder", "--output", "out/notes.txt", "--output")
+        check_refusal(program, "empty folder name", "--output", "", "--output")
+        check_refusal(program, "missing config file", "--config", "none.ini", "none.ini")
+        for title, text, named in (("unknown key", "wings = 2\n", "wings"), ("bad value", "grains = -5\n", "grains"),
+                                   ("text for a number", "grains = many\n", "grains"),
+                                   ("no options at all", "\x01\x02 [[[ = = ]]\n<xml>\n", "")):
+            check_refusal(program, f"{title} in the config file", "--config", "c.ini", named, {"c.ini": text})
+    check_refusal(FAULT, "negative size", "--size", "-1", "--size")
+    check_refusal(FAULT, "NaN size", "--size", "nan", "--size")
+    check_refusal(FAULT, "dip beyond the vertical", "--dip", "91", "--dip")
+    check_refusal(FAULT, "negative threads", "--threads", "-2", "--threads")
+    # These pass the command line; the scene refuses them.
+    check_refusal(FAULT, "tip outside the domain", "--tip", "100", "fault tip is at x = 100 m")
+    check_refusal(FAULT, "tip close to the side", "--tip", "22.9", "22.9")
+    check_refusal(FAULT, "a single grain", "--grains", "1", "fault_rupture: ")
+    check_refusal(BIAXIAL, "a window wider than the test", "--smoothing", "0.05", "window")
+
+
+def check_help():
+    for program in (FAULT, BIAXIAL):
+        with tempfile.TemporaryDirectory() as scratch:
+            code, said = run(program, "--help", folder=scratch)
+            expect(code == 0 and "--grains" in said, f"{program.name} --help ended with {code}\n{said}")
+            expect(not list(pathlib.Path(scratch).iterdir()), f"{program.name} --help wrote files")
+
+
+def check_config():
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        (scratch / "c.ini").write_text("grains = 49\nseed = 2\nsize = 12\nthrow-over-depth = 0.001\n")
+        code, said = run(FAULT, "--quick", "--config", "c.ini", "--grains", "36", "--output", "out", folder=scratch)
+        expect(code == 0, f"a config file: ended with {code}\n{said}")
+        if code == 0:
+            summary = json.loads((scratch / "out/summary.json").read_text())
+            expect(summary["seed"] == 2, "the config file does not set an option")
+            expect(summary["grains_per_rve"] == 36, "the command line does not override the config file")
+            expect(abs(summary["throw_over_depth"] - 0.001) < 1e-9, "the config file does not set the throw")
+
+
+def check_stopped(title, code, said, folder):
+    expect(code == 130, f"{title}: ended with {code} instead of 130\n{said[-2000:]}")
+    summary = json.loads((folder / "summary.json").read_text())
+    expect(summary["status"] == "interrupted", f"{title}: summary.json says {summary['status']}")
+    expect(0.0 < summary["throw_over_depth"] < 1.0, f"{title}: stopped at h/H = {summary['throw_over_depth']}")
+    expect("INCOMPLETE" in (folder / "summary.txt").read_text(), f"{title}: summary.txt does not say so")
+    listed = [entry.get("file") for entry in xml.parse(folder / "fields.pvd").iter("DataSet")]
+    expect(len(listed) > 1, f"{title}: {len(listed)} files in fields.pvd")
+    for name in listed:
+        expect(xml.parse(folder / name).getroot().tag == "VTKFile", f"{title}: {name} is no VTK file")
+    expect({f"fields/{path.name}" for path in (folder / "fields").iterdir()} == set(listed),
+           f"{title}: fields/ holds other files than fields.pvd lists")
+    for table in ("surface.csv", "convergence.csv", "probe_A.csv"):
+        lines = (folder / table).read_text().splitlines(keepends=True)
+        expect(len(lines) > 1 and lines[-1].endswith("\n"), f"{title}: the last row of {table} is cut off")
+
+
+LONG = ["--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "1", "--frames", "100000", "--output", "out"]
+
+
+def check_interrupt():
+    for stop in (signal.SIGINT, signal.SIGTERM):
+        with tempfile.TemporaryDirectory() as scratch:
+            process = subprocess.Popen([FAULT, *LONG], cwd=scratch, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                       text=True)
+            said = ""
+            steps = 0
+            for line in process.stderr:
+                said += line
+                steps += len(re.findall(r"^step +\d+ +h/H", line))
+                if steps == 4:
+                    process.send_signal(stop)
+                    break
+            sent = time.monotonic()
+            try:
+                said += process.communicate(timeout=30)[1]
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                expect(False, f"{stop.name}: still running after 30 s")
+                continue
+            expect(steps == 4, f"{stop.name}: the run ended by itself\n{said}")
+            check_stopped(f"{stop.name} after {time.monotonic() - sent:.1f} s", process.returncode, said,
+                          pathlib.Path(scratch) / "out")
+
+
+def check_time_limit():
+    with tempfile.TemporaryDirectory() as scratch:
+        code, said = run(FAULT, *LONG, "--time-limit", "1", folder=scratch)
+        check_stopped("--time-limit", code, said, pathlib.Path(scratch) / "out")
+
+
+def check_repeat():
+    """A shorter run into the same folder replaces the older one's series and keeps the user's own files."""
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        old_results(scratch / "out")
+        (scratch / "out/fields/step_9999.vtu").write_text("of an older, longer run")
+        code, said = run(FAULT, "--quick", *command(TINY), "--frames", "2", "--output", "out", folder=scratch)
+        expect(code == 0, f"a second run: ended with {code}\n{said}")
+        listed = [entry.get("file") for entry in xml.parse(scratch / "out/fields.pvd").iter("DataSet")]
+        expect({f"fields/{path.name}" for path in (scratch / "out/fields").iterdir()} == set(listed),
+               "a second run: files of the older series are left")
+        expect((scratch / "out/notes.txt").read_text() == "old notes.txt\n", "a second run: the user's file is gone")
+
+
+if not (FAULT.is_file() and BIAXIAL.is_file()):
+    print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
+    sys.exit(77)
+for check in (check_help, check_bad_input, check_config, check_repeat, check_time_limit, check_interrupt):
+    started = time.monotonic()
+    check()
+    print(f"{check.__name__}: {time.monotonic() - started:.1f} s")
+print("\n".join(troubles))
+print(f"{checks} checks, {len(troubles)} failed")
+sys.exit(1 if troubles else 0)
