@@ -25,7 +25,7 @@ void make_quick(Choice& choice) {
 
 void declare_options(CLI::App& app, Choice& choice, bool& quick) {
   using examples::number_from;
-  app.add_flag("--quick", quick, "tiny mesh and few grains; other options still apply");
+  app.add_flag("--quick", quick, "tiny mesh and few grains; other options still apply")->configurable(false);
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(number_from(0.0, false, 25.0));
   app.add_option("--triangles", choice.triangles, "wanted number of triangles instead of --size")
       ->check(CLI::Range(100, 1'000'000));
@@ -42,7 +42,7 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
   app.add_option("--most-iterations", choice.most_iterations, "of a load step")->check(CLI::Range(1, 10'000));
   app.add_option("--strain-per-step", choice.strain_per_step, "strain of one DEM step")
       ->check(number_from(0.0, false, 1e-3));
-  app.add_option("--least-dem-steps", choice.least_dem_steps, "of one response")->check(CLI::Range(1, 100'000));
+  app.add_option("--least-dem-steps", choice.least_dem_steps, "of one response")->check(CLI::Range(1, 20'000));
   app.add_option("--unbalanced", choice.unbalanced_tolerance, "unbalanced ratio asked of every packing")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--threads", choice.threads, "0 takes all")->check(CLI::Range(0, 1024));
@@ -60,6 +60,15 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 
+/// An older, longer series would be mixed up with the new one, and an old summary would speak for it.
+void remove_older_results(std::filesystem::path const& folder) {
+  for (auto const* name : {"fields.pvd", "summary.json", "summary.txt"}) std::filesystem::remove(folder / name);
+  for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
+    std::string const name = file.path().filename().string();
+    if (name.starts_with("step_") && name.ends_with(".vtu")) std::filesystem::remove(file.path());
+  }
+}
+
 int run(Choice const& choice) {
   namespace fs = std::filesystem;
   auto const started = std::chrono::steady_clock::now();
@@ -74,8 +83,8 @@ int run(Choice const& choice) {
   fmt::print(stderr, "{} triangles, {} threads\n", problem.discretisation().mesh().elements.size(), executor.threads());
 
   fs::path const folder = choice.output;
-  fs::remove_all(folder / "fields");  // an older, longer series would be mixed up with this one
   fs::create_directories(folder / "fields");
+  remove_older_results(folder);
   std::size_t const middle = scene.soil.source.packings.size() / 2;
   scarp::write_packing_tables(folder, scene.soil.source.packings[middle], scene.soil.law);
   double const depth = scene.layer.depth;
@@ -92,7 +101,7 @@ int run(Choice const& choice) {
 
   auto report = scene.settle(problem, observers);
   auto const rest = fault_rupture::at_rest(problem, scene);
-  if (report.verdict.acceptable()) report = scene.rupture(problem, observers);
+  if (report.verdict.acceptable()) report = scarp::joined(report, scene.rupture(problem, observers));
 
   auto const json = fault_rupture::summary(choice, scene, problem, rest, report, elapsed());
   scarp::write_file(folder / "summary.json", json.dump(2) + "\n");

@@ -56,13 +56,15 @@ inline std::vector<double> depths(scarp::FaultMesh const& layer) {
 inline FreeField make_scene(Choice const& choice) {
   scarp::FaultMesh layer{.tip = choice.tip, .size = choice.size};
   if (choice.triangles > 0) layer = layer.with_about(choice.triangles);
+  FreeField scene;
   auto const law = examples::study_law();
   scarp::LevelGround<scarp::EllipseGrading> ground;
   ground.cloud = examples::study_cloud(choice.grains, choice.seed);
+  ground.unit_weight = scene.unit_weight;
+  ground.surcharge = scene.surcharge;
   ground.preparation.preparation_friction = choice.preparation_friction;
   auto const packings = ground.make<Grains>(law, depths(layer));
 
-  FreeField scene;
   scene.layer = layer;
   scene.fault = {.dip = choice.dip * std::numbers::pi / 180.0, .tip = choice.tip};
   scene.throw_to = choice.throw_over_depth * layer.depth;

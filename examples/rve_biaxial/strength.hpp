@@ -61,7 +61,7 @@ inline double secant_dilation_angle(std::vector<Row> const& rows) {
       rows.begin(), rows.end(), [](Row const& a, Row const& b) { return a.volumetric_strain < b.volumetric_strain; });
   double const major = rows.back().axial_strain - onset->axial_strain;
   double const minor = rows.back().lateral_strain - onset->lateral_strain;
-  return 180.0 / std::numbers::pi * std::asin((major + minor) / (minor - major));
+  return 180.0 / std::numbers::pi * std::asin(std::clamp((major + minor) / (minor - major), -1.0, 1.0));
 }
 
 /// Mean and sample standard deviation.

@@ -197,7 +197,7 @@ TEST_CASE("only the reduced cell counts as thin") {
   // Row on row of the same lattice, but with base vectors sheared so far that their parallelogram is thinner than a grain.
   auto packing = samples::triangular_lattice<Discs>(4, 5e-3, 1e-2);
   packing.cell.col(1) += 3.0 * packing.cell.col(0);
-  CHECK(scarp::cell_is_wide_enough(packing));
+  CHECK(scarp::cell_is_wide_enough(packing, 1e-4));
   CHECK(scarp::rebuild_pairs(packing, 1e-4).acceptable());
 }
 

@@ -56,8 +56,13 @@ struct DemRve {
   Tangent tangent_policy{};
 
   State initial_state(Site<dim> const& site) const {
+    check();
     State state;
     state.packing = source.at(site);
+    if (!state.packing.population) {
+      refuse("point {} got a packing of zero grains (nothing can carry stress): give the provider's source a packing",
+             site.index);
+    }
     Stepper stepper = make_stepper();
     state.verdict = observe(stepper, state);
     return state;
@@ -106,6 +111,21 @@ struct DemRve {
   }
 
  private:
+  /// \throws InputError for parameters that no response can be made with
+  void check() const {
+    require_positive("strain per DEM step", strain_per_step);
+    require_positive("inertial number", inertial_number);
+    require_positive("unbalanced tolerance", unbalanced_tolerance);
+    require_positive("share of the critical time step", time_step_share);
+    require_not_negative("loose pressure", loose_pressure);
+    require_positive("normal stiffness of the contact law", law.stiffness(0.0).normal);
+    if constexpr (Frictional<Law>) require_not_negative("friction of the contact law", law.friction);
+    if (least_steps < 1 || most_steps < least_steps) {
+      refuse("a response is to take {} to {} DEM steps (at least one, and not more than the most): mend the bounds",
+             least_steps, most_steps);
+    }
+  }
+
   using Stepper = TimeStepper<PackingType, Damping>;
 
   static double mean_pressure(VoigtStress<dim> const& stress) { return -stress.template head<dim>().sum() / dim; }

@@ -8,12 +8,12 @@
 
 namespace scarp {
 
-/// `Count` arrays of equal length in one block (structure of arrays). Each column is padded with the fill value to a
-/// multiple of eight so that vector loops need no tail. `Count` zero takes no memory.
+/// `Count` arrays of equal length in one block (structure of arrays). Each column is padded with the fill value to
+/// full vectors of 64 bytes so that vector loops need no tail. `Count` zero takes no memory.
 template <class Scalar, int Count>
 class Columns {
  public:
-  static constexpr std::size_t padding = 8;
+  static constexpr std::size_t padding = sizeof(Scalar) < 8 ? 16 : 8;
 
   Columns() = default;
   explicit Columns(std::size_t rows, Scalar fill = Scalar(0)) { resize(rows, fill); }

@@ -22,7 +22,7 @@ enum class Reason : std::uint8_t {
   unreachable,       ///< a servo target was not reached within the allowed work
   not_finite,        ///< NaN or infinity in state or answer
   too_deep,          ///< grains overlap more deeply than their curvature allows
-  cell_collapsed,    ///< the periodic cell is inverted or thinner than two grains
+  cell_collapsed,    ///< the periodic cell is inverted or thinner than a grain's diameter and the skin
   element_inverted,  ///< an element's Jacobian is not positive
   iterations_spent,  ///< the iteration limit was reached above the asked residual
   singular_system,   ///< the linear system could not be factorised

@@ -211,14 +211,14 @@ bool positions_are_finite(PackingType const& packing) {
 
 }  // namespace detail
 
-/// Whether the cell, with its base vectors reduced, holds every grain's neighbourhood only once: thinner cells would let a
-/// grain meet two images of one neighbour, which this list does not resolve.
+/// Whether the cell, with its base vectors reduced, is wider than two grains in touch and the skin, the reach of the search,
+/// so that no image further away than the next cell's can come near.
 template <class PackingType>
-bool cell_is_wide_enough(PackingType const& packing) {
+bool cell_is_wide_enough(PackingType const& packing, double skin) {
   constexpr int dim = PackingType::dim;
   if (!(packing.cell.allFinite() && packing.cell.determinant() > 0.0)) return false;
   Tensor<dim> const reduced = packing.cell * lattice_reduction<dim>(packing.cell).template cast<double>();
-  return least_height<dim>(reduced) > 2.0 * packing.population->largest_radius();
+  return least_height<dim>(reduced) > 2.0 * packing.population->largest_radius() + skin;
 }
 
 /// Makes the list of pairs whose gap is below `skin` [m] (nanoflann k-d tree over grains and ghosts), carrying over normals
@@ -227,7 +227,7 @@ bool cell_is_wide_enough(PackingType const& packing) {
 template <class PackingType>
 Verdict rebuild_pairs(PackingType& packing, double skin) {
   constexpr int dim = PackingType::dim;
-  if (!cell_is_wide_enough(packing)) return {Status::failed, Reason::cell_collapsed};
+  if (!cell_is_wide_enough(packing, skin)) return {Status::failed, Reason::cell_collapsed};
   if (!detail::positions_are_finite(packing)) return {Status::failed, Reason::not_finite};
   detail::Renaming<dim> const renaming = detail::reduce_and_wrap(packing);
   auto const former = detail::former_pairs(packing, renaming);

@@ -81,6 +81,7 @@ template <bool Observe, class PackingType, class Law>
   constexpr std::size_t width = Lanes::size();
   constexpr std::size_t row_size = Scratch::row_size;
   constexpr std::size_t force_size = Scratch::force_size;
+  static_assert(Columns<Scalar, 1>::padding % width == 0, "columns must fill whole packs");
   static_assert(dim == 2, "the pair loop's torques and frames are written for the plane");
 
   auto& pairs = packing.pairs;

@@ -36,7 +36,7 @@ class FieldSeries : public NeverStops {
   /// frames: files are written at load 0 and then whenever the load has grown by to / frames
   FieldSeries(std::filesystem::path folder, double to, int frames, double load_unit)
       : folder_(std::move(folder)),
-        between_(to / frames),
+        between_(require_positive("distance between frames", to / frames)),
         end_(to),
         load_unit_(load_unit),
         series_(folder_, "fields") {}

@@ -33,6 +33,10 @@ struct FreeFieldFault {
     require_not_negative("unit weight", unit_weight);
     require_not_negative("surcharge", surcharge);
     require_positive("throw", throw_to);
+    if (layer.tip != fault.tip) {
+      refuse("the mesh has its kink at x = {} m, the fault at {} m (the kink belongs on a node): set both alike",
+             layer.tip, fault.tip);
+    }
     Grid grid(layer.generate());
     Constraints constraints = fault.constraints(grid.mesh());
     Eigen::VectorXd loads = body_force(grid, [&](int) { return Vector<2>(0.0, -unit_weight); });

@@ -34,7 +34,15 @@ struct LevelGround {
   /// \throws PreparationError when a stress is not reached, InputError for bad parameters
   template <class PackingType>
   PackingsByDepth<PackingType> make(typename PackingType::Law const& law, std::vector<double> depths) const {
+    if (depths.empty()) refuse("no depths are given (level ground needs at least one): pass the depths of the points");
+    for (double const depth : depths) require_finite("depth of a packing", depth);
     std::sort(depths.begin(), depths.end());
+    if (preparation.pressure > overburden(depths.front())) {
+      refuse(
+          "the packing is prepared at {} Pa (the uppermost point carries {} Pa, so that the ground would be unloaded): "
+          "lower the pressure or raise the surcharge",
+          preparation.pressure, overburden(depths.front()));
+    }
     depths.erase(std::unique(depths.begin(), depths.end(), [](double a, double b) { return b - a < 1e-6; }),
                  depths.end());
     std::vector<double> pressures;

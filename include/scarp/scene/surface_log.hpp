@@ -16,7 +16,7 @@ class SurfaceLog : public NeverStops {
   SurfaceLog(std::filesystem::path const& file, std::vector<int> nodes, double to, int profiles, double load_unit)
       : log_(file, {"throw_over_depth", "x_initial", "x", "settlement"}),
         nodes_(std::move(nodes)),
-        between_(to / profiles),
+        between_(require_positive("distance between profiles", to / profiles)),
         end_(to),
         load_unit_(load_unit) {}
 

@@ -108,7 +108,12 @@ class EquilibriumProblem {
       if (responses_[static_cast<std::size_t>(point)].verdict.status == Status::not_converged)
         unconverged.push_back(point);
     }
-    for (int const point : unconverged) materials_.refine_plan(point);
+    // A point that cannot work harder would only repeat its answer.
+    std::erase_if(unconverged, [&](int point) {
+      long const before = materials_.work(point);
+      materials_.refine_plan(point);
+      return materials_.work(point) == before;
+    });
     Evaluation evaluation;
     respond(unconverged, evaluation);
     add_up(increment, evaluation);
@@ -164,9 +169,9 @@ class EquilibriumProblem {
       // Prescribed nodes would hide a NaN from the residual of the free ones.
       if (!responses_[k].stress.allFinite()) responses_[k].verdict = {Status::failed, Reason::not_finite};
     });
-    for (int const point : selected) {
+    for (int const point : selected) evaluation.inner_steps += materials_.work(point);
+    for (int point = 0; point < discretisation_.point_count(); ++point) {
       Verdict const verdict = responses_[static_cast<std::size_t>(point)].verdict;
-      evaluation.inner_steps += materials_.work(point);
       if (!verdict.acceptable() && (evaluation.worst_point < 0 || verdict.status > evaluation.verdict.status)) {
         evaluation.verdict = verdict;
         evaluation.worst_point = point;

@@ -39,6 +39,18 @@ struct RunReport {
   double seconds = 0.0;
 };
 
+/// Two stages of a run as one: counts and times add up, verdict and load are the later stage's.
+inline RunReport joined(RunReport const& earlier, RunReport later) {
+  later.steps += earlier.steps;
+  later.refused += earlier.refused;
+  later.iterations += earlier.iterations;
+  later.inner_steps += earlier.inner_steps;
+  later.largest_residual = std::max(later.largest_residual, earlier.largest_residual);
+  later.material_seconds += earlier.material_seconds;
+  later.seconds += earlier.seconds;
+  return later;
+}
+
 /// Raises the load factor in steps that adapt themselves: the prediction's largest displacement gradient limits a step before
 /// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved. Only
 /// a step whose residual and points are all acceptable is committed.
@@ -104,6 +116,11 @@ struct LoadStepping {
       auto const started = std::chrono::steady_clock::now();
       Eigen::VectorXd displacement;
       if (fresh) step.verdict = session.begin();
+      if (!step.verdict.acceptable()) {  // tangents or matrix, which no smaller increment mends
+        run.verdict = step.verdict;
+        observer.attempted(problem, step);
+        return run;
+      }
       fresh = false;
       if (step.verdict.acceptable()) {
         displacement = limited_prediction(session, problem, increment);
