@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/core/constant.hpp"
 

@@ -62,7 +62,8 @@ class TimeStepper {
     return {};
   }
 
-  /// Stress and balance of the packing as it stands; nothing moves, only remembered normals are brought up to date.
+  /// Stress and balance of the packing as it stands; no grain moves, but remembered normals and
+  /// shear limits are brought up to date and an old pair list is renewed.
   Verdict observe(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
     if (Verdict const verdict = refresh(packing, law); !verdict.acceptable()) return verdict;
     observed = observe(packing, pair_forces<true>(packing, law, Tensor<dim>::Zero(), 0.0, scratch_));

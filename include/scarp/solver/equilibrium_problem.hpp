@@ -138,12 +138,9 @@ class EquilibriumProblem {
     discretisation_.stiffness(increment, stresses(), tangents, matrix);
   }
 
-  /// Tangents of all points, of their committed or their trial states.
+  /// Tangents of all points' committed states.
   std::vector<VoigtTangent<dim>> committed_tangents() const {
     return all_tangents([&](int point) { return materials_.committed_tangent(point); });
-  }
-  std::vector<VoigtTangent<dim>> trial_tangents() const {
-    return all_tangents([&](int point) { return materials_.trial_tangent(point); });
   }
 
   /// Makes the increment and the points' trial states the committed ones.
