@@ -130,7 +130,7 @@ PackingType settled(int grains, scarp::TimeStepper<PackingType>& stepper) {
     auto packing = converted<PackingType>(source);
     auto const law = law_of_study<Law>();
     if constexpr (!scarp::Frictional<Law>) {  // without friction the cell must shrink until it carries 200 kPa again
-      auto const loading = scarp::ComponentLoading<2>::all_stress(scarp::VoigtStress<2>(-pressure, -pressure, 0.0));
+      auto const loading = scarp::Loading<2>::stress(scarp::VoigtStress<2>(-pressure, -pressure, 0.0));
       scarp::Servo const servo{.stress_tolerance = 1e-2, .unbalanced_tolerance = 1e-2, .most_steps = 50'000};
       if (auto const verdict = servo.reach(stepper, packing, law, loading); !verdict.acceptable()) {
         scarp::refuse("{} frictionless grains did not settle ({}): loosen the tolerances", grains,
@@ -165,18 +165,19 @@ template <class PackingType>
 double disagreement(PackingType packing, scarp::LinearFrictional const& law, scarp::LocalDamping const& damping,
                     double time_step) {
   scarp_benchmark::NaiveKernel<PackingType> naive(packing, law, damping, time_step);
-  scarp::PairScratch<typename PackingType::Shape, double> scratch;
+  scarp::PairScratch<double> scratch;
   scarp::Tensor<2> strain;
   strain << 1e-5, 2e-5, -3e-5, 1e-5;
   naive.forces(strain);
-  scarp::pair_forces<false>(packing, law, strain, time_step, scratch);
+  scarp::pair_forces<scarp::Observe::nothing>(packing, law, strain, time_step, scratch);
   double largest = 0.0;
   scarp::for_each_contact(packing, law,
                           [&](auto const& contact) { largest = std::max(largest, contact.force.norm()); });
   double worst = 0.0;
   double const lever = packing.population->largest_radius();
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-    double const* net = scratch.forces.data() + i * scarp::PairScratch<typename PackingType::Shape, double>::force_size;
+    double const* net = scratch.forces.data() +
+                        i * scarp::RowLayout<typename PackingType::Shape, typename PackingType::Law>::force_size;
     auto const& grain = naive.grains()[i];
     worst = std::max(
         {worst, std::abs(net[0] - grain.fx), std::abs(net[1] - grain.fy), std::abs(net[2] - grain.torque) / lever});

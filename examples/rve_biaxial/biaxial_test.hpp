@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "../study_sand.hpp"
+#include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "scarp/homogenise/coordination.hpp"
 #include "scarp/homogenise/fabric.hpp"
 
 namespace rve_biaxial {
@@ -64,7 +66,7 @@ inline Row describe(Packing const& packing, double axial_strain, double volumetr
           .axial_stress = -stress(1, 1),
           .lateral_stress = -stress(0, 0),
           .void_ratio = packing.void_ratio(),
-          .coordination = scarp::coordination(packing, law),
+          .coordination = scarp::coordination(packing, law).all,
           .contact_fabric = scarp::fabric_anisotropy(scarp::contact_fabric(packing, law)),
           .particle_fabric = scarp::fabric_anisotropy(scarp::particle_fabric(packing)),
           .unbalanced_ratio = state.unbalanced_ratio,
@@ -75,15 +77,12 @@ inline Row describe(Packing const& packing, double axial_strain, double volumetr
 inline void compress(Packing packing, Choice const& choice, Result& result) {
   constexpr double strain_per_row = 2.5e-4;
   // The lateral stress lags behind its target by rate x modulus x response steps: 0.6 % of 200 kPa by default.
-  scarp::Servo const servo{.response_steps = 20.0};
-  scarp::ComponentLoading<2> loading;
-  loading.stress_controlled[0] = true;
-  loading.stress(0) = -choice.pressure;
-  loading.strain_per_step(1) = -choice.strain_per_step;
+  scarp::StressFeedback const feedback{.response_steps = 20.0};
 
   auto const law = study_law();
   scarp::TimeStepper<Packing> stepper;
-  scarp::Servo::Drive<Packing> drive(servo, packing, law, loading);
+  scarp::Drive<Packing> drive(packing, law, scarp::drained_compression<2>(choice.strain_per_step, choice.pressure),
+                              feedback);
   double const first_area = packing.cell.determinant();
   result.rows.push_back(describe(packing, 0.0, 0.0, scarp::balance(packing, law).stress));
   long const steps = std::lround(choice.strain / choice.strain_per_step);

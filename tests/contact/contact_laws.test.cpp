@@ -3,21 +3,30 @@
 
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/core/pack.hpp"
 
 namespace {
 
 using scarp::Approach;
+using scarp::ContactMemory;
 using scarp::Frictionless;
 using scarp::LinearFrictional;
 
 struct LawWithoutStiffness {
-  static constexpr bool remembers_shear = false;
-  double respond(Approach<2, double> const&, double&) const { return 0.0; }
+  static constexpr scarp::ContactNeeds needs{};
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(Approach<Dim, T> const&, ContactMemory<Dim, T>&) const {
+    return {.normal = T(0)};
+  }
 };
-static_assert(!LawWithoutStiffness::remembers_shear && !scarp::ContactLaw<LawWithoutStiffness>,
+static_assert(scarp::RespondsToApproach<LawWithoutStiffness> && !scarp::ContactLaw<LawWithoutStiffness>,
               "a law that cannot tell its stiffness must be refused");
-static_assert(!Frictionless::remembers_shear && LinearFrictional::remembers_shear);
+
+struct LawWithTooManyNumbers : Frictionless {
+  static constexpr scarp::ContactNeeds needs{.scalars = scarp::most_contact_scalars + 1};
+};
+static_assert(!scarp::NamesContactNeeds<LawWithTooManyNumbers>, "no contact has room for that many numbers");
+
+static_assert(!Frictionless::needs.shear && LinearFrictional::needs.shear);
 static_assert(!scarp::Frictional<Frictionless>, "there is no friction to exchange in a frictionless law");
 
 constexpr LinearFrictional law{.normal_stiffness = 100.0, .tangential_stiffness = 50.0, .friction = 0.5};
@@ -25,72 +34,70 @@ constexpr LinearFrictional law{.normal_stiffness = 100.0, .tangential_stiffness 
 }  // namespace
 
 TEST_CASE("a closed contact pushes with stiffness times overlap and shears against the slip") {
-  double shear = 0.0;
+  ContactMemory<2, double> memory;
   // Analytic: F_n = 100 x 0.2 = 20, F_t = -50 x 0.1 = -5, below the limit 10; exact in binary up to the decimals.
-  CHECK(law.respond(Approach<2, double>{0.2, 0.1}, shear) == doctest::Approx(20.0).epsilon(1e-15));
-  CHECK(shear == doctest::Approx(-5.0).epsilon(1e-15));
-  law.respond(Approach<2, double>{0.2, -0.04}, shear);
-  CHECK(shear == doctest::Approx(-3.0).epsilon(1e-15));
+  auto const force = law.respond(Approach<2, double>{0.2, 0.1}, memory);
+  CHECK(force.normal == doctest::Approx(20.0).epsilon(1e-15));
+  CHECK(force.shear == doctest::Approx(-5.0).epsilon(1e-15));
+  CHECK(memory.shear == force.shear);
+  law.respond(Approach<2, double>{0.2, -0.04}, memory);
+  CHECK(memory.shear == doctest::Approx(-3.0).epsilon(1e-15));
 }
 
 TEST_CASE("shear is clamped at friction times normal force on both sides") {
-  double shear = 0.0;
-  law.respond(Approach<2, double>{0.2, 1.0}, shear);
-  CHECK(shear == doctest::Approx(-10.0).epsilon(1e-15));  // analytic: mu F_n = 0.5 x 20
-  law.respond(Approach<2, double>{0.2, -5.0}, shear);
-  CHECK(shear == doctest::Approx(10.0).epsilon(1e-15));
-  law.respond(Approach<2, double>{0.05, 0.0}, shear);  // unloading lowers the limit to 2.5
-  CHECK(shear == doctest::Approx(2.5).epsilon(1e-15));
+  ContactMemory<2, double> memory;
+  law.respond(Approach<2, double>{0.2, 1.0}, memory);
+  CHECK(memory.shear == doctest::Approx(-10.0).epsilon(1e-15));  // analytic: mu F_n = 0.5 x 20
+  law.respond(Approach<2, double>{0.2, -5.0}, memory);
+  CHECK(memory.shear == doctest::Approx(10.0).epsilon(1e-15));
+  law.respond(Approach<2, double>{0.05, 0.0}, memory);  // unloading lowers the limit to 2.5
+  CHECK(memory.shear == doctest::Approx(2.5).epsilon(1e-15));
+}
+
+TEST_CASE("sliding dissipates the work against the limit, sticking nothing") {
+  ContactMemory<2, double> memory;
+  // Decimals of a few units cancel: 1e-13.
+  CHECK(std::abs(law.respond(Approach<2, double>{0.2, 0.1}, memory).dissipated) < 1e-13);
+  // Analytic: from -5 to the limit -10 the spring takes 75/100 J; the mean force 7.5 over 0.5 m works 3.75 J.
+  CHECK(law.respond(Approach<2, double>{0.2, 0.5}, memory).dissipated == doctest::Approx(3.0).epsilon(1e-13));
+  // Analytic: at the limit all work is lost, 10 N x 0.3 m.
+  CHECK(law.respond(Approach<2, double>{0.2, 0.3}, memory).dissipated == doctest::Approx(3.0).epsilon(1e-13));
 }
 
 TEST_CASE("an open contact carries nothing and forgets its shear") {
-  double shear = 7.0;
-  CHECK(law.respond(Approach<2, double>{-1e-9, 0.1}, shear) == 0.0);
-  CHECK(shear == 0.0);
+  ContactMemory<2, double> memory{.shear = 7.0};
+  CHECK(law.respond(Approach<2, double>{-1e-9, 0.1}, memory).normal == 0.0);
+  CHECK(memory.shear == 0.0);
 }
 
 TEST_CASE("in space the shear force is clamped in size and keeps its direction") {
-  std::array<double, 3> shear{};
-  law.respond(Approach<3, double>{0.2, {0.3, 0.4, 0.0}}, shear);
+  ContactMemory<3, double> memory;
+  law.respond(Approach<3, double>{0.2, {0.3, 0.4, 0.0}}, memory);
   // Analytic: the trial force -50 (0.3, 0.4) = -(15, 20) has size 25, the limit is 10.
-  CHECK(shear[0] == doctest::Approx(-6.0).epsilon(1e-14));
-  CHECK(shear[1] == doctest::Approx(-8.0).epsilon(1e-14));
-  CHECK(shear[2] == 0.0);
-  law.respond(Approach<3, double>{-0.1, {0.0, 0.0, 0.0}}, shear);
-  CHECK(shear[0] == 0.0);
+  CHECK(memory.shear[0] == doctest::Approx(-6.0).epsilon(1e-14));
+  CHECK(memory.shear[1] == doctest::Approx(-8.0).epsilon(1e-14));
+  CHECK(memory.shear[2] == 0.0);
+  law.respond(Approach<3, double>{-0.1, {0.0, 0.0, 0.0}}, memory);
+  CHECK(memory.shear[0] == 0.0);
 }
 
 TEST_CASE("a frictionless contact pushes and leaves shear alone") {
   Frictionless const smooth{.normal_stiffness = 100.0};
-  double shear = 3.0;
-  CHECK(smooth.respond(Approach<2, double>{0.2, 1.0}, shear) == doctest::Approx(20.0).epsilon(1e-15));
-  CHECK(smooth.respond(Approach<2, double>{-0.2, 1.0}, shear) == 0.0);
-  CHECK(shear == 3.0);
-  CHECK(smooth.stiffness(0.1).tangential == 0.0);
-  CHECK(law.stiffness(0.1).tangential == 50.0);
+  ContactMemory<2, double> memory{.shear = 3.0};
+  auto const force = smooth.respond(Approach<2, double>{0.2, 1.0}, memory);
+  CHECK(force.normal == doctest::Approx(20.0).epsilon(1e-15));  // analytic: 100 x 0.2
+  CHECK(force.shear == 0.0);
+  CHECK(smooth.respond(Approach<2, double>{-0.2, 1.0}, memory).normal == 0.0);
+  CHECK(memory.shear == 3.0);
 }
 
-TEST_CASE("packs of lanes give lane by lane what single numbers give") {
-  using Lanes = scarp::Pack<double>;
-  auto const value = [](std::size_t lane, double scale) { return scale * (static_cast<double>(lane) - 1.3); };
-  Lanes const overlap([&](auto lane) { return value(lane, 0.1); });
-  Lanes const slip([&](auto lane) { return value(lane, -0.7); });
-  Lanes shear(2.0);
-  Lanes const push = law.respond(Approach<2, Lanes>{overlap, slip}, shear);
-  for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {
-    double single = 2.0;
-    double const normal = law.respond(Approach<2, double>{value(lane, 0.1), value(lane, -0.7)}, single);
-    double const lane_push = push[lane];
-    double const lane_shear = shear[lane];
-    CHECK(lane_push == doctest::Approx(normal).epsilon(1e-15));  // the compiler may fuse one of the two
-    CHECK(lane_shear == doctest::Approx(single).epsilon(1e-15));
-  }
-}
-
-TEST_CASE("not a number goes in and comes out") {
-  double shear = 0.0;
-  CHECK(std::isnan(law.respond(Approach<2, double>{std::nan(""), 0.0}, shear)));
-  shear = 0.0;
-  law.respond(Approach<2, double>{0.2, std::nan("")}, shear);
-  CHECK(std::isnan(shear));
+TEST_CASE("laws tell their stiffness and the energy of their springs") {
+  Frictionless const smooth{.normal_stiffness = 100.0};
+  CHECK(smooth.stiffness(0.1, 1.0).normal == 100.0);
+  CHECK(smooth.stiffness(0.1, 1.0).tangential == 0.0);
+  CHECK(law.stiffness(0.1, 1.0).tangential == 50.0);
+  ContactMemory<2, double> const memory{.shear = -5.0};
+  // Analytic: 100 x 0.2^2 / 2 = 2 J and 5^2 / (2 x 50) = 0.25 J; round-off of the decimals.
+  CHECK(smooth.stored_energy(Approach<2, double>{0.2, 0.0}, memory) == doctest::Approx(2.0).epsilon(1e-15));
+  CHECK(law.stored_energy(Approach<2, double>{0.2, 0.0}, memory) == doctest::Approx(2.25).epsilon(1e-15));
 }

@@ -72,7 +72,7 @@ TEST_CASE_TEMPLATE("a consolidated packing stays at rest at its bound", PackingT
   stepper.damping = {.factor = 0.0, .drag = 0.0};
   scarp::StepObservation<2> seen;
   for (int step = 0; step < 3000; ++step) {
-    REQUIRE(stepper.template step<true>(packing, law, Tensor<2>::Zero(), &seen).acceptable());
+    REQUIRE(stepper.template step<scarp::Observe::balance>(packing, law, Tensor<2>::Zero(), &seen).acceptable());
   }
   CHECK(seen.unbalanced_ratio < 1e-3);  // started at 1e-5; an unstable mode would have grown without bound
 }

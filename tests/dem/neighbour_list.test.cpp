@@ -38,8 +38,8 @@ std::vector<Meeting> all_meetings(PackingType const& packing, double skin) {
         for (int v = -cells; v <= cells; ++v) {
           if (i == j && (u < 0 || (u == 0 && v <= 0))) continue;
           Vector<2> const shift = packing.cell * Vector<2>(u, v);
-          auto const from = scarp::grain_position(packing, i);
-          auto const to = scarp::grain_position(packing, j);
+          auto const from = scarp::row_position(packing, i);
+          auto const to = scarp::row_position(packing, j);
           scarp::Point<2, double> const branch{to[0] + shift(0) - from[0], to[1] + shift(1) - from[1]};
           double const distance = std::hypot(branch[0], branch[1]);
           if (distance > 2.0 * packing.population->largest_radius() + skin) continue;
@@ -131,7 +131,7 @@ TEST_CASE_TEMPLATE("a new list of the same grains keeps normals and shear forces
   Tensor<2> const stress = scarp::balance(packing, law).stress;
   auto const shears = [&](PackingType const& of) {
     std::vector<double> values;
-    scarp::for_each_contact(of, law, [&](auto const& contact) { values.push_back(contact.shear); });
+    scarp::for_each_contact(of, law, [&](auto const& contact) { values.push_back(contact.memory.shear); });
     std::sort(values.begin(), values.end());
     return values;
   };

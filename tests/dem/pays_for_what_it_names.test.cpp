@@ -28,8 +28,8 @@ static_assert(std::is_empty_v<ShearOf<SmoothDiscs>> && std::is_empty_v<ShearOf<S
               "a frictionless packing has no tangential memory");
 static_assert(sizeof(SmoothDiscs) < sizeof(Discs) && sizeof(Discs) < sizeof(Ellipses));
 // A disc's row in the loop: place, velocity, spin, radius; an ellipse's has two more numbers, and both are padded to four.
-static_assert(scarp::PairScratch<scarp::Disc, double>::used == 6 &&
-              scarp::PairScratch<scarp::Ellipse, double>::used == 8);
+static_assert(scarp::RowLayout<scarp::Disc, scarp::LinearFrictional>::used == 6 &&
+              scarp::RowLayout<scarp::Ellipse, scarp::LinearFrictional>::used == 8);
 
 template <class PackingType>
 std::size_t bytes_of(PackingType packing, typename PackingType::Law const& law) {

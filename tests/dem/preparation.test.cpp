@@ -12,7 +12,7 @@ namespace {
 
 using samples::Discs;
 using samples::Ellipses;
-using scarp::ComponentLoading;
+using scarp::Loading;
 using scarp::Reason;
 using scarp::Status;
 using scarp::Tensor;
@@ -40,7 +40,7 @@ TEST_CASE("a target that no packing can carry ends as unreachable without any wo
   scarp::Servo const servo;
   for (VoigtStress<2> const& target : {VoigtStress<2>(1e5, -1e5, 0.0), VoigtStress<2>(0.0, 0.0, 0.0),
                                        VoigtStress<2>(-1e5, std::numeric_limits<double>::quiet_NaN(), 0.0)}) {
-    auto const loading = ComponentLoading<2>::all_stress(target);
+    auto const loading = Loading<2>::stress(target);
     CHECK(servo.reach(stepper, packing, samples::study_law(), loading) ==
           Verdict{Status::not_converged, Reason::unreachable});
     CHECK(packing == before);
@@ -52,7 +52,7 @@ TEST_CASE("a target beyond the strength ends within the allowed steps") {
   scarp::TimeStepper<Ellipses> stepper;
   scarp::Servo const servo{.most_steps = 3000};
   // A stress ratio of 20 would take a friction angle of 65 degrees.
-  auto const loading = ComponentLoading<2>::all_stress(VoigtStress<2>(-2e4, -4e5, 0.0));
+  auto const loading = Loading<2>::stress(VoigtStress<2>(-2e4, -4e5, 0.0));
   auto const verdict = servo.reach(stepper, packing, samples::study_law(), loading);
   CHECK_FALSE(verdict.acceptable());
   CHECK(verdict.reason != Reason::none);

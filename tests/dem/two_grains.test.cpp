@@ -126,8 +126,8 @@ TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then 
   // The tangent of a pair listed from right to left points down instead of up.
   for (std::size_t p = 0; p < 2; ++p) {
     bool const from_first = packing.pairs.first[p] == 0;
-    bool const leftwards = scarp::grain_position(packing, static_cast<std::size_t>(packing.pairs.second[p]))[0] <
-                           scarp::grain_position(packing, static_cast<std::size_t>(packing.pairs.first[p]))[0];
+    bool const leftwards = scarp::row_position(packing, static_cast<std::size_t>(packing.pairs.second[p]))[0] <
+                           scarp::row_position(packing, static_cast<std::size_t>(packing.pairs.first[p]))[0];
     packing.pairs.shear(p, 0) = (from_first ? -limit : limit) * (leftwards ? -1.0 : 1.0);
   }
   // Analytic: two contacts of force mu F_n on each grain, relative deceleration 4 mu F_n / m.

@@ -58,11 +58,12 @@ TEST_CASE_TEMPLATE("the raw stress of a packing at rest is symmetric within its 
   // Analytic: V (s_xy - s_yx) is the sum of the grains' net torques plus branch terms of the net forces; both vanish at
   // rest. Measured by the loop's own torques.
   PackingType copy = packing;
-  scarp::PairScratch<typename PackingType::Shape, double> scratch;
-  auto const sums = scarp::pair_forces<true>(copy, law, Tensor<2>::Zero(), 0.0, scratch);
+  scarp::PairScratch<double> scratch;
+  auto const sums = scarp::pair_forces<scarp::Observe::balance>(copy, law, Tensor<2>::Zero(), 0.0, scratch);
   double torques = 0.0;
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-    torques += scratch.forces[i * scarp::PairScratch<typename PackingType::Shape, double>::force_size + 2];
+    torques +=
+        scratch.forces[i * scarp::RowLayout<typename PackingType::Shape, typename PackingType::Law>::force_size + 2];
   }
   double const skew = packing.volume() * (state.stress(0, 1) - state.stress(1, 0));
   CHECK(std::abs(std::abs(skew) - std::abs(torques)) < 1e-9 * state.stress.norm() * packing.volume());

@@ -6,8 +6,9 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/logarithm.hpp"
-#include "scarp/dem/time_stepping.hpp"
+#include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
+#include "scarp/homogenise/kinetic_stress.hpp"
 
 namespace scarp {
 
@@ -39,6 +40,7 @@ struct DemRve {
     PackingType packing;
     VoigtStress<dim> stress = VoigtStress<dim>::Zero();  ///< [Pa], tension positive
     double unbalanced_ratio = 0.0;                       ///< mean net force of a grain over mean contact force
+    double kinetic_share = 0.0;                          ///< of moving grains in the pressure
     Verdict verdict{};
   };
 
@@ -63,6 +65,7 @@ struct DemRve {
       refuse("point {} got a packing of zero grains (nothing can carry stress): give the provider's source a packing",
              site.index);
     }
+    require_positive("normal stiffness of the contact law", spring_modulus(state.packing, law));
     Stepper stepper = make_stepper();
     state.verdict = observe(stepper, state);
     return state;
@@ -94,7 +97,8 @@ struct DemRve {
 
   /// A response that is not balanced to the tolerance is `not_converged`; refined(plan) asks for a slower one.
   /// Fails with `not_finite` on NaN or an increment beyond the logarithm's range, with `cell_collapsed` when the cell gets
-  /// too thin for its grains; `fluid` without contacts.
+  /// too thin for its grains, with `too_deep` when an overlap exceeds the reduced radius of its contact; `fluid` without
+  /// contacts.
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial, Plan steps) const {
     thread_local Stepper stepper;
     stepper.damping = damping;
@@ -118,8 +122,9 @@ struct DemRve {
     require_positive("unbalanced tolerance", unbalanced_tolerance);
     require_positive("share of the critical time step", time_step_share);
     require_not_negative("loose pressure", loose_pressure);
-    require_positive("normal stiffness of the contact law", law.stiffness(0.0).normal);
-    if constexpr (Frictional<Law>) require_not_negative("friction of the contact law", law.friction);
+    if constexpr (Frictional<Law>) {
+      require_not_negative("friction of the contact law", Law(law).friction_coefficient());
+    }
     if (least_steps < 1 || most_steps < least_steps) {
       refuse("a response is to take {} to {} DEM steps (at least one, and not more than the most): mend the bounds",
              least_steps, most_steps);
@@ -143,6 +148,8 @@ struct DemRve {
     if (!seen.stress.allFinite()) return {Status::failed, Reason::not_finite};
     state.stress = to_voigt_stress<dim>(seen.stress);
     state.unbalanced_ratio = seen.unbalanced_ratio;
+    state.kinetic_share = kinetic_stress(state.packing).trace() / std::min(seen.stress.trace(), -1e-9 * dim);
+    if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
     if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
     double const pressure = mean_pressure(state.stress);
     double const weight = pressure < loose_pressure ? std::max(pressure, 0.0) / loose_pressure : 1.0;

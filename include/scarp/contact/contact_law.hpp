@@ -5,48 +5,147 @@
 #include <concepts>
 #include <type_traits>
 
+#include "scarp/core/constant.hpp"
+
 namespace scarp {
 
 /// Tangential quantities at a contact: one number along the tangent in 2D, a vector in the tangent plane in 3D.
 template <int Dim, class T>
 using Tangential = std::conditional_t<Dim == 2, T, std::array<T, 3>>;
 
-/// What a law may look at. `overlap` [m] positive in compression; `slip` [m] is the increment of the second grain's
-/// tangential motion relative to the first during the step.
+/// Rotations and moments: one number about the plane's normal in 2D, a vector in 3D.
 template <int Dim, class T>
-struct Approach {
-  T overlap;
-  Tangential<Dim, T> slip;
+using Turning = std::conditional_t<Dim == 2, T, std::array<T, 3>>;
+
+/// What a law asks of a contact. What it does not name is neither stored nor computed.
+struct ContactNeeds {
+  bool shear = false;   ///< a tangential force is remembered; `slip` is given
+  bool moment = false;  ///< a moment is remembered; `roll` is given
+  int scalars = 0;      ///< further numbers that are remembered, zero for a new contact
+  bool radius = false;  ///< `reduced_radius` is given
+  bool motion = false;  ///< `closing`, `reduced_mass` and `time_step` are given
 };
 
-/// Stiffness [N/m] of a closed contact against a small motion, sliding not regarded.
+/// What a law may look at. Motions are those of the second grain relative to the first during the step.
+template <int Dim, class T>
+struct Approach {
+  T overlap;                ///< [m], positive in compression
+  Tangential<Dim, T> slip;  ///< tangential motion at the contact point [m]
+  Turning<Dim, T> roll{};   ///< rotation [rad]
+  T reduced_radius{};       ///< \f$ R_1 R_2 / (R_1 + R_2) \f$ [m]
+  T closing{};              ///< growth of the overlap [m]
+  T reduced_mass{};         ///< \f$ m_1 m_2 / (m_1 + m_2) \f$ [kg]
+  T time_step{};            ///< [s]; zero while nothing moves
+};
+
+/// The most numbers that a law, with all that is wrapped around it, may ask for in `ContactNeeds::scalars`.
+inline constexpr int most_contact_scalars = 4;
+
+/// What a contact remembers from step to step, as far as its law needs it.
+template <int Dim, class T>
+struct ContactMemory {
+  Tangential<Dim, T> shear{};  ///< tangential force on the second grain [N]
+  Turning<Dim, T> moment{};    ///< on the second grain [N m]
+  std::array<T, most_contact_scalars> scalars{};
+};
+
+/// Answer of a law. Whatever is not asked for by its caller costs nothing.
+template <int Dim, class T>
+struct ContactForce {
+  T normal;                    ///< [N], positive pushes the grains apart
+  Tangential<Dim, T> shear{};  ///< on the second grain [N]
+  Turning<Dim, T> moment{};    ///< on the second grain [N m], where the law needs a moment
+  T dissipated{};              ///< energy lost in the contact during the step [J]
+};
+
+/// Stiffness of a closed contact against a small motion, sliding not regarded: forces [N/m], moment [N m/rad].
 struct ContactStiffness {
   double normal = 0.0;
   double tangential = 0.0;
+  double rolling = 0.0;
 };
 
-/// respond(approach, shear): returns the normal force [N] (positive pushes the grains apart, zero when open) and updates
-/// `shear`, the tangential force [N] on the second grain.
+/// respond(approach, memory): forces of the contact; the memory is brought up to date.
 template <class Law>
-concept RespondsToApproach = requires(Law const& law, Approach<2, double> const& approach, double& shear) {
-  { law.respond(approach, shear) } -> std::same_as<double>;
+concept RespondsToApproach = requires(Law const& law, Approach<2, double> const& approach,
+                                      ContactMemory<2, double>& memory) {
+  { law.respond(approach, memory) } -> std::same_as<ContactForce<2, double>>;
 };
 
 template <class Law>
 concept TellsContactStiffness = requires(Law const& law) {
-  { law.stiffness(0.0) } -> std::same_as<ContactStiffness>;  // at an overlap [m]
+  { law.stiffness(0.0, 0.0) } -> std::same_as<ContactStiffness>;  // at an overlap and a reduced radius [m]
 };
 
-/// `remembers_shear` is false for a law without tangential force: nothing is then stored for it.
 template <class Law>
-concept ContactLaw = std::is_aggregate_v<Law> && RespondsToApproach<Law> && TellsContactStiffness<Law> && requires {
-  { Law::remembers_shear } -> std::convertible_to<bool>;
+concept NamesContactNeeds = requires {
+  { Law::needs } -> std::convertible_to<ContactNeeds>;
+  requires Law::needs.scalars <= most_contact_scalars;
 };
+
+template <class Law>
+concept ContactLaw =
+    std::is_aggregate_v<Law> && NamesContactNeeds<Law> && RespondsToApproach<Law> && TellsContactStiffness<Law>;
 
 /// A law whose friction coefficient can be exchanged, as the preparation of a packing needs.
 template <class Law>
 concept Frictional = ContactLaw<Law> && requires(Law law) {
-  law.friction = 0.0;
+  { law.friction_coefficient() } -> std::same_as<double&>;
 };
+
+/// stored_energy(approach, memory): what the contact would give back [J].
+template <class Law>
+concept TellsStoredEnergy = ContactLaw<Law> &&
+    requires(Law const& law, Approach<2, double> const& approach, ContactMemory<2, double> const& memory) {
+  { law.stored_energy(approach, memory) } -> std::same_as<double>;
+};
+
+/// reach(): the widest gap [m] across which the law still acts, such as a bond that is pulled.
+template <class Law>
+double reach_of(Law const& law) {
+  if constexpr (requires { law.reach(); }) {
+    return law.reach();
+  } else {
+    return 0.0;
+  }
+}
+
+/// damping_ratio(): share of critical damping that the law's dashpots may reach.
+template <class Law>
+double damping_ratio_of(Law const& law) {
+  if constexpr (requires { law.damping_ratio(); }) {
+    return law.damping_ratio();
+  } else {
+    return 0.0;
+  }
+}
+
+/// Square of a tangential or turning quantity.
+template <class T>
+T squared_size(T const& value) {
+  return value * value;
+}
+template <class T>
+T squared_size(std::array<T, 3> const& value) {
+  return value[0] * value[0] + value[1] * value[1] + value[2] * value[2];
+}
+
+template <class T>
+T inner_product(T const& a, T const& b) {
+  return a * b;
+}
+template <class T>
+T inner_product(std::array<T, 3> const& a, std::array<T, 3> const& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class T>
+T scaled(T const& value, T const& factor) {
+  return value * factor;
+}
+template <class T>
+std::array<T, 3> scaled(std::array<T, 3> const& value, T const& factor) {
+  return {value[0] * factor, value[1] * factor, value[2] * factor};
+}
 
 }  // namespace scarp

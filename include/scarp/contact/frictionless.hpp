@@ -2,26 +2,34 @@
 #pragma once
 
 #include <algorithm>
+
 #include "scarp/contact/contact_law.hpp"
-#include "scarp/core/constant.hpp"
 
 namespace scarp {
 
 /// Linear repulsion without tangential force: \f$ F_n = k_n u_n \f$ for u_n > 0. `normal_stiffness` [N/m].
 struct Frictionless {
-  static constexpr bool remembers_shear = false;
+  static constexpr ContactNeeds needs{};
 
   double normal_stiffness = 0.0;
 
-  template <int Dim, class T, class Shear>
-  T respond(Approach<Dim, T> const& approach, Shear&) const {
+  template <int Dim, class T>
+  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
     using std::max;
-    return max(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));
+    return {.normal = max(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0))};
   }
 
-  ContactStiffness stiffness(double) const { return {normal_stiffness, 0.0}; }
+  ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
+
+  template <int Dim, class T>
+  T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const&) const {
+    using std::max;
+    T const closed = max(approach.overlap, constant<T>(0));
+    return constant<T>(normal_stiffness / 2.0) * closed * closed;
+  }
 };
 
 static_assert(ContactLaw<Frictionless>);
+static_assert(TellsStoredEnergy<Frictionless>);
 
 }  // namespace scarp

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "scarp/contact/contact_law.hpp"
-#include "scarp/core/constant.hpp"
+#include "scarp/contact/coulomb.hpp"
 
 namespace scarp {
 
@@ -14,43 +13,39 @@ namespace scarp {
 /// Open contacts have F_n = 0, hence F_t = 0: clamping expresses both opening and sliding without a branch.
 /// stiffnesses [N/m], friction coefficient dimensionless
 struct LinearFrictional {
-  static constexpr bool remembers_shear = true;
+  static constexpr ContactNeeds needs{.shear = true};
 
   double normal_stiffness = 0.0;
   double tangential_stiffness = 0.0;
   double friction = 0.0;
 
-  template <class T>
-  T respond(Approach<2, T> const& approach, T& shear) const {
+  template <int Dim, class T>
+  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     using std::max;
-    using std::min;
     T const normal = max(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));
-    T const limit = constant<T>(friction) * normal;
-    shear = max(min(shear - constant<T>(tangential_stiffness) * approach.slip, limit), -limit);
-    return normal;
+    T const lost = coulomb_slide<Dim, T>(memory.shear, approach.slip, constant<T>(tangential_stiffness),
+                                         constant<T>(friction) * normal);
+    return {.normal = normal, .shear = memory.shear, .dissipated = lost};
   }
 
-  template <class T>
-  T respond(Approach<3, T> const& approach, std::array<T, 3>& shear) const {
-    using std::max;
-    using std::min;
-    using std::sqrt;
-    T const normal = max(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));
-    T squared = constant<T>(0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      shear[k] = shear[k] - constant<T>(tangential_stiffness) * approach.slip[k];
-      squared = squared + shear[k] * shear[k];
-    }
-    T const smallest = constant<T>(1e-30);  // newton squared; only keeps 0/0 away
-    T const scale = min(constant<T>(friction) * normal / sqrt(max(squared, smallest)), constant<T>(1));
-    for (std::size_t k = 0; k < 3; ++k) shear[k] = shear[k] * scale;
-    return normal;
+  ContactStiffness stiffness(double, double) const {
+    return {.normal = normal_stiffness, .tangential = tangential_stiffness};
   }
 
-  ContactStiffness stiffness(double) const { return {normal_stiffness, tangential_stiffness}; }
+  double& friction_coefficient() { return friction; }
+
+  template <int Dim, class T>
+  T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+    using std::max;
+    T const closed = max(approach.overlap, constant<T>(0));
+    T const normal = constant<T>(normal_stiffness / 2.0) * closed * closed;
+    if (tangential_stiffness == 0.0) return normal;
+    return normal + constant<T>(0.5 / tangential_stiffness) * squared_size(memory.shear);
+  }
 };
 
 static_assert(ContactLaw<LinearFrictional>);
 static_assert(Frictional<LinearFrictional>);
+static_assert(TellsStoredEnergy<LinearFrictional>);
 
 }  // namespace scarp

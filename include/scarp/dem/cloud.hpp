@@ -12,24 +12,25 @@
 
 namespace scarp {
 
-/// A loose random cloud in a square cell, the start of every preparation: grains are placed one by one, largest first, at
-/// random without touching (bounding circles), their axes evenly spread over all directions. Random sequential addition jams near a filled share
-/// of 0.547 for equal discs; the default stays well below.
+/// A loose random cloud in a square or cubic cell, the start of every preparation: grains are placed one by one, largest
+/// first, at random without touching (bounding circles or spheres), plane grains with their axes evenly spread over all
+/// directions. Random sequential addition jams near a filled share of 0.547 for equal discs and 0.384 for equal spheres; the
+/// defaults stay well below.
 template <class Grading>
 struct Cloud {
   using Shape = typename Grading::Shape;
 
   Grading grading;
   int grains = 0;
-  double density = 0.0;    ///< [kg/m3]
-  double thickness = 0.0;  ///< out of plane [m]
+  double density = 0.0;                            ///< [kg/m3]
+  double thickness = Shape::dim == 2 ? 0.0 : 1.0;  ///< out of plane [m]; in space it stays 1
   std::uint64_t seed = 1;
-  double filled_share = 0.42;  ///< area of the bounding circles over area of the cell
+  double filled_share = Shape::dim == 2 ? 0.42 : 0.25;  ///< content of the bounding circles or spheres over the cell's
 
   /// \throws InputError on counts, sizes or shares that cannot be packed
   template <class PackingType>
   PackingType make() const {
-    static_assert(Shape::dim == 2, "placement is written for the plane");
+    constexpr int dim = Shape::dim;
     using Scalar = typename PackingType::Scalar;
     if (grains < 1)
       refuse("a packing of {} grains was asked for (nothing can carry stress): give at least one grain", grains);
@@ -41,17 +42,18 @@ struct Cloud {
 
     PackingType packing;
     packing.population = std::make_shared<Population<Shape, Scalar> const>(sizes, density, thickness);
-    double circles = 0.0;
-    for (auto const& size : sizes) circles += std::numbers::pi * std::pow(Shape::bounding_radius(size), 2);
-    double const side = std::sqrt(circles / filled_share);
-    packing.cell = Tensor<2>::Identity() * side;
+    constexpr double ball = dim == 2 ? std::numbers::pi : 4.0 / 3.0 * std::numbers::pi;
+    double filled = 0.0;
+    for (auto const& size : sizes) filled += ball * std::pow(Shape::bounding_radius(size), dim);
+    double const side = std::pow(filled / filled_share, 1.0 / dim);
+    packing.cell = Tensor<dim>::Identity() * side;
     packing.position.resize(sizes.size());
     packing.orientation.resize(sizes.size());
     packing.rest();
 
     double const first_axis = random.uniform();
     constexpr long most_trials = 1'000'000;  // ordinary clouds need some ten per grain
-    std::vector<Vector<2>> placed;
+    std::vector<Vector<dim>> placed;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       double const radius = Shape::bounding_radius(sizes[i]);
       bool free = false;
@@ -60,18 +62,17 @@ struct Cloud {
           refuse("grain {} of {} found no free place (the cloud fills {} of its cell): use a smaller share", i + 1,
                  grains, filled_share);
         }
-        Vector<2> place;
-        place(0) = random.uniform(0.0, side);
-        place(1) = random.uniform(0.0, side);
+        Vector<dim> place;
+        for (int a = 0; a < dim; ++a) place(a) = random.uniform(0.0, side);
         free = true;
         for (std::size_t j = 0; j < placed.size() && free; ++j) {
-          Vector<2> branch = placed[j] - place;
-          for (int a = 0; a < 2; ++a) branch(a) -= side * std::round(branch(a) / side);
+          Vector<dim> branch = placed[j] - place;
+          for (int a = 0; a < dim; ++a) branch(a) -= side * std::round(branch(a) / side);
           free = branch.norm() > radius + Shape::bounding_radius(sizes[j]);
         }
         if (free) placed.push_back(place);
       }
-      for (int a = 0; a < 2; ++a) packing.position(i, a) = static_cast<Scalar>(placed[i](a));
+      for (int a = 0; a < dim; ++a) packing.position(i, a) = static_cast<Scalar>(placed[i](a));
       if constexpr (Shape::orientation_count == 2) {
         // Golden-ratio sequence: evenly spread axes, unrelated to the order of sizes.
         double const golden = std::numbers::phi * static_cast<double>(i) + first_axis;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/dem/contact_frame.hpp"
 #include "scarp/dem/grain_view.hpp"
 
 namespace scarp {
@@ -12,27 +13,59 @@ struct Contact {
   std::size_t first;   ///< grain
   std::size_t second;  ///< grain; the owner where the pair lists a ghost
   Touch<Dim, double> touch;
-  Vector<Dim> branch;             ///< from the first centre to the second [m]
-  Vector<Dim> force;              ///< on the second grain [N]
-  double normal_force;            ///< [N], positive in compression
-  Tangential<Dim, double> shear;  ///< tangential force on the second grain [N]
+  Approach<Dim, double> approach;     ///< without motion
+  ContactMemory<Dim, double> memory;  ///< at the present overlap
+  ContactStiffness stiffness;         ///< [N/m], [N m/rad]; sliding not regarded
+  double normal_force;                ///< [N], positive in compression
+  Vector<Dim> branch;                 ///< from the first centre to the second [m]
+  Vector<Dim> force;                  ///< on the second grain [N]
 
   Vector<Dim> normal() const { return Eigen::Map<Vector<Dim> const>(touch.normal.data()); }
+  /// Tangential force on the second grain [N].
+  Vector<Dim> shear_force() const { return force - normal_force * normal(); }
+  bool closed() const { return touch.overlap > 0.0 || normal_force != 0.0; }
 };
 
+namespace detail {
+
+template <int Dim, class Scalar, int Count>
+void read_tangential(Columns<Scalar, Count> const& columns, std::size_t row, Tangential<Dim, double>& to) {
+  if constexpr (Count == 1) {
+    to = static_cast<double>(columns(row, 0));
+  } else if constexpr (Count == 3) {
+    for (int a = 0; a < 3; ++a) to[static_cast<std::size_t>(a)] = static_cast<double>(columns(row, a));
+  }
+}
+
+}  // namespace detail
+
+/// What the contact of a near pair remembers.
+template <class Shape, class Law, class Scalar>
+ContactMemory<Shape::dim, double> contact_memory(NearPairs<Shape, Law, Scalar> const& pairs, std::size_t pair) {
+  constexpr int dim = Shape::dim;
+  ContactMemory<dim, double> memory;
+  detail::read_tangential<dim>(pairs.shear, pair, memory.shear);
+  detail::read_tangential<dim>(pairs.moment, pair, memory.moment);
+  if constexpr (Law::needs.scalars > 0) {
+    for (int k = 0; k < Law::needs.scalars; ++k) {
+      memory.scalars[static_cast<std::size_t>(k)] = static_cast<double>(pairs.scalars(pair, k));
+    }
+  }
+  return memory;
+}
+
 /// Calls visit(Contact) for every near pair, touching or not, in the order of the list. The packing is not changed: forces
-/// follow from present positions and remembered shear, without slip.
+/// follow from present positions and memories, without slip.
 template <class PackingType, class Visitor>
 void for_each_near_pair(PackingType const& packing, typename PackingType::Law const& law, Visitor&& visit) {
   using Shape = typename PackingType::Shape;
   constexpr int dim = PackingType::dim;
   auto const& pairs = packing.pairs;
   for (std::size_t p = 0; p < pairs.count(); ++p) {
-    auto const i = static_cast<std::size_t>(pairs.first[p]);
+    auto const first = static_cast<std::size_t>(pairs.first[p]);
     auto const second = static_cast<std::size_t>(pairs.second[p]);
-    std::size_t const j = grain_owner(packing, second);
-    auto const from = grain_position(packing, i);
-    auto const to = grain_position(packing, second);
+    auto const from = row_position(packing, first);
+    auto const to = row_position(packing, second);
     Point<dim, double> branch;
     Point<dim, double> start{};
     for (std::size_t a = 0; a < branch.size(); ++a) branch[a] = to[a] - from[a];
@@ -40,26 +73,39 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
       for (std::size_t a = 0; a < start.size(); ++a)
         start[a] = static_cast<double>(pairs.normal(p, static_cast<int>(a)));
     }
-    auto const touch = settled_touch<Shape>(grain_pose(packing, i), grain_pose(packing, j), branch, start);
-    Contact<dim> contact{p, i, j, touch, Eigen::Map<Vector<dim> const>(branch.data()), {}, 0.0, {}};
-    Approach<dim, double> const still{touch.overlap, {}};
-    if constexpr (PackingType::Law::remembers_shear && dim == 2) {
-      contact.shear = static_cast<double>(pairs.shear(p, 0));
-    }
-    contact.normal_force = law.respond(still, contact.shear);
-    contact.force = contact.normal_force * contact.normal();
-    if constexpr (PackingType::Law::remembers_shear && dim == 2) {
-      contact.force += contact.shear * Vector<dim>(-touch.normal[1], touch.normal[0]);
-    }
+    auto const pose_first = row_pose(packing, first);
+    auto const pose_second = row_pose(packing, second);
+    auto const touch = settled_touch<Shape>(pose_first, pose_second, branch, start);
+    double const radius_first = Shape::contact_radius(pose_first);
+    double const radius_second = Shape::contact_radius(pose_second);
+    Approach<dim, double> const still{.overlap = touch.overlap,
+                                      .slip = {},
+                                      .reduced_radius = radius_first * radius_second / (radius_first + radius_second)};
+    auto memory = contact_memory(pairs, p);
+    carry_to_frame(memory.shear, {}, touch.normal);
+    carry_to_frame(memory.moment, {}, touch.normal);
+    auto const answer = law.respond(still, memory);
+    auto const sideways = as_vector(answer.shear, touch.normal);
+    Contact<dim> contact{p,
+                         grain_of_row(packing, first),
+                         grain_of_row(packing, second),
+                         touch,
+                         still,
+                         memory,
+                         law.stiffness(still.overlap, still.reduced_radius),
+                         answer.normal,
+                         Eigen::Map<Vector<dim> const>(branch.data()),
+                         Eigen::Map<Vector<dim> const>(sideways.data())};
+    contact.force += answer.normal * contact.normal();
     visit(contact);
   }
 }
 
-/// The same for pairs that touch.
+/// The same for pairs that touch, or act across a gap.
 template <class PackingType, class Visitor>
 void for_each_contact(PackingType const& packing, typename PackingType::Law const& law, Visitor&& visit) {
   for_each_near_pair(packing, law, [&](Contact<PackingType::dim> const& contact) {
-    if (contact.touch.overlap > 0.0) visit(contact);
+    if (contact.closed()) visit(contact);
   });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -9,54 +10,91 @@
 
 namespace scarp {
 
+namespace detail {
+
+/// Largest eigenvalue of a contact's stiffness over mobility [1/s2]: its springs along the normal and the tangents act on
+/// centres and spins through the arms; a spring against rolling at most adds its own.
+/// mobilities: centre of both grains together [1/kg], spin of each [1/(kg m2)]
+template <int Dim>
+double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffness, double centres, double spin_first,
+                     double spin_second) {
+  std::array<Point<Dim, double>, Dim> axes;
+  axes[0] = contact.touch.normal;
+  if constexpr (Dim == 2) {
+    axes[1] = {-axes[0][1], axes[0][0]};
+  } else {
+    Point<3, double> helper{};
+    helper[std::abs(axes[0][0]) < 0.6 ? 0 : 1] = 1.0;
+    axes[1] = cross(axes[0], helper);
+    double const size = std::sqrt(squared_size(axes[1]));
+    for (double& component : axes[1]) component /= size;
+    axes[2] = cross(axes[0], axes[1]);
+  }
+  auto const product = [](auto const& a, auto const& b) {
+    if constexpr (Dim == 2) {
+      return a * b;
+    } else {
+      return dot(a, b);
+    }
+  };
+  Tensor<Dim> modes;
+  for (int k = 0; k < Dim; ++k) {
+    for (int l = 0; l <= k; ++l) {
+      auto const& e = axes[static_cast<std::size_t>(k)];
+      auto const& f = axes[static_cast<std::size_t>(l)];
+      double const springs = std::sqrt((k == 0 ? stiffness.normal : stiffness.tangential) *
+                                       (l == 0 ? stiffness.normal : stiffness.tangential));
+      modes(k, l) =
+          springs * ((k == l ? centres : 0.0) +
+                     spin_first * product(cross(contact.touch.arm_first, e), cross(contact.touch.arm_first, f)) +
+                     spin_second * product(cross(contact.touch.arm_second, e), cross(contact.touch.arm_second, f)));
+    }
+  }
+  Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
+  solver.computeDirect(modes, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(Dim - 1) + stiffness.rolling * (spin_first + spin_second);
+}
+
+}  // namespace detail
+
 /// Largest stable time step [s] of the explicit scheme, \f$ \Delta t = 2/\omega_{max} \f$, as a lower bound: every grain's
 /// mass and inertia is shared out among its near pairs and the stiffest single pair, spin included, bounds the whole packing
-/// (element eigenvalue bound of Irons and Treharne 1971). Pairs that may soon touch count as closed. Without any pair, the
-/// step of the lightest grain between two others.
+/// (element eigenvalue bound of Irons and Treharne 1971). Pairs that may soon touch count as closed, all as deep as they can
+/// get before the list is made anew. Without any pair, the step of the lightest grain between two others.
+/// Dashpots of damping ratio \f$ \xi \f$ shorten the step by \f$ \sqrt{1 + \xi^2} - \xi \f$.
 template <class PackingType>
 double critical_step(PackingType const& packing, typename PackingType::Law const& law) {
-  static_assert(PackingType::dim == 2, "arms and spins are written for the plane");
+  constexpr int dim = PackingType::dim;
   auto const& population = *packing.population;
+  double const deeper = std::max(packing.pairs.skin, 0.0);
   std::vector<double> shares(packing.grain_count(), 0.0);
-  std::vector<Contact<2>> contacts;
-  for_each_near_pair(packing, law, [&](Contact<2> const& contact) {
+  std::vector<Contact<dim>> contacts;
+  for_each_near_pair(packing, law, [&](Contact<dim> const& contact) {
     shares[contact.first] += 1.0;
     shares[contact.second] += 1.0;
     contacts.push_back(contact);
   });
+  double stiffest = 0.0;  // largest eigenvalue of a contact's stiffness over its share of mass [1/s2]
+  for (auto const& contact : contacts) {
+    double const depth = std::max(contact.touch.overlap, 0.0) + deeper;
+    double const first = shares[contact.first];
+    double const second = shares[contact.second];
+    stiffest = std::max(stiffest, detail::stiffest_mode<dim>(
+                                      contact, law.stiffness(depth, contact.approach.reduced_radius),
+                                      first * static_cast<double>(population.inverse_mass()[contact.first]) +
+                                          second * static_cast<double>(population.inverse_mass()[contact.second]),
+                                      first * static_cast<double>(population.inverse_inertia()[contact.first]),
+                                      second * static_cast<double>(population.inverse_inertia()[contact.second])));
+  }
   if (contacts.empty()) {
     double lightest = 0.0;
     for (std::size_t i = 0; i < packing.grain_count(); ++i) {
       lightest = std::max(lightest, static_cast<double>(population.inverse_mass()[i]));
     }
-    return 2.0 / std::sqrt(4.0 * law.stiffness(0.0).normal * lightest);
+    stiffest = 4.0 * law.stiffness(deeper, population.largest_radius()).normal * lightest;
   }
-  double stiffest = 0.0;  // largest eigenvalue of a contact's stiffness over its share of mass [1/s2]
-  for (auto const& contact : contacts) {
-    ContactStiffness const stiffness = law.stiffness(contact.touch.overlap);
-    double const first = shares[contact.first];
-    double const second = shares[contact.second];
-    double const masses = first * static_cast<double>(population.inverse_mass()[contact.first]) +
-                          second * static_cast<double>(population.inverse_mass()[contact.second]);
-    double const inertia_first = first * static_cast<double>(population.inverse_inertia()[contact.first]);
-    double const inertia_second = second * static_cast<double>(population.inverse_inertia()[contact.second]);
-    auto const& n = contact.touch.normal;
-    auto const lever = [&](Point<2, double> const& arm, double x, double y) { return arm[0] * y - arm[1] * x; };
-    double const normal_first = lever(contact.touch.arm_first, n[0], n[1]);
-    double const normal_second = lever(contact.touch.arm_second, n[0], n[1]);
-    double const shear_first = lever(contact.touch.arm_first, -n[1], n[0]);
-    double const shear_second = lever(contact.touch.arm_second, -n[1], n[0]);
-    // Two springs on one pair: the 2 x 2 problem of their mobilities.
-    double const nn = stiffness.normal * (masses + inertia_first * normal_first * normal_first +
-                                          inertia_second * normal_second * normal_second);
-    double const tt = stiffness.tangential * (masses + inertia_first * shear_first * shear_first +
-                                              inertia_second * shear_second * shear_second);
-    double const nt = std::sqrt(stiffness.normal * stiffness.tangential) *
-                      (inertia_first * normal_first * shear_first + inertia_second * normal_second * shear_second);
-    double const mean = (nn + tt) / 2.0;
-    stiffest = std::max(stiffest, mean + std::sqrt((nn - tt) * (nn - tt) / 4.0 + nt * nt));
-  }
-  return 2.0 / std::sqrt(stiffest);
+  double const ratio = damping_ratio_of(law);
+  return 2.0 / std::sqrt(stiffest) * (std::sqrt(1.0 + ratio * ratio) - ratio);
 }
 
 }  // namespace scarp

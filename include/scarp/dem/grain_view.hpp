@@ -5,40 +5,49 @@
 
 namespace scarp {
 
-/// Pose of one grain at its present orientation, in double.
+/// Number of the grain behind a row of the pair list.
 template <class PackingType>
-auto grain_pose(PackingType const& packing, std::size_t grain) {
+std::size_t grain_of_row(PackingType const& packing, std::size_t row) {
+  std::size_t const rows = packing.row_count();
+  std::size_t const own = row < rows ? row : static_cast<std::size_t>(packing.pairs.ghost_owner[row - rows]);
+  return own / static_cast<std::size_t>(part_count<typename PackingType::Shape>());
+}
+
+/// Pose of one part of a grain at its present orientation, in double.
+template <class PackingType>
+auto grain_pose(PackingType const& packing, std::size_t grain, int part = 0) {
   using Shape = typename PackingType::Shape;
   std::array<double, static_cast<std::size_t>(Shape::orientation_count)> orientation{};
   auto const stored = packing.orientation.row(grain);
   for (std::size_t k = 0; k < orientation.size(); ++k) orientation[k] = static_cast<double>(stored[k]);
-  return Shape::pose(packing.population->size(grain), orientation);
+  return part_pose<Shape>(packing.population->size(grain), orientation, part);
 }
 
-/// Position [m] of a grain or, past the last grain, of a ghost.
+/// Pose of the part that stands in a row of the pair list.
 template <class PackingType>
-Point<PackingType::dim, double> grain_position(PackingType const& packing, std::size_t number) {
+auto row_pose(PackingType const& packing, std::size_t row) {
+  constexpr auto parts = static_cast<std::size_t>(part_count<typename PackingType::Shape>());
+  std::size_t const rows = packing.row_count();
+  std::size_t const own = row < rows ? row : static_cast<std::size_t>(packing.pairs.ghost_owner[row - rows]);
+  return grain_pose(packing, own / parts, static_cast<int>(own % parts));
+}
+
+/// Centre [m] of the grain behind a row of the pair list, moved where the row is a ghost.
+template <class PackingType>
+Point<PackingType::dim, double> row_position(PackingType const& packing, std::size_t row) {
   constexpr int dim = PackingType::dim;
-  std::size_t const grains = packing.grain_count();
-  std::size_t const owner =
-      number < grains ? number : static_cast<std::size_t>(packing.pairs.ghost_owner[number - grains]);
+  std::size_t const grain = grain_of_row(packing, row);
+  std::size_t const rows = packing.row_count();
   Point<dim, double> place;
-  for (int a = 0; a < dim; ++a) place[static_cast<std::size_t>(a)] = static_cast<double>(packing.position(owner, a));
-  if (number >= grains) {
-    auto const& shift = packing.pairs.ghost_shift[number - grains];
+  for (int a = 0; a < dim; ++a) place[static_cast<std::size_t>(a)] = static_cast<double>(packing.position(grain, a));
+  if (row >= rows) {
+    auto const& shift = packing.pairs.ghost_shift[row - rows];
     for (int a = 0; a < dim; ++a) {
       for (int b = 0; b < dim; ++b)
         place[static_cast<std::size_t>(a)] += packing.cell(a, b) * shift[static_cast<std::size_t>(b)];
     }
   }
   return place;
-}
-
-/// Number of the grain behind a grain or ghost number.
-template <class PackingType>
-std::size_t grain_owner(PackingType const& packing, std::size_t number) {
-  std::size_t const grains = packing.grain_count();
-  return number < grains ? number : static_cast<std::size_t>(packing.pairs.ghost_owner[number - grains]);
 }
 
 /// Touch of a pair with the normal iterated until it stands still.

@@ -15,7 +15,8 @@ namespace scarp {
 
 namespace detail {
 
-/// A periodic pair named once: the first has the smaller number, or the shift of the second is lexicographically positive.
+/// A periodic pair of rows named once: the first has the smaller number, or the shift of the second is lexicographically
+/// positive.
 template <int Dim>
 struct PairName {
   std::int32_t first;
@@ -32,7 +33,8 @@ struct FormerPair {
   bool swapped;
 };
 
-/// A pair of the new list; `second` numbers grains and images, `former` is null for a pair that was not listed before.
+/// A pair of the new list by its rows; those of `second` go on from grains to images, `former` is null for a pair that was
+/// not listed before.
 template <int Dim>
 struct NearPair {
   std::int32_t first;
@@ -46,23 +48,24 @@ template <class PackingType>
 std::vector<FormerPair<PackingType::dim>> former_pairs(PackingType const& packing,
                                                        Renaming<PackingType::dim> const& renaming) {
   constexpr int dim = PackingType::dim;
+  constexpr auto parts = static_cast<std::size_t>(part_count<typename PackingType::Shape>());
   auto const& pairs = packing.pairs;
-  std::size_t const grains = packing.grain_count();
+  std::size_t const rows = packing.row_count();
   std::vector<FormerPair<dim>> former;
   former.reserve(pairs.count());
   for (std::size_t p = 0; p < pairs.count(); ++p) {
     auto const i = static_cast<std::size_t>(pairs.first[p]);
-    auto const second = static_cast<std::size_t>(pairs.second[p]);
-    std::size_t const j = grain_owner(packing, second);
+    auto j = static_cast<std::size_t>(pairs.second[p]);
     Vector<dim> shift = Vector<dim>::Zero();
-    if (second >= grains) {
-      for (int a = 0; a < dim; ++a) shift(a) = pairs.ghost_shift[second - grains][static_cast<std::size_t>(a)];
+    if (j >= rows) {
+      for (int a = 0; a < dim; ++a) shift(a) = pairs.ghost_shift[j - rows][static_cast<std::size_t>(a)];
+      j = static_cast<std::size_t>(pairs.ghost_owner[j - rows]);
     }
     shift = (renaming.old_to_new * shift).eval();
     PairName<dim> name{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), {}};
     for (std::size_t a = 0; a < name.shift.size(); ++a) {
-      name.shift[a] =
-          static_cast<int>(std::lround(shift(static_cast<int>(a)))) + renaming.moved[j][a] - renaming.moved[i][a];
+      name.shift[a] = static_cast<int>(std::lround(shift(static_cast<int>(a)))) + renaming.moved[j / parts][a] -
+                      renaming.moved[i / parts][a];
     }
     int const direction = sign_of(name.shift);
     bool const swapped = direction < 0 || (direction == 0 && i > j);
@@ -102,14 +105,15 @@ Point<PackingType::dim, double> start_normal(PackingType const& packing, FormerP
   return start;
 }
 
-/// All pairs whose gap is below `skin` [m], sorted by (first, second).
+/// All pairs whose gap is below `reach` [m], sorted by (first, second).
 template <class PackingType>
 std::vector<NearPair<PackingType::dim>> find_near_pairs(PackingType const& packing,
                                                         GrainsAndImages<PackingType::dim> const& all,
                                                         std::vector<FormerPair<PackingType::dim>> const& former,
-                                                        double skin) {
+                                                        double reach) {
   using Shape = typename PackingType::Shape;
   constexpr int dim = PackingType::dim;
+  constexpr int parts = part_count<Shape>();
   auto const& population = *packing.population;
   std::size_t const grains = packing.grain_count();
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, GrainsAndImages<dim>>,
@@ -118,81 +122,93 @@ std::vector<NearPair<PackingType::dim>> find_near_pairs(PackingType const& packi
   nanoflann::SearchParams unsorted;
   unsorted.sorted = false;
 
-  using Pose = decltype(grain_pose(packing, 0));
-  std::vector<Pose> poses(grains);
-  for (std::size_t i = 0; i < grains; ++i) poses[i] = grain_pose(packing, i);
+  std::vector<decltype(row_pose(packing, 0))> poses(packing.row_count());
+  for (std::size_t row = 0; row < poses.size(); ++row) poses[row] = row_pose(packing, row);
 
   std::vector<NearPair<dim>> found;
   std::vector<std::pair<std::uint32_t, double>> hits;
   for (std::size_t i = 0; i < grains; ++i) {
     double const own_radius = Shape::bounding_radius(population.size(i));
-    double const radius = own_radius + population.largest_radius() + skin;
+    double const radius = own_radius + population.largest_radius() + reach;
     hits.clear();
     tree.radiusSearch(all.points[i].place.data(), radius * radius, hits, unsorted);
+    std::erase_if(hits, [&](auto const& hit) {
+      auto const j = static_cast<std::size_t>(all.points[hit.first].owner);
+      double const touching = own_radius + Shape::bounding_radius(population.size(j)) + reach;
+      return hit.first <= i || hit.second > touching * touching;
+    });
     std::sort(hits.begin(), hits.end());
-    for (auto const& [point, squared] : hits) {
-      auto const& partner = all.points[point];
-      auto const j = static_cast<std::size_t>(partner.owner);
-      if (point < grains && point <= i) continue;
-      double const touching = own_radius + Shape::bounding_radius(population.size(j)) + skin;
-      if (squared > touching * touching) continue;
-      PairName<dim> name{static_cast<std::int32_t>(i), partner.owner, {}};
-      Point<dim, double> branch;
-      for (std::size_t a = 0; a < branch.size(); ++a) {
-        name.shift[a] = partner.shift[a];
-        branch[a] = partner.place[a] - all.points[i].place[a];
+    for (int part = 0; part < parts; ++part) {
+      std::size_t const row = i * parts + static_cast<std::size_t>(part);
+      for (auto const& [point, squared] : hits) {
+        auto const& partner = all.points[point];
+        Point<dim, double> branch;
+        for (std::size_t a = 0; a < branch.size(); ++a) branch[a] = partner.place[a] - all.points[i].place[a];
+        for (int other = 0; other < parts; ++other) {
+          std::size_t const partner_row = static_cast<std::size_t>(partner.owner * parts + other);
+          PairName<dim> name{static_cast<std::int32_t>(row), static_cast<std::int32_t>(partner_row), {}};
+          for (std::size_t a = 0; a < branch.size(); ++a) name.shift[a] = partner.shift[a];
+          auto const* const known = find_former(former, name);
+          auto const start = start_normal(packing, known, branch, std::sqrt(squared));
+          auto const touch = settled_touch<Shape>(poses[row], poses[partner_row], branch, start);
+          if (touch.overlap < -reach) continue;
+          found.push_back({name.first, static_cast<std::int32_t>(point) * parts + other, touch.normal, known});
+        }
       }
-      auto const* const known = find_former(former, name);
-      auto const start = start_normal(packing, known, branch, std::sqrt(squared));
-      auto const touch = settled_touch<Shape>(poses[i], poses[j], branch, start);
-      if (touch.overlap < -skin) continue;
-      found.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(point), touch.normal, known});
     }
   }
   return found;
 }
 
-/// Only images that some pair uses become ghosts, in their order.
-template <class Pairs, int Dim>
+/// Only rows of images that some pair uses become ghosts, in their order.
+template <int Parts, class Pairs, int Dim>
 void write_members(Pairs& next, std::vector<NearPair<Dim>> const& found, GrainsAndImages<Dim> const& all,
-                   std::size_t grains) {
-  std::vector<std::int32_t> ghost_number(all.points.size(), -1);
+                   std::size_t rows) {
+  std::vector<std::int32_t> ghost_number(all.points.size() * Parts, -1);
   for (auto const& pair : found) ghost_number[static_cast<std::size_t>(pair.second)] = 0;
-  for (std::size_t point = grains; point < all.points.size(); ++point) {
-    if (ghost_number[point] < 0) continue;
-    ghost_number[point] = static_cast<std::int32_t>(grains + next.ghost_owner.size());
-    next.ghost_owner.push_back(all.points[point].owner);
-    next.ghost_shift.push_back(all.points[point].shift);
+  for (std::size_t row = rows; row < ghost_number.size(); ++row) {
+    if (ghost_number[row] < 0) continue;
+    auto const& image = all.points[row / Parts];
+    ghost_number[row] = static_cast<std::int32_t>(rows + next.ghost_owner.size());
+    next.ghost_owner.push_back(image.owner * Parts + static_cast<std::int32_t>(row % Parts));
+    next.ghost_shift.push_back(image.shift);
   }
   next.first.reserve(found.size());
   next.second.reserve(found.size());
   for (auto const& pair : found) {
-    auto const point = static_cast<std::size_t>(pair.second);
+    auto const row = static_cast<std::size_t>(pair.second);
     next.first.push_back(pair.first);
-    next.second.push_back(point < grains ? pair.second : ghost_number[point]);
+    next.second.push_back(row < rows ? pair.second : ghost_number[row]);
   }
 }
 
-/// Normals of all pairs, and shear forces of those that were listed before.
+/// Normals of all pairs, and what the contacts remember of those that were listed before.
 template <class Shape, class Law, class Scalar>
 void write_memory(NearPairs<Shape, Law, Scalar>& next, std::vector<NearPair<Shape::dim>> const& found,
                   NearPairs<Shape, Law, Scalar> const& former) {
   constexpr int dim = Shape::dim;
   next.normal.resize(found.size());
   next.shear.resize(found.size());
+  next.moment.resize(found.size());
+  next.scalars.resize(found.size());
+  // With the roles exchanged a vector on the second grain changes sign; the plane's tangent turns round with it.
+  constexpr bool shear_turns = dim == 3;
+  auto const carried = [](auto values, bool turned) {
+    if (turned) {
+      for (auto& value : values) value = -value;
+    }
+    return values;
+  };
   for (std::size_t p = 0; p < found.size(); ++p) {
     auto const& pair = found[p];
     if constexpr (Shape::remembers_normal) {
       for (int a = 0; a < dim; ++a) next.normal(p, a) = static_cast<Scalar>(pair.normal[static_cast<std::size_t>(a)]);
     }
     if (pair.former == nullptr) continue;
-    auto shear = former.shear.row(pair.former->row);
-    if constexpr (dim == 3) {  // a vector on the second grain changes sign with the roles; the plane's number does not
-      if (pair.former->swapped) {
-        for (auto& component : shear) component = -component;
-      }
-    }
-    next.shear.set_row(p, shear);
+    std::size_t const row = pair.former->row;
+    next.shear.set_row(p, carried(former.shear.row(row), shear_turns && pair.former->swapped));
+    next.moment.set_row(p, carried(former.moment.row(row), pair.former->swapped));
+    next.scalars.set_row(p, former.scalars.row(row));
   }
   if constexpr (Shape::remembers_normal) {
     for (std::size_t p = found.size(); p < next.normal.padded_rows(); ++p) next.normal.column(0)[p] = Scalar(1);
@@ -211,31 +227,33 @@ bool positions_are_finite(PackingType const& packing) {
 
 }  // namespace detail
 
-/// Whether the cell, with its base vectors reduced, is wider than two grains in touch and the skin, the reach of the search,
-/// so that no image further away than the next cell's can come near.
+/// Whether the cell, with its base vectors reduced, is wider than two grains in touch and the reach of the search, so that
+/// no image further away than the next cell's can come near.
 template <class PackingType>
-bool cell_is_wide_enough(PackingType const& packing, double skin) {
+bool cell_is_wide_enough(PackingType const& packing, double reach) {
   constexpr int dim = PackingType::dim;
   if (!(packing.cell.allFinite() && packing.cell.determinant() > 0.0)) return false;
   Tensor<dim> const reduced = packing.cell * lattice_reduction<dim>(packing.cell).template cast<double>();
-  return least_height<dim>(reduced) > 2.0 * packing.population->largest_radius() + skin;
+  return least_height<dim>(reduced) > 2.0 * packing.population->largest_radius() + reach;
 }
 
-/// Makes the list of pairs whose gap is below `skin` [m] (nanoflann k-d tree over grains and ghosts), carrying over normals
-/// and shear forces of pairs that stay. Reduces the cell and wraps positions on the way. Deterministic.
+/// Makes the list of pairs whose gap is below `skin` + `law_reach` [m] (nanoflann k-d tree over grains and ghosts), carrying
+/// over normals and memories of pairs that stay. The list is good until gaps have shrunk by the skin; `law_reach` is the gap
+/// across which the contact law acts. Reduces the cell and wraps positions on the way. Deterministic.
 /// \return failed / cell_collapsed for a cell too thin for its grains, failed / not_finite for positions that are no numbers
 template <class PackingType>
-Verdict rebuild_pairs(PackingType& packing, double skin) {
+Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0) {
   constexpr int dim = PackingType::dim;
-  if (!cell_is_wide_enough(packing, skin)) return {Status::failed, Reason::cell_collapsed};
+  double const reach = skin + law_reach;
+  if (!cell_is_wide_enough(packing, reach)) return {Status::failed, Reason::cell_collapsed};
   if (!detail::positions_are_finite(packing)) return {Status::failed, Reason::not_finite};
   detail::Renaming<dim> const renaming = detail::reduce_and_wrap(packing);
   auto const former = detail::former_pairs(packing, renaming);
-  auto const all = detail::grains_and_images(packing, 2.0 * packing.population->largest_radius() + skin);
-  auto const found = detail::find_near_pairs(packing, all, former, skin);
+  auto const all = detail::grains_and_images(packing, 2.0 * packing.population->largest_radius() + reach);
+  auto const found = detail::find_near_pairs(packing, all, former, reach);
   decltype(packing.pairs) next;
   next.skin = skin;
-  detail::write_members(next, found, all, packing.grain_count());
+  detail::write_members<part_count<typename PackingType::Shape>()>(next, found, all, packing.row_count());
   detail::write_memory(next, found, packing.pairs);
   packing.pairs = std::move(next);
   return {};

@@ -11,19 +11,21 @@
 
 namespace scarp {
 
-/// Pairs of grains closer than a skin, each once, sorted by (first, second). A partner across the cell's boundary is a
-/// *ghost*: number grain_count + g stands for grain `ghost_owner[g]` moved by cell x `ghost_shift[g]`.
-/// `shear` is the tangential force on the second grain [N]; what a shape or law does not remember takes no room.
-template <ParticleShape Shape, class Law, class Scalar>
+/// Pairs of grains closer than a skin, each once, sorted by (first, second). Numbers are *rows*: part p of grain i has row
+/// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
+/// moved by cell x `ghost_shift[g]`. What a shape or law does not remember takes no room.
+template <ParticleShape Shape, ContactLaw Law, class Scalar>
 struct NearPairs {
   static constexpr int dim = Shape::dim;
-  static constexpr int shear_count = Law::remembers_shear ? (dim == 2 ? 1 : 3) : 0;
+  static constexpr int tangential_count = dim == 2 ? 1 : 3;
   using Shift = std::array<std::int8_t, static_cast<std::size_t>(dim)>;
 
   std::vector<std::int32_t> first;
   std::vector<std::int32_t> second;
   Columns<Scalar, Shape::remembers_normal ? dim : 0> normal;
-  Columns<Scalar, shear_count> shear;
+  Columns<Scalar, Law::needs.shear ? tangential_count : 0> shear;    ///< tangential force on the second grain [N]
+  Columns<Scalar, Law::needs.moment ? tangential_count : 0> moment;  ///< on the second grain [N m]
+  Columns<Scalar, Law::needs.scalars> scalars;
   std::vector<std::int32_t> ghost_owner;
   std::vector<Shift> ghost_shift;
   double drift = 0.0;          ///< bound on how far gaps have shrunk since the list was made [m]
@@ -32,12 +34,28 @@ struct NearPairs {
 
   std::size_t count() const { return first.size(); }
 
+  /// Calls visit(name, member) for each member; what is saved and loaded is what is named here.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("first", self.first);
+    visit("second", self.second);
+    visit("normal", self.normal);
+    visit("shear", self.shear);
+    visit("moment", self.moment);
+    visit("scalars", self.scalars);
+    visit("ghost_owner", self.ghost_owner);
+    visit("ghost_shift", self.ghost_shift);
+    visit("drift", self.drift);
+    visit("skin", self.skin);
+    visit("critical_step", self.critical_step);
+  }
+
   friend bool operator==(NearPairs const&, NearPairs const&) = default;
 };
 
 /// State of a periodic packing: everything that evolves. Velocities are fluctuations about the affine motion of the
 /// cell; the cell's columns are its base vectors [m]. Positions may lie outside the cell by a lattice vector.
-template <ParticleShape ShapePolicy, class LawPolicy, class ScalarType = double>
+template <ParticleShape ShapePolicy, ContactLaw LawPolicy, class ScalarType = double>
 struct Packing {
   using Shape = ShapePolicy;
   using Law = LawPolicy;
@@ -53,11 +71,25 @@ struct Packing {
   NearPairs<Shape, Law, Scalar> pairs;
 
   std::size_t grain_count() const { return position.rows(); }
+  /// Rows of the pair list without ghosts: one for each part of each grain.
+  std::size_t row_count() const { return grain_count() * static_cast<std::size_t>(part_count<Shape>()); }
   /// Volume of the cell [m3] including the out-of-plane thickness in 2D.
   double volume() const { return cell.determinant() * population->thickness(); }
 
   /// Volume of voids over volume of grains; overlaps are not subtracted from the grains.
   double void_ratio() const { return cell.determinant() / population->content() - 1.0; }
+
+  /// Calls visit(name, member) for each member.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("population", self.population);
+    visit("cell", self.cell);
+    visit("position", self.position);
+    visit("velocity", self.velocity);
+    visit("spin", self.spin);
+    visit("orientation", self.orientation);
+    visit("pairs", self.pairs);
+  }
 
   void rest() {
     velocity.resize(grain_count());
@@ -72,7 +104,8 @@ template <class PackingType>
 std::size_t state_bytes(PackingType const& packing) {
   auto const& pairs = packing.pairs;
   return sizeof(packing) + packing.position.bytes() + packing.velocity.bytes() + packing.spin.bytes() +
-         packing.orientation.bytes() + pairs.normal.bytes() + pairs.shear.bytes() +
+         packing.orientation.bytes() + pairs.normal.bytes() + pairs.shear.bytes() + pairs.moment.bytes() +
+         pairs.scalars.bytes() +
          sizeof(std::int32_t) * (pairs.first.capacity() + pairs.second.capacity() + pairs.ghost_owner.capacity()) +
          sizeof(pairs.ghost_shift[0]) * pairs.ghost_shift.capacity();
 }

@@ -3,123 +3,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "scarp/core/pack.hpp"
-#include "scarp/dem/packing.hpp"
+#include "scarp/dem/contact_sums.hpp"
+#include "scarp/dem/pair_lanes.hpp"
 
 namespace scarp {
 
-/// Scratch memory of the pair loop; one per thread, reused from call to call.
-/// Grains lie row-wise (position, velocity, spin, pose) so that a pair's data come from one cache line each.
-template <ParticleShape Shape, class Scalar>
-struct PairScratch {
-  static constexpr int dim = Shape::dim;
-  static constexpr int used = 2 * dim + spin_size<dim> + Shape::pose_count;
-  static constexpr std::size_t row_size = (static_cast<std::size_t>(used) + 3) / 4 * 4;
-  static constexpr std::size_t force_size = dim == 2 ? 4 : 8;  // force, torque, padding
-
-  std::vector<Scalar> rows;
-  std::vector<Scalar> forces;
-};
-
-/// Writes the row of every grain: position, velocity, spin, pose, padding.
-template <class PackingType>
-void fill_grain_rows(PackingType const& packing, typename PackingType::Scalar* rows) {
+/// Forces of all near pairs at the present positions, and the update of what contacts remember. Afterwards `scratch.forces`
+/// begins with a row (force, torque) for each grain. `strain_step`, the cell's displacement gradient during the step that led
+/// here, gives the affine part of the motion at the contacts; `time_step` [s] its duration. Flattened, since shape and law
+/// must melt into the loop: a third of the speed is lost otherwise.
+template <Observe what, class PackingType, class Law>
+[[gnu::flatten]] ContactSums<PackingType::dim> pair_forces(PackingType& packing, Law const& law,
+                                                           Tensor<PackingType::dim> const& strain_step,
+                                                           double time_step,
+                                                           PairScratch<typename PackingType::Scalar>& scratch) {
   using Shape = typename PackingType::Shape;
   using Scalar = typename PackingType::Scalar;
-  using Scratch = PairScratch<Shape, Scalar>;
-  using Lanes = Pack<Scalar>;
-  constexpr auto axes = static_cast<std::size_t>(Shape::dim);
-  auto const lanes_of = [](auto const& columns, std::size_t count, std::size_t start, Lanes* to) {
-    for (std::size_t k = 0; k < count; ++k) to[k] = load(columns.column(static_cast<int>(k)) + start);
-  };
-  for (std::size_t start = 0; start < packing.position.padded_rows(); start += Lanes::size()) {
-    std::array<Lanes, Scratch::row_size> fields{};
-    lanes_of(packing.position, axes, start, fields.data());
-    lanes_of(packing.velocity, axes, start, fields.data() + axes);
-    lanes_of(packing.spin, 1, start, fields.data() + 2 * axes);
-    std::array<Lanes, static_cast<std::size_t>(Shape::size_count)> size;
-    lanes_of(packing.population->sizes(), size.size(), start, size.data());
-    std::array<Lanes, static_cast<std::size_t>(Shape::orientation_count)> orientation;
-    if constexpr (Shape::orientation_count > 0)
-      lanes_of(packing.orientation, orientation.size(), start, orientation.data());
-    auto const pose = Shape::pose(size, orientation);
-    for (std::size_t k = 0; k < pose.size(); ++k) fields[2 * axes + 1 + k] = pose[k];
-    for (std::size_t quad = 0; quad < Scratch::row_size; quad += 4) {
-      auto const quads = to_quads<Scalar>({fields[quad], fields[quad + 1], fields[quad + 2], fields[quad + 3]});
-      for (std::size_t lane = 0; lane < quads.size(); ++lane)
-        quads[lane].write(rows + (start + lane) * Scratch::row_size + quad);
-    }
-  }
-}
-
-/// Sums over the contacts that a pair loop can give along the way.
-template <int Dim>
-struct ContactSums {
-  Tensor<Dim> moment = Tensor<Dim>::Zero();  ///< force on the second grain (x) branch [N m]
-  double force = 0.0;                        ///< |force| [N]
-  double contacts = 0.0;
-
-  /// Love and Weber's stress [Pa], tension positive, for a packing's volume [m3].
-  Tensor<Dim> stress(double volume) const { return -moment / volume; }
-};
-
-/// Forces of all near pairs at the present positions, and the update of what contacts remember.
-/// `strain_step`, the cell's displacement gradient during the step, gives the affine part of the slip; `time_step` [s].
-/// With `Observe` the loop also sums over the contacts. Flattened, since shape and law must melt into the loop: a third of the
-/// speed is lost otherwise.
-template <bool Observe, class PackingType, class Law>
-[[gnu::flatten]] ContactSums<PackingType::dim> pair_forces(
-    PackingType& packing, Law const& law, Tensor<PackingType::dim> const& strain_step, double time_step,
-    PairScratch<typename PackingType::Shape, typename PackingType::Scalar>& scratch) {
-  using Shape = typename PackingType::Shape;
-  using Scalar = typename PackingType::Scalar;
-  using Scratch = PairScratch<Shape, Scalar>;
+  using Layout = RowLayout<Shape, Law>;
   using Lanes = Pack<Scalar>;
   constexpr int dim = Shape::dim;
   constexpr auto axes = static_cast<std::size_t>(dim);
   constexpr std::size_t width = Lanes::size();
-  constexpr std::size_t row_size = Scratch::row_size;
-  constexpr std::size_t force_size = Scratch::force_size;
   static_assert(Columns<Scalar, 1>::padding % width == 0, "columns must fill whole packs");
-  static_assert(dim == 2, "the pair loop's torques and frames are written for the plane");
 
   auto& pairs = packing.pairs;
-  std::size_t const grains = packing.grain_count();
-  std::size_t const ghosts = pairs.ghost_owner.size();
-  std::size_t const dummy = grains + ghosts;  // partner of the lanes beyond the last pair: far away, touches nothing
-  scratch.rows.resize(std::max(dummy + 1, packing.position.padded_rows()) * row_size);
-  scratch.forces.assign((dummy + 1) * force_size, Scalar(0));
-
+  std::size_t const row_limit = packing.row_count() + pairs.ghost_owner.size() + 1;
+  scratch.rows.resize(
+      std::max(row_limit, packing.position.padded_rows() * static_cast<std::size_t>(part_count<Shape>())) *
+      Layout::size);
+  scratch.forces.assign(row_limit * Layout::force_size, Scalar(0));
   Scalar* const rows = scratch.rows.data();
+  Scalar* const forces = scratch.forces.data();
   fill_grain_rows(packing, rows);
-  for (std::size_t g = 0; g < ghosts; ++g) {
-    Scalar const* owner = rows + static_cast<std::size_t>(pairs.ghost_owner[g]) * row_size;
-    Scalar* row = rows + (grains + g) * row_size;
-    for (std::size_t k = 0; k < row_size; ++k) row[k] = owner[k];
-    for (int a = 0; a < dim; ++a) {
-      double offset = 0.0;
-      for (int b = 0; b < dim; ++b) offset += packing.cell(a, b) * pairs.ghost_shift[g][static_cast<std::size_t>(b)];
-      row[a] += static_cast<Scalar>(offset);
-    }
-  }
-  for (std::size_t k = 0; k < row_size; ++k) rows[dummy * row_size + k] = rows[k];
-  rows[dummy * row_size] += static_cast<Scalar>(1e3 * packing.population->largest_radius());
+  auto const nobody = static_cast<std::int32_t>(fill_ghost_rows(packing, rows));
 
-  std::array<Lanes, axes * axes> affine;  // displacement gradient of one step
+  std::array<Lanes, axes * axes> affine;
   for (int a = 0; a < dim; ++a) {
-    for (int b = 0; b < dim; ++b) {
-      affine[static_cast<std::size_t>(a * dim + b)] = Lanes(static_cast<Scalar>(strain_step(a, b)));
-    }
+    for (int b = 0; b < dim; ++b) affine[static_cast<std::size_t>(a * dim + b)] = constant<Lanes>(strain_step(a, b));
   }
-  Lanes const step(static_cast<Scalar>(time_step));
-  // Grains turn with the cell: their spin is a fluctuation about the affine spin.
-  Lanes const affine_turn(static_cast<Scalar>((strain_step(1, 0) - strain_step(0, 1)) / 2.0));
+  auto const affine_turn = detail::affine_turn<dim, Lanes>(strain_step);
+  Lanes const step = constant<Lanes>(time_step);
 
-  std::array<Lanes, axes * axes> moment{};
-  Lanes magnitude(Scalar(0));
-  double contacts = 0.0;
+  detail::LaneSums<dim, Lanes> sums;
   std::array<std::int32_t, width> last_first{};
   std::array<std::int32_t, width> last_second{};
   std::size_t const count = pairs.count();
@@ -129,109 +55,113 @@ template <bool Observe, class PackingType, class Law>
     if (start + width > count) {
       for (std::size_t k = 0; k < width; ++k) {
         last_first[k] = start + k < count ? first[k] : 0;
-        last_second[k] = start + k < count ? second[k] : static_cast<std::int32_t>(dummy);
+        last_second[k] = start + k < count ? second[k] : nobody;
       }
       first = last_first.data();
       second = last_second.data();
     }
-    auto const row_of = [&](std::int32_t const* numbers, std::size_t quad) {
-      return [=](std::size_t lane) { return rows + static_cast<std::size_t>(numbers[lane]) * row_size + 4 * quad; };
-    };
-    std::array<std::array<Lanes, 4>, row_size / 4> row_first;
-    std::array<std::array<Lanes, 4>, row_size / 4> row_second;
-    for (std::size_t quad = 0; quad < row_first.size(); ++quad) {
-      row_first[quad] = load_quads<Scalar>(row_of(first, quad));
-      row_second[quad] = load_quads<Scalar>(row_of(second, quad));
-    }
-    auto const column = [](auto const& row, std::size_t k) -> Lanes const& { return row[k / 4][k % 4]; };
+    detail::PairSide<Layout, dim, Lanes> const one(rows, first);
+    detail::PairSide<Layout, dim, Lanes> const other(rows, second);
 
     Point<dim, Lanes> branch;
-    Point<dim, Lanes> approach_motion;
-    for (std::size_t a = 0; a < axes; ++a) branch[a] = column(row_second, a) - column(row_first, a);
+    Point<dim, Lanes> motion;  // of the second centre relative to the first during the step
+    for (std::size_t a = 0; a < axes; ++a) branch[a] = other[a] - one[a];
     for (std::size_t a = 0; a < axes; ++a) {
-      approach_motion[a] = (column(row_second, axes + a) - column(row_first, axes + a)) * step;
-      for (std::size_t b = 0; b < axes; ++b) approach_motion[a] += affine[a * axes + b] * branch[b];
+      motion[a] = (other[Layout::velocity + a] - one[Layout::velocity + a]) * step;
+      for (std::size_t b = 0; b < axes; ++b) motion[a] += affine[a * axes + b] * branch[b];
     }
-    Lanes const turn_first = column(row_first, 2 * axes) * step + affine_turn;
-    Lanes const turn_second = column(row_second, 2 * axes) * step + affine_turn;
-    std::array<Lanes, static_cast<std::size_t>(Shape::pose_count)> pose_first;
-    std::array<Lanes, static_cast<std::size_t>(Shape::pose_count)> pose_second;
-    for (std::size_t k = 0; k < pose_first.size(); ++k) {
-      pose_first[k] = column(row_first, 2 * axes + 1 + k);
-      pose_second[k] = column(row_second, 2 * axes + 1 + k);
-    }
+    auto const turn_one = one.turn(step, affine_turn);
+    auto const turn_other = other.turn(step, affine_turn);
+
     Point<dim, Lanes> normal{};
     if constexpr (Shape::remembers_normal) {
       for (int a = 0; a < dim; ++a) normal[static_cast<std::size_t>(a)] = load(pairs.normal.column(a) + start);
     }
-    auto const touch = Shape::touch(pose_first, pose_second, branch, normal);
+    auto const pose_one = one.pose();
+    auto const pose_other = other.pose();
+    auto const touch = Shape::touch(pose_one, pose_other, branch, normal);
+    auto const& n = touch.normal;
     if constexpr (Shape::remembers_normal) {
-      for (int a = 0; a < dim; ++a) store(touch.normal[static_cast<std::size_t>(a)], pairs.normal.column(a) + start);
+      for (int a = 0; a < dim; ++a) store(n[static_cast<std::size_t>(a)], pairs.normal.column(a) + start);
     }
 
-    auto const& n = touch.normal;
-    Point<dim, Lanes> const tangent{-n[1], n[0]};
-    Approach<dim, Lanes> approach{touch.overlap, Lanes(Scalar(0))};
-    Lanes shear(Scalar(0));
-    if constexpr (Law::remembers_shear) {
-      Point<dim, Lanes> const slip{
-          approach_motion[0] - turn_second * touch.arm_second[1] + turn_first * touch.arm_first[1],
-          approach_motion[1] + turn_second * touch.arm_second[0] - turn_first * touch.arm_first[0]};
-      approach.slip = slip[0] * tangent[0] + slip[1] * tangent[1];
-      shear = load(pairs.shear.column(0) + start);
-    }
-    Lanes const push = law.respond(approach, shear);
-    Point<dim, Lanes> force{push * n[0], push * n[1]};  // on the second grain
-    if constexpr (Law::remembers_shear) {
-      store(shear, pairs.shear.column(0) + start);
-      force[0] += shear * tangent[0];
-      force[1] += shear * tangent[1];
-    }
-    // Rows of (force, torque on the first, torque on the second); the fourth entry of a force row is scratch.
-    auto const quads =
-        to_quads<Scalar>({force[0], force[1], touch.arm_first[0] * force[1] - touch.arm_first[1] * force[0],
-                          touch.arm_second[0] * force[1] - touch.arm_second[1] * force[0]});
-    if constexpr (Observe) {
-      auto const closed = push > Lanes(Scalar(0));
-      Lanes size = sqrt(force[0] * force[0] + force[1] * force[1]);
-      where(!closed, size) = Lanes(Scalar(0));
-      magnitude += size;
-      contacts += static_cast<double>(popcount(closed));
-      for (std::size_t a = 0; a < axes; ++a) {
-        for (std::size_t b = 0; b < axes; ++b) moment[a * axes + b] += force[a] * branch[b];
+    Approach<dim, Lanes> approach{.overlap = touch.overlap, .slip = {}};
+    ContactMemory<dim, Lanes> memory;
+    if constexpr (Law::needs.shear || Law::needs.motion) {
+      auto const swing_one = turned_motion(turn_one, touch.arm_first);
+      auto const swing_other = turned_motion(turn_other, touch.arm_second);
+      Point<dim, Lanes> meeting;  // relative motion at the contact point
+      for (std::size_t a = 0; a < axes; ++a) meeting[a] = motion[a] + swing_other[a] - swing_one[a];
+      if constexpr (Law::needs.shear) {
+        approach.slip = tangential_part(meeting, n);
+        detail::load_tangential(pairs.shear, start, memory.shear);
+        if constexpr (dim == 3) carry_to_frame(memory.shear, detail::mean(turn_one, turn_other), n);
+      }
+      if constexpr (Law::needs.motion) {
+        approach.closing = -dot(meeting, n);
+        approach.reduced_mass = constant<Lanes>(1.0) / (one[Layout::inverse_mass] + other[Layout::inverse_mass]);
+        approach.time_step = step;
       }
     }
-    for (std::size_t k = 0; k < width; ++k) {
-      Scalar* const on_first = scratch.forces.data() + static_cast<std::size_t>(first[k]) * force_size;
-      Scalar* const on_second = scratch.forces.data() + static_cast<std::size_t>(second[k]) * force_size;
-      auto sum = Quad<Scalar>::read(on_first);
-      sum.value -= quads[k].value;
-      sum.write(on_first);
-      sum = Quad<Scalar>::read(on_second);
-      sum.value += __builtin_shufflevector(quads[k].value, quads[k].value, 0, 1, 3, 2);
-      sum.write(on_second);
+    if constexpr (Law::needs.moment) {
+      approach.roll = rolling_part(detail::difference(turn_other, turn_one), n);
+      detail::load_tangential(pairs.moment, start, memory.moment);
+      if constexpr (dim == 3) carry_to_frame(memory.moment, detail::mean(turn_one, turn_other), n);
     }
-  }
-  for (std::size_t g = 0; g < ghosts; ++g) {
-    Scalar* const owner = scratch.forces.data() + static_cast<std::size_t>(pairs.ghost_owner[g]) * force_size;
-    Scalar const* const ghost = scratch.forces.data() + (grains + g) * force_size;
-    for (std::size_t k = 0; k < 3; ++k) owner[k] += ghost[k];
-  }
+    if constexpr (Law::needs.radius || what != Observe::nothing) {
+      Lanes const radius_one = Shape::contact_radius(pose_one);
+      Lanes const radius_other = Shape::contact_radius(pose_other);
+      approach.reduced_radius = radius_one * radius_other / (radius_one + radius_other);
+    }
+    if constexpr (Law::needs.scalars > 0) {
+      for (int k = 0; k < Law::needs.scalars; ++k)
+        memory.scalars[static_cast<std::size_t>(k)] = load(pairs.scalars.column(k) + start);
+    }
+    auto const answer = law.respond(approach, memory);
+    if constexpr (Law::needs.shear) detail::store_tangential(memory.shear, start, pairs.shear);
+    if constexpr (Law::needs.moment) detail::store_tangential(memory.moment, start, pairs.moment);
+    if constexpr (Law::needs.scalars > 0) {
+      for (int k = 0; k < Law::needs.scalars; ++k)
+        store(memory.scalars[static_cast<std::size_t>(k)], pairs.scalars.column(k) + start);
+    }
 
-  ContactSums<dim> sums;
-  if constexpr (Observe) {
-    auto const total = [](Lanes const& lanes) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < width; ++k) sum += static_cast<double>(lanes[k]);
-      return sum;
-    };
-    for (int a = 0; a < dim; ++a) {
-      for (int b = 0; b < dim; ++b) sums.moment(a, b) = total(moment[static_cast<std::size_t>(a * dim + b)]);
+    Point<dim, Lanes> force;  // on the second grain
+    for (std::size_t a = 0; a < axes; ++a) force[a] = answer.normal * n[a];
+    if constexpr (Law::needs.shear) {
+      auto const shear = as_vector(answer.shear, n);
+      for (std::size_t a = 0; a < axes; ++a) force[a] += shear[a];
     }
-    sums.force = total(magnitude);
-    sums.contacts = contacts;
+    auto torque_one = cross(touch.arm_first, force);  // reversed, as the force is
+    auto torque_other = cross(touch.arm_second, force);
+    if constexpr (Law::needs.moment) {
+      if constexpr (dim == 2) {
+        torque_one += answer.moment;
+        torque_other += answer.moment;
+      } else {
+        for (std::size_t a = 0; a < 3; ++a) {
+          torque_one[a] += answer.moment[a];
+          torque_other[a] += answer.moment[a];
+        }
+      }
+    }
+    if constexpr (what != Observe::nothing) {
+      using std::experimental::max;
+      auto const closed = answer.normal != Lanes(Scalar(0));
+      sums.force += sqrt(dot(force, force));
+      sums.contacts += static_cast<double>(popcount(closed));
+      sums.deepest = max(sums.deepest, touch.overlap / approach.reduced_radius);
+      for (std::size_t a = 0; a < axes; ++a) {
+        for (std::size_t b = 0; b < axes; ++b) sums.moment[a * axes + b] += force[a] * branch[b];
+      }
+    }
+    if constexpr (what == Observe::energy) {
+      sums.stored += law.stored_energy(approach, memory);
+      sums.dissipated += answer.dissipated;
+    }
+    detail::scatter<Layout>(force, torque_one, torque_other, first, second, forces);
   }
-  return sums;
+  gather_forces(packing, forces);
+  return sums.total();
 }
 
 }  // namespace scarp

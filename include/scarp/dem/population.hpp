@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "scarp/core/columns.hpp"
@@ -18,7 +19,8 @@ class Population {
  public:
   using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;
 
-  /// density [kg/m3] \throws InputError on an empty list or sizes that are not finite and positive
+  /// density [kg/m3]
+  /// \throws InputError on an empty list, on sizes that are not finite and positive and on those that the shape refuses
   Population(std::vector<Size> const& sizes, double density, double thickness)
       : density_(density), thickness_(thickness) {
     require_positive("grain density", density);
@@ -32,14 +34,17 @@ class Population {
       for (int k = 0; k < Shape::size_count; ++k) {
         size_(i, k) = static_cast<Scalar>(require_positive("grain size", sizes[i][static_cast<std::size_t>(k)]));
       }
-      double const content = Shape::content(sizes[i]);
+      if constexpr (requires { Shape::check(sizes[i]); }) Shape::check(sizes[i]);
+      Size const grain = size(i);  // as stored: a population made from another one's sizes has the same bits
+      double const content = Shape::content(grain);
       double const mass = density * content * thickness;
       content_ += content;
       mass_ += mass;
       inverse_mass_(i, 0) = static_cast<Scalar>(1.0 / mass);
-      inverse_inertia_(i, 0) = static_cast<Scalar>(1.0 / (mass * Shape::gyration_squared(sizes[i])));
-      largest_radius_ = std::max(largest_radius_, Shape::bounding_radius(sizes[i]));
-      largest_eccentricity_ = std::max(largest_eccentricity_, Shape::eccentricity(sizes[i]));
+      inverse_inertia_(i, 0) = static_cast<Scalar>(1.0 / (mass * Shape::gyration_squared(grain)));
+      smallest_radius_ = std::min(smallest_radius_, Shape::bounding_radius(grain));
+      largest_radius_ = std::max(largest_radius_, Shape::bounding_radius(grain));
+      largest_eccentricity_ = std::max(largest_eccentricity_, Shape::eccentricity(grain));
     }
   }
 
@@ -49,6 +54,7 @@ class Population {
   /// Sum of the grains' areas (2D) [m2] or volumes (3D) [m3].
   double content() const { return content_; }
   double mass() const { return mass_; }
+  double smallest_radius() const { return smallest_radius_; }
   double largest_radius() const { return largest_radius_; }
   double largest_eccentricity() const { return largest_eccentricity_; }
 
@@ -70,6 +76,7 @@ class Population {
   double thickness_;
   double content_ = 0.0;
   double mass_ = 0.0;
+  double smallest_radius_ = std::numeric_limits<double>::infinity();
   double largest_radius_ = 0.0;
   double largest_eccentricity_ = 0.0;
   Columns<Scalar, Shape::size_count> size_;

@@ -32,13 +32,13 @@ struct IsotropicPreparation {
     constexpr int dim = PackingType::dim;
     VoigtStress<dim> target = VoigtStress<dim>::Zero();
     target.template head<dim>().setConstant(-pressure);
-    auto const loading = ComponentLoading<dim>::all_stress(target);
+    auto const loading = Loading<dim>::stress(target);
     TimeStepper<PackingType> stepper;
-    auto const final_friction = law.friction;
-    law.friction = preparation_friction;
+    double const final_friction = law.friction_coefficient();
+    law.friction_coefficient() = preparation_friction;
     Verdict verdict = consolidation.reach(stepper, cloud, law, loading);
     if (verdict.acceptable()) {
-      law.friction = final_friction;
+      law.friction_coefficient() = final_friction;
       verdict = relaxation.reach(stepper, cloud, law, loading);
     }
     cloud.rest();
@@ -49,7 +49,7 @@ struct IsotropicPreparation {
 /// One-dimensional compression of one packing, as under the growing overburden of level ground: lateral strain zero, shear
 /// stress zero, vertical stress (last axis) through a list of targets. A copy is kept at each.
 struct OneDimensionalCompression {
-  Servo servo{.fastest = 1e-5, .stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-4};
+  Servo servo{.feedback = {.fastest = 1e-5}, .stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-4};
 
   /// vertical_pressures [Pa], positive, increasing
   /// \return one packing per pressure; the list ends early at one whose verdict is not acceptable
@@ -57,12 +57,12 @@ struct OneDimensionalCompression {
   std::vector<Prepared<PackingType>> compress(PackingType packing, typename PackingType::Law const& law,
                                               std::vector<double> const& vertical_pressures) const {
     constexpr int dim = PackingType::dim;
-    ComponentLoading<dim> loading;
-    for (int k = dim - 1; k < voigt_size<dim>; ++k) loading.stress_controlled[static_cast<std::size_t>(k)] = true;
+    Loading<dim> loading;
+    for (int k = dim - 1; k < voigt_size<dim>; ++k) loading.controls.push_back(component_control<dim>(k, 0.0));
     TimeStepper<PackingType> stepper;
     std::vector<Prepared<PackingType>> column;
     for (double const pressure : vertical_pressures) {
-      loading.stress(dim - 1) = -require_positive("vertical pressure", pressure);
+      loading.controls.front().target = -require_positive("vertical pressure", pressure);
       Verdict const verdict = servo.reach(stepper, packing, law, loading);
       packing.rest();
       column.push_back({packing, verdict});

@@ -16,6 +16,13 @@ struct StepObservation {
   Tensor<Dim> stress = Tensor<Dim>::Zero();  ///< Love and Weber [Pa], tension positive
   double contacts = 0.0;
   double unbalanced_ratio = 0.0;  ///< mean net force of a grain over mean contact force
+  double deepest_overlap = 0.0;   ///< over the reduced radius of its contact
+
+  // Only with Observe::energy, all in [J].
+  double stored_energy = 0.0;   ///< in the contacts
+  double contact_loss = 0.0;    ///< in sliders and dashpots since the step before
+  double damping_loss = 0.0;    ///< in damping, during the move
+  double kinetic_energy = 0.0;  ///< of fluctuations, mean of before and after the move
 };
 
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient. Holds the scratch memory, so one
@@ -41,22 +48,26 @@ class TimeStepper {
   /// Makes the pair list where there is none or it has become too old, and the critical step with it.
   Verdict refresh(PackingType& packing, Law const& law) const {
     if (packing.pairs.drift <= packing.pairs.skin) return {};  // false also when the drift is no number
-    Verdict const verdict = rebuild_pairs(packing, skin_ratio * packing.population->largest_radius());
+    Verdict const verdict = rebuild_pairs(packing, skin_ratio * packing.population->largest_radius(), reach_of(law));
     if (verdict.acceptable()) packing.pairs.critical_step = critical_step(packing, law);
     return verdict;
   }
 
   /// One time step while the cell follows the displacement gradient `strain_step` (velocity gradient x time step).
-  /// With `Observe`, `observed` receives the state before the move.
-  template <bool Observe = false>
+  /// When it observes, `observed` receives the state before the move.
+  template <Observe what = Observe::nothing>
   Verdict step(PackingType& packing, Law const& law, Tensor<dim> const& strain_step,
                StepObservation<dim>* observed = nullptr) {
     if (Verdict const verdict = refresh(packing, law); !verdict.acceptable()) return verdict;
     double const time_step = time_step_share * packing.pairs.critical_step;
-    ContactSums<dim> const sums = pair_forces<Observe>(packing, law, strain_step, time_step, scratch_);
-    if constexpr (Observe) *observed = observe(packing, sums);
+    ContactSums<dim> const sums = pair_forces<what>(packing, law, strain_step, time_step, scratch_);
+    if constexpr (what != Observe::nothing) *observed = observe(packing, sums);
     Tensor<dim> const cell_step = exponential(strain_step);
-    move_grains(packing, cell_step, time_step, (strain_step(1, 0) - strain_step(0, 1)) / 2.0);
+    auto const energies = move_grains<what>(packing, cell_step, time_step, strain_step);
+    if constexpr (what == Observe::energy) {
+      observed->damping_loss = energies.damped;
+      observed->kinetic_energy = energies.kinetic;
+    }
     packing.cell = (cell_step * packing.cell).eval();
     packing.pairs.drift += strain_step.norm() * (2.0 * packing.population->largest_radius() + packing.pairs.skin);
     return {};
@@ -66,17 +77,23 @@ class TimeStepper {
   /// shear limits are brought up to date and an old pair list is renewed.
   Verdict observe(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
     if (Verdict const verdict = refresh(packing, law); !verdict.acceptable()) return verdict;
-    observed = observe(packing, pair_forces<true>(packing, law, Tensor<dim>::Zero(), 0.0, scratch_));
+    observed = observe(packing, pair_forces<Observe::balance>(packing, law, Tensor<dim>::Zero(), 0.0, scratch_));
     return {};
   }
 
  private:
+  using Layout = RowLayout<Shape, Law>;
+
   StepObservation<dim> observe(PackingType const& packing, ContactSums<dim> const& sums) const {
-    StepObservation<dim> seen{sums.stress(packing.volume()), sums.contacts, 0.0};
+    StepObservation<dim> seen{.stress = sums.stress(packing.volume()),
+                              .contacts = sums.contacts,
+                              .deepest_overlap = sums.deepest,
+                              .stored_energy = sums.stored,
+                              .contact_loss = sums.dissipated};
     if (sums.contacts == 0.0) return seen;
     double unbalanced = 0.0;
     for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-      Scalar const* const net = scratch_.forces.data() + i * PairScratch<Shape, Scalar>::force_size;
+      Scalar const* const net = scratch_.forces.data() + i * Layout::force_size;
       double squared = 0.0;
       for (std::size_t a = 0; a < dim; ++a) squared += static_cast<double>(net[a]) * static_cast<double>(net[a]);
       unbalanced += std::sqrt(squared);
@@ -91,62 +108,101 @@ class TimeStepper {
     return identity + small * (identity + small * (identity + small * (identity + small / 4.0) / 3.0) / 2.0);
   }
 
-  void move_grains(PackingType& packing, Tensor<dim> const& cell_step, double time_step, double affine_turn) {
+  struct Energies {
+    double damped = 0.0;
+    double kinetic = 0.0;
+  };
+
+  /// Advances velocity and position, or spin and orientation, of one component; adds up energies where they are wanted.
+  template <Observe what>
+  Lanes advance(Scalar* velocities, Lanes const& force, Lanes const& inverse_inertia, Lanes const& dt, Lanes& damped,
+                Lanes& kinetic) const {
+    Lanes const before = load(velocities);
+    Lanes const after = damping.next_velocity(before, force, inverse_inertia * dt);
+    store(after, velocities);
+    if constexpr (what == Observe::energy) {
+      using std::experimental::max;
+      Lanes const inertia = Lanes(Scalar(1)) / max(inverse_inertia, Lanes(Scalar(1e-30)));  // padding never moves
+      damped += (before + after) * Lanes(Scalar(0.5)) * (force * dt - (after - before) * inertia);
+      kinetic += (before * before + after * after) * inertia * Lanes(Scalar(0.25));
+    }
+    return after;
+  }
+
+  template <Observe what>
+  Energies move_grains(PackingType& packing, Tensor<dim> const& cell_step, double time_step,
+                       Tensor<dim> const& strain_step) {
     constexpr std::size_t width = Lanes::size();
-    constexpr std::size_t force_size = PairScratch<Shape, Scalar>::force_size;
+    constexpr std::size_t force_size = Layout::force_size;
     auto const& population = *packing.population;
-    Lanes const dt(static_cast<Scalar>(time_step));
+    Lanes const dt = constant<Lanes>(time_step);
     Lanes fastest(Scalar(0));
     Lanes fastest_spin(Scalar(0));
+    Lanes damped(Scalar(0));
+    Lanes kinetic(Scalar(0));
+    std::array<Lanes, static_cast<std::size_t>(dim * dim)> cell;
+    for (int a = 0; a < dim; ++a) {
+      for (int b = 0; b < dim; ++b) cell[static_cast<std::size_t>(a * dim + b)] = constant<Lanes>(cell_step(a, b));
+    }
     std::size_t const grains = packing.grain_count();
     std::size_t const padded = packing.position.padded_rows();
     scratch_.forces.resize(std::max(scratch_.forces.size(), padded * force_size));
-    for (std::size_t i = grains; i < padded; ++i) {
-      for (std::size_t k = 0; k < force_size; ++k) scratch_.forces[i * force_size + k] = Scalar(0);
-    }
+    std::fill(scratch_.forces.begin() + static_cast<std::ptrdiff_t>(grains * force_size),
+              scratch_.forces.begin() + static_cast<std::ptrdiff_t>(padded * force_size), Scalar(0));
     for (std::size_t start = 0; start < padded; start += width) {
       Lanes const inverse_mass = load(population.inverse_mass() + start);
       Lanes const inverse_inertia = load(population.inverse_inertia() + start);
-      auto const force =
-          load_quads<Scalar>([&](std::size_t lane) { return scratch_.forces.data() + (start + lane) * force_size; });
+      std::array<std::array<Lanes, 4>, force_size / 4> force;
+      for (std::size_t quad = 0; quad < force.size(); ++quad) {
+        force[quad] = load_quads<Scalar>(
+            [&](std::size_t lane) { return scratch_.forces.data() + (start + lane) * force_size + 4 * quad; });
+      }
       Point<dim, Lanes> place;
       for (int a = 0; a < dim; ++a) place[static_cast<std::size_t>(a)] = load(packing.position.column(a) + start);
       Lanes speed(Scalar(0));
-      for (int a = 0; a < dim; ++a) {
-        Lanes velocity = load(packing.velocity.column(a) + start);
-        velocity = damping.next_velocity(velocity, force[static_cast<std::size_t>(a)], inverse_mass * dt);
-        store(velocity, packing.velocity.column(a) + start);
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
+        int const column = static_cast<int>(a);
+        Lanes const velocity =
+            advance<what>(packing.velocity.column(column) + start, force[0][a], inverse_mass, dt, damped, kinetic);
         speed += velocity * velocity;
         Lanes moved = velocity * dt;
-        for (int b = 0; b < dim; ++b) {
-          moved += Lanes(static_cast<Scalar>(cell_step(a, b))) * place[static_cast<std::size_t>(b)];
-        }
-        store(moved, packing.position.column(a) + start);
+        for (std::size_t b = 0; b < static_cast<std::size_t>(dim); ++b)
+          moved += cell[a * static_cast<std::size_t>(dim) + b] * place[b];
+        store(moved, packing.position.column(column) + start);
       }
-      Lanes spin = load(packing.spin.column(0) + start);
-      spin = damping.next_velocity(spin, force[dim], inverse_inertia * dt);
-      store(spin, packing.spin.column(0) + start);
-      if constexpr (Shape::orientation_count == 2) {
-        // Cayley's rotation keeps (cos, sin) a unit vector to round-off.
-        Lanes const half = (spin * dt + Lanes(static_cast<Scalar>(affine_turn))) * Lanes(Scalar(0.5));
-        Lanes const scale = Lanes(Scalar(1)) / (Lanes(Scalar(1)) + half * half);
-        Lanes const c = (Lanes(Scalar(1)) - half * half) * scale;
-        Lanes const s = Lanes(Scalar(2)) * half * scale;
-        Lanes const x = load(packing.orientation.column(0) + start);
-        Lanes const y = load(packing.orientation.column(1) + start);
-        store(x * c - y * s, packing.orientation.column(0) + start);
-        store(x * s + y * c, packing.orientation.column(1) + start);
+      Lanes turning(Scalar(0));
+      for (int k = 0; k < spin_size<dim>; ++k) {
+        std::size_t const entry = Layout::torque + static_cast<std::size_t>(k);
+        Lanes const torque = force[entry / 4][entry % 4];
+        Lanes const spin = advance<what>(packing.spin.column(k) + start, torque, inverse_inertia, dt, damped, kinetic);
+        turning += spin * spin;
+        if constexpr (Shape::orientation_count == 2) turn_axes(packing, start, spin * dt, strain_step);
       }
       using std::experimental::max;
       fastest = max(fastest, speed);
-      fastest_spin = max(fastest_spin, spin * spin);
+      fastest_spin = max(fastest_spin, turning);
     }
     double const speed = std::sqrt(static_cast<double>(hmax(fastest)));
     double const spin = std::sqrt(static_cast<double>(hmax(fastest_spin)));
     packing.pairs.drift += 2.0 * time_step * (speed + spin * population.largest_eccentricity());
+    return {detail::lane_sum(damped), detail::lane_sum(kinetic)};
   }
 
-  PairScratch<Shape, Scalar> scratch_;
+  /// Turns the axes (cos, sin) of plane grains by their own rotation and the cell's. Cayley's rotation keeps them unit
+  /// vectors to round-off.
+  static void turn_axes(PackingType& packing, std::size_t start, Lanes const& turn, Tensor<dim> const& strain_step) {
+    Lanes const one(Scalar(1));
+    Lanes const half = (turn + detail::affine_turn<2, Lanes>(strain_step)) * Lanes(Scalar(0.5));
+    Lanes const scale = one / (one + half * half);
+    Lanes const c = (one - half * half) * scale;
+    Lanes const s = Lanes(Scalar(2)) * half * scale;
+    Lanes const x = load(packing.orientation.column(0) + start);
+    Lanes const y = load(packing.orientation.column(1) + start);
+    store(x * c - y * s, packing.orientation.column(0) + start);
+    store(x * s + y * c, packing.orientation.column(1) + start);
+  }
+
+  PairScratch<Scalar> scratch_;
 };
 
 }  // namespace scarp

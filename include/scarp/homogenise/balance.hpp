@@ -21,6 +21,17 @@ struct Balance {
   double deepest_overlap = 0.0;        ///< [m]
 };
 
+/// Whether the shear force of a contact has reached Coulomb's limit.
+template <int Dim, class Law>
+bool is_sliding(Contact<Dim> const& contact, Law law) {
+  if constexpr (Frictional<Law>) {
+    constexpr double at_limit = 1.0 - 1e-9;  // limited forces sit on the limit to round-off
+    return contact.shear_force().norm() >= at_limit * law.friction_coefficient() * contact.normal_force;
+  } else {
+    return false;
+  }
+}
+
 /// Eq. 5 of the study, with f the force on the second grain and l the branch from first to second.
 template <class PackingType>
 Balance<PackingType::dim> balance(PackingType const& packing, typename PackingType::Law const& law) {
@@ -35,10 +46,7 @@ Balance<PackingType::dim> balance(PackingType const& packing, typename PackingTy
     net[contact.second] += contact.force;
     sum += contact.force.norm();
     result.deepest_overlap = std::max(result.deepest_overlap, contact.touch.overlap);
-    if constexpr (Frictional<typename PackingType::Law> && dim == 2) {
-      constexpr double at_limit = 1.0 - 1e-9;  // clamped values sit on the limit to round-off
-      if (std::abs(contact.shear) >= at_limit * law.friction * contact.normal_force) result.sliding_share += 1.0;
-    }
+    if (is_sliding(contact, law)) result.sliding_share += 1.0;
   });
   result.stress /= packing.volume();
   if (result.contacts == 0) return result;

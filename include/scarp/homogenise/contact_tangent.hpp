@@ -17,7 +17,7 @@ FullTangent<PackingType::dim> contact_tangent(PackingType const& packing, typena
   constexpr int dim = PackingType::dim;
   FullTangent<dim> sum = FullTangent<dim>::Zero();
   for_each_contact(packing, law, [&](Contact<dim> const& contact) {
-    ContactStiffness const stiffness = law.stiffness(contact.touch.overlap);
+    ContactStiffness const& stiffness = contact.stiffness;
     Vector<dim> const n = contact.normal();
     Tensor<dim> const across = Tensor<dim>::Identity() - n * n.transpose();  // sum of t (x) t over the tangent plane
     Tensor<dim> const spring = stiffness.normal * n * n.transpose() + stiffness.tangential * across;

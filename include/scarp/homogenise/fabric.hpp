@@ -46,12 +46,4 @@ inline double fabric_anisotropy(Fabric<2> const& fabric) {
   return std::sqrt(fabric_deviator(fabric).squaredNorm() / 2.0);
 }
 
-/// Mean number of contacts of a grain, 2 N_c / N_p, grains without contact included.
-template <class PackingType>
-double coordination(PackingType const& packing, typename PackingType::Law const& law) {
-  std::size_t count = 0;
-  for_each_contact(packing, law, [&](auto const&) { ++count; });
-  return 2.0 * static_cast<double>(count) / static_cast<double>(packing.grain_count());
-}
-
 }  // namespace scarp

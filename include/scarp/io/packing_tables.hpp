@@ -30,7 +30,7 @@ void write_packing_tables(std::filesystem::path const& folder, PackingType const
   }
   CsvTable contacts({"x1", "y1", "x2", "y2", "normal_force"});
   for_each_contact(packing, law, [&](Contact<2> const& contact) {
-    auto const from = grain_position(packing, contact.first);
+    auto const from = row_position(packing, contact.first);
     contacts.add(from[0], from[1], from[0] + contact.branch(0), from[1] + contact.branch(1), contact.normal_force);
   });
   CsvTable cell({"a1x", "a1y", "a2x", "a2y"});

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/homogenise/coordination.hpp"
 #include "scarp/homogenise/fabric.hpp"
 
 namespace scarp {
@@ -29,7 +30,7 @@ struct RveQuantities {
       Quantities quantities{
           {"void_ratio", state.packing.void_ratio()},
           {"contact_fabric", fabric_anisotropy(contact_fabric(state.packing, provider.law))},
-          {"coordination", coordination(state.packing, provider.law)},
+          {"coordination", coordination(state.packing, provider.law).all},
           {"unbalanced_ratio", state.unbalanced_ratio},
       };
       if constexpr (requires { particle_fabric(state.packing); }) {

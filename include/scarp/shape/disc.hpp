@@ -32,6 +32,11 @@ struct Disc {
   }
 
   template <class T>
+  static T contact_radius(std::array<T, 1> const& pose) {
+    return pose[0];
+  }
+
+  template <class T>
   static Touch<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second, Point<2, T> const& branch,
                            Point<2, T> const&) {
     using std::sqrt;

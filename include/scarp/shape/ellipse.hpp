@@ -40,6 +40,13 @@ struct Ellipse {
     return {minor + excess * c * c, excess * c * s, minor + excess * s * s};
   }
 
+  /// Radius of the circle of equal area, \f$ \sqrt{ab} = (\det A)^{1/4} \f$.
+  template <class T>
+  static T contact_radius(std::array<T, 3> const& pose) {
+    using std::sqrt;
+    return sqrt(sqrt(pose[0] * pose[2] - pose[1] * pose[1]));
+  }
+
   template <class T>
   static Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& normal) {
     using std::sqrt;

@@ -36,14 +36,39 @@ concept HasGrainSize = requires(std::array<double, static_cast<std::size_t>(Shap
   { Shape::least_curvature_radius(size) } -> std::same_as<double>;  // [m]
 };
 
+/// Number of convex parts that a grain is composed of; a shape that does not say has one.
+template <class Shape>
+constexpr int part_count() {
+  if constexpr (requires { Shape::part_count; }) {
+    return Shape::part_count;
+  } else {
+    return 1;
+  }
+}
+
+/// Pose of a part of a grain; a shape of one part has pose(size, orientation), others pose(size, orientation, part).
+template <class Shape, class Size, class Orientation>
+auto part_pose(Size const& size, Orientation const& orientation, int part) {
+  if constexpr (part_count<Shape>() == 1) {
+    return Shape::pose(size, orientation);
+  } else {
+    return Shape::pose(size, orientation, part);
+  }
+}
+
 template <class Shape>
 concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size,
-                           std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation) {
-  { Shape::pose(size, orientation) } -> std::same_as<std::array<double, static_cast<std::size_t>(Shape::pose_count)>>;
+                           std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation,
+                           std::array<double, static_cast<std::size_t>(Shape::pose_count)> const& pose) {
+  {
+    part_pose<Shape>(size, orientation, 0)
+    } -> std::same_as<std::array<double, static_cast<std::size_t>(Shape::pose_count)>>;
+  { Shape::contact_radius(pose) } -> std::same_as<double>;  // of the sphere or disc that curved contact laws see [m]
 };
 
-/// touch(first, second, branch, normal): `branch` from the first centre to the second; `normal` a unit vector to start
-/// from where the shape remembers one (`remembers_normal`), ignored otherwise.
+/// touch(first, second, branch, normal): `branch` from the first grain's centre to the second's; `normal` a unit vector to
+/// start from where the shape remembers one (`remembers_normal`), ignored otherwise. Arms reach from the grains' centres,
+/// also where the poses are those of parts.
 template <class Shape>
 concept Touches = requires(std::array<double, static_cast<std::size_t>(Shape::pose_count)> const& pose,
                            Point<Shape::dim, double> const& branch) {

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/dem/time_stepping.hpp"
+#include "scarp/homogenise/tangent_answer.hpp"
+
+namespace scarp {
+
+/// Derivative of a packing's stress by trial: a copy is settled, then strained a little in each mode and settled again. The
+/// stress is Cauchy's of the strained cell, so that terms of the order of the stress itself are part of the tangent. The most
+/// exact tangent and by far the most expensive: some thousand DEM steps for each settling.
+struct PerturbationTangent {
+  double strain = 1e-5;   ///< engineering, of each mode; where contacts slide there is no plateau, see docs/tangents.md
+  int strain_steps = 20;  ///< time steps that apply it
+  double unbalanced_tolerance =
+      1e-6;                 ///< of settled packings: times the stress it must stay well below stiffness x strain
+  int most_steps = 50'000;  ///< of each settling
+  int check_every = 50;     ///< steps between looks at the balance
+  LocalDamping damping{};
+  TangentComplaint complain = complain_of_tangent;  ///< hears of each tangent that is less exact than asked
+
+  /// Central differences. What was reached by then is taken where a packing does not settle, after `complain` was told.
+  template <class PackingType>
+  VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
+    auto const answer = differentiate(packing, law);
+    if (!answer.verdict.acceptable() && complain != nullptr) {
+      complain("a packing did not settle while its tangent was taken by trial", answer.verdict);
+    }
+    return answer.tangent;
+  }
+
+  /// `towards`: modes where it is not zero are strained to that side only, since a sliding contact answers to one side
+  /// unlike to the other.
+  /// \return not_converged / unbalanced when a settling took its most steps, else what the stepper reports; `steps` receives
+  /// the DEM steps taken
+  template <class PackingType>
+  TangentAnswer<PackingType::dim> differentiate(
+      PackingType const& packing, typename PackingType::Law const& law,
+      EngineeringStrain<PackingType::dim> const& towards = EngineeringStrain<PackingType::dim>::Zero(),
+      long* steps = nullptr) const {
+    constexpr int dim = PackingType::dim;
+    TangentAnswer<dim> answer{VoigtTangent<dim>::Zero(), {}};
+    long taken = 0;
+    Trial<PackingType> trial{law, {}};
+    trial.stepper.damping = damping;
+    PackingType base = packing;
+    base.rest();
+    VoigtStress<dim> const start = trial.settle(*this, base, answer.verdict, taken);
+    constexpr auto indices = voigt_indices<dim>();
+    for (int k = 0; k < voigt_size<dim>; ++k) {
+      auto const [i, j] = indices[static_cast<std::size_t>(k)];
+      Tensor<dim> mode = Tensor<dim>::Zero();
+      mode(i, j) += 0.5;
+      mode(j, i) += 0.5;
+      auto const strained = [&](double amount) {
+        PackingType copy = base;
+        return trial.strain(*this, copy, (amount / strain_steps * mode).eval(), answer.verdict, taken);
+      };
+      if (towards(k) == 0.0) {
+        answer.tangent.col(k) = (strained(strain) - strained(-strain)) / (2.0 * strain);
+      } else {
+        double const amount = std::copysign(strain, towards(k));
+        answer.tangent.col(k) = (strained(amount) - start) / amount;
+      }
+    }
+    if (steps != nullptr) *steps = taken;
+    return answer;
+  }
+
+ private:
+  template <class PackingType>
+  struct Trial {
+    static constexpr int dim = PackingType::dim;
+    typename PackingType::Law const& law;
+    TimeStepper<PackingType> stepper;
+
+    VoigtStress<dim> strain(PerturbationTangent const& how, PackingType& packing, Tensor<dim> const& step,
+                            Verdict& verdict, long& taken) {
+      for (int k = 0; k < how.strain_steps; ++k) {
+        if (Verdict const moved = stepper.step(packing, law, step); !moved.acceptable()) verdict = moved;
+      }
+      taken += how.strain_steps;
+      packing.rest();
+      return settle(how, packing, verdict, taken);
+    }
+
+    /// Stress [Pa] at the last look. A verdict that is not acceptable stays.
+    VoigtStress<dim> settle(PerturbationTangent const& how, PackingType& packing, Verdict& verdict, long& taken) {
+      StepObservation<dim> seen;
+      for (int step = 0; step < how.most_steps; ++step) {
+        Verdict moved;
+        if (step % how.check_every == 0) {
+          moved = stepper.template step<Observe::balance>(packing, law, Tensor<dim>::Zero(), &seen);
+        } else {
+          moved = stepper.step(packing, law, Tensor<dim>::Zero());
+        }
+        ++taken;
+        if (!moved.acceptable()) verdict = moved;
+        if (!verdict.acceptable() && verdict.reason != Reason::unbalanced) break;
+        if (step % how.check_every == 0 && seen.unbalanced_ratio <= how.unbalanced_tolerance) {
+          return to_voigt_stress<dim>(seen.stress);
+        }
+      }
+      if (verdict.acceptable()) verdict = {Status::not_converged, Reason::unbalanced};
+      return to_voigt_stress<dim>(seen.stress);
+    }
+  };
+};
+
+}  // namespace scarp

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+
+#include "scarp/contact/contact_law.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/core/select.hpp"
+
+namespace scarp {
+
+/// A law of constant stiffness whose springs a bond can go on using where the law itself would open or slide.
+template <class Law>
+concept HasLinearSprings = Frictional<Law> && TellsStoredEnergy<Law> && requires(Law const& law) {
+  { law.normal_stiffness } -> std::convertible_to<double>;
+  { law.tangential_stiffness } -> std::convertible_to<double>;
+  { law.friction } -> std::convertible_to<double>;
+};
+
+/// Bonds between grains: as long as a bond is intact, the springs of the law also pull and do not slide.
+/// \f$ F_n = k_n u_n \ge -T,\quad |F_t| \le C + \mu F_n \f$: Coulomb's line with cohesion, which goes on into tension
+/// up to its cut-off (as the parallel bond of Potyondy and Cundall 2004, without moments). A bond that passes either
+/// limit breaks for good and leaves the contact to the law. No contact is bonded unless `bond` was called for it.
+/// tensile strength T and shear strength C [N]. What a bond stored beyond the law's share is dissipated when it breaks;
+/// for tension it is taken at the end of the breaking step, first order in the step.
+template <HasLinearSprings Law>
+  requires(Law::needs.scalars < most_contact_scalars)
+struct CohesiveBond {
+  static constexpr ContactNeeds needs = [] {
+    ContactNeeds all = Law::needs;
+    all.shear = true;
+    all.scalars = Law::needs.scalars + 1;
+    return all;
+  }();
+
+  Law law;
+  double tensile_strength = 0.0;
+  double shear_strength = 0.0;
+
+  /// Bonds a contact, free of stress at zero overlap.
+  template <int Dim, class T>
+  static void bond(ContactMemory<Dim, T>& memory) {
+    memory.scalars[state] = constant<T>(intact);
+  }
+
+  template <int Dim, class T>
+  static auto is_intact(ContactMemory<Dim, T> const& memory) {
+    return memory.scalars[state] == constant<T>(intact);
+  }
+
+  template <int Dim, class T>
+  static auto is_broken(ContactMemory<Dim, T> const& memory) {
+    return memory.scalars[state] == constant<T>(broken);
+  }
+
+  template <int Dim, class T>
+  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+    T const zero = constant<T>(0);
+    T const normal = constant<T>(law.normal_stiffness) * approach.overlap;
+    Tangential<Dim, T> const shear = stretched<Dim, T>(memory.shear, approach.slip);
+    T const strength = at_least(constant<T>(shear_strength) + constant<T>(law.friction) * normal, zero);
+    auto const bonded = is_intact(memory);
+    auto const holds = bonded && normal >= constant<T>(-tensile_strength) && squared_size(shear) <= strength * strength;
+
+    T const state_after =
+        select(holds, constant<T>(intact), select(bonded, constant<T>(broken), memory.scalars[state]));
+    T const released = select(bonded, pull_energy(approach.overlap), zero);
+    ContactForce<Dim, T> force = law.respond(approach, memory);
+    memory.shear = select(holds, shear, memory.shear);
+    memory.scalars[state] = state_after;
+    return {.normal = select(holds, normal, force.normal),
+            .shear = select(holds, shear, force.shear),
+            .dissipated = select(holds, zero, force.dissipated + released)};
+  }
+
+  ContactStiffness stiffness(double overlap, double reduced_radius) const {
+    return law.stiffness(overlap, reduced_radius);
+  }
+
+  double& friction_coefficient() { return law.friction_coefficient(); }
+
+  template <int Dim, class T>
+  T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+    T const pulled = select(is_intact(memory), pull_energy(approach.overlap), constant<T>(0));
+    return law.stored_energy(approach, memory) + pulled;
+  }
+
+  double reach() const { return tensile_strength / law.normal_stiffness; }
+
+ private:
+  static constexpr std::size_t state = static_cast<std::size_t>(Law::needs.scalars);
+  static constexpr double intact = 1.0;  // a contact that was never bonded holds zero
+  static constexpr double broken = 2.0;
+
+  template <int Dim, class T>
+  Tangential<Dim, T> stretched(Tangential<Dim, T> force, Tangential<Dim, T> const& slip) const {
+    T const stiffness = constant<T>(law.tangential_stiffness);
+    if constexpr (Dim == 2) {
+      force = force - stiffness * slip;
+    } else {
+      for (std::size_t k = 0; k < 3; ++k) force[k] = force[k] - stiffness * slip[k];
+    }
+    return force;
+  }
+
+  template <class T>
+  T pull_energy(T const& overlap) const {
+    T const pulled = at_most(overlap, constant<T>(0));
+    return constant<T>(law.normal_stiffness / 2.0) * pulled * pulled;
+  }
+};
+
+template <class Law>
+CohesiveBond(Law, double, double) -> CohesiveBond<Law>;
+
+static_assert(ContactLaw<CohesiveBond<LinearFrictional>>);
+static_assert(Frictional<CohesiveBond<LinearFrictional>>);
+static_assert(TellsStoredEnergy<CohesiveBond<LinearFrictional>>);
+
+}  // namespace scarp

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "scarp/contact/contact_law.hpp"
+
+namespace scarp {
+
+/// Spring with a slider: \f$ f \leftarrow f - k\,\Delta s,\; |f| \le limit \f$; for a force with its slip or a moment with its
+/// roll. A limit of zero empties the spring.
+/// \return work against the slider minus what the spring loses by it, \f$ (f_0 + f_1)(f_{trial} - f_1)/2k \f$ [J]: with the
+/// mean of old and new force as the force of the step the energy balance closes exactly
+template <int Dim, class T>
+T coulomb_slide(Tangential<Dim, T>& force, Tangential<Dim, T> const& slip, T const& stiffness, T const& limit) {
+  using std::max;
+  using std::min;
+  using std::sqrt;
+  T const tiny = constant<T>(1e-30);  // keeps 0/0 away where there is neither force nor stiffness
+  T const halved_compliance = constant<T>(0.5) / max(stiffness, tiny);
+  if constexpr (Dim == 2) {
+    T const trial = force - stiffness * slip;
+    T const limited = max(min(trial, limit), -limit);
+    T const lost = (force + limited) * (trial - limited) * halved_compliance;
+    force = limited;
+    return lost;
+  } else {
+    std::array<T, 3> trial;
+    for (std::size_t k = 0; k < 3; ++k) trial[k] = force[k] - stiffness * slip[k];
+    T const scale = min(limit / sqrt(max(squared_size(trial), tiny)), constant<T>(1));
+    T lost = constant<T>(0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      T const limited = trial[k] * scale;
+      lost = lost + (force[k] + limited) * (trial[k] - limited) * halved_compliance;
+      force[k] = limited;
+    }
+    return lost;
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+
+#include "scarp/contact/contact_law.hpp"
+#include "scarp/contact/coulomb.hpp"
+#include "scarp/contact/hertz_damping.hpp"
+#include "scarp/core/select.hpp"
+
+namespace scarp {
+
+/// Two elastic spheres: Hertz along the normal, Mindlin's stiffness without slip along the tangent, Coulomb's limit.
+/// \f$ F_n = \tfrac43 E^* a\,u,\; F_t \leftarrow F_t - 8 G^* a\,\Delta s,\; |F_t| \le \mu F_n,\; a = \sqrt{R^* u} \f$
+/// Where the contact radius a shrinks, F_t first shrinks in proportion. In this incremental form no closed path of
+/// motion creates energy, whereas the total form \f$ F_t = -8 G^* a\,s \f$ does (Thornton, Cummins and Cleary 2013,
+/// Powder Technology 233; LAMMPS: mindlin_rescale).
+/// \f$ 1/E^* = \sum (1 - \nu_i^2)/E_i,\; 1/G^* = \sum (2 - \nu_i)/G_i \f$ [Pa]; friction coefficient dimensionless
+/// `dissipated` closes the balance of energy exactly along the tangent, to second order in the step along the normal,
+/// and to first order for the damping.
+template <ContactDamping Damping = NoContactDamping>
+struct HertzMindlin {
+  static constexpr ContactNeeds needs{.shear = true, .scalars = 1, .radius = true, .motion = Damping::needs_motion};
+
+  double reduced_modulus = 0.0;
+  double reduced_shear_modulus = 0.0;
+  double friction = 0.0;
+  Damping damping{};
+
+  /// Spheres of one material: Young's modulus [Pa], Poisson's ratio.
+  static HertzMindlin of(double modulus, double poisson, double friction, Damping damping = {}) {
+    return between(modulus, poisson, modulus, poisson, friction, damping);
+  }
+
+  /// Spheres of two materials.
+  static HertzMindlin between(double modulus_1, double poisson_1, double modulus_2, double poisson_2, double friction,
+                              Damping damping = {}) {
+    auto const compliance = [](double modulus, double poisson) { return (1.0 - poisson * poisson) / modulus; };
+    auto const shear_compliance = [](double modulus, double poisson) {
+      return (2.0 - poisson) * 2.0 * (1.0 + poisson) / modulus;  // G = E / 2(1 + nu)
+    };
+    return {.reduced_modulus = 1.0 / (compliance(modulus_1, poisson_1) + compliance(modulus_2, poisson_2)),
+            .reduced_shear_modulus =
+                1.0 / (shear_compliance(modulus_1, poisson_1) + shear_compliance(modulus_2, poisson_2)),
+            .friction = friction,
+            .damping = damping};
+  }
+
+  template <int Dim, class T>
+  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+    using std::sqrt;
+    T const overlap = at_least(approach.overlap, constant<T>(0));
+    T const contact_radius = sqrt(approach.reduced_radius * overlap);
+    T const elastic = constant<T>(4.0 / 3.0 * reduced_modulus) * contact_radius * overlap;
+    T const tangential_stiffness = constant<T>(8.0 * reduced_shear_modulus) * contact_radius;
+
+    T const viscous = damping.push(constant<T>(2.0 * reduced_modulus) * contact_radius, approach);
+    T const normal = at_least(elastic + viscous, constant<T>(0));
+    T const limit = constant<T>(friction) * normal;
+
+    T lost = (normal - elastic) * approach.closing;
+    lost = lost + resize(contact_radius, approach.slip, memory);
+    lost = lost + coulomb_slide<Dim, T>(memory.shear, approach.slip, tangential_stiffness, limit);
+    Tangential<Dim, T> shear = memory.shear;
+    lost = lost + damping.drag(shear, tangential_stiffness, limit, approach);
+    return {.normal = normal, .shear = shear, .dissipated = lost};
+  }
+
+  /// \f$ S_n = 2 E^* a,\; S_t = 8 G^* a \f$
+  ContactStiffness stiffness(double overlap, double reduced_radius) const {
+    double const contact_radius = std::sqrt(reduced_radius * at_least(overlap, 0.0));
+    return {.normal = 2.0 * reduced_modulus * contact_radius,
+            .tangential = 8.0 * reduced_shear_modulus * contact_radius};
+  }
+
+  double& friction_coefficient() { return friction; }
+
+  /// \f$ \tfrac{8}{15} E^* a\,u^2 + F_t^2 / 16 G^* a \f$
+  template <int Dim, class T>
+  T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+    using std::sqrt;
+    T const overlap = at_least(approach.overlap, constant<T>(0));
+    T const contact_radius = sqrt(approach.reduced_radius * overlap);
+    return constant<T>(8.0 / 15.0 * reduced_modulus) * contact_radius * overlap * overlap +
+           shear_energy<Dim, T>(memory.shear, contact_radius);
+  }
+
+ private:
+  template <int Dim, class T>
+  T shear_energy(Tangential<Dim, T> const& shear, T const& contact_radius) const {
+    T const tiny = constant<T>(1e-30);  // an open contact has neither force nor stiffness
+    return squared_size(shear) / at_least(constant<T>(16.0 * reduced_shear_modulus) * contact_radius, tiny);
+  }
+
+  /// Gives the remembered shear spring the new contact radius.
+  /// \return energy [J] that leaves the spring; the last term makes up for the step's mean force, see coulomb_slide
+  template <int Dim, class T>
+  T resize(T const& contact_radius, Tangential<Dim, T> const& slip, ContactMemory<Dim, T>& memory) const {
+    T const former_radius = memory.scalars[0];
+    T const former_energy = shear_energy<Dim, T>(memory.shear, former_radius);
+    T const kept = at_most(contact_radius / at_least(former_radius, constant<T>(1e-30)), constant<T>(1));
+    T const work_of_former = inner_product(memory.shear, slip);
+    memory.shear = scaled(memory.shear, kept);
+    memory.scalars[0] = contact_radius;
+    return former_energy - shear_energy<Dim, T>(memory.shear, contact_radius) -
+           constant<T>(0.5) * (constant<T>(1) - kept) * work_of_former;
+  }
+};
+
+static_assert(ContactLaw<HertzMindlin<>>);
+static_assert(ContactLaw<HertzMindlin<HertzRestitution>>);
+static_assert(Frictional<HertzMindlin<>>);
+static_assert(TellsStoredEnergy<HertzMindlin<>>);
+
+}  // namespace scarp

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+#include "scarp/contact/contact_law.hpp"
+#include "scarp/contact/coulomb.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+
+namespace scarp {
+
+/// Any law with a moment that resists rolling: a spring with a slider.
+/// \f$ M \leftarrow M - k_r\,\Delta\theta,\; |M| \le \mu_r R^* |F_n| \f$   (Iwashita and Oda 1998; model C of Ai et al.
+/// 2011, Powder Technology 206, without its dashpot). Under a pull, as in a bond, |F_n| still counts.
+/// rolling stiffness [N m/rad]; rolling friction dimensionless
+template <ContactLaw Law>
+  requires(!Law::needs.moment)
+struct RollingResistance {
+  static constexpr ContactNeeds needs = [] {
+    ContactNeeds all = Law::needs;
+    all.moment = true;
+    all.radius = true;
+    return all;
+  }();
+
+  Law law;
+  double rolling_stiffness = 0.0;
+  double rolling_friction = 0.0;
+
+  template <int Dim, class T>
+  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+    using std::abs;
+    ContactForce<Dim, T> force = law.respond(approach, memory);
+    T const limit = constant<T>(rolling_friction) * approach.reduced_radius * abs(force.normal);
+    T const lost = coulomb_slide<Dim, T>(memory.moment, approach.roll, constant<T>(rolling_stiffness), limit);
+    force.moment = memory.moment;
+    force.dissipated = force.dissipated + lost;
+    return force;
+  }
+
+  ContactStiffness stiffness(double overlap, double reduced_radius) const {
+    ContactStiffness all = law.stiffness(overlap, reduced_radius);
+    all.rolling = rolling_stiffness;
+    return all;
+  }
+
+  double& friction_coefficient() requires Frictional<Law> { return law.friction_coefficient(); }
+
+  template <int Dim, class T>
+    requires TellsStoredEnergy<Law> T stored_energy(Approach<Dim, T> const& approach,
+                                                    ContactMemory<Dim, T> const& memory)
+  const {
+    T const base = law.stored_energy(approach, memory);
+    if (rolling_stiffness == 0.0) return base;
+    return base + constant<T>(0.5 / rolling_stiffness) * squared_size(memory.moment);
+  }
+
+  double reach() const requires requires(Law const& base) { base.reach(); }
+  { return law.reach(); }
+};
+
+template <class Law>
+RollingResistance(Law, double, double) -> RollingResistance<Law>;
+
+static_assert(ContactLaw<RollingResistance<LinearFrictional>>);
+static_assert(Frictional<RollingResistance<LinearFrictional>>);
+static_assert(TellsStoredEnergy<RollingResistance<LinearFrictional>>);
+
+}  // namespace scarp

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+
+#include "scarp/core/pack.hpp"
+#include "scarp/core/tensor.hpp"
+
+namespace scarp {
+
+/// What the pair loop adds up along the way: nothing, what stress and balance need, or the energies as well.
+enum class Observe { nothing, balance, energy };
+
+/// Sums over the contacts of a packing.
+template <int Dim>
+struct ContactSums {
+  Tensor<Dim> moment = Tensor<Dim>::Zero();  ///< force on the second grain (x) branch [N m]
+  double force = 0.0;                        ///< |force| [N]
+  double contacts = 0.0;
+  double deepest = 0.0;     ///< largest overlap over the reduced radius of its contact
+  double stored = 0.0;      ///< [J], only with Observe::energy
+  double dissipated = 0.0;  ///< during the step [J], only with Observe::energy
+
+  /// Love and Weber's stress [Pa], tension positive, for a packing's volume [m3].
+  Tensor<Dim> stress(double volume) const { return -moment / volume; }
+};
+
+namespace detail {
+
+template <class Lanes>
+double lane_sum(Lanes const& lanes) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < Lanes::size(); ++k) sum += static_cast<double>(lanes[k]);
+  return sum;
+}
+
+/// The same sums lane by lane.
+template <int Dim, class Lanes>
+struct LaneSums {
+  std::array<Lanes, static_cast<std::size_t>(Dim* Dim)> moment{};
+  Lanes force{};
+  Lanes deepest{};
+  Lanes stored{};
+  Lanes dissipated{};
+  double contacts = 0.0;
+
+  ContactSums<Dim> total() const {
+    ContactSums<Dim> sums;
+    for (int a = 0; a < Dim; ++a) {
+      for (int b = 0; b < Dim; ++b) sums.moment(a, b) = lane_sum(moment[static_cast<std::size_t>(a * Dim + b)]);
+    }
+    sums.force = lane_sum(force);
+    sums.contacts = contacts;
+    sums.deepest = static_cast<double>(hmax(deepest));
+    sums.stored = lane_sum(stored);
+    sums.dissipated = lane_sum(dissipated);
+    return sums;
+  }
+};
+
+}  // namespace detail
+
+}  // namespace scarp

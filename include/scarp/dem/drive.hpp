@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "scarp/dem/loading.hpp"
+#include "scarp/dem/time_stepping.hpp"
+
+namespace scarp {
+
+/// How a cell answers to a missing stress: it strains in proportion, and where a strain is prescribed beside it also at a
+/// steady rate that is learned on the way, so that the held stress does not lag behind.
+struct StressFeedback {
+  double fastest = 1e-4;         ///< largest strain per step of a held stress
+  double response_steps = 50.0;  ///< a missing stress is made up in about so many steps
+  /// Response steps after which the steady rate has learned; 16 damps the loop critically where the packing has a quarter of
+  /// its springs' modulus.
+  double learning_steps = 16.0;
+
+  /// Cell strain in one step; `modulus` [Pa] is a stiffness scale of the packing, `steady` holds the learned rates, one for
+  /// each control. A packing with too few contacts to be stiff and hardly any pressure is compressed at the fastest rate.
+  template <int Dim>
+  Tensor<Dim> strain_step(Loading<Dim> const& loading, Tensor<Dim> const& stress, double modulus, bool jammed,
+                          std::vector<double>& steady) const {
+    constexpr double nearly_all = 0.9;  // of the pressure is missing
+    bool const learns = !loading.gradient_per_step.isZero(0.0);
+    steady.resize(loading.controls.size(), 0.0);
+    Tensor<Dim> step = loading.gradient_per_step;
+    for (std::size_t k = 0; k < steady.size(); ++k) {
+      auto const& control = loading.controls[k];
+      double const missing = control.missing(stress);
+      double const answer = missing / (modulus * response_steps);
+      if (learns) {
+        steady[k] = std::clamp(steady[k] + answer / (learning_steps * response_steps), -fastest, fastest);
+      }
+      double size = std::clamp(answer + steady[k], -fastest, fastest);
+      if (!jammed && control.direction.trace() > 0.0 && missing < nearly_all * control.target) size = -fastest;
+      step += size * control.direction;
+    }
+    return step;
+  }
+};
+
+/// Stiffness scale [Pa] that a law's springs give a packing at a small overlap.
+template <class PackingType>
+double spring_modulus(PackingType const& packing, typename PackingType::Law const& law) {
+  constexpr double small = 1e-3;  // overlap over radius; matters only where the stiffness depends on it
+  double const radius = packing.population->largest_radius();
+  double const length = PackingType::dim == 2 ? packing.population->thickness() : 2.0 * radius;
+  return law.stiffness(small * radius, radius / 2.0).normal / length;
+}
+
+/// Moves a packing step by step under a loading, whatever it says. Looks before its first step.
+template <class PackingType, Observe what = Observe::balance>
+class Drive {
+ public:
+  static constexpr int dim = PackingType::dim;
+  using Law = typename PackingType::Law;
+
+  Drive(PackingType& packing, Law const& law, Loading<dim> const& loading, StressFeedback const& feedback = {})
+      : packing_(packing),
+        law_(law),
+        loading_(loading),
+        feedback_(feedback),
+        modulus_(spring_modulus(packing, law)),
+        // Frictional grains are isostatic at dim + 1 contacts per grain, each shared by two.
+        fewest_contacts_(0.5 * (dim + 1) * static_cast<double>(packing.grain_count())) {}
+
+  /// \return not_converged / unreachable for a target no packing can carry, failed / not_finite, or what the stepper reports
+  template <class Stepper>
+  Verdict step(Stepper& stepper) {
+    if (!loading_.reachable()) return {Status::not_converged, Reason::unreachable};
+    if (!looked_ && !loading_.controls.empty()) {
+      if (Verdict const verdict = stepper.observe(packing_, law_, seen_); !verdict.acceptable()) return verdict;
+    }
+    looked_ = true;
+    strain_step_ =
+        feedback_.strain_step<dim>(loading_, seen_.stress, modulus_, seen_.contacts > fewest_contacts_, steady_);
+    if (Verdict const verdict = stepper.template step<what>(packing_, law_, strain_step_, &seen_);
+        !verdict.acceptable())
+      return verdict;
+    if (!seen_.stress.allFinite()) return {Status::failed, Reason::not_finite};
+    return {};
+  }
+
+  void load(Loading<dim> const& loading) { loading_ = loading; }
+  Loading<dim> const& loading() const { return loading_; }
+
+  /// The packing as it was before the last move, and the cell's displacement gradient during that move.
+  StepObservation<dim> const& seen() const { return seen_; }
+  Tensor<dim> const& strain_step() const { return strain_step_; }
+
+ private:
+  PackingType& packing_;
+  Law const& law_;
+  Loading<dim> loading_;
+  StressFeedback feedback_;
+  double modulus_;
+  double fewest_contacts_;
+  bool looked_ = false;
+  std::vector<double> steady_;
+  StepObservation<dim> seen_;
+  Tensor<dim> strain_step_ = Tensor<dim>::Zero();
+};
+
+}  // namespace scarp

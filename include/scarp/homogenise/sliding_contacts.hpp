@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/dem/contacts.hpp"
+
+namespace scarp {
+
+/// What contacts at their shear limit contribute to a packing's stiffness. A contact slides when its law, asked for a little
+/// more shear force along the present one, refuses; so a bond that holds does not slide, whatever Coulomb says.
+struct SlidingContacts {
+  double shear_share = 0.0;  ///< of the tangential stiffness that stays along the direction of sliding
+  bool coupled = false;      ///< the shear force follows the normal force, \f$ dF_t = \mu\,dF_n \f$; not symmetric
+  /// Shear force that is asked for, as a share of the contact's force. While grains move, contacts that slide under a growing
+  /// normal force stand a little below the limit: it grows once more after their last slip.
+  double nearness = 1e-2;
+
+  template <int Dim, class Law>
+  bool slides(Contact<Dim> const& contact, Law const& law) const {
+    double const tangential = contact.stiffness.tangential;
+    if (!(tangential > 0.0)) return false;
+    double const asked = nearness * contact.force.norm();
+    Vector<Dim> const direction = shear_direction(contact);
+    auto approach = contact.approach;
+    auto memory = contact.memory;
+    if constexpr (Dim == 2) {
+      approach.slip = -asked / tangential * direction.dot(tangent(contact));
+    } else {
+      for (int a = 0; a < Dim; ++a) approach.slip[static_cast<std::size_t>(a)] = -asked / tangential * direction(a);
+    }
+    auto const answer = as_vector(law.respond(approach, memory).shear, contact.touch.normal);
+    return (Eigen::Map<Vector<Dim> const>(answer.data()) - contact.shear_force()).dot(direction) < 0.5 * asked;
+  }
+
+  /// Stiffness S of a contact [N/m]: force on the second grain \f$ df = -S\,du \f$ for a motion of it relative to the first.
+  /// \f$ S = k_n n n^T + k_t (I - n n^T) - (1 - share) (k_t s s^T - \mu k_n s n^T) \f$ with s along the shear force of a sliding
+  /// contact; the last term only where coupled.
+  template <int Dim, class Law>
+  Tensor<Dim> spring(Contact<Dim> const& contact, Law const& law) const {
+    Vector<Dim> const n = contact.normal();
+    Tensor<Dim> const across = Tensor<Dim>::Identity() - n * n.transpose();
+    double const normal = contact.stiffness.normal;
+    double const tangential = contact.stiffness.tangential;
+    Tensor<Dim> spring = normal * n * n.transpose() + tangential * across;
+    if ((shear_share == 1.0 && !coupled) || !slides(contact, law)) return spring;
+    double const lost = 1.0 - shear_share;
+    if (!has_shear(contact)) return spring - lost * tangential * across;
+    Vector<Dim> const s = shear_direction(contact);
+    spring -= lost * tangential * s * s.transpose();
+    if (coupled) spring += lost * normal * contact.shear_force().norm() / contact.normal_force * s * n.transpose();
+    return spring;
+  }
+
+ private:
+  template <int Dim>
+  static bool has_shear(Contact<Dim> const& contact) {
+    constexpr double round_off = 1e-12;
+    return contact.shear_force().norm() > round_off * contact.force.norm();
+  }
+
+  /// Any direction in the tangent plane.
+  template <int Dim>
+  static Vector<Dim> tangent(Contact<Dim> const& contact) {
+    return contact.normal().unitOrthogonal();  // (-n_y, n_x) in the plane
+  }
+
+  template <int Dim>
+  static Vector<Dim> shear_direction(Contact<Dim> const& contact) {
+    return has_shear(contact) ? Vector<Dim>(contact.shear_force().normalized()) : tangent(contact);
+  }
+};
+
+}  // namespace scarp

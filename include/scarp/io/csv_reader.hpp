@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <optional>
+
+#include "scarp/io/csv_lines.hpp"
+#include "scarp/io/read_file.hpp"
+
+namespace scarp {
+
+/// A table of a file: named columns, whose cells become numbers when a column is asked for, so that other columns may hold
+/// anything. Does not depend on the locale.
+class CsvColumns {
+ public:
+  /// text: content of the file; file: its name in complaints
+  /// \throws InputError for no header, repeated names and lines with too few or too many cells
+  CsvColumns(std::string_view text, std::string file, CsvSeparator separator = CsvSeparator::comma)
+      : file_(std::move(file)) {
+    detail::CsvScanner scanner(text, file_, separator);
+    if (!scanner.next(header_)) refuse("'{}' is empty (a table begins with the names of its columns): add them", file_);
+    for (auto name = header_.cells.begin(); name != header_.cells.end(); ++name) {
+      if (std::find(header_.cells.begin(), name, *name) != name) {
+        refuse("line {} of '{}' names two columns '{}' (they cannot be told apart): rename one", header_.number, file_,
+               *name);
+      }
+    }
+    for (detail::CsvLine line; scanner.next(line);) {
+      if (line.cells.size() != header_.cells.size()) {
+        refuse("line {} of '{}' has {} cells (the header names {} columns): give one cell for each", line.number, file_,
+               line.cells.size(), header_.cells.size());
+      }
+      rows_.push_back(std::move(line));
+    }
+  }
+
+  std::string const& file() const { return file_; }
+  std::vector<std::string> const& names() const { return header_.cells; }
+  std::size_t rows() const { return rows_.size(); }
+  /// Number of the line where a row begins, from 1.
+  std::size_t line(std::size_t row) const { return rows_[row].number; }
+  bool has(std::string_view name) const { return find(name).has_value(); }
+
+  /// \throws InputError for a missing column and a cell that is no finite number, or no whole one where these are wanted
+  template <class Number = double>
+  std::vector<Number> column(std::string_view name) const {
+    std::size_t const place = require(name);
+    std::vector<Number> numbers;
+    numbers.reserve(rows());
+    for (std::size_t row = 0; row < rows(); ++row) numbers.push_back(number<Number>(row, place));
+    return numbers;
+  }
+
+  /// Refuses the value in one cell, naming file, line and column.
+  [[noreturn]] void refuse_cell(std::size_t row, std::string_view name, std::string_view why,
+                                std::string_view suggestion) const {
+    refuse("line {} of '{}' has '{}' in column '{}' ({}): {}", line(row), file_, rows_[row].cells[require(name)], name,
+           why, suggestion);
+  }
+
+ private:
+  std::optional<std::size_t> find(std::string_view name) const {
+    auto const found = std::find(header_.cells.begin(), header_.cells.end(), name);
+    if (found == header_.cells.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - header_.cells.begin());
+  }
+
+  std::size_t require(std::string_view name) const {
+    auto const place = find(name);
+    if (!place) {
+      refuse("'{}' has no column '{}' (line {} names {}): add it or rename one", file_, name, header_.number,
+             fmt::join(header_.cells, ", "));
+    }
+    return *place;
+  }
+
+  template <class Number>
+  Number number(std::size_t row, std::size_t place) const {
+    std::string_view text = rows_[row].cells[place];
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars knows no plus
+    Number value{};
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    auto const& name = header_.cells[place];
+    if (error == std::errc::result_out_of_range) {
+      refuse_cell(row, name, "its size is beyond what a number here can hold", "check the value and its unit");
+    }
+    if (error != std::errc() || end != text.data() + text.size()) {
+      if constexpr (std::integral<Number>) refuse_cell(row, name, "it is no whole number", "write digits only");
+      refuse_cell(row, name, "it is no number", "write a decimal number with a point, such as 2.5e-3");
+    }
+    if constexpr (std::floating_point<Number>) {
+      if (!std::isfinite(value)) refuse_cell(row, name, "it is not finite", "give an ordinary number");
+    }
+    return value;
+  }
+
+  std::string file_;
+  detail::CsvLine header_;
+  std::vector<detail::CsvLine> rows_;
+};
+
+/// \throws InputError for a file that cannot be read and those of CsvColumns
+inline CsvColumns read_csv(std::filesystem::path const& path, CsvSeparator separator = CsvSeparator::comma) {
+  return CsvColumns(read_file(path), path.string(), separator);
+}
+
+}  // namespace scarp

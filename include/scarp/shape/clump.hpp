@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "scarp/core/constant.hpp"
+#include "scarp/shape/disc.hpp"
+#include "scarp/shape/disc_union.hpp"
+
+namespace scarp {
+
+/// Rigid composition of discs in the plane; size is (scale), which multiplies `Template::members`, orientation (cos,
+/// sin) of the template's x axis. The centre is the centroid of the union, whose area and inertia are those of the
+/// grain. The pose of a part is its disc: offset (x, y) from the grain's centre in the frame of space, radius.
+template <class Template>
+struct Clump {
+  static constexpr int dim = 2;
+  static constexpr int size_count = 1;
+  static constexpr int orientation_count = 2;
+  static constexpr int pose_count = 3;
+  static constexpr int part_count = static_cast<int>(Template::members.size());
+  static constexpr bool remembers_normal = false;
+  static_assert(part_count > 0, "a clump needs at least one disc");
+
+  template <class T>
+  using Size = std::array<T, 1>;
+
+  static double content(Size<double> const& size) { return unit().area * size[0] * size[0]; }
+  static double gyration_squared(Size<double> const& size) { return unit().gyration_squared * size[0] * size[0]; }
+  static double bounding_radius(Size<double> const& size) { return unit().bounding_radius * size[0]; }
+  static double eccentricity(Size<double> const& size) { return unit().largest_offset * size[0]; }
+  static double least_curvature_radius(Size<double> const& size) { return unit().smallest_radius * size[0]; }
+
+  template <class T>
+  static std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation, int part = 0) {
+    ClumpMember const& member = unit().members[static_cast<std::size_t>(part)];
+    T const x = constant<T>(member.x) * size[0];
+    T const y = constant<T>(member.y) * size[0];
+    return {orientation[0] * x - orientation[1] * y, orientation[1] * x + orientation[0] * y,
+            constant<T>(member.radius) * size[0]};
+  }
+
+  template <class T>
+  static T contact_radius(std::array<T, 3> const& pose) {
+    return pose[2];
+  }
+
+  template <class T>
+  static Touch<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second, Point<2, T> const& branch,
+                           Point<2, T> const& normal) {
+    Point<2, T> const between{branch[0] + second[0] - first[0], branch[1] + second[1] - first[1]};
+    auto const discs = Disc::touch<T>({first[2]}, {second[2]}, between, normal);
+    return {discs.overlap,
+            discs.normal,
+            {first[0] + discs.arm_first[0], first[1] + discs.arm_first[1]},
+            {second[0] + discs.arm_second[0], second[1] + discs.arm_second[1]}};
+  }
+
+ private:
+  /// The clump of scale one.
+  struct Unit {
+    std::array<ClumpMember, Template::members.size()> members = Template::members;  // about the union's centroid
+    double area = 0.0;
+    double gyration_squared = 0.0;
+    double bounding_radius = 0.0;
+    double largest_offset = 0.0;
+    double smallest_radius = Template::members.front().radius;
+
+    Unit() {
+      DiscUnion const whole = disc_union(Template::members);
+      area = whole.area;
+      gyration_squared = whole.polar_moment / whole.area;
+      for (ClumpMember& member : members) {
+        member.x -= whole.centroid(0);
+        member.y -= whole.centroid(1);
+        double const offset = member.centre().norm();
+        largest_offset = std::max(largest_offset, offset);
+        bounding_radius = std::max(bounding_radius, offset + member.radius);
+        smallest_radius = std::min(smallest_radius, member.radius);
+      }
+    }
+  };
+
+  static Unit const& unit() {
+    static Unit const unit;
+    return unit;
+  }
+};
+
+}  // namespace scarp

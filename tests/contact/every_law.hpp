@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/frictionless.hpp"
+#include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/contact/rolling_resistance.hpp"
+
+/// The types of law that the template tests run over; a new law is named here and has a Sample.
+#define EVERY_CONTACT_LAW                                                                                            \
+  scarp::Frictionless, scarp::LinearFrictional, scarp::HertzMindlin<>, scarp::HertzMindlin<scarp::HertzRestitution>, \
+      scarp::RollingResistance<scarp::Frictionless>, scarp::RollingResistance<scarp::LinearFrictional>,              \
+      scarp::RollingResistance<scarp::HertzMindlin<>>,                                                               \
+      scarp::RollingResistance<scarp::HertzMindlin<scarp::HertzRestitution>>,                                        \
+      scarp::CohesiveBond<scarp::LinearFrictional>,                                                                  \
+      scarp::RollingResistance<scarp::CohesiveBond<scarp::LinearFrictional>>
+
+namespace test_support {
+
+using scarp::CohesiveBond;
+using scarp::Frictionless;
+using scarp::HertzMindlin;
+using scarp::HertzRestitution;
+using scarp::LinearFrictional;
+using scarp::RollingResistance;
+
+/// A law with forces of some 10 N at an overlap of 0.1 m and a reduced radius of 1 m.
+template <class Law>
+struct Sample {
+  static Law law() { return HertzMindlin<>::of(500.0, 0.2, 0.5); }
+};
+template <>
+struct Sample<HertzMindlin<HertzRestitution>> {
+  static HertzMindlin<HertzRestitution> law() {
+    return HertzMindlin<HertzRestitution>::of(500.0, 0.2, 0.5, {.restitution = 0.6});
+  }
+};
+template <>
+struct Sample<Frictionless> {
+  static Frictionless law() { return {.normal_stiffness = 100.0}; }
+};
+template <>
+struct Sample<LinearFrictional> {
+  static LinearFrictional law() { return {.normal_stiffness = 100.0, .tangential_stiffness = 50.0, .friction = 0.5}; }
+};
+template <class Law>
+struct Sample<RollingResistance<Law>> {
+  static RollingResistance<Law> law() {
+    return {.law = Sample<Law>::law(), .rolling_stiffness = 8.0, .rolling_friction = 0.2};
+  }
+};
+template <class Law>
+struct Sample<CohesiveBond<Law>> {
+  static CohesiveBond<Law> law() { return {.law = Sample<Law>::law(), .tensile_strength = 4.0, .shear_strength = 3.0}; }
+};
+
+}  // namespace test_support

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
+#include <map>
+
+#include "dem/sample_packings.hpp"
+
+namespace samples {
+
+using scarp::VoigtTangent;
+
+template <class PackingType>
+PackingType listed(PackingType packing, typename PackingType::Law const& law) {
+  scarp::TimeStepper<PackingType> stepper;
+  REQUIRE(stepper.refresh(packing, law).acceptable());
+  return packing;
+}
+
+/// A consolidated packing of 80 grains after 0.5 % of pure shear, brought to rest to round-off; many of its contacts slide.
+template <class PackingType>
+PackingType const& settled_after_shear() {
+  static PackingType const packing = [] {
+    auto const& prepared = consolidated<PackingType>(80);
+    REQUIRE(prepared.verdict.acceptable());
+    PackingType moved = prepared.packing;
+    scarp::TimeStepper<PackingType> stepper;
+    Tensor<2> strain = Tensor<2>::Zero();
+    strain.diagonal() << 1e-5, -1e-5;
+    for (int k = 0; k < 500; ++k) REQUIRE(stepper.step(moved, study_law(), strain).acceptable());
+    for (int k = 0; k < 20'000; ++k) REQUIRE(stepper.step(moved, study_law(), Tensor<2>::Zero()).acceptable());
+    moved.rest();
+    return moved;
+  }();
+  return packing;
+}
+
+inline double least_eigenvalue(VoigtTangent<2> const& tangent) {
+  return Eigen::SelfAdjointEigenSolver<VoigtTangent<2>>((tangent + tangent.transpose()) / 2.0).eigenvalues()(0);
+}
+
+/// Analytic: a quarter turn exchanges x and y and changes the sign of shear, C' = P C P.
+template <class Tangent, class PackingType>
+void check_quarter_turn(Tangent const& tangent, PackingType const& packing, typename PackingType::Law const& law,
+                        double tolerance) {
+  VoigtTangent<2> exchange;
+  exchange << 0, 1, 0, 1, 0, 0, 0, 0, -1;
+  VoigtTangent<2> const here = tangent(packing, law);
+  VoigtTangent<2> const there = tangent(turned(packing, 3.141592653589793 / 2.0), law);
+  CHECK((there - exchange * here * exchange).norm() < tolerance * here.norm());
+  CHECK((there - here).norm() > 10.0 * tolerance * here.norm());  // otherwise there is nothing to turn
+}
+
+template <class Tangent, class PackingType>
+void check_purity(Tangent const& tangent, PackingType const& packing, typename PackingType::Law const& law) {
+  PackingType const before = packing;
+  VoigtTangent<2> const first = tangent(packing, law);
+  CHECK(packing == before);
+  CHECK(tangent(packing, law) == first);  // nothing is remembered from call to call
+}
+
+}  // namespace samples

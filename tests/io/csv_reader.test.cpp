@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/io/csv_reader.hpp"
+
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <clocale>
+#include <cstdint>
+#include <limits>
+
+#include "io/scratch_folder.hpp"
+#include "scarp/core/random.hpp"
+#include "scarp/io/csv.hpp"
+
+namespace {
+
+scarp::CsvColumns table(std::string_view text, scarp::CsvSeparator separator = scarp::CsvSeparator::comma) {
+  return {text, "grains.csv", separator};
+}
+
+/// What is said when a column of a table with one number column `r` is asked for.
+std::string complaint(std::string_view text, std::string_view column = "r") {
+  try {
+    static_cast<void>(table(text).column(column));
+  } catch (scarp::InputError const& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("what a table wrote is read back with the same bits") {
+  ScratchFolder const folder;
+  scarp::CsvTable written({"force [N]", "says \"why\", in words", "status"});
+  scarp::Random random(17);
+  std::vector<double> numbers{0.1, 1.0 / 3.0, -0.0, 1e300, std::numeric_limits<double>::denorm_min()};
+  for (int k = 0; k < 1000; ++k) {
+    numbers.push_back(std::ldexp(random.uniform(-1.0, 1.0), static_cast<int>(random.next() % 2000) - 1000));
+  }
+  for (double const number : numbers) written.add(number, -number, "not, \"converged\"\nin two lines");
+  written.write(folder / "table.csv");
+
+  auto const read = scarp::read_csv(folder / "table.csv");
+  CHECK(read.names() == std::vector<std::string>{"force [N]", "says \"why\", in words", "status"});
+  auto const first = read.column("force [N]");
+  auto const second = read.column("says \"why\", in words");
+  REQUIRE(first.size() == numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    CHECK(std::bit_cast<std::uint64_t>(first[k]) == std::bit_cast<std::uint64_t>(numbers[k]));
+    CHECK(std::bit_cast<std::uint64_t>(second[k]) == std::bit_cast<std::uint64_t>(-numbers[k]));
+    CHECK(read.line(k) == 2 + 2 * k);  // each row takes two lines of the file
+  }
+}
+
+TEST_CASE("columns are found by name, blank lines and foreign ends of lines do no harm") {
+  auto const read = table("\xEF\xBB\xBFid,x, note \r\n7, 2.5 ,soft\r\n\r\n+8,-1e-3,\r\n\n");
+  CHECK(read.rows() == 2);
+  CHECK(read.column<int>("id") == std::vector<int>{7, 8});
+  CHECK(read.column("x") == std::vector<double>{2.5, -1e-3});
+  CHECK(read.has("note"));
+  CHECK_FALSE(read.has("y"));
+  CHECK(read.line(1) == 4);
+}
+
+TEST_CASE("a table whose cells are parted by blanks may begin with a marked header") {
+  auto const read = table("# id  x\n 1\t0.5\n# a remark\n2   0.75\n", scarp::CsvSeparator::blanks);
+  CHECK(read.column<int>("id") == std::vector<int>{1, 2});
+  CHECK(read.column("x") == std::vector<double>{0.5, 0.75});
+  CHECK(read.line(1) == 4);
+  CHECK(table("id x\n1 2\n", scarp::CsvSeparator::blanks).column("x") == std::vector<double>{2.0});
+}
+
+TEST_CASE("a decimal point stays one where the locale wants a comma") {
+  std::string const before = std::setlocale(LC_NUMERIC, nullptr);
+  bool const changed = std::setlocale(LC_NUMERIC, "de_DE.UTF-8") != nullptr;
+  CHECK(table("r\n0.5\n").column("r") == std::vector<double>{0.5});
+  std::setlocale(LC_NUMERIC, before.c_str());
+  if (!changed) MESSAGE("no German locale is installed: only the present one was tried");
+}
+
+TEST_CASE("a file that is missing, a folder or empty is refused by name") {
+  ScratchFolder const folder;
+  CHECK_THROWS_WITH_AS(scarp::read_csv(folder / "nowhere.csv"),
+                       doctest::Contains("nowhere.csv' (there is no such file)"), scarp::InputError);
+  CHECK_THROWS_WITH_AS(scarp::read_csv(folder.path()), doctest::Contains("it is a folder"), scarp::InputError);
+  CHECK_THROWS_WITH_AS(table(""), doctest::Contains("'grains.csv' is empty"), scarp::InputError);
+  CHECK_THROWS_WITH_AS(table("\n\n"), doctest::Contains("'grains.csv' is empty"), scarp::InputError);
+}
+
+TEST_CASE("a wrong header is refused") {
+  CHECK(complaint("x,y\n1,2\n") == "'grains.csv' has no column 'r' (line 1 names x, y): add it or rename one");
+  CHECK(complaint("x,r,x\n") == "line 1 of 'grains.csv' names two columns 'x' (they cannot be told apart): rename one");
+}
+
+TEST_CASE("a line of another width is refused with its number") {
+  CHECK(complaint("x,r\n1,2\n3\n") ==
+        "line 3 of 'grains.csv' has 1 cells (the header names 2 columns): give one cell for each");
+  CHECK(complaint("x,r\n1,2,\n").find("has 3 cells") != std::string::npos);
+}
+
+TEST_CASE("a cell that is no finite number is refused with line, column and value") {
+  CHECK(
+      complaint("x,r\n1,2\n3,4mm\n") ==
+      "line 3 of 'grains.csv' has '4mm' in column 'r' (it is no number): write a decimal number with a point, such as "
+      "2.5e-3");
+  for (auto const* const wrong : {"", "-", "+-1", "0x10", "1,5", "1 2", "one"}) {
+    CAPTURE(wrong);
+    CHECK(complaint(std::string("r\n\"") + wrong + "\"\n").find("it is no number") != std::string::npos);
+  }
+  for (auto const* const wrong : {"nan", "inf", "-Infinity"}) {
+    CAPTURE(wrong);
+    CHECK(complaint(std::string("r\n") + wrong + "\n").find("it is not finite") != std::string::npos);
+  }
+  CHECK(complaint("r\n1e999\n").find("beyond what a number here can hold") != std::string::npos);
+  CHECK_THROWS_WITH_AS(table("id\n1.5\n").column<int>("id"), doctest::Contains("it is no whole number"),
+                       scarp::InputError);
+}
+
+TEST_CASE("quotes that do not close, or close too early, are refused with their line") {
+  CHECK(complaint("r\n1\n\"2\n3\n").find("line 3 of 'grains.csv' opens quotes (they never close)") !=
+        std::string::npos);
+  CHECK(complaint("r\n\"1\"2\n").find("line 2 of 'grains.csv' has text behind closed quotes") != std::string::npos);
+}
+
+TEST_CASE("bytes of any kind are read or refused") {
+  scarp::Random random(5);
+  std::string_view const letters = "0123456789.,-+e\"\n\r\t #xrin\xEF";
+  int refused = 0;
+  for (int k = 0; k < 2000; ++k) {
+    std::string text = "x,r\n1,2\n";
+    for (int byte = 0; byte < 6; ++byte) {
+      text.insert(random.next() % (text.size() + 1), 1, letters[random.next() % letters.size()]);
+    }
+    refused += complaint(text) != "nothing";
+  }
+  CHECK(refused > 100);
+  CHECK(refused < 2000);
+}
