@@ -61,7 +61,7 @@ TEST_CASE("a lattice strains uniformly, so that condensing changes nothing") {
   scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 2.4e6, .friction = 0.5};
   auto const packing = samples::listed(samples::triangular_lattice<Discs>(4, radius, spacing), law);
   VoigtTangent<2> const tangent = without_stress(packing, law);
-  // Analytic: reliability, C11 = sqrt3/4 (3 kn + kt), C12 = sqrt3/4 (kn - kt), C66 = sqrt3/4 (kn + kt) over the thickness.
+  // Analytic: C11 = sqrt3/4 (3 kn + kt), C12 = sqrt3/4 (kn - kt), C66 = sqrt3/4 (kn + kt) over the thickness.
   double const kn = law.normal_stiffness, kt = law.tangential_stiffness;
   VoigtTangent<2> expected;
   expected << 3 * kn + kt, kn - kt, 0, kn - kt, 3 * kn + kt, 0, 0, 0, kn + kt;
@@ -98,7 +98,7 @@ TEST_CASE("Yade's packing has Yade's finite-difference moduli") {
   auto const law = samples::study_law();
   auto const packing = samples::listed(samples::yade_packing(), law);
   VoigtTangent<2> const tangent = CondensedTangent{}(packing, law);
-  // Another code: Yade 2023.02a, tests/reference/README.md. 2 %: its values scatter by 0.5 % between strains of 1e-6 and
+  // Another code: Yade 2023.02a, tests/reference/README.md. 2 %: it scatters by 0.5 % between strains of 1e-6 and
   // 1e-4, and forces that turn with their contacts (overlap over diameter, 1 %) are left out.
   CHECK(tangent(0, 0) == doctest::Approx(3.04e7).epsilon(0.02));
   CHECK(tangent(1, 1) == doctest::Approx(3.04e7).epsilon(0.02));
@@ -114,7 +114,7 @@ TEST_CASE_TEMPLATE(
     "relaxing makes softer than uniform strain, and sliding contacts without shear stiffness softer still", PackingType,
     Discs, Ellipses) {
   auto const law = samples::study_law();
-  auto const& packing = samples::settled_after_shear<PackingType>();
+  auto const& packing = samples::sheared<PackingType>();
   VoigtTangent<2> last = SlidingAwareTangent{.sliding = {.shear_share = 1.0}}(packing, law);
   for (double const share : {1.0, 0.5, 0.0}) {
     VoigtTangent<2> const affine = SlidingAwareTangent{.sliding = {.shear_share = share}}(packing, law);
@@ -173,7 +173,7 @@ TEST_CASE("a stiffness that cannot be factorised gives the tangent under uniform
 }
 
 TEST_CASE_TEMPLATE("the condensed tangent turns with the packing and leaves it alone", PackingType, Discs, Ellipses) {
-  auto const& packing = samples::settled_after_shear<PackingType>();
+  auto const& packing = samples::sheared<PackingType>();
   for (bool const coupled : {false, true}) {
     CondensedTangent const tangent{.sliding = {.coupled = coupled}};
     // Round-off of the factorisation, 1e-16 over the regularisation.

@@ -26,7 +26,7 @@ VoigtTangent<2> affine(PackingType const& packing, typename PackingType::Law con
 
 TEST_CASE_TEMPLATE("where nothing slides the tangent is eq. 6", PackingType, Discs, Ellipses) {
   auto const law = samples::study_law();
-  auto packing = samples::settled_after_shear<PackingType>();
+  auto packing = samples::sheared<PackingType>();
   for (std::size_t p = 0; p < packing.pairs.count(); ++p) packing.pairs.shear(p, 0) = 0.0;
   // Analytic: the same sum in the same order, round-off only.
   CHECK((SlidingAwareTangent{}(packing, law) - affine(packing, law)).norm() < 1e-12 * affine(packing, law).norm());
@@ -35,7 +35,7 @@ TEST_CASE_TEMPLATE("where nothing slides the tangent is eq. 6", PackingType, Dis
 TEST_CASE_TEMPLATE("the share of sliding contacts goes linearly from none of their shear stiffness to eq. 6",
                    PackingType, Discs, Ellipses) {
   auto const law = samples::study_law();
-  auto const& packing = samples::settled_after_shear<PackingType>();
+  auto const& packing = samples::sheared<PackingType>();
   VoigtTangent<2> const all = SlidingAwareTangent{.sliding = {.shear_share = 1.0}}(packing, law);
   VoigtTangent<2> const half = SlidingAwareTangent{.sliding = {.shear_share = 0.5}}(packing, law);
   VoigtTangent<2> const none = SlidingAwareTangent{}(packing, law);
@@ -122,7 +122,7 @@ TEST_CASE("in space a sliding contact stays stiff across its direction of slidin
 
 TEST_CASE_TEMPLATE("the tangent of sliding contacts turns with the packing and leaves it alone", PackingType, Discs,
                    Ellipses) {
-  auto const& packing = samples::settled_after_shear<PackingType>();
+  auto const& packing = samples::sheared<PackingType>();
   samples::check_quarter_turn(SlidingAwareTangent{.sliding = {.coupled = true}}, packing, samples::study_law(), 1e-10);
   samples::check_purity(SlidingAwareTangent{.sliding = {.coupled = true}}, packing, samples::study_law());
 }

@@ -10,7 +10,7 @@
 
 namespace samples {
 
-/// The packing of 400 discs that Yade consolidated to 200 kPa, see tests/reference/README.md; its shear forces are zero.
+/// The packing of 400 discs that Yade consolidated to 200 kPa, see tests/reference/README.md; without shear forces.
 inline Discs yade_packing() {
   auto const path = std::filesystem::path(__FILE__).parent_path() / "../reference/yade/particles.csv";
   std::ifstream file(path);

@@ -88,8 +88,8 @@ bool contains(std::string const& text, std::string_view part) { return text.find
 }  // namespace
 
 // Expected values of this case: Yade 2023.02a, see tests/reference/README.md; the numbers are those of its functions
-// getStress, getStressAndTangent and fabricTensor. Both codes sum 872 contacts in double: 1e-6 leaves room for the digits
-// that are given, not for another contact or another convention.
+// getStress, getStressAndTangent and fabricTensor. Both codes sum 872 contacts in double: 1e-6 leaves room for the
+// digits that are given, not for another contact or another convention.
 TEST_CASE("a packing of Yade's with its shear forces has Yade's stress, tangent, fabric and void ratio") {
   auto named = yade_packing();
   scarp::read_contacts(named, reference("yade/contacts.csv"), law());
@@ -185,8 +185,8 @@ TEST_CASE("contacts are found where the file's cell is not reduced and its image
   CHECK(state.stress(0, 1) == doctest::Approx(expected.stress(0, 1)).epsilon(1e-6));
 }
 
-// Expected: SudoDEM2D 6666937. The cell is L0 (exp ex, exp ey) with the logarithmic strains ex, ey at the start of shearing and
-// L0^2 = sum of pi a^2 / 0.42. Positions have 7 digits (5e-8 m / grain), overlaps are 4.5e-5 m in the mean.
+// Expected: SudoDEM2D 6666937. The cell is L0 (exp ex, exp ey) with the logarithmic strains ex, ey at the start of
+// shearing and L0^2 = sum of pi a^2 / 0.42. Positions are rounded to 5e-8 m, overlaps are 4.5e-5 m in the mean.
 TEST_CASE("a packing of SudoDEM's has SudoDEM's contacts and void ratio") {
   auto const path = reference("sudodem/A_particles.csv");
   double discs = 0.0;
@@ -201,7 +201,8 @@ TEST_CASE("a packing of SudoDEM's has SudoDEM's contacts and void ratio") {
   REQUIRE(scarp::rebuild_pairs(packing, 1e-3).acceptable());
   auto const state = scarp::balance(packing, law());
   CHECK(state.contacts == 956);
-  // Without their shear forces contacts give the mean stress only: normal forces carry all of it in discs, nearly in these.
+  // Without their shear forces contacts give the mean stress only: normal forces carry all of it in discs, nearly in
+  // these.
   CHECK(state.stress.trace() / 2.0 == doctest::Approx(-2e5).epsilon(0.01));
 }
 
@@ -242,7 +243,7 @@ TEST_CASE("a new shape brings its columns along") {
 TEST_CASE("numbers in single precision are those of the file, rounded") {
   using Floats = scarp::Packing<scarp::Disc, scarp::LinearFrictional, float>;
   auto named = scarp::read_packing<Floats>(reference("yade/particles.csv"), yade_cell(), density, thickness);
-  // Positions of 0.2 m are good to 1e-8 m, 2e-6 of the smallest radius.
+  // Positions of 0.2 m are good to 1e-8 m, 3e-6 of the smallest radius.
   scarp::read_contacts(named, reference("yade/contacts.csv"), law(), 1e-4);
   CHECK(scarp::balance(named.packing, law()).stress.trace() / 2.0 == doctest::Approx(-2e5).epsilon(1e-3));
 }

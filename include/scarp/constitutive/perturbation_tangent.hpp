@@ -6,9 +6,9 @@
 
 namespace scarp {
 
-/// Derivative of a packing's stress by trial: a copy is settled, then strained a little in each mode and settled again. The
-/// stress is Cauchy's of the strained cell, so that terms of the order of the stress itself are part of the tangent. The most
-/// exact tangent and by far the most expensive: some thousand DEM steps for each settling.
+/// Derivative of a packing's stress by trial: a copy is settled, then strained a little in each mode and settled again.
+/// The stress is Cauchy's of the strained cell, so that terms of the order of the stress itself are part of the tangent.
+/// The most exact tangent for its strain and by far the most expensive: some hundred to thousand DEM steps a settling.
 struct PerturbationTangent {
   double strain = 1e-5;   ///< engineering, of each mode; where contacts slide there is no plateau, see docs/tangents.md
   int strain_steps = 20;  ///< time steps that apply it
@@ -31,8 +31,8 @@ struct PerturbationTangent {
 
   /// `towards`: modes where it is not zero are strained to that side only, since a sliding contact answers to one side
   /// unlike to the other.
-  /// \return not_converged / unbalanced when a settling took its most steps, else what the stepper reports; `steps` receives
-  /// the DEM steps taken
+  /// \return not_converged / unbalanced when a settling took its most steps, else what the stepper reports; `steps`
+  /// receives the DEM steps taken
   template <class PackingType>
   TangentAnswer<PackingType::dim> differentiate(
       PackingType const& packing, typename PackingType::Law const& law,

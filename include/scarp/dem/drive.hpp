@@ -93,7 +93,7 @@ class Drive {
 
  private:
   PackingType& packing_;
-  Law const& law_;
+  Law law_;
   Loading<dim> loading_;
   StressFeedback feedback_;
   double modulus_;

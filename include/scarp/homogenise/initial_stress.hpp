@@ -5,8 +5,8 @@
 
 namespace scarp {
 
-/// What a present stress adds to the change of Cauchy's stress with strain, because branches and volume change while the
-/// forces stay: \f$ d\sigma = \sigma\varepsilon - \sigma\,tr\,\varepsilon \f$ (symmetric part). [Pa], not symmetric
+/// What a present stress adds to the change of Cauchy's stress with strain, because branches and volume change while
+/// the forces stay: \f$ d\sigma = \sigma\varepsilon - \sigma\,tr\,\varepsilon \f$ (symmetric part). [Pa], not symmetric
 template <int Dim>
 VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
   VoigtTangent<Dim> tangent;

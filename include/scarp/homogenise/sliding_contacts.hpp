@@ -5,13 +5,13 @@
 
 namespace scarp {
 
-/// What contacts at their shear limit contribute to a packing's stiffness. A contact slides when its law, asked for a little
-/// more shear force along the present one, refuses; so a bond that holds does not slide, whatever Coulomb says.
+/// What contacts at their shear limit contribute to a packing's stiffness. A contact slides when its law, asked for a
+/// little more shear force along the present one, refuses; so a bond that holds does not slide, whatever Coulomb says.
 struct SlidingContacts {
   double shear_share = 0.0;  ///< of the tangential stiffness that stays along the direction of sliding
   bool coupled = false;      ///< the shear force follows the normal force, \f$ dF_t = \mu\,dF_n \f$; not symmetric
-  /// Shear force that is asked for, as a share of the contact's force. While grains move, contacts that slide under a growing
-  /// normal force stand a little below the limit: it grows once more after their last slip.
+  /// Shear force that is asked for, as a share of the contact's force. While grains move, contacts that slide under a
+  /// growing normal force stand a little below the limit: it grows once more after their last slip.
   double nearness = 1e-2;
 
   template <int Dim, class Law>
@@ -31,9 +31,9 @@ struct SlidingContacts {
     return (Eigen::Map<Vector<Dim> const>(answer.data()) - contact.shear_force()).dot(direction) < 0.5 * asked;
   }
 
-  /// Stiffness S of a contact [N/m]: force on the second grain \f$ df = -S\,du \f$ for a motion of it relative to the first.
-  /// \f$ S = k_n n n^T + k_t (I - n n^T) - (1 - share) (k_t s s^T - \mu k_n s n^T) \f$ with s along the shear force of a sliding
-  /// contact; the last term only where coupled.
+  /// Stiffness S of a contact [N/m]: force on the second grain \f$ df = -S\,du \f$ for its motion relative to the first.
+  /// \f$ S = k_n n n^T + k_t (I - n n^T) - (1 - share) (k_t s s^T - \mu k_n s n^T) \f$ with s along the shear force of a
+  /// sliding contact; the last term only where coupled.
   template <int Dim, class Law>
   Tensor<Dim> spring(Contact<Dim> const& contact, Law const& law) const {
     Vector<Dim> const n = contact.normal();

@@ -74,8 +74,9 @@ class PairsOfGrains {
     });
   }
 
-  /// The pair that a line of a file speaks of, null for none; where they name the grains in opposite orders, the line is
-  /// turned round. Branches tell images apart: they differ by lattice vectors, which are longer than two largest radii.
+  /// The pair that a line of a file speaks of, null for none; where they name the grains in opposite orders, the line
+  /// is turned round. Branches tell images apart: they differ by lattice vectors, which are longer than two largest
+  /// radii.
   Contact<Dim> const* find(ListedContact<Dim>& listed) const {
     auto const [begin, end] = contacts_.equal_range(std::pair(std::minmax({listed.first, listed.second})));
     for (int order = 0; order < 2; ++order) {
@@ -109,12 +110,13 @@ void write_shear(Columns<Scalar, Count>& columns, Contact<Dim> const& contact, V
 
 }  // namespace detail
 
-/// Reads what contacts remember of shear, and makes the list of pairs on the way. Columns id1, id2; cell_i, cell_j (cell_k):
-/// image of the second grain in base vectors, counted from where the grains stand in their file; ftx, fty (ftz): shear force
-/// on the second grain [N]. Where there is a column overlap [m], it must agree with the packing's within `tolerance` times the
-/// smallest radius; its default is far above round-off of numbers written in full and far below an overlap that carries load.
-/// \throws InputError naming the line for unknown grains, contacts of grains that are not near, contacts listed twice, and
-/// overlaps that disagree; the packing is then as before
+/// Reads what contacts remember of shear, and makes the list of pairs on the way. Columns id1, id2; cell_i, cell_j
+/// (cell_k): image of the second grain in base vectors, counted from where the grains stand in their file; ftx, fty
+/// (ftz): shear force on the second grain [N]. Where there is a column overlap [m], it must agree with the packing's
+/// within `tolerance` times the smallest radius; its default is far above round-off of numbers written in full and far
+/// below an overlap that carries load.
+/// \throws InputError naming the line for unknown grains, contacts of grains that are not near, contacts listed twice,
+/// and overlaps that disagree; the packing is then as before
 template <class PackingType>
 void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, typename PackingType::Law const& law,
                    double tolerance = 1e-6) {

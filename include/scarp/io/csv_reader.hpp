@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-/// A table of a file: named columns, whose cells become numbers when a column is asked for, so that other columns may hold
-/// anything. Does not depend on the locale.
+/// A table of a file: named columns, whose cells become numbers when a column is asked for, so that other columns may
+/// hold anything. Does not depend on the locale.
 class CsvColumns {
  public:
   /// text: content of the file; file: its name in complaints
@@ -45,7 +45,8 @@ class CsvColumns {
   std::size_t line(std::size_t row) const { return rows_[row].number; }
   bool has(std::string_view name) const { return find(name).has_value(); }
 
-  /// \throws InputError for a missing column and a cell that is no finite number, or no whole one where these are wanted
+  /// \throws InputError for a missing column and a cell that is no finite number, or no whole one where these are
+  /// wanted
   template <class Number = double>
   std::vector<Number> column(std::string_view name) const {
     std::size_t const place = require(name);

@@ -8,8 +8,9 @@
 
 namespace scarp {
 
-/// The columns of a table that hold the sizes of a shape's grains, in the shape's order. A shape that has an orientation in
-/// the plane also names the column of its angle [rad], counter-clockwise from x. Another shape is one specialisation more.
+/// The columns of a table that hold the sizes of a shape's grains, in the shape's order. A shape that has an
+/// orientation in the plane also names the column of its angle [rad], counter-clockwise from x. Another shape is one
+/// specialisation more.
 template <class Shape>
 struct GrainColumns;
 

@@ -139,7 +139,8 @@ void refuse_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& 
 
 /// Reads grains from a table with columns x, y (z), those of GrainColumns and, when the file has it, id.
 /// cell: columns are base vectors [m]; lengths in [m], density [kg/m3]; thickness: out of plane in 2D [m], 1 in 3D
-/// \throws InputError naming the line for sizes, ids and places that cannot be, the ids of grains that lie in one another
+/// \throws InputError naming the line for sizes, ids and places that cannot be, the ids of grains that lie in one
+/// another
 template <class PackingType>
   requires HasGrainColumns<typename PackingType::Shape> NamedPacking<PackingType> read_packing(
       CsvColumns const& table, Tensor<PackingType::dim> const& cell, double density, double thickness) {

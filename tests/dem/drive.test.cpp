@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/dem/drive.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "dem/sample_packings.hpp"
+#include "scarp/dem/loading_paths.hpp"
+
+namespace {
+
+using samples::Ellipses;
+using scarp::Loading;
+using scarp::Reason;
+using scarp::Status;
+using scarp::Verdict;
+
+}  // namespace
+
+TEST_CASE("a drive looks before its first step and leaves a consolidated packing alone") {
+  auto packing = samples::consolidated<Ellipses>(80).packing;
+  scarp::TimeStepper<Ellipses> stepper;
+  auto const loading = Loading<2>::stress(scarp::VoigtStress<2>(-samples::pressure, -samples::pressure, 0.0));
+  scarp::Drive<Ellipses> drive(packing, samples::study_law(), loading);
+  REQUIRE(drive.step(stepper).acceptable());
+  // The packing meets its target to 2e-4, so the answer is that share of pressure over modulus and response steps.
+  double const modulus = scarp::spring_modulus(packing, samples::study_law());
+  CHECK(drive.strain_step().cwiseAbs().maxCoeff() < 2e-4 * samples::pressure / (modulus * 50.0));
+}
+
+TEST_CASE("a path towards zero, tension or not-a-number ends as unreachable without a step") {
+  auto packing = samples::consolidated<Ellipses>(80).packing;
+  auto const before = packing;
+  scarp::TimeStepper<Ellipses> stepper;
+  for (double const pressure : {0.0, -1e5, std::numeric_limits<double>::quiet_NaN()}) {
+    scarp::Drive<Ellipses> lateral(packing, samples::study_law(), scarp::drained_compression<2>(1e-6, pressure));
+    CHECK(lateral.step(stepper) == Verdict{Status::not_converged, Reason::unreachable});
+    scarp::Drive<Ellipses> mean(packing, samples::study_law(), scarp::constant_mean_stress<2>(1e-6, pressure));
+    CHECK(mean.step(stepper) == Verdict{Status::not_converged, Reason::unreachable});
+  }
+  CHECK(packing == before);
+}
+
+TEST_CASE("held stresses stay within one percent along a path") {
+  scarp::TimeStepper<Ellipses> stepper;
+  auto const law = samples::study_law();
+  auto const worst_miss = [&](Loading<2> const& loading) {
+    auto packing = samples::consolidated<Ellipses>(80).packing;
+    scarp::Drive<Ellipses> drive(packing, law, loading);
+    double worst = 0.0;
+    for (int step = 0; step < 10'000; ++step) {
+      REQUIRE(drive.step(stepper).acceptable());
+      worst = std::max(worst, loading.worst_missing(drive.seen().stress));
+    }
+    return worst / samples::pressure;
+  };
+  // A proportional answer alone lags by rate x modulus x response steps = 2e-6 x 3e7 x 50 / 2e5, 1.5 percent.
+  CHECK(worst_miss(scarp::drained_compression<2>(2e-6, samples::pressure)) < 0.01);
+  CHECK(worst_miss(scarp::constant_mean_stress<2>(2e-6, samples::pressure)) < 0.01);
+  CHECK(worst_miss(scarp::simple_shear_at_stress<2>(2e-6, samples::pressure)) < 0.01);
+}
