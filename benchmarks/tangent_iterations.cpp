@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // How many macro iterations does each tangent policy save? The quick free-field scene (220 triangles, 100 grains) to
-// h/H = 0.03 under the frozen tangent with Anderson mixing and under the point secant; prints a table of docs/tangents.md.
+// h/H = 0.03 under the frozen tangent with Anderson mixing and under the point secant; prints a table of
+// docs/tangents.md.
 #include <fmt/format.h>
 
 #include <cstdlib>

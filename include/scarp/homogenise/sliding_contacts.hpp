@@ -31,9 +31,9 @@ struct SlidingContacts {
     return (Eigen::Map<Vector<Dim> const>(answer.data()) - contact.shear_force()).dot(direction) < 0.5 * asked;
   }
 
-  /// Stiffness S of a contact [N/m]: force on the second grain \f$ df = -S\,du \f$ for its motion relative to the first.
-  /// \f$ S = k_n n n^T + k_t (I - n n^T) - (1 - share) (k_t s s^T - \mu k_n s n^T) \f$ with s along the shear force of a
-  /// sliding contact; the last term only where coupled.
+  /// Stiffness S of a contact [N/m]: force on the second grain \f$ df = -S\,du \f$ as it moves relative to the first.
+  /// \f$ S = k_n n n^T + k_t (I - n n^T) - (1 - share) (k_t s s^T - \mu k_n s n^T) \f$ with s along the shear force of
+  /// a sliding contact; the last term only where coupled.
   template <int Dim, class Law>
   Tensor<Dim> spring(Contact<Dim> const& contact, Law const& law) const {
     Vector<Dim> const n = contact.normal();

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "choices.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/io/read_file.hpp"
+
+namespace rve_lab {
+
+/// Calls visit(name, member, what it is) for all parameters of a material: the names of options and of the file's keys.
+template <class AnyMaterial, class Visitor>
+void for_each_parameter(AnyMaterial& material, Visitor const& visit) {
+  visit("shape", material.shape, "of the grains");
+  visit("law", material.law,
+        "of the contacts: linear; with discs also hertz (Hertz and Mindlin) and rolling (linear with rolling "
+        "resistance)");
+  visit("normal-stiffness", material.normal_stiffness, "of linear and rolling contacts [N/m]");
+  visit("tangential-stiffness", material.tangential_stiffness, "of linear and rolling contacts [N/m]");
+  visit("friction", material.friction, "coefficient");
+  visit("modulus", material.modulus, "Young's, of hertz contacts [Pa]");
+  visit("poisson", material.poisson, "Poisson's ratio, of hertz contacts");
+  visit("rolling-stiffness", material.rolling_stiffness, "of rolling contacts [N m/rad]");
+  visit("rolling-friction", material.rolling_friction, "of rolling contacts");
+}
+
+/// A packing's material is kept beside it: sand.packing has sand.json.
+inline std::filesystem::path material_path(std::filesystem::path packing) { return packing.replace_extension(".json"); }
+
+inline nlohmann::json to_json(Material const& material) {
+  nlohmann::json parameters;
+  for_each_parameter(material, [&](char const* name, auto const& member, char const*) { parameters[name] = member; });
+  return parameters;
+}
+
+/// Takes what the file beside the packing says, where there is one, except what `is_given` on the command line.
+/// \throws InputError naming the file and the key for values that cannot be
+inline void read_material(std::filesystem::path const& packing, std::function<bool(std::string const&)> const& is_given,
+                          Material& material) {
+  auto const path = material_path(packing);
+  if (!std::filesystem::is_regular_file(path)) return;
+  auto const document = nlohmann::json::parse(scarp::read_file(path), nullptr, false);
+  if (!document.is_object() || !document.contains("material") || !document["material"].is_object()) {
+    scarp::refuse("'{}' holds no material (an object 'material' is wanted): prepare the packing again", path.string());
+  }
+  auto const& parameters = document["material"];
+  for_each_parameter(material, [&](char const* name, auto& member, char const*) {
+    if (is_given(name) || !parameters.contains(name)) return;
+    using Member = std::remove_reference_t<decltype(member)>;
+    auto const& found = parameters[name];
+    bool const fits = std::is_same_v<Member, std::string> ? found.is_string() : found.is_number();
+    if (!fits)
+      scarp::refuse("'{}' in '{}' is {} (another kind of value is wanted): mend it", name, path.string(), found.dump());
+    member = found.get<Member>();
+    if constexpr (!std::is_same_v<Member, std::string>)
+      scarp::naming(path.string(), [&] { scarp::require_not_negative(name, member); });
+  });
+}
+
+}  // namespace rve_lab

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/core/error.hpp"
+#include "scarp/dem/loading_paths.hpp"
+
+namespace rve_lab {
+
+using Tensor = scarp::Tensor<2>;
+
+inline double axial_strain(Tensor const& deformation) { return 0.0 - std::log(deformation(1, 1)); }
+inline double shear_strain(Tensor const& deformation) { return deformation(0, 1); }
+/// Half the difference of the logarithmic strains, which the path of constant mean stress prescribes.
+inline double deviatoric_strain(Tensor const& deformation) {
+  return 0.5 * std::log(deformation(0, 0) / deformation(1, 1));
+}
+
+/// A path by its name: the loading at a strain per step and a held pressure [Pa], and which pressure that is.
+struct PathKind {
+  std::string_view name;
+  scarp::Loading<2> (*loading)(double rate, double held);
+  double (*held)(Tensor const& stress) = nullptr;  ///< null where nothing is held
+  double (*strain)(Tensor const& deformation) = axial_strain;
+  double row_strain = 1e-4;  ///< between the rows of a replay
+};
+
+inline double lateral_pressure(Tensor const& stress) { return -stress(0, 0); }
+inline double axial_pressure(Tensor const& stress) { return -stress(1, 1); }
+inline double mean_pressure(Tensor const& stress) { return -stress.trace() / 2.0; }
+
+inline std::vector<PathKind> const& all_paths() {
+  static std::vector<PathKind> const paths{
+      {.name = "isotropic",
+       .loading = [](double rate, double) { return scarp::isotropic_compression<2>(rate); },
+       .row_strain = 5e-5},
+      {.name = "oedometer", .loading = [](double rate, double) { return scarp::oedometer<2>(rate); }},
+      {.name = "biaxial", .loading = scarp::drained_compression<2>, .held = lateral_pressure},
+      {.name = "undrained", .loading = [](double rate, double) { return scarp::undrained_compression<2>(rate); }},
+      {.name = "pure_shear", .loading = [](double rate, double) { return scarp::pure_shear<2>(rate); }},
+      {.name = "simple_shear",
+       .loading = [](double rate, double) { return scarp::simple_shear<2>(rate); },
+       .strain = shear_strain},
+      {.name = "simple_shear_at_stress",
+       .loading = scarp::simple_shear_at_stress<2>,
+       .held = axial_pressure,
+       .strain = shear_strain},
+      {.name = "constant_mean_stress",
+       .loading = scarp::constant_mean_stress<2>,
+       .held = mean_pressure,
+       .strain = deviatoric_strain}};
+  return paths;
+}
+
+inline std::vector<std::string> path_names() {
+  std::vector<std::string> names;
+  for (auto const& path : all_paths()) names.emplace_back(path.name);
+  return names;
+}
+
+/// \throws InputError for a name that is none
+inline PathKind const& path_named(std::string_view name) {
+  for (auto const& path : all_paths()) {
+    if (path.name == name) return path;
+  }
+  scarp::refuse("there is no path '{}' (the laboratory knows {}): choose one of these", name,
+                fmt::join(path_names(), ", "));
+}
+
+/// Steps between two rows.
+inline long steps_of(double strain, double strain_step) { return std::max(1L, std::lround(strain / strain_step)); }
+
+}  // namespace rve_lab

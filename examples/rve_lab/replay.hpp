@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include "material.hpp"
+#include "replay_input.hpp"
+#include "scarp/homogenise/fabric.hpp"
+#include "scarp/io/contact_reader.hpp"
+#include "scarp/io/csv.hpp"
+#include "specimen.hpp"
+
+namespace rve_lab {
+
+/// Which of a replay's law parameters stand on the command line; the others come from the contacts where they tell.
+struct GivenLaw {
+  bool normal_stiffness = false;
+  bool tangential_stiffness = false;
+  bool friction = false;
+};
+
+inline void take_law_from(scarp::CsvColumns const& contacts, GivenLaw const& given, Material& material) {
+  auto const take = [&](bool is_given, std::string_view column, double& parameter) {
+    if (!is_given) parameter = only_value(contacts, column).value_or(parameter);
+  };
+  take(given.normal_stiffness, "kn", material.normal_stiffness);
+  take(given.tangential_stiffness, "ks", material.tangential_stiffness);
+  take(given.friction, "tan_phi", material.friction);
+}
+
+inline std::string shape_of(scarp::CsvColumns const& particles) {
+  if (particles.has("r")) return "disc";
+  if (particles.has("a") && particles.has("b")) return particles.has("eps") ? "superellipse" : "ellipse";
+  scarp::refuse("'{}' has no sizes of grains (columns r, or a, b and angle, or a, b, eps and angle): add them",
+                particles.file());
+}
+
+/// The columns of tests/reference/yade: everything is the state at the row's deformation.
+template <class Lab>
+std::vector<double> replay_row(Lab const& lab, PathKind const& path, long step) {
+  auto const state = scarp::balance(lab.packing(), lab.law());
+  Tensor const& deformation = lab.deformation();
+  Tensor const& stress = state.stress;
+  return {static_cast<double>(step),
+          path.strain(deformation),
+          deformation(0, 0),
+          deformation(0, 1),
+          deformation(1, 0),
+          deformation(1, 1),
+          stress(0, 0),
+          stress(0, 1),
+          stress(1, 0),
+          stress(1, 1),
+          lab.packing().void_ratio(),
+          static_cast<double>(state.contacts),
+          deepest_overlap(lab.packing(), lab.law())};
+}
+
+/// \throws InputError for files that are wrong, and when the packing cannot go on; the rows so far are then on disk
+template <class PackingType>
+void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
+                std::optional<scarp::CsvColumns> const& contacts, Tensor const& cell,
+                scarp::LinearFrictional const& law) {
+  using Lab = Specimen<PackingType, scarp::Observe::balance>;
+  auto named = scarp::read_packing<PackingType>(particles, cell, choice.density, choice.thickness);
+  if (contacts && contacts->has("ftx")) scarp::read_contacts(named, *contacts, law, choice.tolerance);
+  PathKind const& path = path_named(choice.path.name);
+  Lab lab(std::move(named.packing), law, path, choice.path.strain_step, choice.path.held);
+  auto const first = scarp::balance(lab.packing(), law);
+  fmt::print("{} grains, {} contacts, void ratio {:.8f}\n", lab.packing().grain_count(), first.contacts,
+             lab.packing().void_ratio());
+  fmt::print("cell {:.12g},{:.12g},{:.12g},{:.12g} m\n", cell(0, 0), cell(1, 0), cell(0, 1), cell(1, 1));
+  fmt::print("law: normal stiffness {} N/m, tangential {} N/m, friction {}\n", law.normal_stiffness,
+             law.tangential_stiffness, law.friction);
+  fmt::print("stress [Pa]: xx {:.6f}, xy {:.6f}, yx {:.6f}, yy {:.6f}\n", first.stress(0, 0), first.stress(0, 1),
+             first.stress(1, 0), first.stress(1, 1));
+  auto const fabric = scarp::contact_fabric(lab.packing(), law);
+  fmt::print("fabric of the contacts: xx {:.10f}, xy {:.10f}, yy {:.10f}\n", fabric(0, 0), fabric(0, 1), fabric(1, 1));
+  scarp::CsvLog log(choice.out, {"step", "strain", "Fxx", "Fxy", "Fyx", "Fyy", "sxx", "sxy", "syx", "syy", "void_ratio",
+                                 "n_contacts", "max_overlap_over_rmin"});
+  auto const write = [&](long step) { log.add(std::span<double const>(replay_row(lab, path, step))); };
+  write(0);
+  long const steps = steps_of(choice.path.strain, choice.path.strain_step);
+  long const steps_per_row = steps_of(choice.path.row_strain.value_or(path.row_strain), choice.path.strain_step);
+  for (long step = 1; step <= steps; ++step) {
+    auto const verdict = lab.step();
+    if (!verdict.acceptable()) refuse_verdict(verdict, path.strain(lab.deformation()), choice.out);
+    if (step % steps_per_row == 0 || step == steps) write(step);
+  }
+  fmt::print("{} to strain {:.6g} in {} steps of {}: {}\n", path.name, path.strain(lab.deformation()), steps,
+             choice.path.strain_step, choice.out);
+}
+
+inline void replay(Replay choice, GivenLaw const& given) {
+  for (auto const& input : {choice.particles, choice.contacts}) {
+    std::error_code trouble;
+    if (!std::filesystem::equivalent(choice.out, input, trouble) || trouble) continue;
+    scarp::refuse("'{}' would be written over (it is an input): give --out another name", input);
+  }
+  if (choice.cell.empty() && choice.contacts.empty()) {
+    scarp::refuse("the cell is not known (neither --cell nor --contacts is given): give --cell a1x,a1y,a2x,a2y");
+  }
+  auto const particles = scarp::read_csv(choice.particles);
+  std::optional<scarp::CsvColumns> contacts;
+  if (!choice.contacts.empty()) {
+    contacts = scarp::read_csv(choice.contacts);
+    take_law_from(*contacts, given, choice.material);
+  }
+  choice.material.shape = shape_of(particles);
+  CellClues const clues = contacts ? cell_clues(particles, *contacts) : CellClues{};
+  Tensor const cell = choice.cell.empty() ? clues.solve(choice.contacts) : parse_cell(choice.cell);
+  if (contacts) clues.check(cell, *contacts);
+  with_linear_law(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
+    run_replay<PackingType>(choice, particles, contacts, cell, law);
+  });
+}
+
+}  // namespace rve_lab

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/LU>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "paths.hpp"
+#include "scarp/io/csv_reader.hpp"
+
+namespace rve_lab {
+
+/// \throws InputError unless the text is four finite numbers of a right-handed cell
+inline Tensor parse_cell(std::string const& text) {
+  std::vector<double> numbers;
+  char const* at = text.data();
+  char const* const end = at + text.size();
+  while (at < end) {
+    while (at < end && *at == ' ') ++at;
+    double number = 0.0;
+    auto const [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || !std::isfinite(number) || (next < end && *next != ',')) break;
+    numbers.push_back(number);
+    at = next < end ? next + 1 : end;
+  }
+  if (numbers.size() != 4 || at != end) {
+    scarp::refuse("'{}' is no cell (four numbers with commas in between are wanted): write a1x,a1y,a2x,a2y in m", text);
+  }
+  Tensor cell;
+  cell << numbers[0], numbers[2], numbers[1], numbers[3];
+  if (!(cell.determinant() > 0.0)) {
+    scarp::refuse(
+        "the cell '{}' has an area of {} m2 (its base vectors must be right-handed): exchange or correct them", text,
+        cell.determinant());
+  }
+  return cell;
+}
+
+/// Branches of the contacts of a table [m], or nothing where it does not hold them: columns branch_x and branch_y, or
+/// for discs nx, ny and overlap, which with the radii say the same.
+inline std::vector<scarp::Vector<2>> branches(scarp::CsvColumns const& contacts, std::vector<double> const& radii_sum) {
+  std::vector<scarp::Vector<2>> found;
+  if (contacts.has("branch_x") && contacts.has("branch_y")) {
+    auto const x = contacts.column("branch_x");
+    auto const y = contacts.column("branch_y");
+    for (std::size_t c = 0; c < x.size(); ++c) found.emplace_back(x[c], y[c]);
+  } else if (!radii_sum.empty() && contacts.has("nx") && contacts.has("ny") && contacts.has("overlap")) {
+    auto const x = contacts.column("nx");
+    auto const y = contacts.column("ny");
+    auto const overlap = contacts.column("overlap");
+    for (std::size_t c = 0; c < x.size(); ++c)
+      found.push_back((radii_sum[c] - overlap[c]) * scarp::Vector<2>(x[c], y[c]));
+  }
+  return found;
+}
+
+/// What the contacts say of the cell: branch = x2 - x1 + H image.
+struct CellClues {
+  std::vector<scarp::Vector<2>> offset;  ///< branch - (x2 - x1) [m]
+  std::vector<scarp::Vector<2>> image;   ///< in base vectors
+
+  /// Least squares over the contacts that cross the boundary.
+  /// \throws InputError where these do not span the plane
+  Tensor solve(std::string const& file) const {
+    Tensor normal = Tensor::Zero();
+    Tensor right = Tensor::Zero();
+    for (std::size_t c = 0; c < offset.size(); ++c) {
+      normal += image[c] * image[c].transpose();
+      right += offset[c] * image[c].transpose();
+    }
+    if (!(normal.determinant() > 0.5)) {  // of whole numbers
+      scarp::refuse(
+          "the cell cannot be told from '{}' (too few of its contacts have branches and cross the boundary): "
+          "give --cell a1x,a1y,a2x,a2y",
+          file);
+    }
+    return right * normal.inverse();
+  }
+
+  /// \throws InputError for a contact that lies elsewhere in this cell
+  void check(Tensor const& cell, scarp::CsvColumns const& contacts) const {
+    constexpr double most = 1e-5;  // of the cell, more than the rounding of seven digits
+    for (std::size_t c = 0; c < offset.size(); ++c) {
+      double const error = (offset[c] - cell * image[c]).norm();
+      if (error <= most * cell.norm()) continue;
+      scarp::refuse(
+          "line {} of '{}' lies {} m elsewhere in the cell {},{},{},{} (branch = x2 - x1 + cell x image is "
+          "wanted): check the cell and the particles",
+          contacts.line(c), contacts.file(), error, cell(0, 0), cell(1, 0), cell(0, 1), cell(1, 1));
+    }
+  }
+};
+
+inline CellClues cell_clues(scarp::CsvColumns const& particles, scarp::CsvColumns const& contacts) {
+  std::unordered_map<std::int64_t, std::size_t> row_of;
+  if (particles.has("id")) {
+    for (auto const id : particles.column<std::int64_t>("id")) row_of.emplace(id, row_of.size());
+  } else {
+    for (std::size_t i = 0; i < particles.rows(); ++i) row_of.emplace(static_cast<std::int64_t>(i), i);
+  }
+  auto const rows = [&](std::string_view name) {
+    std::vector<std::size_t> found;
+    for (auto const id : contacts.column<std::int64_t>(name)) {
+      auto const known = row_of.find(id);
+      if (known == row_of.end())
+        contacts.refuse_cell(found.size(), name, "no particle has this id", "check which packing the file belongs to");
+      found.push_back(known->second);
+    }
+    return found;
+  };
+  auto const first = rows("id1");
+  auto const second = rows("id2");
+  std::vector<double> radii_sum;
+  if (particles.has("r")) {
+    auto const radius = particles.column("r");
+    for (std::size_t c = 0; c < first.size(); ++c) radii_sum.push_back(radius[first[c]] + radius[second[c]]);
+  }
+  auto const branch = branches(contacts, radii_sum);
+  auto const x = particles.column("x");
+  auto const y = particles.column("y");
+  auto const i = contacts.column("cell_i");
+  auto const j = contacts.column("cell_j");
+  CellClues clues;
+  for (std::size_t c = 0; c < branch.size(); ++c) {
+    clues.offset.push_back(branch[c] - scarp::Vector<2>(x[second[c]] - x[first[c]], y[second[c]] - y[first[c]]));
+    clues.image.emplace_back(i[c], j[c]);
+  }
+  return clues;
+}
+
+/// The one value of a column that is to be the same for all contacts; nothing where there is no such column.
+/// \throws InputError for a mixture
+inline std::optional<double> only_value(scarp::CsvColumns const& contacts, std::string_view name) {
+  if (!contacts.has(name) || contacts.rows() == 0) return std::nullopt;
+  constexpr double same = 1e-9;
+  auto const values = contacts.column(name);
+  for (std::size_t c = 0; c < values.size(); ++c) {
+    if (!(std::abs(values[c] - values[0]) <= same * std::abs(values[0]))) {
+      contacts.refuse_cell(c, name, fmt::format("the first contact has {}, a law has one value", values[0]),
+                           "give contacts of one material");
+    }
+  }
+  return values[0];
+}
+
+}  // namespace rve_lab

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "choices.hpp"
+#include "material_file.hpp"
+#include "recorder.hpp"
+#include "scarp/io/packing_file.hpp"
+#include "states.hpp"
+
+namespace rve_lab {
+
+inline double largest_ratio(Row const& row) { return value(row, "mean_q") / value(row, "mean_p"); }
+
+inline void print_head() {
+  fmt::print("{:>9} {:>11} {:>11} {:>7} {:>9} {:>6} {:>6} {:>9}\n", "strain", "p [Pa]", "q [Pa]", "q/p", "e", "Z",
+             "F_c", "e_v");
+}
+
+inline void print_row(Row const& row) {
+  fmt::print("{:>9.5f} {:>11.4g} {:>11.4g} {:>7.3f} {:>9.5f} {:>6.3f} {:>6.3f} {:>9.5f}\n", value(row, "strain"),
+             value(row, "mean_p"), value(row, "mean_q"), largest_ratio(row), value(row, "void_ratio"),
+             value(row, "coordination"), value(row, "contact_anisotropy"), value(row, "volumetric_strain"));
+  std::fflush(stdout);
+}
+
+/// Sends a packing along the path. In `folder`: path.csv row by row, the states at the start, at the largest q/p and at
+/// the end, end.packing (with end.json) to go on from, summary.json last.
+/// \throws InputError when the packing cannot go on; the rows so far are then on disk
+template <class PackingType>
+void run_path(PackingType start, typename PackingType::Law const& law, Path const& choice,
+              std::filesystem::path const& folder, nlohmann::json const& material) {
+  PathKind const& path = path_named(choice.name);
+  Specimen<PackingType, scarp::Observe::energy> lab(std::move(start), law, path, choice.strain_step, choice.held);
+  bool const cyclic = choice.cycles > 0;
+  double const length = cyclic ? 4.0 * choice.amplitude * choice.cycles : choice.strain;
+  scarp::Cyclic const cycle{choice.amplitude - 0.5 * choice.strain_step};  // half a step for round-off
+  long const steps = steps_of(length, choice.strain_step);
+  long const steps_per_row = steps_of(choice.row_strain.value_or(length / 200.0), choice.strain_step);
+
+  std::filesystem::create_directories(folder);
+  Recorder<PackingType> recorder(lab.packing());
+  Row const first = recorder.row(lab, path, 0);
+  std::vector<std::string> names;
+  for (auto const& cell : first) names.push_back(cell.first);
+  scarp::CsvLog log(folder / "path.csv", names);
+  auto const write = [&](Row const& row) {
+    std::vector<double> cells;
+    for (auto const& cell : row) cells.push_back(cell.second);
+    log.add(std::span<double const>(cells));
+  };
+  write(first);
+  write_state(folder, "start", lab.packing(), law);
+  print_head();
+  print_row(first);
+
+  Row peak = first;
+  PackingType peak_packing = lab.packing();
+  long travelled = 0;  // steps, with sign
+  int sign = 1;
+  for (long step = 1; step <= steps; ++step) {
+    double const volume = lab.packing().volume();
+    auto const verdict = lab.step();
+    if (!verdict.acceptable()) refuse_verdict(verdict, path.strain(lab.deformation()), (folder / "path.csv").string());
+    recorder.look(lab, volume);
+    travelled += sign;
+    int const next = cyclic ? cycle.next_sign(static_cast<double>(travelled) * choice.strain_step, sign) : 1;
+    if (next != sign) lab.reverse();
+    sign = next;
+    if (step % steps_per_row != 0 && step != steps) continue;
+    Row const row = recorder.row(lab, path, step);
+    write(row);
+    if (largest_ratio(row) > largest_ratio(peak)) {
+      peak = row;
+      peak_packing = lab.packing();
+    }
+    if (step == steps || (step / steps_per_row) % 20 == 0) print_row(row);
+  }
+  write_state(folder, "peak", peak_packing, law);
+  write_state(folder, "end", lab.packing(), law);
+  scarp::save_packing(folder / "end.packing", lab.packing());
+  scarp::write_file(folder / "end.json", nlohmann::json{{"material", material}}.dump(2) + "\n");
+  fmt::print("largest q/p {:.4f} at strain {:.5f}\n", largest_ratio(peak), value(peak, "strain"));
+  nlohmann::json const summary{{"path", choice.name},
+                               {"material", material},
+                               {"grains", lab.packing().grain_count()},
+                               {"cycles", choice.cycles},
+                               {"strain_step", choice.strain_step},
+                               {"steps", steps},
+                               {"peak", nlohmann::json(std::map<std::string, double>(peak.begin(), peak.end()))},
+                               {"output", folder.string()}};
+  scarp::write_file(folder / "summary.json", summary.dump(2) + "\n");
+}
+
+}  // namespace rve_lab
