@@ -8,7 +8,8 @@
 #include "naive_kernel.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/grading.hpp"
+#include "scarp/dem/disc_grading.hpp"
+#include "scarp/dem/ellipse_grading.hpp"
 #include "scarp/dem/preparation.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/grading.hpp"
+#include "scarp/dem/ellipse_grading.hpp"
 
 namespace examples {
 

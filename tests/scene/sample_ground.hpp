@@ -4,7 +4,8 @@
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/grading.hpp"
+#include "scarp/dem/disc_grading.hpp"
+#include "scarp/dem/ellipse_grading.hpp"
 #include "scarp/scene/free_field_fault.hpp"
 #include "scarp/scene/level_ground.hpp"
 

@@ -15,7 +15,7 @@ T dot(std::array<T, 2> const& a, std::array<T, 2> const& b) {
 }
 template <class T>
 T dot(std::array<T, 3> const& a, std::array<T, 3> const& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  return inner_product(a, b);
 }
 
 /// Vector product; in the plane the number along its normal.

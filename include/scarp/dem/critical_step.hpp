@@ -30,13 +30,6 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
     for (double& component : axes[1]) component /= size;
     axes[2] = cross(axes[0], axes[1]);
   }
-  auto const product = [](auto const& a, auto const& b) {
-    if constexpr (Dim == 2) {
-      return a * b;
-    } else {
-      return dot(a, b);
-    }
-  };
   Tensor<Dim> modes;
   for (int k = 0; k < Dim; ++k) {
     for (int l = 0; l <= k; ++l) {
@@ -45,9 +38,10 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
       double const springs = std::sqrt((k == 0 ? stiffness.normal : stiffness.tangential) *
                                        (l == 0 ? stiffness.normal : stiffness.tangential));
       modes(k, l) =
-          springs * ((k == l ? centres : 0.0) +
-                     spin_first * product(cross(contact.touch.arm_first, e), cross(contact.touch.arm_first, f)) +
-                     spin_second * product(cross(contact.touch.arm_second, e), cross(contact.touch.arm_second, f)));
+          springs *
+          ((k == l ? centres : 0.0) +
+           spin_first * inner_product(cross(contact.touch.arm_first, e), cross(contact.touch.arm_first, f)) +
+           spin_second * inner_product(cross(contact.touch.arm_second, e), cross(contact.touch.arm_second, f)));
     }
   }
   Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
