@@ -170,7 +170,8 @@ double disagreement(PackingType packing, scarp::LinearFrictional const& law, sca
   scarp::Tensor<2> strain;
   strain << 1e-5, 2e-5, -3e-5, 1e-5;
   naive.forces(strain);
-  scarp::pair_forces<scarp::Observe::nothing>(packing, law, strain, time_step, scratch);
+  packing.last_move = {strain, time_step};
+  scarp::pair_forces<scarp::Observe::nothing>(packing, law, scratch);
   double largest = 0.0;
   scarp::for_each_contact(packing, law,
                           [&](auto const& contact) { largest = std::max(largest, contact.force.norm()); });

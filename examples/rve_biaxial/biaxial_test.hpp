@@ -76,13 +76,9 @@ inline Row describe(Packing const& packing, double axial_strain, double volumetr
 /// Drained biaxial compression: yy shortens at a constant rate, a servo keeps sigma_xx at the pressure, no shear strain.
 inline void compress(Packing packing, Choice const& choice, Result& result) {
   constexpr double strain_per_row = 2.5e-4;
-  // The lateral stress lags behind its target by rate x modulus x response steps: 0.6 % of 200 kPa by default.
-  scarp::StressFeedback const feedback{.response_steps = 20.0};
-
   auto const law = study_law();
   scarp::TimeStepper<Packing> stepper;
-  scarp::Drive<Packing> drive(packing, law, scarp::drained_compression<2>(choice.strain_per_step, choice.pressure),
-                              feedback);
+  scarp::Drive<Packing> drive(packing, law, scarp::drained_compression<2>(choice.strain_per_step, choice.pressure));
   double const first_area = packing.cell.determinant();
   result.rows.push_back(describe(packing, 0.0, 0.0, scarp::balance(packing, law).stress));
   long const steps = std::lround(choice.strain / choice.strain_per_step);

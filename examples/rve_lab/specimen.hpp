@@ -34,8 +34,7 @@ class Specimen {
                       pressure);
       }
     }
-    drive_.emplace(packing_, law_, path.loading(strain_step, pressure),
-                   scarp::StressFeedback{.response_steps = response_steps});
+    drive_.emplace(packing_, law_, path.loading(strain_step, pressure));
   }
   Specimen(Specimen const&) = delete;
   Specimen& operator=(Specimen const&) = delete;
@@ -60,8 +59,6 @@ class Specimen {
 
  private:
   static constexpr double deepest = 1.0;  ///< over the reduced radius of a contact: half the radius of equal discs
-  /// Keeps a held stress within 0.5 % at a strain of 1e-5 per step, where the default of 50 lags by up to 4 %.
-  static constexpr double response_steps = 10.0;
 
   scarp::Verdict renew() {
     Tensor const before = packing_.cell;

@@ -15,16 +15,8 @@ namespace {
 using scarp::Approach;
 using scarp::ContactForce;
 using scarp::ContactMemory;
+using test_support::bond_if_possible;
 using test_support::Sample;
-
-template <class Law>
-void bond_if_possible(ContactMemory<3, double>& memory) {
-  if constexpr (requires { Law::bond(memory); }) {
-    Law::bond(memory);
-  } else if constexpr (requires { Law::law; }) {
-    bond_if_possible<decltype(Law::law)>(memory);
-  }
-}
 
 /// Jumps across contact and gap, the same ones in every run.
 struct RandomApproaches {
@@ -33,11 +25,13 @@ struct RandomApproaches {
   double spread(double size) { return std::uniform_real_distribution<double>(-size, size)(random); }
 
   Approach<3, double> next() {
+    std::array<double, 3> const slip{spread(0.1), spread(0.1), spread(0.1)};
     return {.overlap = 0.05 + spread(0.1),
-            .slip = {spread(0.1), spread(0.1), spread(0.1)},
+            .slip = slip,
             .roll = {spread(0.5), spread(0.5), spread(0.5)},
             .reduced_radius = 1.0 + spread(0.5),
             .closing = spread(0.02),
+            .sweep = slip,
             .reduced_mass = 2.0 + spread(1.0),
             .time_step = 0.01};
   }
@@ -51,6 +45,7 @@ Approach<2, T> in_plane(Approach<3, double> const& a) {
           .roll = number(a.roll[2]),
           .reduced_radius = number(a.reduced_radius),
           .closing = number(a.closing),
+          .sweep = number(a.sweep[0]),
           .reduced_mass = number(a.reduced_mass),
           .time_step = number(a.time_step)};
 }
@@ -156,6 +151,7 @@ TEST_CASE_TEMPLATE("packs give lane by lane what single numbers give", Law, EVER
       for (std::size_t k = 0; k < 3; ++k) {
         approach.slip[k] = gather([k](auto const& a) { return a.slip[k]; });
         approach.roll[k] = gather([k](auto const& a) { return a.roll[k]; });
+        approach.sweep[k] = approach.slip[k];
       }
       auto const force = law.respond(approach, packed);
       for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {
@@ -183,7 +179,7 @@ TEST_CASE_TEMPLATE("motion along one axis of space is motion in the plane", Law,
   ContactMemory<2, double> in_the_plane;
   for (int n = 0; n < 200; ++n) {
     auto approach = approaches.next();
-    approach.slip = {approach.slip[0], 0.0, 0.0};
+    approach.slip = approach.sweep = {approach.slip[0], 0.0, 0.0};
     approach.roll = {0.0, 0.0, approach.roll[2]};
     auto const force = law.respond(approach, in_space);
     auto const expected = law.respond(in_plane<double>(approach), in_the_plane);
@@ -207,7 +203,7 @@ TEST_CASE_TEMPLATE("single precision stays finite, at rest, at first touch and f
     if (n % 5 == 0) approach.overlap = 0.0f;
     if (n % 7 == 0) approach.overlap = 1e-20f;
     if (n % 11 == 0) approach.overlap = -1e3f;
-    if (n % 13 == 0) approach.time_step = approach.closing = approach.slip = 0.0f;
+    if (n % 13 == 0) approach.time_step = approach.closing = approach.slip = approach.sweep = 0.0f;
     CHECK(all_finite(law.respond(approach, memory)));
   }
 }
@@ -252,7 +248,7 @@ TEST_CASE_TEMPLATE("work is stored or dissipated", Law, EVERY_CONTACT_LAW) {
     for (int n = 0; n < steps; ++n, time += step) {
       approach.overlap = overlap(time + step);
       approach.closing = overlap(time + step) - overlap(time);
-      approach.slip = slip(time + step) - slip(time);
+      approach.slip = approach.sweep = slip(time + step) - slip(time);
       approach.roll = roll(time + step) - roll(time);
       auto const force = law.respond(approach, memory);
       work += 0.5 * (before.normal + force.normal) * approach.closing -

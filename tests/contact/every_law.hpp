@@ -55,4 +55,14 @@ struct Sample<CohesiveBond<Law>> {
   static CohesiveBond<Law> law() { return {.law = Sample<Law>::law(), .tensile_strength = 4.0, .shear_strength = 3.0}; }
 };
 
+/// Bonds a contact where the law, or one that it is wrapped around, has bonds.
+template <class Law, int Dim, class T>
+void bond_if_possible(scarp::ContactMemory<Dim, T>& memory) {
+  if constexpr (requires { Law::bond(memory); }) {
+    Law::bond(memory);
+  } else if constexpr (requires { Law::law; }) {
+    bond_if_possible<decltype(Law::law)>(memory);
+  }
+}
+
 }  // namespace test_support

@@ -110,6 +110,7 @@ PackingType turned(PackingType packing, double angle) {
     }
   };
   packing.cell = (turn * packing.cell).eval();
+  packing.last_move.gradient = (turn * packing.last_move.gradient * turn.transpose()).eval();
   turn_rows(packing.position, packing.grain_count());
   turn_rows(packing.velocity, packing.grain_count());
   if constexpr (PackingType::Shape::orientation_count == 2) {

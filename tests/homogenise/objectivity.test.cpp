@@ -59,7 +59,7 @@ TEST_CASE_TEMPLATE("the raw stress of a packing at rest is symmetric within its 
   // rest. Measured by the loop's own torques.
   PackingType copy = packing;
   scarp::PairScratch<double> scratch;
-  auto const sums = scarp::pair_forces<scarp::Observe::balance>(copy, law, Tensor<2>::Zero(), 0.0, scratch);
+  auto const sums = scarp::pair_forces<scarp::Observe::balance>(copy, law, scratch);
   double torques = 0.0;
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {
     torques +=

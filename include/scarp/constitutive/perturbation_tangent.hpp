@@ -44,7 +44,7 @@ struct PerturbationTangent {
     Trial<PackingType> trial{law, {}};
     trial.stepper.damping = damping;
     PackingType base = packing;
-    base.rest();
+    answer.verdict = trial.stepper.stop(base, law);
     VoigtStress<dim> const start = trial.settle(*this, base, answer.verdict, taken);
     constexpr auto indices = voigt_indices<dim>();
     for (int k = 0; k < voigt_size<dim>; ++k) {
@@ -80,7 +80,7 @@ struct PerturbationTangent {
         if (Verdict const moved = stepper.step(packing, law, step); !moved.acceptable()) verdict = moved;
       }
       taken += how.strain_steps;
-      packing.rest();
+      if (Verdict const stopped = stepper.stop(packing, law); !stopped.acceptable()) verdict = stopped;
       return settle(how, packing, verdict, taken);
     }
 

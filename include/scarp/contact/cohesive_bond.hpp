@@ -87,6 +87,7 @@ struct CohesiveBond {
   }
 
   double reach() const { return tensile_strength / law.normal_stiffness; }
+  double damping_ratio() const { return damping_ratio_of(law); }
 
  private:
   static constexpr std::size_t state = static_cast<std::size_t>(Law::needs.scalars);

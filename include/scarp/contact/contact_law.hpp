@@ -23,19 +23,21 @@ struct ContactNeeds {
   bool moment = false;  ///< a moment is remembered; `roll` is given
   int scalars = 0;      ///< further numbers that are remembered, zero for a new contact
   bool radius = false;  ///< `reduced_radius` is given
-  bool motion = false;  ///< `closing`, `reduced_mass` and `time_step` are given
+  bool motion = false;  ///< `closing`, `sweep`, `reduced_mass` and `time_step` are given
 };
 
-/// What a law may look at. Motions are those of the second grain relative to the first during the step.
+/// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and roll are
+/// zero where the memory already contains them.
 template <int Dim, class T>
 struct Approach {
-  T overlap;                ///< [m], positive in compression
-  Tangential<Dim, T> slip;  ///< tangential motion at the contact point [m]
-  Turning<Dim, T> roll{};   ///< rotation [rad]
-  T reduced_radius{};       ///< \f$ R_1 R_2 / (R_1 + R_2) \f$ [m]
-  T closing{};              ///< growth of the overlap [m]
-  T reduced_mass{};         ///< \f$ m_1 m_2 / (m_1 + m_2) \f$ [kg]
-  T time_step{};            ///< [s]; zero while nothing moves
+  T overlap;                   ///< [m], positive in compression
+  Tangential<Dim, T> slip;     ///< tangential motion at the contact point [m]
+  Turning<Dim, T> roll{};      ///< rotation [rad]
+  T reduced_radius{};          ///< \f$ R_1 R_2 / (R_1 + R_2) \f$ [m]
+  T closing{};                 ///< growth of the overlap [m]
+  Tangential<Dim, T> sweep{};  ///< slip of the step, whether or not the memory contains it [m]
+  T reduced_mass{};            ///< \f$ m_1 m_2 / (m_1 + m_2) \f$ [kg]
+  T time_step{};               ///< [s]; zero while nothing moves
 };
 
 /// The most numbers that a law, with all that is wrapped around it, may ask for in `ContactNeeds::scalars`.

@@ -39,7 +39,7 @@ struct NoContactDamping {
 /// 94), whose restitution up to the moment without force is known (Schwager and Poeschel 2007, Granular Matter 9). The
 /// polynomial of Thornton, Cummins and Cleary 2013 fits the same curve, but strays by up to 0.015 in e for e > 0.9.
 /// restitution in (0, 1]
-inline double damping_ratio_of(double restitution) {
+inline double damping_ratio_for(double restitution) {
   auto const decay = [](double eta) {
     double const square = 1.0 - eta * eta;
     if (std::abs(square) < 1e-12) return 2.0;
@@ -61,7 +61,7 @@ struct HertzRestitution {
   static constexpr bool needs_motion = true;
 
   double restitution = 1.0;
-  double damping_ratio = damping_ratio_of(restitution);
+  double damping_ratio = damping_ratio_for(restitution);
 
   template <int Dim, class T>
   T push(T const& stiffness, Approach<Dim, T> const& approach) const {
@@ -70,9 +70,9 @@ struct HertzRestitution {
 
   template <int Dim, class T>
   T drag(Tangential<Dim, T>& shear, T const& stiffness, T const& limit, Approach<Dim, T> const& approach) const {
-    T const work_of_spring = inner_product(shear, approach.slip);
-    coulomb_slide<Dim, T>(shear, approach.slip, stiffness_of_step(stiffness, approach), limit);
-    return work_of_spring - inner_product(shear, approach.slip);
+    T const work_of_spring = inner_product(shear, approach.sweep);
+    coulomb_slide<Dim, T>(shear, approach.sweep, stiffness_of_step(stiffness, approach), limit);
+    return work_of_spring - inner_product(shear, approach.sweep);
   }
 
  private:

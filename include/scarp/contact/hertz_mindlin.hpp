@@ -75,6 +75,9 @@ struct HertzMindlin {
 
   double& friction_coefficient() { return friction; }
 
+  double damping_ratio() const requires requires(Damping const& dashpots) { dashpots.damping_ratio; }
+  { return damping.damping_ratio; }
+
   /// \f$ \tfrac{8}{15} E^* a\,u^2 + F_t^2 / 16 G^* a \f$
   template <int Dim, class T>
   T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {

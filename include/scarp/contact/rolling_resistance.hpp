@@ -56,8 +56,8 @@ struct RollingResistance {
     return base + constant<T>(0.5 / rolling_stiffness) * squared_size(memory.moment);
   }
 
-  double reach() const requires requires(Law const& base) { base.reach(); }
-  { return law.reach(); }
+  double reach() const { return reach_of(law); }
+  double damping_ratio() const { return damping_ratio_of(law); }
 };
 
 template <class Law>

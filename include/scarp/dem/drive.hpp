@@ -13,7 +13,7 @@ namespace scarp {
 /// steady rate that is learned on the way, so that the held stress does not lag behind.
 struct StressFeedback {
   double fastest = 1e-4;         ///< largest strain per step of a held stress
-  double response_steps = 50.0;  ///< a missing stress is made up in about so many steps
+  double response_steps = 10.0;  ///< a missing stress is made up in about so many steps
   /// Response steps after which the steady rate has learned; 16 damps the loop critically where the packing has a quarter of
   /// its springs' modulus.
   double learning_steps = 16.0;

@@ -53,6 +53,24 @@ struct NearPairs {
   friend bool operator==(NearPairs const&, NearPairs const&) = default;
 };
 
+/// How grains and cell moved in the step that led to where they are: what slip and closing at the contacts follow from,
+/// together with the grains' velocities.
+template <int Dim>
+struct LastMove {
+  Tensor<Dim> gradient = Tensor<Dim>::Zero();  ///< displacement gradient of the cell
+  double duration = 0.0;                       ///< [s], zero at rest
+  bool answered = false;                       ///< whether what the contacts remember already contains it
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("gradient of the last move", self.gradient);
+    visit("duration of the last move", self.duration);
+    visit("answer to the last move", self.answered);
+  }
+
+  friend bool operator==(LastMove const&, LastMove const&) = default;
+};
+
 /// State of a periodic packing: everything that evolves. Velocities are fluctuations about the affine motion of the
 /// cell; the cell's columns are its base vectors [m]. Positions may lie outside the cell by a lattice vector.
 template <ParticleShape ShapePolicy, ContactLaw LawPolicy, class ScalarType = double>
@@ -68,6 +86,7 @@ struct Packing {
   Columns<Scalar, dim> velocity;
   Columns<Scalar, spin_size<dim>> spin;
   Columns<Scalar, Shape::orientation_count> orientation;
+  LastMove<dim> last_move;
   NearPairs<Shape, Law, Scalar> pairs;
 
   std::size_t grain_count() const { return position.rows(); }
@@ -88,12 +107,15 @@ struct Packing {
     visit("velocity", self.velocity);
     visit("spin", self.spin);
     visit("orientation", self.orientation);
+    visit("last_move", self.last_move);
     visit("pairs", self.pairs);
   }
 
+  /// No velocities and no last move, as of grains that were just placed. Grains that have moved are stopped by TimeStepper.
   void rest() {
     velocity.resize(grain_count());
     spin.resize(grain_count());
+    last_move = {};
   }
 
   friend bool operator==(Packing const&, Packing const&) = default;

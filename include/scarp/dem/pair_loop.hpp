@@ -9,14 +9,11 @@
 
 namespace scarp {
 
-/// Forces of all near pairs at the present positions, and the update of what contacts remember. Afterwards `scratch.forces`
-/// begins with a row (force, torque) for each grain. `strain_step`, the cell's displacement gradient during the step that led
-/// here, gives the affine part of the motion at the contacts; `time_step` [s] its duration. Flattened, since shape and law
-/// must melt into the loop: a third of the speed is lost otherwise.
+/// Forces of all near pairs at the present positions, and the update of what contacts remember by the packing's last move,
+/// unless that has been answered before. Afterwards `scratch.forces` begins with a row (force, torque) for each grain.
+/// Flattened, since shape and law must melt into the loop: a third of the speed is lost otherwise.
 template <Observe what, class PackingType, class Law>
 [[gnu::flatten]] ContactSums<PackingType::dim> pair_forces(PackingType& packing, Law const& law,
-                                                           Tensor<PackingType::dim> const& strain_step,
-                                                           double time_step,
                                                            PairScratch<typename PackingType::Scalar>& scratch) {
   using Shape = typename PackingType::Shape;
   using Scalar = typename PackingType::Scalar;
@@ -38,12 +35,16 @@ template <Observe what, class PackingType, class Law>
   fill_grain_rows(packing, rows);
   auto const nobody = static_cast<std::int32_t>(fill_ghost_rows(packing, rows));
 
+  // Dashpots look at the last move however often they are asked, springs only once.
+  LastMove<dim> const move = packing.last_move.answered && !Law::needs.motion ? LastMove<dim>{} : packing.last_move;
+  Lanes const unanswered = constant<Lanes>(packing.last_move.answered ? 0.0 : 1.0);
+  packing.last_move.answered = true;
   std::array<Lanes, axes * axes> affine;
   for (int a = 0; a < dim; ++a) {
-    for (int b = 0; b < dim; ++b) affine[static_cast<std::size_t>(a * dim + b)] = constant<Lanes>(strain_step(a, b));
+    for (int b = 0; b < dim; ++b) affine[static_cast<std::size_t>(a * dim + b)] = constant<Lanes>(move.gradient(a, b));
   }
-  auto const affine_turn = detail::affine_turn<dim, Lanes>(strain_step);
-  Lanes const step = constant<Lanes>(time_step);
+  auto const affine_turn = detail::affine_turn<dim, Lanes>(move.gradient);
+  Lanes const step = constant<Lanes>(move.duration);
 
   detail::LaneSums<dim, Lanes> sums;
   std::array<std::int32_t, width> last_first{};
@@ -94,6 +95,10 @@ template <Observe what, class PackingType, class Law>
       for (std::size_t a = 0; a < axes; ++a) meeting[a] = motion[a] + swing_other[a] - swing_one[a];
       if constexpr (Law::needs.shear) {
         approach.slip = tangential_part(meeting, n);
+        if constexpr (Law::needs.motion) {
+          approach.sweep = approach.slip;
+          approach.slip = scaled(approach.slip, unanswered);
+        }
         detail::load_tangential(pairs.shear, start, memory.shear);
         if constexpr (dim == 3) carry_to_frame(memory.shear, detail::mean(turn_one, turn_other), n);
       }
@@ -105,6 +110,7 @@ template <Observe what, class PackingType, class Law>
     }
     if constexpr (Law::needs.moment) {
       approach.roll = rolling_part(detail::difference(turn_other, turn_one), n);
+      if constexpr (Law::needs.motion) approach.roll = scaled(approach.roll, unanswered);
       detail::load_tangential(pairs.moment, start, memory.moment);
       if constexpr (dim == 3) carry_to_frame(memory.moment, detail::mean(turn_one, turn_other), n);
     }

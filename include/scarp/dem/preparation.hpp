@@ -41,7 +41,7 @@ struct IsotropicPreparation {
       law.friction_coefficient() = final_friction;
       verdict = relaxation.reach(stepper, cloud, law, loading);
     }
-    cloud.rest();
+    if (Verdict const stopped = stepper.stop(cloud, law); !stopped.acceptable()) verdict = stopped;
     return {std::move(cloud), verdict};
   }
 };
@@ -63,8 +63,8 @@ struct OneDimensionalCompression {
     std::vector<Prepared<PackingType>> column;
     for (double const pressure : vertical_pressures) {
       loading.controls.front().target = -require_positive("vertical pressure", pressure);
-      Verdict const verdict = servo.reach(stepper, packing, law, loading);
-      packing.rest();
+      Verdict verdict = servo.reach(stepper, packing, law, loading);
+      if (Verdict const stopped = stepper.stop(packing, law); !stopped.acceptable()) verdict = stopped;
       column.push_back({packing, verdict});
       if (!verdict.acceptable()) break;
     }

@@ -60,7 +60,7 @@ class TimeStepper {
                StepObservation<dim>* observed = nullptr) {
     if (Verdict const verdict = refresh(packing, law); !verdict.acceptable()) return verdict;
     double const time_step = time_step_share * packing.pairs.critical_step;
-    ContactSums<dim> const sums = pair_forces<what>(packing, law, strain_step, time_step, scratch_);
+    ContactSums<dim> const sums = pair_forces<what>(packing, law, scratch_);
     if constexpr (what != Observe::nothing) *observed = observe(packing, sums);
     Tensor<dim> const cell_step = exponential(strain_step);
     auto const energies = move_grains<what>(packing, cell_step, time_step, strain_step);
@@ -69,16 +69,25 @@ class TimeStepper {
       observed->kinetic_energy = energies.kinetic;
     }
     packing.cell = (cell_step * packing.cell).eval();
+    packing.last_move = {strain_step, time_step};
     packing.pairs.drift += strain_step.norm() * (2.0 * packing.population->largest_radius() + packing.pairs.skin);
     return {};
   }
 
-  /// Stress and balance of the packing as it stands; no grain moves, but remembered normals and
-  /// shear limits are brought up to date and an old pair list is renewed.
+  /// Stress and balance of the packing as it stands; no grain moves, but contacts are brought up to date, which the next
+  /// step would do in the same way, and an old pair list is renewed.
   Verdict observe(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
     if (Verdict const verdict = refresh(packing, law); !verdict.acceptable()) return verdict;
-    observed = observe(packing, pair_forces<Observe::balance>(packing, law, Tensor<dim>::Zero(), 0.0, scratch_));
+    observed = observe(packing, pair_forces<Observe::balance>(packing, law, scratch_));
     return {};
+  }
+
+  /// Takes the grains' velocities away, after the contacts have answered to the last move.
+  Verdict stop(PackingType& packing, Law const& law) {
+    StepObservation<dim> unused;
+    Verdict const verdict = observe(packing, law, unused);
+    packing.rest();
+    return verdict;
   }
 
  private:

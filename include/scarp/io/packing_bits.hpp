@@ -65,6 +65,10 @@ class BitWriter {
     (*this)("content", population->content());
     (*this)("sizes", population->sizes());
   }
+  template <int Dim>
+  void operator()(std::string_view, LastMove<Dim> const& move) {
+    move.members(move, *this);
+  }
   template <class Shape, class Law, class Scalar>
   void operator()(std::string_view, NearPairs<Shape, Law, Scalar> const& pairs) {
     pairs.members(pairs, *this);
@@ -149,6 +153,10 @@ class BitReader {
           "saved",
           content, population->content());
     }
+  }
+  template <int Dim>
+  void operator()(std::string_view, LastMove<Dim>& move) {
+    move.members(move, *this);
   }
   template <class Shape, class Law, class Scalar>
   void operator()(std::string_view, NearPairs<Shape, Law, Scalar>& pairs) {

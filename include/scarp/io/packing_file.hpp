@@ -14,7 +14,7 @@ namespace detail {
 /// A file is: magic, order of bytes, version, length of the payload, layout, payload, hash of all before.
 inline constexpr std::string_view packing_magic = "SCARPPAK";
 inline constexpr std::uint32_t byte_order_mark = 0x01020304U;
-inline constexpr std::uint32_t packing_version = 1;
+inline constexpr std::uint32_t packing_version = 2;
 
 struct LayoutEntry {
   std::string_view what;
