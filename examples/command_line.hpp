@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace examples {
 
@@ -23,6 +24,31 @@ inline CLI::Validator number_from(double least, bool inclusive, double most) {
                                   inclusive ? "from" : "above", least, most);
       },
       text);
+}
+
+/// What stands between the commas; CLI11's own delimiter drops what is empty.
+inline std::vector<std::string> list_items(std::string const& given) {
+  std::vector<std::string> items(1);
+  for (char const letter : given) {
+    if (letter == ',') {
+      items.emplace_back();
+    } else {
+      items.back() += letter;
+    }
+  }
+  return items;
+}
+
+/// Checks a list a,b,c item by item.
+inline CLI::Validator each_of_list(CLI::Validator const& check) {
+  return CLI::Validator(
+      [=](std::string& given) {
+        for (auto& item : list_items(given)) {
+          if (auto const problem = check(item); !problem.empty()) return problem;
+        }
+        return std::string();
+      },
+      check.get_description());
 }
 
 /// Why a folder cannot take results, or nothing. The folder itself is made when results are written; what it lies in must

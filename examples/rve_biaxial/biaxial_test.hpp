@@ -41,6 +41,7 @@ struct Row {
 };
 
 struct Result {
+  double preparation_friction = 0.0;
   std::uint64_t seed = 0;
   scarp::Verdict prepared;
   scarp::Verdict sheared;
@@ -97,7 +98,12 @@ inline void compress(Packing packing, Choice const& choice, Result& result) {
 }
 
 inline Result run_seed(Choice const& choice, std::uint64_t seed) {
-  Result result{.seed = seed, .prepared = {}, .sheared = {}, .consolidated = {}, .rows = {}};
+  Result result{.preparation_friction = choice.preparation_friction,
+                .seed = seed,
+                .prepared = {},
+                .sheared = {},
+                .consolidated = {},
+                .rows = {}};
   auto prepared = consolidated_packing(choice, seed);
   result.prepared = prepared.verdict;
   result.consolidated = prepared.packing;

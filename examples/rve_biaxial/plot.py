@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSL-1.0
-"""plot.py OUTPUT_DIR: the packing and the drained biaxial test, in the manner of the study's fig. 1."""
+"""plot.py OUTPUT_DIR: the packing and the drained biaxial test, in the manner of the study's fig. 1; with several
+packings strength, dilation and fabric over their void ratio."""
 
+import itertools
 import pathlib
 import sys
 
@@ -8,6 +10,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import numpy as np
 import scarp_figures as figures
+import void_ratio_figures
 from scarp_figures import plt
 
 STUDY_FRICTION_ANGLE = 30.8  # [deg], read off the study's fig. 1b by its authors, sec. 3.1
@@ -23,69 +26,77 @@ def stress_ratio_at(friction_angle):
     return (1.0 + sine) / (1.0 - sine)
 
 
-def friction_angle_at(stress_ratio):
-    """[deg], the study's eq. 8"""
-    return np.degrees(np.arcsin((stress_ratio - 1.0) / (stress_ratio + 1.0)))
-
-
 def runs_of(table):
-    """One table for each seed, points in order of axial strain."""
-    seeds = table.get("seed", np.zeros(len(table["axial_strain"])))
-    for seed in np.unique(seeds):
-        rows = np.flatnonzero(seeds == seed)
+    """{preparation friction: one table for each seed, points in order of axial strain}"""
+    found = {}
+    pairs = np.column_stack([table["preparation_friction"], table["seed"]])
+    for friction, seed in np.unique(pairs, axis=0):
+        rows = np.flatnonzero((pairs[:, 0] == friction) & (pairs[:, 1] == seed))
         rows = rows[np.argsort(table["axial_strain"][rows], kind="stable")]
-        yield {name: values[rows] for name, values in table.items()}
+        found.setdefault(friction, []).append({name: values[rows] for name, values in table.items()})
+    return found
 
 
-def mean_curve(runs, quantity):
-    """Mean over the seeds, as far as all of them have come."""
+def on_one_grid(runs, quantity):
+    """Axial strain and one line of values for each run, as far as all of them have come."""
     first = max(run["axial_strain"][0] for run in runs)
     last = min(run["axial_strain"][-1] for run in runs)
     strain = np.linspace(first, last, 400)
-    return strain, np.mean([np.interp(strain, run["axial_strain"], quantity(run)) for run in runs], axis=0)
+    return strain, np.array([np.interp(strain, run["axial_strain"], quantity(run)) for run in runs])
 
 
-def smoothed_angle(summary):
-    """What summary.json says about the peak friction angle with the run's own smoothing, or None."""
+def smoothed_angle(summary, friction):
+    """What summary.json says about the peak friction angle with the run's own smoothing, or nothing."""
     choice = summary.get("choice", {}).get("smoothing")
-    for entry in summary.get("windows", []):
-        angle = {key: figures.finite(value) for key, value in entry.get("phi_max", {}).items()}
-        if entry.get("window") == choice and angle.get("mean") is not None:
-            spread = f" ± {angle['standard_deviation']:.1f}" if angle.get("standard_deviation") else ""
-            return f"smoothed over {100.0 * choice:g} % strain: {angle['mean']:.1f}{spread}°"
-    return None
+    for packings in summary.get("preparation_frictions", []):
+        for entry in packings["windows"]:
+            angle = {key: figures.finite(value) for key, value in entry["phi_max"].items()}
+            if packings["preparation_friction"] == friction and entry["window"] == choice and angle["mean"] is not None:
+                spread = f" ± {angle['standard_deviation']:.1f}" if angle["standard_deviation"] else ""
+                return f", {angle['mean']:.1f}{spread}° (window {100.0 * choice:g} %)"
+    return ""
+
+
+def draw_runs(axes, runs, quantity, colour, label, alone):
+    """Mean of the packings; each of them where they are `alone`, else a band of one standard deviation."""
+    strain, values = on_one_grid(runs, quantity)
+    if alone:
+        for run in runs:
+            axes.plot(100.0 * run["axial_strain"], quantity(run), color=figures.SKY, linewidth=0.6)
+        axes.plot([], [], color=figures.SKY, linewidth=0.6, label="one packing")
+    elif len(runs) > 1:
+        spread = values.std(axis=0, ddof=1)
+        axes.fill_between(100.0 * strain, values.mean(axis=0) - spread, values.mean(axis=0) + spread, color=colour,
+                          alpha=0.2, linewidth=0)
+    axes.plot(100.0 * strain, values.mean(axis=0), color=colour, linewidth=2.0 if alone else 1.5, label=label)
 
 
 def biaxial(folder):
-    table = figures.read_csv(folder / "biaxial.csv",
-                             ["axial_strain", "volumetric_strain", "axial_stress", "lateral_stress"])
+    table = figures.read_csv(folder / "biaxial.csv", ["preparation_friction", "seed", "axial_strain",
+                                                      "volumetric_strain", "axial_stress", "lateral_stress"])
     with np.errstate(divide="ignore", invalid="ignore"):
         table["stress_ratio"] = table["axial_stress"] / table["lateral_stress"]
-    runs = list(runs_of(table))
-    fig, (stress, volume) = plt.subplots(2, 1, figsize=(5.2, 6.2), sharex=True, height_ratios=(3, 2))
-    for axes, quantity in ((stress, lambda run: run["stress_ratio"]),
-                           (volume, lambda run: 100.0 * run["volumetric_strain"])):
-        for k, run in enumerate(runs):
-            axes.plot(100.0 * run["axial_strain"], quantity(run), color=figures.SKY, linewidth=0.6,
-                      label="one packing" if k == 0 else None)
-        strain, mean = mean_curve(runs, quantity)
-        axes.plot(100.0 * strain, mean, color=figures.BLUE, linewidth=2.2, label=f"mean of {len(runs)}")
-        if axes is stress and np.isfinite(mean).any():
-            peak = np.nanargmax(mean)
-            angle = friction_angle_at(mean[peak])
-            axes.plot(100.0 * strain[peak], mean[peak], "o", color=figures.VERMILION, zorder=5,
-                      label=f"peak of the mean: {mean[peak]:.2f} ({angle:.1f}°)")
-    smoothed = smoothed_angle(figures.read_summary(folder))
-    if smoothed is not None:
-        stress.plot([], [], " ", label=smoothed)
+    groups = runs_of(table)
+    summary = figures.read_summary(folder)
+    colours = [figures.BLUE, figures.GREEN, figures.ORANGE, figures.VERMILION, figures.PURPLE, figures.GREY]
+    fig, (stress, volume) = plt.subplots(2, 1, figsize=(5.6, 6.6), sharex=True, height_ratios=(3, 2))
+    for (friction, runs), colour in zip(groups.items(), itertools.cycle(colours)):
+        label = f"preparation friction {friction:g}{smoothed_angle(summary, friction)}"
+        draw_runs(stress, runs, lambda run: run["stress_ratio"], colour, label, len(groups) == 1)
+        draw_runs(volume, runs, lambda run: 100.0 * run["volumetric_strain"], colour, None, len(groups) == 1)
     stress.axhline(stress_ratio_at(STUDY_FRICTION_ANGLE), color=figures.BLACK, linewidth=0.9, linestyle="--",
                    label=f"study's peak friction angle, {STUDY_FRICTION_ANGLE}°")
     volume.axhline(0.0, color=figures.BLACK, linewidth=0.8)
     stress.set(ylabel="axial over lateral stress [-]", title="Drained biaxial compression")
+    stress.margins(y=0.08)
     volume.set(xlabel="axial strain [%]", ylabel="volumetric strain [%]\n(contraction positive)")
-    stress.legend(loc="lower right")
+    volume.legend(*stress.get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, -0.25))
     return fig
 
 
 if __name__ == "__main__":
-    figures.draw_all({"packing": packing, "biaxial": biaxial})
+    drawn = {"packing": packing, "biaxial": biaxial}
+    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) == 2 else None
+    if folder and len(figures.read_summary(folder).get("packings", [])) > 1:
+        drawn.update(strength=void_ratio_figures.strength, fabric=void_ratio_figures.fabric)
+    figures.draw_all(drawn)

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
 // How strong and how dilatant is the study's sand? Consolidates 400 ellipses and compresses them in a drained biaxial test.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <thread>
 
 #include "../command_line.hpp"
 #include "report.hpp"
+#include "tables.hpp"
 
 namespace {
 
 struct Options {
   rve_biaxial::Choice choice;
+  std::vector<std::string> frictions{fmt::format("{}", choice.preparation_friction)};  ///< as given
+  std::vector<double> preparation_frictions{};                                         ///< what they say
   int seeds = 5;
   std::uint64_t seed = 1;
   double smoothing = 0.05;
@@ -26,9 +31,9 @@ void declare_options(CLI::App& app, Options& options) {
   app.add_option("--seeds", options.seeds, "number of packings")->check(CLI::Range(1, 10'000));
   app.add_option("--seed", options.seed, "seed of the first packing; the others follow")
       ->check(number_from(0.0, true, 1e15));
-  app.add_option("--preparation-friction", choice.preparation_friction,
-                 "friction during consolidation, sets the density")
-      ->check(number_from(0.0, true, 10.0));
+  app.add_option("--preparation-friction", options.frictions,
+                 "friction during consolidation, sets the density; a list a,b,c runs all seeds at each")
+      ->check(examples::each_of_list(number_from(0.0, true, 10.0)));
   app.add_option("--pressure", choice.pressure, "of the consolidation and of the lateral stress [Pa]")
       ->check(number_from(0.0, false, 1e9));
   app.add_option("--strain", choice.strain, "axial logarithmic strain at the end")->check(number_from(0.0, false, 2.0));
@@ -43,19 +48,25 @@ void declare_options(CLI::App& app, Options& options) {
   app.option_defaults()->always_capture_default();
 }
 
-/// One result per seed in the order of the seeds, whichever thread worked on it.
+/// One result per friction and seed in their order, whichever thread worked on it.
 std::vector<rve_biaxial::Result> run_all(Options const& options) {
-  auto const count = static_cast<std::size_t>(options.seeds);
+  auto const seeds = static_cast<std::size_t>(options.seeds);
+  std::size_t const count = options.preparation_frictions.size() * seeds;
   std::vector<rve_biaxial::Result> results(count);
   std::vector<std::exception_ptr> problems(count);
   std::atomic<std::size_t> next{0};
+  auto const run = [&](std::size_t k) {
+    auto choice = options.choice;
+    choice.preparation_friction = options.preparation_frictions[k / seeds];
+    return rve_biaxial::run_seed(choice, options.seed + k % seeds);
+  };
   {
     std::vector<std::jthread> workers;
     for (std::size_t w = 0; w < std::min<std::size_t>(count, std::max(1U, std::thread::hardware_concurrency())); ++w) {
       workers.emplace_back([&] {
         for (std::size_t k = next++; k < count; k = next++) {
           try {
-            results[k] = rve_biaxial::run_seed(options.choice, options.seed + k);
+            results[k] = run(k);
           } catch (...) {
             problems[k] = std::current_exception();
           }
@@ -77,14 +88,29 @@ void require_room_for_window(Options const& options) {
   }
 }
 
+/// \throws InputError for a friction that is given twice
+void read_frictions(Options& options) {
+  for (auto const& given : options.frictions) {
+    for (auto const& item : examples::list_items(given))
+      options.preparation_frictions.push_back(std::strtod(item.c_str(), nullptr));
+  }
+  auto frictions = options.preparation_frictions;
+  std::sort(frictions.begin(), frictions.end());
+  auto const twice = std::adjacent_find(frictions.begin(), frictions.end());
+  if (twice == frictions.end()) return;
+  scarp::refuse("preparation friction {} is given twice (its packings would count twice): give each once", *twice);
+}
+
 /// \throws InputError when a packing could not be prepared or sheared
 void require_success(std::vector<rve_biaxial::Result> const& results, Options const& options) {
   for (auto const& result : results) {
     auto const& verdict = result.prepared.acceptable() ? result.sheared : result.prepared;
     if (verdict.acceptable()) continue;
-    scarp::refuse("seed {} ended with {} ({}) during its {}: change the pressure, the number of grains or the rate",
-                  result.seed, scarp::name(verdict.status), scarp::name(verdict.reason),
-                  result.prepared.acceptable() ? "shearing" : "consolidation");
+    scarp::refuse(
+        "seed {} at preparation friction {} ended with {} ({}) during its {}: change the pressure, the number of "
+        "grains or the rate",
+        result.seed, result.preparation_friction, scarp::name(verdict.status), scarp::name(verdict.reason),
+        result.prepared.acceptable() ? "shearing" : "consolidation");
   }
   for (auto const& result : results) {
     if (!std::isfinite(rve_biaxial::peak_angles(result.rows, options.smoothing).friction_angle)) {
@@ -92,27 +118,6 @@ void require_success(std::vector<rve_biaxial::Result> const& results, Options co
                     options.choice.strain_per_step);
     }
   }
-}
-
-void print_table(std::vector<rve_biaxial::Result> const& results, Options const& options) {
-  fmt::print("{:>8} {:>8} {:>8} {:>9} {:>9}   peaks through a window of {} axial strain\n", "seed", "e", "Z", "phi_max",
-             "psi_max", options.smoothing);
-  for (auto const& result : results) {
-    auto const peak = rve_biaxial::peak_angles(result.rows, options.smoothing);
-    fmt::print("{:>8} {:>8.4f} {:>8.3f} {:>9.2f} {:>9.2f}\n", result.seed, result.rows.front().void_ratio,
-               result.rows.front().coordination, peak.friction_angle, peak.dilation_angle);
-  }
-  for (double const window : rve_biaxial::all_windows(options.smoothing)) {
-    auto const [phi, psi] = rve_biaxial::peak_spreads(results, window);
-    fmt::print("window {:<6} phi_max {:6.2f} +- {:.2f}   psi_max {:6.2f} +- {:.2f} degrees\n", window, phi.mean,
-               phi.deviation, psi.mean, psi.deviation);
-  }
-  auto const secant = rve_biaxial::spread_over(
-      results, [](auto const& result) { return rve_biaxial::secant_dilation_angle(result.rows); });
-  fmt::print("secant from largest contraction to the end: psi {:.2f} +- {:.2f} degrees\n", secant.mean,
-             secant.deviation);
-  fmt::print("the study:    phi_max  30.8          psi_max   6.6          (e 0.160 to 0.179, window not stated)\n");
-  fmt::print("SudoDEM:      phi_max  33.8                                 (e 0.173)\n");
 }
 
 }  // namespace
@@ -127,11 +132,12 @@ int main(int argc, char** argv) {
     return app.exit(problem, std::cout, std::cerr) == 0 ? 0 : 2;
   }
   try {
+    read_frictions(options);
     require_room_for_window(options);
     auto const results = run_all(options);
     require_success(results, options);
     rve_biaxial::write_all(options.output, options.choice, results, options.smoothing);
-    print_table(results, options);
+    rve_biaxial::print_tables(results, options.smoothing);
   } catch (std::exception const& problem) {
     fmt::print(stderr, "rve_biaxial: {}\n", problem.what());
     return 1;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "biaxial_test.hpp"
@@ -81,7 +82,7 @@ inline Spread spread_of(std::vector<double> const& values) {
 }
 
 template <class Measure>
-Spread spread_over(std::vector<Result> const& results, Measure const& measure) {
+Spread spread_over(std::span<Result const> results, Measure const& measure) {
   std::vector<double> values;
   for (auto const& result : results) values.push_back(measure(result));
   return spread_of(values);
@@ -92,7 +93,7 @@ struct PeakSpreads {
   Spread dilation;
 };
 
-inline PeakSpreads peak_spreads(std::vector<Result> const& results, double window) {
+inline PeakSpreads peak_spreads(std::span<Result const> results, double window) {
   return {spread_over(results, [&](Result const& result) { return peak_angles(result.rows, window).friction_angle; }),
           spread_over(results, [&](Result const& result) { return peak_angles(result.rows, window).dilation_angle; })};
 }

@@ -64,7 +64,8 @@ struct Replay {
   std::string cell{};
   double density = 2650.0;
   double thickness = 0.2;
-  double tolerance = 1e-6;  ///< of the file's overlaps against the packing's, over the smallest radius
+  std::optional<double> relaxation{};  ///< isotropic pressure before the path [Pa]
+  double tolerance = 1e-6;             ///< of the file's overlaps against the packing's, over the smallest radius
   std::string out{};
 };
 

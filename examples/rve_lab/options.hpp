@@ -107,6 +107,10 @@ inline void declare_replay(CLI::App& app, Replay& replay) {
   app.add_option("--friction", replay.material.friction, "instead of tan_phi")->check(not_negative(1e3));
   app.add_option("--density", replay.density, "of the grains [kg/m3]")->check(positive(1e9));
   app.add_option("--thickness", replay.thickness, "out of plane [m]")->check(positive(1e3));
+  app.add_option("--relax", replay.relaxation,
+                 "isotropic pressure under which the packing comes to rest before the path [Pa], no shear strain: for "
+                 "files without shear forces")
+      ->check(positive(1e12));
   app.add_option("--tolerance", replay.tolerance, "of the overlaps in --contacts, over the smallest radius")
       ->check(positive(1.0));
   app.add_option("--out", replay.out, "table to write")->required();

@@ -5,6 +5,7 @@
 
 #include "material.hpp"
 #include "replay_input.hpp"
+#include "scarp/dem/servo.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/io/contact_reader.hpp"
 #include "scarp/io/csv.hpp"
@@ -56,6 +57,24 @@ std::vector<double> replay_row(Lab const& lab, PathKind const& path, long step) 
           deepest_overlap(lab.packing(), lab.law())};
 }
 
+/// Lets a packing whose shear forces are not known find its balance: both normal stresses held, no shear strain.
+/// pressure [Pa], positive
+/// \throws InputError for a packing that does not come to rest
+template <class PackingType>
+void relax(PackingType& packing, scarp::LinearFrictional const& law, double pressure) {
+  scarp::Loading<2> loading;
+  for (int axis = 0; axis < 2; ++axis) loading.controls.push_back(scarp::component_control<2>(axis, -pressure));
+  scarp::TimeStepper<PackingType> stepper;
+  double const before = packing.void_ratio();
+  auto verdict = scarp::Servo{}.reach(stepper, packing, law, loading);
+  if (auto const stopped = stepper.stop(packing, law); !stopped.acceptable()) verdict = stopped;
+  if (!verdict.acceptable()) {
+    scarp::refuse("the packing does not come to rest at {} Pa ({}): check cell, stiffness and pressure", pressure,
+                  scarp::name(verdict.reason));
+  }
+  fmt::print("relaxed at {} Pa: void ratio {:.8f}, {:.8f} in the file\n", pressure, packing.void_ratio(), before);
+}
+
 /// \throws InputError for files that are wrong, and when the packing cannot go on; the rows so far are then on disk
 template <class PackingType>
 void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
@@ -64,6 +83,7 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
   using Lab = Specimen<PackingType, scarp::Observe::balance>;
   auto named = scarp::read_packing<PackingType>(particles, cell, choice.density, choice.thickness);
   if (contacts && contacts->has("ftx")) scarp::read_contacts(named, *contacts, law, choice.tolerance);
+  if (choice.relaxation) relax(named.packing, law, *choice.relaxation);
   PathKind const& path = path_named(choice.path.name);
   Lab lab(std::move(named.packing), law, path, choice.path.strain_step, choice.path.held);
   auto const first = scarp::balance(lab.packing(), law);

@@ -97,6 +97,16 @@ def check_bad_input():
     check_refusal(FAULT, "tip close to the side", "--tip", "22.9", "22.9")
     check_refusal(FAULT, "a single grain", "--grains", "1", "fault_rupture: ")
     check_refusal(BIAXIAL, "a window wider than the test", "--smoothing", "0.05", "window")
+    for title, value, named in (("negative friction in a list", "0.1,-1", "'-1' is out of range"),
+                                ("text for a friction", "a", "'a' is out of range"),
+                                ("text in a list", "0.1,b", "'b' is out of range"),
+                                ("NaN in a list", "nan,0.1", "'nan' is out of range"),
+                                ("a list that starts with nothing", ",0.1", "--preparation-friction"),
+                                ("a hole in a list", "0.1,,0.2", "--preparation-friction"),
+                                ("a friction twice", "0.1,0.2,0.1", "preparation friction 0.1 is given twice")):
+        check_refusal(BIAXIAL, title, "--preparation-friction", value, named)
+    check_refusal(BIAXIAL, "a bad list in the config file", "--config", "c.ini", "'-1' is out of range",
+                  {"c.ini": "preparation-friction = 0.1,-1\n"})
 
 
 def check_help():
@@ -118,6 +128,26 @@ def check_config():
             expect(summary["seed"] == 2, "the config file does not set an option")
             expect(summary["grains_per_rve"] == 36, "the command line does not override the config file")
             expect(abs(summary["throw_over_depth"] - 0.001) < 1e-9, "the config file does not set the throw")
+
+
+def check_list():
+    """Every friction with every seed, in order, the same as each friction by itself."""
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        tiny = command(TINY_BIAXIAL, {"--seeds": "2"})
+        (scratch / "c.ini").write_text("preparation-friction = 0.1,0.3\n")
+        rows = {}
+        for name, given in (("0.1", ["--preparation-friction", "0.1"]), ("0.3", ["--preparation-friction", "0.3"]),
+                            ("list", ["--preparation-friction", "0.1,0.3"]), ("file", ["--config", "c.ini"])):
+            code, said = run(BIAXIAL, *tiny, *given, "--output", name, folder=scratch)
+            expect(code == 0, f"frictions {given}: ended with {code}\n{said}")
+            rows[name] = (scratch / name / "biaxial.csv").read_text().splitlines(keepends=True) if code == 0 else [""]
+        expect(rows["list"] == rows["0.1"] + rows["0.3"][1:], "a list of frictions is not each of them in turn")
+        expect(rows["list"] == rows["file"], "a list of frictions from a config file is another one")
+        summary = json.loads((scratch / "list/summary.json").read_text())
+        told = [entry["preparation_friction"] for entry in summary["preparation_frictions"]]
+        expect(told == [0.1, 0.3], f"summary.json tells of the frictions {told}")
+        expect(summary["over_void_ratio"], "summary.json holds no line over the void ratio")
 
 
 def check_stopped(title, code, said, folder):
@@ -189,7 +219,7 @@ def check_repeat():
 if not (FAULT.is_file() and BIAXIAL.is_file()):
     print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_help, check_bad_input, check_config, check_repeat, check_time_limit, check_interrupt):
+for check in (check_help, check_bad_input, check_config, check_list, check_repeat, check_time_limit, check_interrupt):
     started = time.monotonic()
     check()
     print(f"{check.__name__}: {time.monotonic() - started:.1f} s")

@@ -13,6 +13,7 @@ import time
 
 LAB = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "rve_lab"
 YADE = pathlib.Path(__file__).resolve().parents[1] / "reference" / "yade"
+SUDODEM = YADE.parent / "sudodem"
 CELL = "0.19516606047263926,0,0.0008502401980710722,0.19043137125613024"
 PRESSURE = 2e5  # [Pa]
 FABRIC = (0.5010209421, 0.0004253299)  # xx, xy of Yade's contacts, tests/reference/README.md
@@ -101,6 +102,21 @@ def check_held_stress(folder):
         expect(abs(row["sxx"] / -PRESSURE - 1.0) < 0.01, f"lateral stress {row['sxx']} at strain {row['strain']}")
 
 
+def check_relax(folder):
+    """Particles alone, without contacts, come to rest at the pressure that is asked for."""
+    particles = ["--particles", SUDODEM / "G_particles.csv", "--cell", "0.16663676021512222,0,0,0.16670996462691512"]
+    path = ["--path", "biaxial", "--strain", "1e-3", "--strain-step", "1e-5", "--out", "relaxed.csv"]
+    code, said = run("replay", *particles, *path, "--relax", "2e5", folder=folder)
+    expect(code == 0, f"--relax: ended with {code}\n{said}")
+    rows = read(folder / "relaxed.csv") if code == 0 else []
+    for name in ("sxx", "syy"):
+        expect(rows and abs(rows[0][name] / -PRESSURE - 1.0) < 2e-4, f"--relax: {name} is {rows[:1]}")
+    expect(rows and abs(rows[0]["void_ratio"] - 0.17294) < 1e-3, f"--relax: void ratio of {rows[:1]}")
+    for pressure in ("-1", "0", "nan", "much"):
+        code, said = run("replay", *particles, *path, "--relax", pressure, folder=folder)
+        expect(code > 0 and "--relax" in said, f"--relax {pressure}: ended with {code}\n{said}")
+
+
 def check_round_trip(folder):
     """A prepared packing is the same from its exact file and, to the digits of the tables, from its tables."""
     code, said = run("prepare", "--shape", "ellipse", "--grains", "80", "--target-void-ratio", "0.2", "--output",
@@ -162,7 +178,7 @@ def check_early_end(folder):
 if not LAB.is_file():
     print(f"skipped: there is no '{LAB}' (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_paths, check_cell, check_held_stress, check_round_trip, check_refusals, check_early_end):
+for check in (check_paths, check_cell, check_held_stress, check_relax, check_round_trip, check_refusals, check_early_end):
     started = time.monotonic()
     with tempfile.TemporaryDirectory() as scratch:
         check(pathlib.Path(scratch))

@@ -20,6 +20,22 @@ struct ShapeWithoutTouch : Ellipse {
 };
 static_assert(!scarp::ParticleShape<ShapeWithoutTouch>, "a shape that cannot tell its overlap must be refused");
 
+/// Its size is said to have two numbers, its pose wants three.
+struct ShapeOfAnotherSize : scarp::Ellipse {
+  template <class T>
+  static std::array<T, 3> pose(std::array<T, 3> const&, std::array<T, 2> const&);
+};
+struct ShapeWithoutPose : scarp::Ellipse {
+  static void pose();
+};
+struct ShapeOfPartsWithPoseOfOne : scarp::Ellipse {
+  static constexpr int part_count = 2;
+};
+static_assert(scarp::HasPose<scarp::Ellipse>);
+static_assert(!scarp::HasPose<ShapeOfAnotherSize>, "a pose from other numbers than the size must be refused");
+static_assert(!scarp::HasPose<ShapeWithoutPose>, "a shape that makes no pose must be refused");
+static_assert(!scarp::HasPose<ShapeOfPartsWithPoseOfOne>, "a shape of parts whose pose takes none must be refused");
+
 struct Placed {
   double a, b, angle;
   std::array<double, 3> pose() const { return Ellipse::pose<double>({a, b}, {std::cos(angle), std::sin(angle)}); }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "scarp/contact/contact_law.hpp"
+#include "scarp/core/select.hpp"
 
 namespace scarp {
 
@@ -14,21 +14,18 @@ namespace scarp {
 /// mean of old and new force as the force of the step the energy balance closes exactly
 template <int Dim, class T>
 T coulomb_slide(Tangential<Dim, T>& force, Tangential<Dim, T> const& slip, T const& stiffness, T const& limit) {
-  using std::max;
-  using std::min;
   using std::sqrt;
-  T const tiny = constant<T>(1e-30);  // keeps 0/0 away where there is neither force nor stiffness
-  T const halved_compliance = constant<T>(0.5) / max(stiffness, tiny);
+  T const halved_compliance = constant<T>(0.5) / at_least(stiffness, tiny<T>());
   if constexpr (Dim == 2) {
     T const trial = force - stiffness * slip;
-    T const limited = max(min(trial, limit), -limit);
+    T const limited = at_least(at_most(trial, limit), -limit);
     T const lost = (force + limited) * (trial - limited) * halved_compliance;
     force = limited;
     return lost;
   } else {
     std::array<T, 3> trial;
     for (std::size_t k = 0; k < 3; ++k) trial[k] = force[k] - stiffness * slip[k];
-    T const scale = min(limit / sqrt(max(squared_size(trial), tiny)), constant<T>(1));
+    T const scale = at_most(limit / sqrt(at_least(squared_size(trial), tiny<T>())), constant<T>(1));
     T lost = constant<T>(0);
     for (std::size_t k = 0; k < 3; ++k) {
       T const limited = trial[k] * scale;

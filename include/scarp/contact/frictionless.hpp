@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
-
 #include "scarp/contact/contact_law.hpp"
+#include "scarp/core/select.hpp"
 
 namespace scarp {
 
@@ -15,16 +14,14 @@ struct Frictionless {
 
   template <int Dim, class T>
   ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
-    using std::max;
-    return {.normal = max(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0))};
+    return {.normal = at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0))};
   }
 
   ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
 
   template <int Dim, class T>
   T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const&) const {
-    using std::max;
-    T const closed = max(approach.overlap, constant<T>(0));
+    T const closed = at_least(approach.overlap, constant<T>(0));
     return constant<T>(normal_stiffness / 2.0) * closed * closed;
   }
 };

@@ -91,8 +91,8 @@ struct HertzMindlin {
  private:
   template <int Dim, class T>
   T shear_energy(Tangential<Dim, T> const& shear, T const& contact_radius) const {
-    T const tiny = constant<T>(1e-30);  // an open contact has neither force nor stiffness
-    return squared_size(shear) / at_least(constant<T>(16.0 * reduced_shear_modulus) * contact_radius, tiny);
+    // An open contact has neither force nor stiffness.
+    return squared_size(shear) / at_least(constant<T>(16.0 * reduced_shear_modulus) * contact_radius, tiny<T>());
   }
 
   /// Gives the remembered shear spring the new contact radius.
@@ -101,7 +101,7 @@ struct HertzMindlin {
   T resize(T const& contact_radius, Tangential<Dim, T> const& slip, ContactMemory<Dim, T>& memory) const {
     T const former_radius = memory.scalars[0];
     T const former_energy = shear_energy<Dim, T>(memory.shear, former_radius);
-    T const kept = at_most(contact_radius / at_least(former_radius, constant<T>(1e-30)), constant<T>(1));
+    T const kept = at_most(contact_radius / at_least(former_radius, tiny<T>()), constant<T>(1));
     T const work_of_former = inner_product(memory.shear, slip);
     memory.shear = scaled(memory.shear, kept);
     memory.scalars[0] = contact_radius;

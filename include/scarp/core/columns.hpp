@@ -4,7 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
+
+#include "scarp/core/aligned_vector.hpp"
 
 namespace scarp {
 
@@ -48,7 +49,7 @@ class Columns {
   friend bool operator==(Columns const&, Columns const&) = default;
 
  private:
-  std::vector<Scalar> values_;
+  AlignedVector<Scalar> values_;
   std::size_t rows_ = 0;
   std::size_t stride_ = 0;
 };

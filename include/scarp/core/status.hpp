@@ -23,6 +23,7 @@ enum class Reason : std::uint8_t {
   not_finite,        ///< NaN or infinity in state or answer
   too_deep,          ///< grains overlap more deeply than their curvature allows
   cell_collapsed,    ///< the periodic cell is inverted or thinner than a grain's diameter and the skin
+  lost_grain,        ///< a grain lies so many cells away that its place in the cell is round-off
   element_inverted,  ///< an element's Jacobian is not positive
   iterations_spent,  ///< the iteration limit was reached above the asked residual
   singular_system,   ///< the linear system could not be factorised
@@ -57,6 +58,7 @@ constexpr std::string_view name(Reason reason) {
     case Reason::not_finite: return "not_finite";
     case Reason::too_deep: return "too_deep";
     case Reason::cell_collapsed: return "cell_collapsed";
+    case Reason::lost_grain: return "lost_grain";
     case Reason::element_inverted: return "element_inverted";
     case Reason::iterations_spent: return "iterations_spent";
     case Reason::singular_system: return "singular_system";

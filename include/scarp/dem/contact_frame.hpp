@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "scarp/contact/contact_law.hpp"
+#include "scarp/core/select.hpp"
 #include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {
@@ -75,7 +75,6 @@ template <class T>
 void carry_to_frame(T&, T const&, std::array<T, 2> const&) {}
 template <class T>
 void carry_to_frame(std::array<T, 3>& remembered, std::array<T, 3> const& mean_turn, std::array<T, 3> const& normal) {
-  using std::max;
   using std::sqrt;
   T const twist = dot(mean_turn, normal);
   auto const turned = cross(normal, remembered);
@@ -83,8 +82,7 @@ void carry_to_frame(std::array<T, 3>& remembered, std::array<T, 3> const& mean_t
       tangential_part(std::array<T, 3>{remembered[0] + twist * turned[0], remembered[1] + twist * turned[1],
                                        remembered[2] + twist * turned[2]},
                       normal);
-  T const tiny = constant<T>(1e-30);  // keeps 0/0 away
-  T const scale = sqrt(squared_size(remembered) / max(squared_size(laid), tiny));
+  T const scale = sqrt(squared_size(remembered) / at_least(squared_size(laid), tiny<T>()));
   for (std::size_t k = 0; k < 3; ++k) remembered[k] = laid[k] * scale;
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
+#include "scarp/core/aligned_vector.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/dem/packing.hpp"
 
@@ -32,8 +32,8 @@ struct RowLayout {
 /// Scratch memory of the pair loop; one per thread, reused from call to call.
 template <class Scalar>
 struct PairScratch {
-  std::vector<Scalar> rows;
-  std::vector<Scalar> forces;
+  AlignedVector<Scalar> rows;
+  AlignedVector<Scalar> forces;
 };
 
 /// Writes the rows of every part of every grain.

@@ -44,25 +44,26 @@ struct NearPair {
 };
 
 /// The present list under the names that its pairs have in the new cell, sorted.
-template <class PackingType>
-std::vector<FormerPair<PackingType::dim>> former_pairs(PackingType const& packing,
-                                                       Renaming<PackingType::dim> const& renaming) {
-  constexpr int dim = PackingType::dim;
-  constexpr auto parts = static_cast<std::size_t>(part_count<typename PackingType::Shape>());
-  auto const& pairs = packing.pairs;
-  std::size_t const rows = packing.row_count();
-  std::vector<FormerPair<dim>> former;
-  former.reserve(pairs.count());
-  for (std::size_t p = 0; p < pairs.count(); ++p) {
-    auto const i = static_cast<std::size_t>(pairs.first[p]);
-    auto j = static_cast<std::size_t>(pairs.second[p]);
-    Vector<dim> shift = Vector<dim>::Zero();
+/// `owner_of`, `shift_of`: of ghosts; rows below `rows` are no ghosts
+template <int Dim>
+std::vector<FormerPair<Dim>> former_pairs(std::vector<std::int32_t> const& first,
+                                          std::vector<std::int32_t> const& second,
+                                          std::vector<std::int32_t> const& owner_of,
+                                          std::vector<std::array<std::int8_t, Dim>> const& shift_of, std::size_t rows,
+                                          Renaming<Dim> const& renaming) {
+  std::vector<FormerPair<Dim>> former;
+  former.reserve(first.size());
+  for (std::size_t p = 0; p < first.size(); ++p) {
+    auto const i = static_cast<std::size_t>(first[p]);
+    auto j = static_cast<std::size_t>(second[p]);
+    Vector<Dim> shift = Vector<Dim>::Zero();
     if (j >= rows) {
-      for (int a = 0; a < dim; ++a) shift(a) = pairs.ghost_shift[j - rows][static_cast<std::size_t>(a)];
-      j = static_cast<std::size_t>(pairs.ghost_owner[j - rows]);
+      for (int a = 0; a < Dim; ++a) shift(a) = shift_of[j - rows][static_cast<std::size_t>(a)];
+      j = static_cast<std::size_t>(owner_of[j - rows]);
     }
     shift = (renaming.old_to_new * shift).eval();
-    PairName<dim> name{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), {}};
+    std::size_t const parts = rows / renaming.moved.size();
+    PairName<Dim> name{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), {}};
     for (std::size_t a = 0; a < name.shift.size(); ++a) {
       name.shift[a] = static_cast<int>(std::lround(shift(static_cast<int>(a)))) + renaming.moved[j / parts][a] -
                       renaming.moved[i / parts][a];
@@ -87,43 +88,48 @@ FormerPair<Dim> const* find_former(std::vector<FormerPair<Dim>> const& former, P
 }
 
 /// Where the contact search starts: at the remembered normal, for a new pair along the line of centres.
-template <class PackingType>
-Point<PackingType::dim, double> start_normal(PackingType const& packing, FormerPair<PackingType::dim> const* former,
-                                             Point<PackingType::dim, double> const& branch, double distance) {
-  Point<PackingType::dim, double> start{};
+template <class Shape, class Normals>
+Point<Shape::dim, double> start_normal(Normals const& remembered, FormerPair<Shape::dim> const* former,
+                                       Point<Shape::dim, double> const& branch, double distance) {
+  Point<Shape::dim, double> start{};
   for (std::size_t a = 0; a < start.size(); ++a) {
     start[a] = distance > 0.0 ? branch[a] / distance : (a == 0 ? 1.0 : 0.0);
   }
-  if constexpr (PackingType::Shape::remembers_normal) {
+  if constexpr (Shape::remembers_normal) {
     if (former != nullptr) {
       double const sign = former->swapped ? -1.0 : 1.0;
       for (std::size_t a = 0; a < start.size(); ++a) {
-        start[a] = sign * static_cast<double>(packing.pairs.normal(former->row, static_cast<int>(a)));
+        start[a] = sign * static_cast<double>(remembered(former->row, static_cast<int>(a)));
       }
     }
   }
   return start;
 }
 
-/// All pairs whose gap is below `reach` [m], sorted by (first, second).
+/// Poses of all parts of all grains.
 template <class PackingType>
-std::vector<NearPair<PackingType::dim>> find_near_pairs(PackingType const& packing,
-                                                        GrainsAndImages<PackingType::dim> const& all,
-                                                        std::vector<FormerPair<PackingType::dim>> const& former,
-                                                        double reach) {
-  using Shape = typename PackingType::Shape;
-  constexpr int dim = PackingType::dim;
+std::vector<PoseOf<typename PackingType::Shape>> row_poses(PackingType const& packing) {
+  std::vector<PoseOf<typename PackingType::Shape>> poses(packing.row_count());
+  for (std::size_t row = 0; row < poses.size(); ++row) poses[row] = row_pose(packing, row);
+  return poses;
+}
+
+/// All pairs whose gap is below `reach` [m], sorted by (first, second). What a law remembers does not matter: compiled once
+/// for each shape.
+template <class Shape, class Scalar, class Normals>
+std::vector<NearPair<Shape::dim>> find_near_pairs(Population<Shape, Scalar> const& population,
+                                                  std::vector<PoseOf<Shape>> const& poses,
+                                                  GrainsAndImages<Shape::dim> const& all,
+                                                  std::vector<FormerPair<Shape::dim>> const& former,
+                                                  Normals const& remembered, double reach) {
+  constexpr int dim = Shape::dim;
   constexpr int parts = part_count<Shape>();
-  auto const& population = *packing.population;
-  std::size_t const grains = packing.grain_count();
+  std::size_t const grains = population.count();
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, GrainsAndImages<dim>>,
                                                    GrainsAndImages<dim>, dim, std::uint32_t>;
   Tree const tree(dim, all, nanoflann::KDTreeSingleIndexAdaptorParams(12));
   nanoflann::SearchParams unsorted;
   unsorted.sorted = false;
-
-  std::vector<decltype(row_pose(packing, 0))> poses(packing.row_count());
-  for (std::size_t row = 0; row < poses.size(); ++row) poses[row] = row_pose(packing, row);
 
   std::vector<NearPair<dim>> found;
   std::vector<std::pair<std::uint32_t, double>> hits;
@@ -149,7 +155,7 @@ std::vector<NearPair<PackingType::dim>> find_near_pairs(PackingType const& packi
           PairName<dim> name{static_cast<std::int32_t>(row), static_cast<std::int32_t>(partner_row), {}};
           for (std::size_t a = 0; a < branch.size(); ++a) name.shift[a] = partner.shift[a];
           auto const* const known = find_former(former, name);
-          auto const start = start_normal(packing, known, branch, std::sqrt(squared));
+          auto const start = start_normal<Shape>(remembered, known, branch, std::sqrt(squared));
           auto const touch = settled_touch<Shape>(poses[row], poses[partner_row], branch, start);
           if (touch.overlap < -reach) continue;
           found.push_back({name.first, static_cast<std::int32_t>(point) * parts + other, touch.normal, known});
@@ -158,6 +164,20 @@ std::vector<NearPair<PackingType::dim>> find_near_pairs(PackingType const& packi
     }
   }
   return found;
+}
+
+/// The pairs in another order: neighbours in the list have different grains, so that the pair loop need not wait for one
+/// pair's forces before it can add the next one's.
+template <int Dim>
+std::vector<NearPair<Dim>> interleaved(std::vector<NearPair<Dim>> const& sorted) {
+  constexpr std::size_t strands = 16;  // at least the lanes of a pack
+  std::size_t const stride = (sorted.size() + strands - 1) / strands;
+  std::vector<NearPair<Dim>> woven;
+  woven.reserve(sorted.size());
+  for (std::size_t begin = 0; begin < stride; ++begin) {
+    for (std::size_t at = begin; at < sorted.size(); at += stride) woven.push_back(sorted[at]);
+  }
+  return woven;
 }
 
 /// Only rows of images that some pair uses become ghosts, in their order.
@@ -215,16 +235,6 @@ void write_memory(NearPairs<Shape, Law, Scalar>& next, std::vector<NearPair<Shap
   }
 }
 
-template <class PackingType>
-bool positions_are_finite(PackingType const& packing) {
-  for (int a = 0; a < PackingType::dim; ++a) {
-    for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-      if (!std::isfinite(packing.position(i, a))) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace detail
 
 /// Whether the cell, with its base vectors reduced, is wider than two grains in touch and the reach of the search, so that
@@ -240,22 +250,36 @@ bool cell_is_wide_enough(PackingType const& packing, double reach) {
 /// Makes the list of pairs whose gap is below `skin` + `law_reach` [m] (nanoflann k-d tree over grains and ghosts), carrying
 /// over normals and memories of pairs that stay. The list is good until gaps have shrunk by the skin; `law_reach` is the gap
 /// across which the contact law acts. Reduces the cell and wraps positions on the way. Deterministic.
-/// \return failed / cell_collapsed for a cell too thin for its grains, failed / not_finite for positions that are no numbers
+/// \return failed / cell_collapsed for a cell too thin for its grains, failed / not_finite for positions that are no
+/// numbers, failed / lost_grain for one that is more than a million cells away
 template <class PackingType>
 Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0) {
   constexpr int dim = PackingType::dim;
+  using Scalar = typename PackingType::Scalar;
+  auto& pairs = packing.pairs;
   double const reach = skin + law_reach;
   if (!cell_is_wide_enough(packing, reach)) return {Status::failed, Reason::cell_collapsed};
-  if (!detail::positions_are_finite(packing)) return {Status::failed, Reason::not_finite};
-  detail::Renaming<dim> const renaming = detail::reduce_and_wrap(packing);
-  auto const former = detail::former_pairs(packing, renaming);
-  auto const all = detail::grains_and_images(packing, 2.0 * packing.population->largest_radius() + reach);
-  auto const found = detail::find_near_pairs(packing, all, former, reach);
+  auto places = detail::grain_places(packing);
+  for (auto const& place : places) {
+    if (!place.allFinite()) return {Status::failed, Reason::not_finite};
+  }
+  detail::Renaming<dim> renaming;
+  if (!detail::reduce_and_wrap(packing.cell, places, renaming)) return {Status::failed, Reason::lost_grain};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (int a = 0; a < dim; ++a) packing.position(i, a) = static_cast<Scalar>(places[i](a));
+  }
+  places = detail::grain_places(packing);  // as stored
+  auto const former = detail::former_pairs<dim>(pairs.first, pairs.second, pairs.ghost_owner, pairs.ghost_shift,
+                                                packing.row_count(), renaming);
+  auto const all =
+      detail::grains_and_images<dim>(packing.cell, places, 2.0 * packing.population->largest_radius() + reach);
+  auto const found = detail::interleaved(
+      detail::find_near_pairs(*packing.population, detail::row_poses(packing), all, former, pairs.normal, reach));
   decltype(packing.pairs) next;
   next.skin = skin;
   detail::write_members<part_count<typename PackingType::Shape>()>(next, found, all, packing.row_count());
-  detail::write_memory(next, found, packing.pairs);
-  packing.pairs = std::move(next);
+  detail::write_memory(next, found, pairs);
+  pairs = std::move(next);
   return {};
 }
 

@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// Pairs of grains closer than a skin, each once, sorted by (first, second). Numbers are *rows*: part p of grain i has row
+/// Pairs of grains closer than a skin, each once. Numbers are *rows*: part p of grain i has row
 /// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
 /// moved by cell x `ghost_shift[g]`. What a shape or law does not remember takes no room.
 template <ParticleShape Shape, ContactLaw Law, class Scalar>

@@ -6,25 +6,22 @@
 
 namespace scarp::detail {
 
-template <class Scalar, int Count, class Lanes>
-void load_tangential(Columns<Scalar, Count> const& columns, std::size_t start, Lanes& to) {
-  if constexpr (Count == 1) to = load(columns.column(0) + start);
+/// Rows of columns as lanes, one number or several.
+template <class Scalar, int Count, std::size_t Size>
+void load_rows(Columns<Scalar, Count> const& columns, std::size_t start, std::array<Pack<Scalar>, Size>& to) {
+  for (int k = 0; k < Count; ++k) to[static_cast<std::size_t>(k)] = load(columns.column(k) + start);
 }
-template <class Scalar, int Count, class Lanes>
-void load_tangential(Columns<Scalar, Count> const& columns, std::size_t start, std::array<Lanes, 3>& to) {
-  if constexpr (Count == 3) {
-    for (std::size_t k = 0; k < 3; ++k) to[k] = load(columns.column(static_cast<int>(k)) + start);
-  }
+template <class Scalar>
+void load_rows(Columns<Scalar, 1> const& columns, std::size_t start, Pack<Scalar>& to) {
+  to = load(columns.column(0) + start);
 }
-template <class Scalar, int Count, class Lanes>
-void store_tangential(Lanes const& from, std::size_t start, Columns<Scalar, Count>& columns) {
-  if constexpr (Count == 1) store(from, columns.column(0) + start);
+template <class Scalar, int Count, std::size_t Size>
+void store_rows(std::array<Pack<Scalar>, Size> const& from, std::size_t start, Columns<Scalar, Count>& columns) {
+  for (int k = 0; k < Count; ++k) store(from[static_cast<std::size_t>(k)], columns.column(k) + start);
 }
-template <class Scalar, int Count, class Lanes>
-void store_tangential(std::array<Lanes, 3> const& from, std::size_t start, Columns<Scalar, Count>& columns) {
-  if constexpr (Count == 3) {
-    for (std::size_t k = 0; k < 3; ++k) store(from[k], columns.column(static_cast<int>(k)) + start);
-  }
+template <class Scalar>
+void store_rows(Pack<Scalar> const& from, std::size_t start, Columns<Scalar, 1>& columns) {
+  store(from, columns.column(0) + start);
 }
 
 /// Affine spin of a displacement gradient: half its curl.
@@ -39,7 +36,7 @@ Turning<Dim, Lanes> affine_turn(Tensor<Dim> const& gradient) {
 }
 
 /// One side of a pair: its rows of data as lanes.
-template <class Layout, int Dim, class Lanes>
+template <class Layout, class Lanes>
 struct PairSide {
   std::array<std::array<Lanes, 4>, Layout::size / 4> row;
 
@@ -51,22 +48,6 @@ struct PairSide {
     }
   }
   Lanes const& operator[](std::size_t k) const { return row[k / 4][k % 4]; }
-
-  std::array<Lanes, Layout::pose_size> pose() const {
-    std::array<Lanes, Layout::pose_size> values;
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = (*this)[Layout::pose + k];
-    return values;
-  }
-  /// Rotation during a step; grains turn with the cell, their spin is a fluctuation about the affine one.
-  Turning<Dim, Lanes> turn(Lanes const& step, Turning<Dim, Lanes> const& affine) const {
-    if constexpr (Dim == 2) {
-      return (*this)[Layout::spin] * step + affine;
-    } else {
-      Turning<3, Lanes> values;
-      for (std::size_t k = 0; k < 3; ++k) values[k] = (*this)[Layout::spin + k] * step + affine[k];
-      return values;
-    }
-  }
 };
 
 template <class Lanes>
@@ -76,6 +57,14 @@ Lanes difference(Lanes const& a, Lanes const& b) {
 template <class Lanes>
 std::array<Lanes, 3> difference(std::array<Lanes, 3> const& a, std::array<Lanes, 3> const& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Lanes>
+Lanes sum(Lanes const& a, Lanes const& b) {
+  return a + b;
+}
+template <class Lanes>
+std::array<Lanes, 3> sum(std::array<Lanes, 3> const& a, std::array<Lanes, 3> const& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 template <class Lanes>
 Lanes mean(Lanes const& a, Lanes const& b) {
@@ -88,8 +77,8 @@ std::array<Lanes, 3> mean(std::array<Lanes, 3> const& a, std::array<Lanes, 3> co
 
 /// Adds a force on the second grains, and torques on both, to the rows of forces of a pack of pairs.
 template <class Layout, class Scalar, class Lanes>
-void scatter(Point<2, Lanes> const& force, Lanes const& torque_first, Lanes const& torque_second,
-             std::int32_t const* first, std::int32_t const* second, Scalar* forces) {
+void scatter_plane(Point<2, Lanes> const& force, Lanes const& torque_first, Lanes const& torque_second,
+                   std::int32_t const* first, std::int32_t const* second, Scalar* forces) {
   // Rows of (force, torque on the first, torque on the second); the fourth entry of a force row is scratch.
   auto const quads = to_quads<Scalar>({force[0], force[1], torque_first, torque_second});
   for (std::size_t k = 0; k < Lanes::size(); ++k) {
@@ -104,9 +93,9 @@ void scatter(Point<2, Lanes> const& force, Lanes const& torque_first, Lanes cons
   }
 }
 template <class Layout, class Scalar, class Lanes>
-void scatter(Point<3, Lanes> const& force, std::array<Lanes, 3> const& torque_first,
-             std::array<Lanes, 3> const& torque_second, std::int32_t const* first, std::int32_t const* second,
-             Scalar* forces) {
+void scatter_space(Point<3, Lanes> const& force, std::array<Lanes, 3> const& torque_first,
+                   std::array<Lanes, 3> const& torque_second, std::int32_t const* first, std::int32_t const* second,
+                   Scalar* forces) {
   static_assert(Layout::force_size == 8);
   Lanes const none(Scalar(0));
   auto const start = to_quads<Scalar>({force[0], force[1], force[2], none});

@@ -39,34 +39,49 @@ int sign_of(std::array<Integer, Dim> const& shift) {
   return 0;
 }
 
+/// Centres of all grains [m].
+template <class PackingType>
+std::vector<Vector<PackingType::dim>> grain_places(PackingType const& packing) {
+  std::vector<Vector<PackingType::dim>> places(packing.grain_count());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (int a = 0; a < PackingType::dim; ++a) places[i](a) = static_cast<double>(packing.position(i, a));
+  }
+  return places;
+}
+
 /// How `reduce_and_wrap` has renamed images: each grain's cell in the new base vectors, and old shifts in new ones.
 template <int Dim>
 struct Renaming {
-  std::vector<std::array<int, static_cast<std::size_t>(Dim)>> moved;
+  using Cells = std::array<int, static_cast<std::size_t>(Dim)>;
+
+  std::vector<Cells> moved;
   Tensor<Dim> old_to_new;
 };
 
-/// Wraps positions into a reduced cell.
-template <class PackingType>
-Renaming<PackingType::dim> reduce_and_wrap(PackingType& packing) {
-  constexpr int dim = PackingType::dim;
-  using Scalar = typename PackingType::Scalar;
-  Renaming<dim> renaming;
-  Eigen::Matrix<int, dim, dim> const change = lattice_reduction<dim>(packing.cell);
-  renaming.old_to_new = change.template cast<double>().inverse();
-  packing.cell = (packing.cell * change.template cast<double>()).eval();
-  Tensor<dim> const inverse = packing.cell.inverse();
-  renaming.moved.resize(packing.grain_count());
-  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-    Vector<dim> place;
-    for (int a = 0; a < dim; ++a) place(a) = static_cast<double>(packing.position(i, a));
-    Vector<dim> const cells = (inverse * place).array().floor();
-    for (int a = 0; a < dim; ++a) renaming.moved[i][static_cast<std::size_t>(a)] = static_cast<int>(cells(a));
-    if (cells.squaredNorm() == 0.0) continue;
-    place -= packing.cell * cells;
-    for (int a = 0; a < dim; ++a) packing.position(i, a) = static_cast<Scalar>(place(a));
+/// Cells away from the own one up to which a place still means something: round-off is there 1e-10 of a cell.
+inline constexpr double furthest_cell = 1e6;
+
+/// Reduces a cell and wraps places into it. \return false, with nothing done, for a place too many cells away
+template <int Dim>
+bool reduce_and_wrap(Tensor<Dim>& cell, std::vector<Vector<Dim>>& places, Renaming<Dim>& renaming) {
+  Tensor<Dim> const change = lattice_reduction<Dim>(cell).template cast<double>();
+  Tensor<Dim> const reduced = cell * change;
+  Tensor<Dim> const inverse = reduced.inverse();
+  renaming.moved.resize(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Vector<Dim> const cells = (inverse * places[i]).array().floor();
+    if (!(cells.cwiseAbs().maxCoeff() <= furthest_cell)) return false;
+    for (int a = 0; a < Dim; ++a) renaming.moved[i][static_cast<std::size_t>(a)] = static_cast<int>(cells(a));
   }
-  return renaming;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (renaming.moved[i] == typename Renaming<Dim>::Cells{}) continue;
+    Vector<Dim> cells;
+    for (int a = 0; a < Dim; ++a) cells(a) = renaming.moved[i][static_cast<std::size_t>(a)];
+    places[i] -= reduced * cells;
+  }
+  cell = reduced;
+  renaming.old_to_new = change.inverse();
+  return true;
 }
 
 /// Shift number `code` of the block of cells around the own one, each component -1, 0 or 1.
@@ -81,41 +96,33 @@ std::array<std::int8_t, static_cast<std::size_t>(Dim)> neighbour_shift(int code)
 }
 
 /// All grains, then those of their images that lie within `reach` [m] of the cell, in the positive half of the lattice.
-template <class PackingType>
-GrainsAndImages<PackingType::dim> grains_and_images(PackingType const& packing, double reach) {
-  constexpr int dim = PackingType::dim;
-  std::size_t const grains = packing.grain_count();
-  GrainsAndImages<dim> all;
-  Tensor<dim> const inverse = packing.cell.inverse();
-  Vector<dim> margin;  // reach in lattice coordinates
-  for (int a = 0; a < dim; ++a) margin(a) = reach * inverse.row(a).norm();
-  for (std::size_t i = 0; i < grains; ++i) {
-    PlacedGrain<dim> grain{{}, static_cast<std::int32_t>(i), {}};
-    for (int a = 0; a < dim; ++a)
-      grain.place[static_cast<std::size_t>(a)] = static_cast<double>(packing.position(i, a));
+template <int Dim>
+GrainsAndImages<Dim> grains_and_images(Tensor<Dim> const& cell, std::vector<Vector<Dim>> const& places, double reach) {
+  GrainsAndImages<Dim> all;
+  Tensor<Dim> const inverse = cell.inverse();
+  Vector<Dim> margin;  // reach in lattice coordinates
+  for (int a = 0; a < Dim; ++a) margin(a) = reach * inverse.row(a).norm();
+  auto const add = [&](Vector<Dim> const& place, std::size_t owner, auto const& shift) {
+    PlacedGrain<Dim> grain{{}, static_cast<std::int32_t>(owner), shift};
+    for (int a = 0; a < Dim; ++a) grain.place[static_cast<std::size_t>(a)] = place(a);
     all.points.push_back(grain);
-  }
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) add(places[i], i, decltype(PlacedGrain<Dim>::shift){});
   int shifts = 1;
-  for (int a = 0; a < dim; ++a) shifts *= 3;
-  for (std::size_t i = 0; i < grains; ++i) {
-    Vector<dim> place;
-    for (int a = 0; a < dim; ++a) place(a) = all.points[i].place[static_cast<std::size_t>(a)];
-    Vector<dim> const fraction = inverse * place;
+  for (int a = 0; a < Dim; ++a) shifts *= 3;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Vector<Dim> const fraction = inverse * places[i];
     for (int code = 0; code < shifts; ++code) {
-      auto const shift = neighbour_shift<dim>(code);
+      auto const shift = neighbour_shift<Dim>(code);
       if (sign_of(shift) <= 0) continue;
       bool near = true;
-      Vector<dim> steps;
-      for (int a = 0; a < dim; ++a) {
+      Vector<Dim> steps;
+      for (int a = 0; a < Dim; ++a) {
         steps(a) = shift[static_cast<std::size_t>(a)];
         double const there = fraction(a) + steps(a);
         near = near && there > -margin(a) && there < 1.0 + margin(a);
       }
-      if (!near) continue;
-      Vector<dim> const there = place + packing.cell * steps;
-      PlacedGrain<dim> image{{}, static_cast<std::int32_t>(i), shift};
-      for (int a = 0; a < dim; ++a) image.place[static_cast<std::size_t>(a)] = there(a);
-      all.points.push_back(image);
+      if (near) add(places[i] + cell * steps, i, shift);
     }
   }
   return all;

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include "scarp/dem/servo.hpp"
 
 namespace scarp {
+
+/// A packing could not be brought to where it is needed.
+class PreparationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// A packing and whether it got where it was to go.
 template <class PackingType>

@@ -131,7 +131,7 @@ class TimeStepper {
     store(after, velocities);
     if constexpr (what == Observe::energy) {
       using std::experimental::max;
-      Lanes const inertia = Lanes(Scalar(1)) / max(inverse_inertia, Lanes(Scalar(1e-30)));  // padding never moves
+      Lanes const inertia = Lanes(Scalar(1)) / max(inverse_inertia, tiny<Lanes>());  // padding never moves
       damped += (before + after) * Lanes(Scalar(0.5)) * (force * dt - (after - before) * inertia);
       kinetic += (before * before + after * after) * inertia * Lanes(Scalar(0.25));
     }

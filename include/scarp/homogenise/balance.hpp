@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scarp/dem/contacts.hpp"
+#include "scarp/homogenise/sliding_contacts.hpp"
 
 namespace scarp {
 
@@ -17,20 +18,9 @@ struct Balance {
   double mean_contact_force = 0.0;     ///< [N]
   double mean_unbalanced_force = 0.0;  ///< mean over the grains of |sum of forces| [N]
   double unbalanced_ratio = 0.0;       ///< mean unbalanced over mean contact force; zero without contacts
-  double sliding_share = 0.0;          ///< contacts at the friction limit, as a share of all
+  double sliding_share = 0.0;          ///< contacts that refuse more shear force, as a share of all
   double deepest_overlap = 0.0;        ///< [m]
 };
-
-/// Whether the shear force of a contact has reached Coulomb's limit.
-template <int Dim, class Law>
-bool is_sliding(Contact<Dim> const& contact, Law law) {
-  if constexpr (Frictional<Law>) {
-    constexpr double at_limit = 1.0 - 1e-9;  // limited forces sit on the limit to round-off
-    return contact.shear_force().norm() >= at_limit * law.friction_coefficient() * contact.normal_force;
-  } else {
-    return false;
-  }
-}
 
 /// Eq. 5 of the study, with f the force on the second grain and l the branch from first to second.
 template <class PackingType>
@@ -46,7 +36,7 @@ Balance<PackingType::dim> balance(PackingType const& packing, typename PackingTy
     net[contact.second] += contact.force;
     sum += contact.force.norm();
     result.deepest_overlap = std::max(result.deepest_overlap, contact.touch.overlap);
-    if (is_sliding(contact, law)) result.sliding_share += 1.0;
+    if (SlidingContacts{}.slides(contact, law)) result.sliding_share += 1.0;
   });
   result.stress /= packing.volume();
   if (result.contacts == 0) return result;

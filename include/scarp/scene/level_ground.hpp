@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "scarp/constitutive/packings_by_depth.hpp"
@@ -11,12 +10,6 @@
 #include "scarp/dem/preparation.hpp"
 
 namespace scarp {
-
-/// A packing could not be brought to where a scene needs it.
-class PreparationError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Level ground of packings without a macroscopic solve: all its columns are alike, so one packing is consolidated at a small
 /// pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy.

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
-#include "scarp/core/constant.hpp"
-#include "scarp/shape/particle_shape.hpp"
+#include "scarp/shape/round_touch.hpp"
 
 namespace scarp {
 
@@ -39,17 +37,7 @@ struct Disc {
   template <class T>
   static Touch<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second, Point<2, T> const& branch,
                            Point<2, T> const&) {
-    using std::sqrt;
-    T const distance = sqrt(branch[0] * branch[0] + branch[1] * branch[1]);
-    T const inverse = constant<T>(1) / distance;
-    Point<2, T> const normal{branch[0] * inverse, branch[1] * inverse};
-    T const overlap = first[0] + second[0] - distance;
-    T const reach_first = first[0] - overlap * constant<T>(0.5);
-    T const reach_second = second[0] - overlap * constant<T>(0.5);
-    return {overlap,
-            normal,
-            {normal[0] * reach_first, normal[1] * reach_first},
-            {-normal[0] * reach_second, -normal[1] * reach_second}};
+    return round_touch<2, T>(first[0], second[0], branch);
   }
 };
 

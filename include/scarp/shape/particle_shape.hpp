@@ -46,8 +46,20 @@ constexpr int part_count() {
   }
 }
 
-/// Pose of a part of a grain; a shape of one part has pose(size, orientation), others pose(size, orientation, part).
+template <class Shape, class T = double>
+using PoseOf = std::array<T, static_cast<std::size_t>(Shape::pose_count)>;
+
+/// A shape of one part has pose(size, orientation), others pose(size, orientation, part).
 template <class Shape, class Size, class Orientation>
+concept MakesPose = (part_count<Shape>() == 1 &&
+                     requires(Size const& size, Orientation const& orientation) { Shape::pose(size, orientation); }) ||
+                    (part_count<Shape>() != 1 && requires(Size const& size, Orientation const& orientation, int part) {
+                      Shape::pose(size, orientation, part);
+                    });
+
+/// Pose of a part of a grain.
+template <class Shape, class Size, class Orientation>
+  requires MakesPose<Shape, Size, Orientation>
 auto part_pose(Size const& size, Orientation const& orientation, int part) {
   if constexpr (part_count<Shape>() == 1) {
     return Shape::pose(size, orientation);
@@ -59,10 +71,8 @@ auto part_pose(Size const& size, Orientation const& orientation, int part) {
 template <class Shape>
 concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size,
                            std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation,
-                           std::array<double, static_cast<std::size_t>(Shape::pose_count)> const& pose) {
-  {
-    part_pose<Shape>(size, orientation, 0)
-    } -> std::same_as<std::array<double, static_cast<std::size_t>(Shape::pose_count)>>;
+                           PoseOf<Shape> const& pose) {
+  { part_pose<Shape>(size, orientation, 0) } -> std::same_as<PoseOf<Shape>>;
   { Shape::contact_radius(pose) } -> std::same_as<double>;  // of the sphere or disc that curved contact laws see [m]
 };
 
@@ -70,8 +80,7 @@ concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::si
 /// start from where the shape remembers one (`remembers_normal`), ignored otherwise. Arms reach from the grains' centres,
 /// also where the poses are those of parts.
 template <class Shape>
-concept Touches = requires(std::array<double, static_cast<std::size_t>(Shape::pose_count)> const& pose,
-                           Point<Shape::dim, double> const& branch) {
+concept Touches = requires(PoseOf<Shape> const& pose, Point<Shape::dim, double> const& branch) {
   { Shape::touch(pose, pose, branch, branch) } -> std::same_as<Touch<Shape::dim, double>>;
   { Shape::remembers_normal } -> std::convertible_to<bool>;
 };

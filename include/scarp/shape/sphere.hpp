@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
-#include "scarp/core/constant.hpp"
-#include "scarp/core/pack.hpp"
-#include "scarp/shape/particle_shape.hpp"
+#include "scarp/shape/round_touch.hpp"
 
 namespace scarp {
 
@@ -38,27 +35,10 @@ struct Sphere {
     return pose[0];
   }
 
-  /// Spheres whose centres coincide are parted along the first axis.
   template <class T>
   static Touch<3, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second, Point<3, T> const& branch,
                            Point<3, T> const&) {
-    using std::sqrt;
-    using std::experimental::where;
-    T const distance = sqrt(branch[0] * branch[0] + branch[1] * branch[1] + branch[2] * branch[2]);
-    auto const coincident = distance == constant<T>(0);
-    T along = branch[0];
-    T length = distance;
-    where(coincident, along) = constant<T>(1);
-    where(coincident, length) = constant<T>(1);
-    T const inverse = constant<T>(1) / length;
-    Point<3, T> const normal{along * inverse, branch[1] * inverse, branch[2] * inverse};
-    T const overlap = first[0] + second[0] - distance;
-    T const reach_first = first[0] - overlap * constant<T>(0.5);
-    T const reach_second = second[0] - overlap * constant<T>(0.5);
-    return {overlap,
-            normal,
-            {normal[0] * reach_first, normal[1] * reach_first, normal[2] * reach_first},
-            {-normal[0] * reach_second, -normal[1] * reach_second, -normal[2] * reach_second}};
+    return round_touch<3, T>(first[0], second[0], branch);
   }
 };
 

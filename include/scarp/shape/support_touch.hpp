@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scarp/core/constant.hpp"
+#include "scarp/core/select.hpp"
 #include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {
@@ -24,8 +25,6 @@ struct Support {
 /// branch d [m] from the first centre to the second; `normal` a unit vector
 template <class Shape, class Pose, class T>
 Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> const& branch, Point<2, T> const& normal) {
-  using std::max;
-  using std::min;
   using std::sqrt;
   Point<2, T> const tangent{-normal[1], normal[0]};
   auto const [a, b] = Shape::supports(first, second, normal);
@@ -35,7 +34,7 @@ Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> con
   T const slope = a.slope + b.slope - across;
   T const curvature = a.curvature_radius + b.curvature_radius - depth;
   T const largest_turn = constant<T>(0.5);  // radians; keeps a poor start from overshooting
-  T const turn = max(min(-slope / curvature, largest_turn), -largest_turn);
+  T const turn = at_least(at_most(-slope / curvature, largest_turn), -largest_turn);
 
   // 1/sqrt(1 + excess) by its series: the stored normal is a unit vector and turns little in a step; a poor start of a new
   // pair becomes one while the touch is iterated.

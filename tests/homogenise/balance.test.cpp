@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/homogenise/balance.hpp"
+
+#include <doctest/doctest.h>
+
+#include "dem/sample_packings.hpp"
+#include "scarp/contact/cohesive_bond.hpp"
+
+namespace {
+
+using samples::Discs;
+using scarp::Tensor;
+using scarp::Vector;
+using Bond = scarp::CohesiveBond<scarp::LinearFrictional>;
+using BondedDiscs = scarp::Packing<scarp::Disc, Bond>;
+
+/// Two discs of 5 mm that overlap by 10 um: a normal force of 60 N, Coulomb's limit at 33 N.
+template <class PackingType>
+PackingType two_discs(double shear) {
+  auto packing = samples::place<PackingType>(Tensor<2>::Identity() * 0.1, {{5e-3}, {5e-3}},
+                                             {Vector<2>(0.02, 0.05), Vector<2>(0.02 + 9.99e-3, 0.05)});
+  REQUIRE(scarp::rebuild_pairs(packing, 1e-4).acceptable());
+  REQUIRE(packing.pairs.count() == 1);
+  packing.pairs.shear(0, 0) = shear;
+  return packing;
+}
+
+}  // namespace
+
+TEST_CASE("a contact counts as sliding as long as it refuses more shear force") {
+  auto const law = samples::study_law();
+  CHECK(scarp::balance(two_discs<Discs>(33.0), law).sliding_share == 1.0);
+  CHECK(scarp::balance(two_discs<Discs>(-33.0), law).sliding_share == 1.0);
+  // While grains move, the normal force has grown a little since the last slip.
+  CHECK(scarp::balance(two_discs<Discs>(32.99), law).sliding_share == 1.0);
+  CHECK(scarp::balance(two_discs<Discs>(31.0), law).sliding_share == 0.0);
+  CHECK(scarp::balance(two_discs<Discs>(0.0), law).sliding_share == 0.0);
+}
+
+TEST_CASE("an intact bond beyond Coulomb's limit does not slide, a broken one does") {
+  Bond const law{.law = samples::study_law(), .tensile_strength = 100.0, .shear_strength = 100.0};
+  auto packing = two_discs<BondedDiscs>(50.0);
+  scarp::ContactMemory<2, double> memory;
+  Bond::bond(memory);
+  packing.pairs.scalars(0, 0) = memory.scalars[0];
+  auto const bonded = scarp::balance(packing, law);
+  CHECK(bonded.sliding_share == 0.0);
+  // Analytic: a force of 60 N along x and 50 N across, on a branch of 9.99 mm, in a volume of 0.002 m3.
+  CHECK(bonded.stress(0, 0) == doctest::Approx(-60.0 * 9.99e-3 / 2e-3).epsilon(1e-9));  // overlap is a small difference
+  CHECK(bonded.stress(1, 0) == doctest::Approx(-50.0 * 9.99e-3 / 2e-3).epsilon(1e-9));
+  packing.pairs.scalars(0, 0) = 0.0;
+  CHECK(scarp::balance(packing, law).sliding_share == 1.0);
+}
