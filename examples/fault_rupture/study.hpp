@@ -24,7 +24,7 @@ struct Choice {
   int triangles = 0;  ///< wanted number instead of `size`; 0 for none
   int grains = 400;
   std::uint64_t seed = 1;
-  double preparation_friction = 0.08;
+  double preparation_friction = 0.09;
   double throw_over_depth = 0.085;
   double dip = 60.0;  ///< [degrees]
   double tip = 0.0;   ///< [m]
