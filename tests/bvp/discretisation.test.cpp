@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "approx.hpp"
 #include "bvp/sample_problems.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 
@@ -154,7 +155,7 @@ TEST_CASE("a stressed patch that turns by 30 degrees keeps its stress in its own
   auto const volumes_before = disc.volumes(Eigen::VectorXd::Zero(disc.dof_count()));
   auto const volumes_after = disc.volumes(turning);
   for (std::size_t p = 0; p < volumes_before.size(); ++p) {
-    CHECK(volumes_after[p] == doctest::Approx(volumes_before[p]).epsilon(1e-12));
+    CHECK(volumes_after[p] == samples::Approx(volumes_before[p]).epsilon(1e-12));
   }
 }
 
@@ -207,7 +208,7 @@ TEST_CASE("the first element that an increment turns inside out is named, and th
   REQUIRE(inverted.has_value());
   CHECK(*inverted == 1);  // sides are in the order bottom, right, top, left
   // Analytic: the left triangle has the horizontal gradient 0.6 / 0.5.
-  CHECK(gradients[3](0, 0) == doctest::Approx(1.2).epsilon(1e-14));
+  CHECK(gradients[3](0, 0) == samples::Approx(1.2).epsilon(1e-14));
   increment(2 * centre) = std::numeric_limits<double>::quiet_NaN();
   CHECK(disc.gradients(increment, gradients) == std::optional<int>(0));
   scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> const small(scarp::RectangleMesh{}.generate());
@@ -252,7 +253,7 @@ TEST_CASE("volumes follow the motion and contain the thickness") {
   for (double const volume : volumes) {
     sum += volume;
   }
-  CHECK(sum == doctest::Approx(0.2 * 1.5 * 0.8).epsilon(1e-14));  // analytic: t det(I + G)
+  CHECK(sum == samples::Approx(0.2 * 1.5 * 0.8).epsilon(1e-14));  // analytic: t det(I + G)
 }
 
 TEST_CASE("a site tells where its point is and how deep") {
@@ -265,7 +266,7 @@ TEST_CASE("a site tells where its point is and how deep") {
   CHECK(site.index == 2);
   CHECK(site.region == 1);
   CHECK((site.position - scarp::Vector<2>(1.0, 2.5)).norm() < 1e-15);
-  CHECK(site.depth == doctest::Approx(1.0).epsilon(1e-15));
+  CHECK(site.depth == samples::Approx(1.0).epsilon(1e-15));
 }
 
 TEST_CASE("the stiffness matrix keeps its memory from call to call and has the same bits each time") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "bvp/sample_problems.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -79,7 +80,7 @@ TEST_CASE("the centre of a crossed cell settles more than its corners' mean by w
     // carries a third of the cell's weight: excess = -gamma / (6 (M/h^2 + G/w^2)).
     double const exact = -unit_weight / (6.0 * (modulus / (1.2 * 1.2) + column.soil.shear_modulus / (1.0 * 1.0)));
     CHECK(column.displacement(2 * centre + 1) - mean ==
-          doctest::Approx(exact).epsilon(1e-9));  // difference of larger ones
+          samples::Approx(exact).epsilon(1e-9));  // difference of larger ones
   }
 }
 
@@ -116,6 +117,6 @@ TEST_CASE("the bottom carries the whole weight and the walls push back at rest")
   }
   // Analytic: gamma W H t, and the integral of K0 gamma z over the wall, K0 gamma H^2/2 t. Every cut between columns of
   // cells carries the mean of the cells beside it, so the wall does too. Round-off of the solve.
-  CHECK(bottom == doctest::Approx(unit_weight * 4.0 * 6.0 * 0.2).epsilon(1e-11));
-  CHECK(left == doctest::Approx(poisson / (1.0 - poisson) * unit_weight * 18.0 * 0.2).epsilon(1e-11));
+  CHECK(bottom == samples::Approx(unit_weight * 4.0 * 6.0 * 0.2).epsilon(1e-11));
+  CHECK(left == samples::Approx(poisson / (1.0 - poisson) * unit_weight * 18.0 * 0.2).epsilon(1e-11));
 }

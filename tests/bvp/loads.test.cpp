@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "bvp/sample_problems.hpp"
 #include "scarp/mesh/fault_mesh.hpp"
 
@@ -22,7 +23,7 @@ TEST_CASE("body forces add up to the weight of each region") {
   auto const forces =
       scarp::body_force(disc, [&](int region) { return scarp::Vector<2>(0.0, region == footing ? -25e3 : -16e3); });
   // Analytic: (75 x 25 m2 of soil, 7 x 1.5 m2 of footing) times 0.2 m; round-off of some thousand terms.
-  CHECK(sum<2>(forces).y() == doctest::Approx(-0.2 * (75.0 * 25.0 * 16e3 + 7.0 * 1.5 * 25e3)).epsilon(1e-12));
+  CHECK(sum<2>(forces).y() == samples::Approx(-0.2 * (75.0 * 25.0 * 16e3 + 7.0 * 1.5 * 25e3)).epsilon(1e-12));
   CHECK(sum<2>(forces).x() == 0.0);
 }
 
@@ -38,8 +39,8 @@ TEST_CASE_TEMPLATE("body forces keep the moment of the weight on distorted meshe
   }
   // Analytic: unit block, centre at 1/2. Shapes reproduce linear functions; the quadrature of Tri3, Tet4 and of
   // bilinear Quad4 (x times the Jacobian is at most cubic along an axis) is exact for them.
-  CHECK(lever == doctest::Approx(-20e3 / 2.0).epsilon(1e-13));
-  CHECK(sum<dim>(forces)(dim - 1) == doctest::Approx(-20e3).epsilon(1e-13));
+  CHECK(lever == samples::Approx(-20e3 / 2.0).epsilon(1e-13));
+  CHECK(sum<dim>(forces)(dim - 1) == samples::Approx(-20e3).epsilon(1e-13));
 }
 
 TEST_CASE("a traction adds up to its resultant and is shared by length") {
@@ -50,7 +51,7 @@ TEST_CASE("a traction adds up to its resultant and is shared by length") {
   for (int const node : scarp::boundary_nodes(disc.mesh(), "top")) {
     double const x = disc.mesh().nodes[static_cast<std::size_t>(node)].x();
     double const share = x == 0.0 || x == 3.0 ? 0.5 : 1.0;  // analytic: half of each 1 m facet to each of its ends
-    CHECK(forces(2 * node + 1) == doctest::Approx(-2e3 * 0.5 * share).epsilon(1e-15));
+    CHECK(forces(2 * node + 1) == samples::Approx(-2e3 * 0.5 * share).epsilon(1e-15));
   }
 }
 
@@ -69,7 +70,7 @@ TEST_CASE("a pressure on the side of a block in space adds up to its area") {
     }
   }
   scarp::Discretisation<scarp::Tet4> const disc(mesh);
-  CHECK(sum<3>(scarp::traction(disc, "top", {0.0, 0.0, -3e3})).z() == doctest::Approx(-3e3).epsilon(1e-13));
+  CHECK(sum<3>(scarp::traction(disc, "top", {0.0, 0.0, -3e3})).z() == samples::Approx(-3e3).epsilon(1e-13));
 }
 
 TEST_CASE("loads stay when the mesh moves") {

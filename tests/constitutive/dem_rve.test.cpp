@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "dem/sample_packings.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
@@ -128,11 +129,11 @@ TEST_CASE("the answer is the balance of the trial packing") {
   auto const state = scarp::balance(trial.packing, samples::study_law());
   // Two codes for one sum; the loop's normals are one Newton step behind the settled ones, third order in the overlap.
   CHECK((answer.stress - scarp::to_voigt_stress<2, double>(state.stress)).norm() < 1e-6 * answer.stress.norm());
-  CHECK(trial.unbalanced_ratio == doctest::Approx(state.unbalanced_ratio).epsilon(1e-2));
+  CHECK(trial.unbalanced_ratio == samples::Approx(state.unbalanced_ratio).epsilon(1e-2));
   // Analytic: the cell's area grows by det(I + G); the shear rate is constant, so this holds to round-off.
   double const growth = (Tensor<2>::Identity() + shear_increment(1e-3)).determinant();
   CHECK(trial.packing.cell.determinant() / committed.packing.cell.determinant() ==
-        doctest::Approx(growth).epsilon(1e-12));
+        samples::Approx(growth).epsilon(1e-12));
 }
 
 TEST_CASE("pulled apart, a packing becomes a fluid without stress") {
@@ -169,10 +170,10 @@ TEST_CASE("points take the packing of the nearest depth") {
     site.depth = depth;
     return column.at(site).cell(0, 0) / column.packings.front().cell(0, 0) - 1.0;
   };
-  CHECK(chosen(-1.0) == doctest::Approx(0.0));
-  CHECK(chosen(2.4) == doctest::Approx(0.0));
-  CHECK(chosen(2.6) == doctest::Approx(5.0));
-  CHECK(chosen(100.0) == doctest::Approx(20.0));
+  CHECK(chosen(-1.0) == samples::Approx(0.0));
+  CHECK(chosen(2.4) == samples::Approx(0.0));
+  CHECK(chosen(2.6) == samples::Approx(5.0));
+  CHECK(chosen(100.0) == samples::Approx(20.0));
 }
 
 TEST_CASE("a field of packings plans once for a load step and commits all points together") {

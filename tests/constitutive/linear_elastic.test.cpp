@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "approx.hpp"
+
 namespace {
 
 using Elastic = scarp::LinearElastic<2>;
@@ -46,8 +48,8 @@ TEST_CASE("oedometric compression gives the constrained modulus and the ratio of
   // Analytic: E = 2 e / (2 + e) along the axis, vertical (lambda + 2 G) E, horizontal lambda E.
   double const strain = -2e-3 / (2.0 - 1e-3);
   CHECK(answer.verdict == scarp::Verdict{});
-  CHECK(answer.stress(1) == doctest::Approx(7e6 * strain).epsilon(1e-12));  // round-off: 1e-16 over a strain of 1e-3
-  CHECK(answer.stress(0) == doctest::Approx(3e6 * strain).epsilon(1e-12));
+  CHECK(answer.stress(1) == samples::Approx(7e6 * strain).epsilon(1e-12));  // round-off: 1e-16 over a strain of 1e-3
+  CHECK(answer.stress(0) == samples::Approx(3e6 * strain).epsilon(1e-12));
   CHECK(std::abs(answer.stress(2)) < 1e-8);
   CHECK(soil.stress(trial) == answer.stress);
 }
@@ -55,8 +57,8 @@ TEST_CASE("oedometric compression gives the constrained modulus and the ratio of
 TEST_CASE("Young's modulus and Poisson's ratio are turned into Lame's moduli") {
   auto const steel = Elastic::from_young_poisson(210e9, 0.3);
   // Analytic: lambda = E nu / ((1 + nu)(1 - 2 nu)), G = E / (2 (1 + nu)); round-off.
-  CHECK(steel.lame_lambda == doctest::Approx(210e9 * 0.3 / (1.3 * 0.4)).epsilon(1e-14));
-  CHECK(steel.shear_modulus == doctest::Approx(210e9 / 2.6).epsilon(1e-14));
+  CHECK(steel.lame_lambda == samples::Approx(210e9 * 0.3 / (1.3 * 0.4)).epsilon(1e-14));
+  CHECK(steel.shear_modulus == samples::Approx(210e9 / 2.6).epsilon(1e-14));
 }
 
 TEST_CASE("a pure rotation turns the stress exactly, at every angle") {
@@ -103,9 +105,9 @@ TEST_CASE("one increment and the same in two halves differ by third order only")
   // Analytic: E = ln(1 + e) - e^3/12 + ..., so one step against many lacks (lambda + 2 G) e^3/12; the next terms of the
   // series are e and e^2 times smaller, below 4 % at e = 0.02.
   double const large = stretch_in(0.02, 64) - stretch_in(0.02, 1);
-  CHECK(large == doctest::Approx(7e6 * std::pow(0.02, 3) / 12.0).epsilon(0.04));
+  CHECK(large == samples::Approx(7e6 * std::pow(0.02, 3) / 12.0).epsilon(0.04));
   double const small = stretch_in(0.01, 64) - stretch_in(0.01, 1);
-  CHECK(large / small == doctest::Approx(8.0).epsilon(0.04));
+  CHECK(large / small == samples::Approx(8.0).epsilon(0.04));
 }
 
 TEST_CASE_TEMPLATE("the tangent is the derivative of the stress with the strain", Model, scarp::LinearElastic<2>,

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "approx.hpp"
 #include "dem/sample_packings.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/material_field.hpp"
@@ -82,8 +83,8 @@ TEST_CASE("a field of points starts from random packings at the prepared pressur
     CAPTURE(k);
     CHECK(field.committed(k).verdict.acceptable());
     // The servo's tolerance for the largest stress is 1e-4 of the target; the answer is read a step later.
-    CHECK(field.committed_stress(k)(0) == doctest::Approx(-samples::pressure).epsilon(1e-3));
-    CHECK(field.committed_stress(k)(1) == doctest::Approx(-samples::pressure).epsilon(1e-3));
+    CHECK(field.committed_stress(k)(0) == samples::Approx(-samples::pressure).epsilon(1e-3));
+    CHECK(field.committed_stress(k)(1) == samples::Approx(-samples::pressure).epsilon(1e-3));
   }
   CHECK(field.committed(0).packing.position == Source{recipe(), 7}.at(point(5)).position);
   CHECK(field.committed_stress(0) != field.committed_stress(1));

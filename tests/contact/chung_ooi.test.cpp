@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "relative_error.hpp"
+#include "approx.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/core/tensor.hpp"
 #include "scarp/dem/time_stepping.hpp"

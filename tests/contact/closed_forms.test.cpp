@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "relative_error.hpp"
+#include "approx.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/linear_frictional.hpp"

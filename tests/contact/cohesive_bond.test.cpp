@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "approx.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
@@ -42,8 +43,8 @@ Memory bonded() {
 
 TEST_CASE("a bond pulls up to its tensile strength and then breaks for good") {
   Memory memory = bonded();
-  CHECK(law.reach() == doctest::Approx(0.1).epsilon(1e-15));  // analytic: T / k_n; one rounding
-  CHECK(law.respond(Approach<2, double>{-0.09, 0.0}, memory).normal == doctest::Approx(-9.0).epsilon(1e-15));
+  CHECK(law.reach() == samples::Approx(0.1).epsilon(1e-15));  // analytic: T / k_n; one rounding
+  CHECK(law.respond(Approach<2, double>{-0.09, 0.0}, memory).normal == samples::Approx(-9.0).epsilon(1e-15));
   CHECK(Bond::is_intact(memory));
   CHECK(law.respond(Approach<2, double>{-0.11, 0.0}, memory).normal == 0.0);
   CHECK(Bond::is_broken(memory));
@@ -58,12 +59,12 @@ TEST_CASE("a bond carries shear up to cohesion and friction and then slides at f
     double const strength = 8.0 + 50.0 * overlap;
     Memory memory = bonded();
     CHECK(law.respond(Approach<2, double>{overlap, 0.99 * strength / 50.0}, memory).shear ==
-          doctest::Approx(-0.99 * strength).epsilon(1e-14));
+          samples::Approx(-0.99 * strength).epsilon(1e-14));
     CHECK(Bond::is_intact(memory));
     auto const force = law.respond(Approach<2, double>{overlap, 0.02 * strength / 50.0}, memory);
     CHECK(Bond::is_broken(memory));
-    CHECK(force.shear == doctest::Approx(-std::max(50.0 * overlap, 0.0)).epsilon(1e-14));
-    CHECK(force.normal == doctest::Approx(std::max(100.0 * overlap, 0.0)).epsilon(1e-14));
+    CHECK(force.shear == samples::Approx(-std::max(50.0 * overlap, 0.0)).epsilon(1e-14));
+    CHECK(force.normal == samples::Approx(std::max(100.0 * overlap, 0.0)).epsilon(1e-14));
   }
 }
 
@@ -72,8 +73,8 @@ TEST_CASE("in space the shear strength bounds the size of the shear force") {
   Bond::bond(memory);
   // Analytic: sizes 50 x (0.15, 0.165) = (7.5, 8.25) around C = 8.
   auto const force = law.respond(Approach<3, double>{0.0, {0.09, 0.12, 0.0}}, memory);
-  CHECK(force.shear[0] == doctest::Approx(-4.5).epsilon(1e-14));
-  CHECK(force.shear[1] == doctest::Approx(-6.0).epsilon(1e-14));
+  CHECK(force.shear[0] == samples::Approx(-4.5).epsilon(1e-14));
+  CHECK(force.shear[1] == samples::Approx(-6.0).epsilon(1e-14));
   law.respond(Approach<3, double>{0.0, {0.009, 0.012, 0.0}}, memory);
   CHECK(Bond::is_broken(memory));
   CHECK(memory.shear[0] == 0.0);
@@ -138,10 +139,10 @@ TEST_CASE("an intact bond stores all work and a broken one has dissipated what t
     CHECK(Bond::is_broken(memory));
     double const stored = law.stored_energy(Approach<2, double>{overlap, 0.0}, memory);
     // First order in the one step of breaking: some 1e-4 of the bond's energy.
-    CHECK(work == doctest::Approx(stored + dissipated).epsilon(3e-4));
+    CHECK(work == samples::Approx(stored + dissipated).epsilon(3e-4));
   }
   Memory memory = bonded();
   law.respond(Approach<2, double>{-0.05, 0.02}, memory);
   // Analytic: 100 x 0.05^2 / 2 + 1^2 / (2 x 50); round-off.
-  CHECK(law.stored_energy(Approach<2, double>{-0.05, 0.0}, memory) == doctest::Approx(0.135).epsilon(1e-14));
+  CHECK(law.stored_energy(Approach<2, double>{-0.05, 0.0}, memory) == samples::Approx(0.135).epsilon(1e-14));
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "approx.hpp"
 #include "contact/every_law.hpp"
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/core/pack.hpp"
@@ -103,12 +104,12 @@ TEST_CASE_TEMPLATE("the stiffness is the derivative of the forces", Law, EVERY_C
   auto const stiffness = law.stiffness(overlap, 1.0);
   // Analytic: central difference, error step^2 F''' ~ 1e-8 and round-off 1e-10 of the stiffness.
   CHECK((push(overlap + step) - push(overlap - step)) / (2.0 * step) ==
-        doctest::Approx(stiffness.normal).epsilon(1e-7));
+        samples::Approx(stiffness.normal).epsilon(1e-7));
   ContactMemory<2, double> memory;
   auto const force =
       law.respond(Approach<2, double>{.overlap = overlap, .slip = step, .roll = step, .reduced_radius = 1.0}, memory);
-  CHECK(-force.shear / step == doctest::Approx(stiffness.tangential).epsilon(1e-12));  // linear in the slip; round-off
-  CHECK(-force.moment / step == doctest::Approx(stiffness.rolling).epsilon(1e-12));
+  CHECK(-force.shear / step == samples::Approx(stiffness.tangential).epsilon(1e-12));  // linear in the slip; round-off
+  CHECK(-force.moment / step == samples::Approx(stiffness.rolling).epsilon(1e-12));
 }
 
 TEST_CASE_TEMPLATE("without a bond shear stays inside Coulomb's limit", Law, EVERY_CONTACT_LAW) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 
@@ -37,21 +38,21 @@ TEST_CASE("a closed contact pushes with stiffness times overlap and shears again
   ContactMemory<2, double> memory;
   // Analytic: F_n = 100 x 0.2 = 20, F_t = -50 x 0.1 = -5, below the limit 10; exact in binary up to the decimals.
   auto const force = law.respond(Approach<2, double>{0.2, 0.1}, memory);
-  CHECK(force.normal == doctest::Approx(20.0).epsilon(1e-15));
-  CHECK(force.shear == doctest::Approx(-5.0).epsilon(1e-15));
+  CHECK(force.normal == samples::Approx(20.0).epsilon(1e-15));
+  CHECK(force.shear == samples::Approx(-5.0).epsilon(1e-15));
   CHECK(memory.shear == force.shear);
   law.respond(Approach<2, double>{0.2, -0.04}, memory);
-  CHECK(memory.shear == doctest::Approx(-3.0).epsilon(1e-15));
+  CHECK(memory.shear == samples::Approx(-3.0).epsilon(1e-15));
 }
 
 TEST_CASE("shear is clamped at friction times normal force on both sides") {
   ContactMemory<2, double> memory;
   law.respond(Approach<2, double>{0.2, 1.0}, memory);
-  CHECK(memory.shear == doctest::Approx(-10.0).epsilon(1e-15));  // analytic: mu F_n = 0.5 x 20
+  CHECK(memory.shear == samples::Approx(-10.0).epsilon(1e-15));  // analytic: mu F_n = 0.5 x 20
   law.respond(Approach<2, double>{0.2, -5.0}, memory);
-  CHECK(memory.shear == doctest::Approx(10.0).epsilon(1e-15));
+  CHECK(memory.shear == samples::Approx(10.0).epsilon(1e-15));
   law.respond(Approach<2, double>{0.05, 0.0}, memory);  // unloading lowers the limit to 2.5
-  CHECK(memory.shear == doctest::Approx(2.5).epsilon(1e-15));
+  CHECK(memory.shear == samples::Approx(2.5).epsilon(1e-15));
 }
 
 TEST_CASE("sliding dissipates the work against the limit, sticking nothing") {
@@ -59,9 +60,9 @@ TEST_CASE("sliding dissipates the work against the limit, sticking nothing") {
   // Decimals of a few units cancel: 1e-13.
   CHECK(std::abs(law.respond(Approach<2, double>{0.2, 0.1}, memory).dissipated) < 1e-13);
   // Analytic: from -5 to the limit -10 the spring takes 75/100 J; the mean force 7.5 over 0.5 m works 3.75 J.
-  CHECK(law.respond(Approach<2, double>{0.2, 0.5}, memory).dissipated == doctest::Approx(3.0).epsilon(1e-13));
+  CHECK(law.respond(Approach<2, double>{0.2, 0.5}, memory).dissipated == samples::Approx(3.0).epsilon(1e-13));
   // Analytic: at the limit all work is lost, 10 N x 0.3 m.
-  CHECK(law.respond(Approach<2, double>{0.2, 0.3}, memory).dissipated == doctest::Approx(3.0).epsilon(1e-13));
+  CHECK(law.respond(Approach<2, double>{0.2, 0.3}, memory).dissipated == samples::Approx(3.0).epsilon(1e-13));
 }
 
 TEST_CASE("an open contact carries nothing and forgets its shear") {
@@ -74,8 +75,8 @@ TEST_CASE("in space the shear force is clamped in size and keeps its direction")
   ContactMemory<3, double> memory;
   law.respond(Approach<3, double>{0.2, {0.3, 0.4, 0.0}}, memory);
   // Analytic: the trial force -50 (0.3, 0.4) = -(15, 20) has size 25, the limit is 10.
-  CHECK(memory.shear[0] == doctest::Approx(-6.0).epsilon(1e-14));
-  CHECK(memory.shear[1] == doctest::Approx(-8.0).epsilon(1e-14));
+  CHECK(memory.shear[0] == samples::Approx(-6.0).epsilon(1e-14));
+  CHECK(memory.shear[1] == samples::Approx(-8.0).epsilon(1e-14));
   CHECK(memory.shear[2] == 0.0);
   law.respond(Approach<3, double>{-0.1, {0.0, 0.0, 0.0}}, memory);
   CHECK(memory.shear[0] == 0.0);
@@ -85,7 +86,7 @@ TEST_CASE("a frictionless contact pushes and leaves shear alone") {
   Frictionless const smooth{.normal_stiffness = 100.0};
   ContactMemory<2, double> memory{.shear = 3.0};
   auto const force = smooth.respond(Approach<2, double>{0.2, 1.0}, memory);
-  CHECK(force.normal == doctest::Approx(20.0).epsilon(1e-15));  // analytic: 100 x 0.2
+  CHECK(force.normal == samples::Approx(20.0).epsilon(1e-15));  // analytic: 100 x 0.2
   CHECK(force.shear == 0.0);
   CHECK(smooth.respond(Approach<2, double>{-0.2, 1.0}, memory).normal == 0.0);
   CHECK(memory.shear == 3.0);
@@ -98,6 +99,6 @@ TEST_CASE("laws tell their stiffness and the energy of their springs") {
   CHECK(law.stiffness(0.1, 1.0).tangential == 50.0);
   ContactMemory<2, double> const memory{.shear = -5.0};
   // Analytic: 100 x 0.2^2 / 2 = 2 J and 5^2 / (2 x 50) = 0.25 J; round-off of the decimals.
-  CHECK(smooth.stored_energy(Approach<2, double>{0.2, 0.0}, memory) == doctest::Approx(2.0).epsilon(1e-15));
-  CHECK(law.stored_energy(Approach<2, double>{0.2, 0.0}, memory) == doctest::Approx(2.25).epsilon(1e-15));
+  CHECK(smooth.stored_energy(Approach<2, double>{0.2, 0.0}, memory) == samples::Approx(2.0).epsilon(1e-15));
+  CHECK(law.stored_energy(Approach<2, double>{0.2, 0.0}, memory) == samples::Approx(2.25).epsilon(1e-15));
 }

@@ -7,6 +7,8 @@
 
 #include "scarp/contact/hertz_mindlin.hpp"
 
+#include "approx.hpp"
+
 namespace {
 
 using scarp::Approach;
@@ -31,18 +33,18 @@ TEST_CASE("forces, stiffness and energy of a Hertz contact have their closed for
   ContactMemory<2, double> memory;
   // Analytic, see `law` above: u = 0.25 gives a = 1, F_n = 1/3, k_t = 2; round-off of a few operations.
   auto const force = law.respond(at(0.25, 0.05), memory);
-  CHECK(force.normal == doctest::Approx(1.0 / 3.0).epsilon(1e-15));
-  CHECK(force.shear == doctest::Approx(-0.1).epsilon(1e-15));
-  CHECK(law.stiffness(0.25, 4.0).normal == doctest::Approx(2.0).epsilon(1e-15));
-  CHECK(law.stiffness(0.25, 4.0).tangential == doctest::Approx(2.0).epsilon(1e-15));
+  CHECK(force.normal == samples::Approx(1.0 / 3.0).epsilon(1e-15));
+  CHECK(force.shear == samples::Approx(-0.1).epsilon(1e-15));
+  CHECK(law.stiffness(0.25, 4.0).normal == samples::Approx(2.0).epsilon(1e-15));
+  CHECK(law.stiffness(0.25, 4.0).tangential == samples::Approx(2.0).epsilon(1e-15));
   CHECK(law.stiffness(-0.25, 4.0).normal == 0.0);
   CHECK(law.stored_energy(at(0.25, 0.0), memory) ==
-        doctest::Approx(8.0 / 15.0 * 0.25 * 0.25 + 0.1 * 0.1 / 4.0).epsilon(1e-15));
+        samples::Approx(8.0 / 15.0 * 0.25 * 0.25 + 0.1 * 0.1 / 4.0).epsilon(1e-15));
 }
 
 TEST_CASE("the shear force ends at friction times normal force") {
   ContactMemory<2, double> memory;
-  CHECK(law.respond(at(0.25, 9.0), memory).shear == doctest::Approx(-1.0 / 6.0).epsilon(1e-15));  // analytic: mu F_n
+  CHECK(law.respond(at(0.25, 9.0), memory).shear == samples::Approx(-1.0 / 6.0).epsilon(1e-15));  // analytic: mu F_n
 }
 
 TEST_CASE("unloading takes shear force in proportion to the contact radius, loading leaves it") {
@@ -53,7 +55,7 @@ TEST_CASE("unloading takes shear force in proportion to the contact radius, load
   CHECK(memory.shear == held);
   // Analytic: a quarter of the overlap is half the contact radius; 0.01 stays below the limit mu F_n = 1/6.
   law.respond(at(0.25, 0.0), memory);
-  CHECK(memory.shear == doctest::Approx(held / 2.0).epsilon(1e-15));
+  CHECK(memory.shear == samples::Approx(held / 2.0).epsilon(1e-15));
   law.respond(at(-1e-3, 0.0), memory);
   CHECK(memory.shear == 0.0);
 }
@@ -61,23 +63,23 @@ TEST_CASE("unloading takes shear force in proportion to the contact radius, load
 TEST_CASE("materials are reduced as Hertz and Mindlin have it") {
   // Analytic: E / 2(1 - nu^2) = 25 GPa and E / 4(1 + nu)(2 - nu) = 48 / 8.64 GPa; round-off.
   auto const glass = HertzMindlin<>::of(48e9, 0.2, 0.35);
-  CHECK(glass.reduced_modulus == doctest::Approx(25e9).epsilon(1e-15));
-  CHECK(glass.reduced_shear_modulus == doctest::Approx(48e9 / 8.64).epsilon(1e-15));
+  CHECK(glass.reduced_modulus == samples::Approx(25e9).epsilon(1e-15));
+  CHECK(glass.reduced_shear_modulus == samples::Approx(48e9 / 8.64).epsilon(1e-15));
   CHECK(glass.friction == 0.35);
   // Analytic: against a rigid body only one compliance is left.
   auto const on_rigid = HertzMindlin<>::between(48e9, 0.2, 1e40, 0.2, 0.35);
-  CHECK(on_rigid.reduced_modulus == doctest::Approx(50e9).epsilon(1e-15));
-  CHECK(on_rigid.reduced_shear_modulus == doctest::Approx(48e9 / 4.32).epsilon(1e-15));
+  CHECK(on_rigid.reduced_modulus == samples::Approx(50e9).epsilon(1e-15));
+  CHECK(on_rigid.reduced_shear_modulus == samples::Approx(48e9 / 4.32).epsilon(1e-15));
 }
 
 TEST_CASE("the damping ratio agrees with Thornton's fit where that is good") {
   // Another code: polynomial of Thornton, Cummins and Cleary 2013 as used by Yade's Chung and Ooi scripts, evaluated
   // for gamma at e = 0.2, 0.5, 0.8. Their fit is good to about 1e-3.
-  CHECK(scarp::damping_ratio_for(0.2) == doctest::Approx(0.666814).epsilon(2e-3));
-  CHECK(scarp::damping_ratio_for(0.5) == doctest::Approx(0.233025).epsilon(2e-3));
-  CHECK(scarp::damping_ratio_for(0.8) == doctest::Approx(0.0679029).epsilon(2e-3));
+  CHECK(scarp::damping_ratio_for(0.2) == samples::Approx(0.666814).epsilon(2e-3));
+  CHECK(scarp::damping_ratio_for(0.5) == samples::Approx(0.233025).epsilon(2e-3));
+  CHECK(scarp::damping_ratio_for(0.8) == samples::Approx(0.0679029).epsilon(2e-3));
   // Analytic: eta = 1 has e = exp(-2); bisection and the removable singularity leave 1e-12.
-  CHECK(scarp::damping_ratio_for(std::exp(-2.0)) == doctest::Approx(std::sqrt(5.0 / 6.0)).epsilon(1e-11));
+  CHECK(scarp::damping_ratio_for(std::exp(-2.0)) == samples::Approx(std::sqrt(5.0 / 6.0)).epsilon(1e-11));
   CHECK(scarp::damping_ratio_for(1.0) < 1e-15);
 }
 
@@ -93,11 +95,11 @@ TEST_CASE("dashpots act beside the springs and within friction") {
   auto const force = damped.respond(approach, memory);
   // Analytic: S_n = S_t = 2 N/m, c = 2 gamma sqrt(8 x 2) = 8 gamma; speeds 0.006 and 0.004 m/s; round-off.
   double const dashpot = 8.0 * scarp::damping_ratio_for(0.5);
-  CHECK(force.normal == doctest::Approx(1.0 / 3.0 + dashpot * 0.006).epsilon(1e-14));
-  CHECK(force.shear == doctest::Approx(-0.004 - dashpot * 0.004).epsilon(1e-14));
-  CHECK(memory.shear == doctest::Approx(-0.004).epsilon(1e-14));  // the spring alone is remembered
+  CHECK(force.normal == samples::Approx(1.0 / 3.0 + dashpot * 0.006).epsilon(1e-14));
+  CHECK(force.shear == samples::Approx(-0.004 - dashpot * 0.004).epsilon(1e-14));
+  CHECK(memory.shear == samples::Approx(-0.004).epsilon(1e-14));  // the spring alone is remembered
   approach.slip = approach.sweep = 1.0;
-  CHECK(damped.respond(approach, memory).shear == doctest::Approx(-0.5 * force.normal).epsilon(1e-14));
+  CHECK(damped.respond(approach, memory).shear == samples::Approx(-0.5 * force.normal).epsilon(1e-14));
   approach.closing = -1.0;  // torn apart: the dashpot would pull
   CHECK(damped.respond(approach, memory).normal == 0.0);
   CHECK(memory.shear == 0.0);
@@ -119,7 +121,7 @@ TEST_CASE("no closed path of motion creates energy") {
       law.respond(at(overlap, step), memory);
       work -= 0.5 * (before + memory.shear) * step;
     }
-    CHECK(work == doctest::Approx(1e-4).epsilon(1e-12));  // round-off
+    CHECK(work == samples::Approx(1e-4).epsilon(1e-12));  // round-off
   }
   for (double const sense : {1.0, -1.0}) {  // a smooth cycle in both senses, with sticking throughout
     ContactMemory<2, double> memory;

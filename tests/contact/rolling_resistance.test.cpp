@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "approx.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
@@ -54,7 +55,7 @@ static_assert(!CanResistRolling<RollingResistance<Frictionless>>, "a contact rem
 TEST_CASE("rolling is resisted by a spring and forces are those of the law inside") {
   ContactMemory<2, double> memory, alone;
   auto const force = law.respond(rolled(0.2, 0.05), memory);
-  CHECK(force.moment == doctest::Approx(-0.4).epsilon(1e-15));  // analytic: k_r x 0.05; one rounding
+  CHECK(force.moment == samples::Approx(-0.4).epsilon(1e-15));  // analytic: k_r x 0.05; one rounding
   CHECK(memory.moment == force.moment);
   CHECK(force.normal == law.law.respond(rolled(0.2, 0.05), alone).normal);
   CHECK(law.stiffness(0.2, 0.5).rolling == 8.0);
@@ -63,9 +64,9 @@ TEST_CASE("rolling is resisted by a spring and forces are those of the law insid
 
 TEST_CASE("the moment ends at rolling friction times radius times normal force") {
   ContactMemory<2, double> memory;
-  CHECK(law.respond(rolled(0.2, 1.0), memory).moment == doctest::Approx(-1.0).epsilon(1e-15));  // analytic, see law
-  CHECK(law.respond(rolled(0.2, -1.0), memory).moment == doctest::Approx(1.0).epsilon(1e-15));
-  CHECK(law.respond(rolled(0.1, 0.0), memory).moment == doctest::Approx(0.5).epsilon(1e-15));
+  CHECK(law.respond(rolled(0.2, 1.0), memory).moment == samples::Approx(-1.0).epsilon(1e-15));  // analytic, see law
+  CHECK(law.respond(rolled(0.2, -1.0), memory).moment == samples::Approx(1.0).epsilon(1e-15));
+  CHECK(law.respond(rolled(0.1, 0.0), memory).moment == samples::Approx(0.5).epsilon(1e-15));
   CHECK(law.respond(rolled(-0.1, 0.3), memory).moment == 0.0);
 }
 
@@ -75,8 +76,8 @@ TEST_CASE("in space the moment is limited in size and keeps its direction") {
       Approach<3, double>{.overlap = 0.2, .slip = {}, .roll = {0.0, 0.3, 0.4}, .reduced_radius = 0.5}, memory);
   // Analytic: the trial moment 8 x 0.5 = 4 N m lies along -(0, 0.6, 0.8), the limit is 1 N m.
   CHECK(force.moment[0] == 0.0);
-  CHECK(force.moment[1] == doctest::Approx(-0.6).epsilon(1e-14));
-  CHECK(force.moment[2] == doctest::Approx(-0.8).epsilon(1e-14));
+  CHECK(force.moment[1] == samples::Approx(-0.6).epsilon(1e-14));
+  CHECK(force.moment[2] == samples::Approx(-0.8).epsilon(1e-14));
 }
 
 TEST_CASE("a bond that is pulled resists rolling by the size of its pull") {
@@ -84,12 +85,12 @@ TEST_CASE("a bond that is pulled resists rolling by the size of its pull") {
   RollingResistance<Bond> const rolling_bond{.law = {.law = law.law, .tensile_strength = 30.0, .shear_strength = 1.0},
                                              .rolling_stiffness = 8.0,
                                              .rolling_friction = 0.1};
-  CHECK(rolling_bond.reach() == doctest::Approx(0.3).epsilon(1e-15));  // analytic: T / k_n, told by the bond inside
+  CHECK(rolling_bond.reach() == samples::Approx(0.3).epsilon(1e-15));  // analytic: T / k_n, told by the bond inside
   ContactMemory<2, double> memory;
   Bond::bond(memory);
   auto const force = rolling_bond.respond(rolled(-0.2, 1.0), memory);
-  CHECK(force.normal == doctest::Approx(-20.0).epsilon(1e-15));  // analytic: k_n u
-  CHECK(force.moment == doctest::Approx(-1.0).epsilon(1e-15));   // analytic: 0.1 x 0.5 m x 20 N
+  CHECK(force.normal == samples::Approx(-20.0).epsilon(1e-15));  // analytic: k_n u
+  CHECK(force.moment == samples::Approx(-1.0).epsilon(1e-15));   // analytic: 0.1 x 0.5 m x 20 N
 }
 
 TEST_CASE("work of rolling is stored in the spring or dissipated by its slider") {
@@ -101,9 +102,9 @@ TEST_CASE("work of rolling is stored in the spring or dissipated by its slider")
     work -= 0.5 * (before + memory.moment) * roll;
   }
   double const spring = law.stored_energy(rolled(0.2, 0.0), memory) - law.law.stored_energy(rolled(0.2, 0.0), memory);
-  CHECK(spring == doctest::Approx(memory.moment * memory.moment / 16.0).epsilon(1e-12));  // analytic: M^2 / 2 k_r
+  CHECK(spring == samples::Approx(memory.moment * memory.moment / 16.0).epsilon(1e-12));  // analytic: M^2 / 2 k_r
   CHECK(dissipated > 0.1);
-  CHECK(work == doctest::Approx(spring + dissipated).epsilon(1e-13));  // analytic, with mean moments; round-off
+  CHECK(work == samples::Approx(spring + dissipated).epsilon(1e-13));  // analytic, with mean moments; round-off
 }
 
 TEST_CASE("a sphere that spins on a smooth plane slows down at the rate of its rolling friction") {
@@ -124,6 +125,6 @@ TEST_CASE("a sphere that spins on a smooth plane slows down at the rate of its r
   // Analytic: omega = omega_0 - 5 mu_r g t / 2 r (test of rolling friction in LAMMPS's granular suite). The spring
   // needs 1e-4 rad to reach its limit, 3 steps of 5000: 1e-3.
   double const expected = start - 2.5 * rolling_friction * gravity * steps * step / radius;
-  CHECK(spin == doctest::Approx(expected).epsilon(1e-3));
-  CHECK(kinetic_loss == doctest::Approx(dissipated + 0.5 * memory.moment * memory.moment / 1e3).epsilon(1e-3));
+  CHECK(spin == samples::Approx(expected).epsilon(1e-3));
+  CHECK(kinetic_loss == samples::Approx(dissipated + 0.5 * memory.moment * memory.moment / 1e3).epsilon(1e-3));
 }

@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include "approx.hpp"
+
 namespace {
 
 using scarp::Tensor;
@@ -23,7 +25,7 @@ TEST_CASE("pressure and shear stress of the plane have their closed forms") {
   // Analytic: p = -(sxx + syy)/2; q = half the difference of the principal stresses = hypot((sxx - syy)/2, sxy).
   auto const general = scarp::geo::plane_stress({-100.0, -40.0, 40.0});
   CHECK(general.p == 70.0);
-  CHECK(general.q == doctest::Approx(50.0).epsilon(round_off));
+  CHECK(general.q == samples::Approx(50.0).epsilon(round_off));
   auto const isotropic = scarp::geo::plane_stress({-3.0, -3.0, 0.0});
   CHECK(isotropic.p == 3.0);
   CHECK(isotropic.q == 0.0);
@@ -38,8 +40,8 @@ TEST_CASE("pressure and shear stress do not depend on the axes") {
     Tensor<2> const turn = scarp::rotation(angle);
     Tensor<2> const turned = turn * scarp::from_voigt_stress<2, double>(stress) * turn.transpose();
     auto const other = scarp::geo::plane_stress(scarp::to_voigt_stress<2, double>(turned));
-    CHECK(other.p == doctest::Approx(seen.p).epsilon(10.0 * round_off));
-    CHECK(other.q == doctest::Approx(seen.q).epsilon(10.0 * round_off));
+    CHECK(other.p == samples::Approx(seen.p).epsilon(10.0 * round_off));
+    CHECK(other.q == samples::Approx(seen.q).epsilon(10.0 * round_off));
   }
 }
 
@@ -51,8 +53,8 @@ TEST_CASE("logarithmic strains of stretch, turn and simple shear have their clos
   for (double const angle : {0.0, 0.7, 2.0}) {
     Tensor<2> const deformation = scarp::rotation(angle) * stretched(0.8, 1.1) * scarp::rotation(0.3 * angle);
     auto const strain = scarp::geo::plane_strain(deformation);
-    CHECK(strain.volumetric == doctest::Approx(-std::log(0.88)).epsilon(10.0 * round_off));
-    CHECK(strain.deviatoric == doctest::Approx(std::log(1.1 / 0.8)).epsilon(10.0 * round_off));
+    CHECK(strain.volumetric == samples::Approx(-std::log(0.88)).epsilon(10.0 * round_off));
+    CHECK(strain.deviatoric == samples::Approx(std::log(1.1 / 0.8)).epsilon(10.0 * round_off));
   }
   for (double const shear : {1e-6, 0.01, 1.0, 3.0}) {
     Tensor<2> deformation = Tensor<2>::Identity();

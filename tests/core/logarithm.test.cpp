@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
+
 using scarp::Gradient;
 using scarp::logarithm_of_increment;
 using scarp::Tensor;
@@ -12,9 +14,9 @@ TEST_CASE("the logarithm of a stretch is the logarithm of its axes") {
   gradient.diagonal() << 0.3, -0.25, 1e-9;
   auto const rate = logarithm_of_increment<3>(gradient);
   // Analytic: ln(1 + g) for each axis; round-off of values near one.
-  CHECK(rate(0, 0) == doctest::Approx(std::log1p(0.3)).epsilon(1e-15));
-  CHECK(rate(1, 1) == doctest::Approx(std::log1p(-0.25)).epsilon(1e-15));
-  CHECK(rate(2, 2) == doctest::Approx(std::log1p(1e-9)).epsilon(1e-15));
+  CHECK(rate(0, 0) == samples::Approx(std::log1p(0.3)).epsilon(1e-15));
+  CHECK(rate(1, 1) == samples::Approx(std::log1p(-0.25)).epsilon(1e-15));
+  CHECK(rate(2, 2) == samples::Approx(std::log1p(1e-9)).epsilon(1e-15));
   CHECK((rate - Tensor<3>(rate.diagonal().asDiagonal())).norm() == 0.0);
 }
 

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "approx.hpp"
 #include "scarp/core/random.hpp"
 
 namespace {
@@ -29,7 +30,7 @@ void check_factors(scarp::Random& random) {
   // Analytic: the definition of the polar decomposition, R^T R = I, det R = 1, U = U^T, U positive definite.
   // Round-off of a well-conditioned small matrix.
   CHECK((turn.transpose() * turn - scarp::Tensor<Dim>::Identity()).norm() < 1e-13);
-  CHECK(turn.determinant() == doctest::Approx(1.0).epsilon(1e-13));
+  CHECK(turn.determinant() == samples::Approx(1.0).epsilon(1e-13));
   CHECK((stretch - stretch.transpose()).norm() < 1e-13);
   for (int k = 0; k < 10; ++k) {
     scarp::Vector<Dim> direction;

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "dem/sample_packings.hpp"
 
 namespace {
@@ -48,11 +49,11 @@ double exact_limit_of_lattice() {
 
 TEST_CASE("the critical step of a lattice is a bound below its exact limit") {
   double const mass = samples::density * samples::thickness * scarp::Disc::content({5e-3});
-  CHECK(exact_limit_of_lattice() == doctest::Approx(0.8165 * std::sqrt(mass / smooth.normal_stiffness)).epsilon(1e-4));
+  CHECK(exact_limit_of_lattice() == samples::Approx(0.8165 * std::sqrt(mass / smooth.normal_stiffness)).epsilon(1e-4));
   double const bound = bound_of_lattice();
   CHECK(bound <= exact_limit_of_lattice());
   // Analytic: six equal pairs share each grain, one alone has omega^2 = k_n (6/m + 6/m).
-  CHECK(bound == doctest::Approx(2.0 / std::sqrt(12.0 * smooth.normal_stiffness / mass)).epsilon(1e-12));
+  CHECK(bound == samples::Approx(2.0 / std::sqrt(12.0 * smooth.normal_stiffness / mass)).epsilon(1e-12));
 }
 
 TEST_CASE("the scheme is stable at the bound and just below the exact limit, and blows up above it") {
@@ -82,5 +83,5 @@ TEST_CASE("loose grains have the step of the lightest between two others") {
   double const lightest = samples::density * samples::thickness * scarp::Disc::content({2e-3});
   // Analytic: omega^2 = 4 k_n / m for a grain between two fixed walls whose springs count double.
   CHECK(scarp::critical_step(packing, smooth) ==
-        doctest::Approx(2.0 / std::sqrt(4.0 * smooth.normal_stiffness / lightest)).epsilon(1e-12));
+        samples::Approx(2.0 / std::sqrt(4.0 * smooth.normal_stiffness / lightest)).epsilon(1e-12));
 }

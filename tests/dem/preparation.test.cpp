@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "approx.hpp"
 #include "dem/sample_packings.hpp"
 #include "scarp/homogenise/balance.hpp"
 
@@ -89,7 +90,7 @@ TEST_CASE("a cloud touches nowhere and has its grading") {
     auto const size = packing.population->size(i);
     smallest = std::min(smallest, size[0]);
     largest = std::max(largest, size[0]);
-    CHECK(size[1] == doctest::Approx(0.75 * size[0]).epsilon(1e-15));
+    CHECK(size[1] == samples::Approx(0.75 * size[0]).epsilon(1e-15));
   }
   CHECK(smallest >= 4e-3);
   CHECK(largest < 6e-3);
@@ -141,7 +142,7 @@ TEST_CASE("one-dimensional compression meets its stresses with an earth pressure
     CHECK(column[k].verdict.acceptable());
     Tensor<2> const stress = scarp::balance(column[k].packing, law).stress;
     // The servo's tolerance, 1e-3 of the target, with as much again for the last move.
-    CHECK(stress(1, 1) == doctest::Approx(-pressures[k]).epsilon(2e-3));
+    CHECK(stress(1, 1) == samples::Approx(-pressures[k]).epsilon(2e-3));
     CHECK(std::abs(stress(0, 1)) < 2e-3 * pressures[k]);
     double const k0 = stress(0, 0) / stress(1, 1);
     MESSAGE("vertical pressure " << pressures[k] << ": K0 " << k0 << ", e " << column[k].packing.void_ratio());

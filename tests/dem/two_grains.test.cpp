@@ -5,6 +5,8 @@
 
 #include "dem/sample_packings.hpp"
 
+#include "approx.hpp"
+
 namespace {
 
 using samples::Discs;
@@ -82,7 +84,7 @@ TEST_CASE_TEMPLATE("a pair released from overlap parts with the frequency of its
     // Round-off of positions near 0.5 m, 1e-16, over the overlap, 1e-6, gathered over some hundred steps.
     CHECK(std::abs(present / overlap - leap_frog_from_rest(frequency, time_step, step)) < 1e-8);
   }
-  CHECK(packing.spin(0, 0) == doctest::Approx(0.0));
+  CHECK(packing.spin(0, 0) == samples::Approx(0.0));
 }
 
 TEST_CASE_TEMPLATE("a collision lasts half a period of the spring and keeps the energy", PackingType, Discs, Ellipses) {
@@ -106,8 +108,8 @@ TEST_CASE_TEMPLATE("a collision lasts half a period of the spring and keeps the 
   CHECK(std::abs(touching * time_step - time) < 1.5 * time_step);
   CHECK(time > 50.0 * time_step);
   // The spring gives back what it took, up to first and last step's share (omega dt)^2 < 1e-3.
-  CHECK(packing.velocity(0, 0) == doctest::Approx(-speed).epsilon(1e-3));
-  CHECK(packing.velocity(1, 0) == doctest::Approx(speed).epsilon(1e-3));
+  CHECK(packing.velocity(0, 0) == samples::Approx(-speed).epsilon(1e-3));
+  CHECK(packing.velocity(1, 0) == samples::Approx(speed).epsilon(1e-3));
 }
 
 TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then swings on its springs", PackingType,
@@ -139,7 +141,7 @@ TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then 
     advance(stepper, packing);
     double const speed = packing.velocity(1, 1) - packing.velocity(0, 1);
     // The row tilts by the path over the spacing, 1e-4 at the end, whose square is the error.
-    CHECK(speed == doctest::Approx(relative - deceleration * time_step * (step + 1)).epsilon(1e-5));
+    CHECK(speed == samples::Approx(relative - deceleration * time_step * (step + 1)).epsilon(1e-5));
   }
   // Stuck: springs 2 k_t on relative motion with m/2 each, from the rest at the limit force.
   double const frequency = std::sqrt(4.0 * law.tangential_stiffness * packing.population->inverse_mass()[0]);
@@ -166,8 +168,8 @@ TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then 
   double const periods = (last_crossing - first_crossing) * time_step * frequency / (2.0 * std::numbers::pi);
   CHECK(std::abs(periods - 3.0) < 2.0 * time_step * frequency / (2.0 * std::numbers::pi) + 3e-3);
   // Analytic amplitude mu F_n: nothing is lost once the contact sticks. The last sliding step overshoots by (omega dt)^2.
-  CHECK(largest == doctest::Approx(limit).epsilon(1e-2));
-  CHECK(smallest == doctest::Approx(-limit).epsilon(1e-2));
+  CHECK(largest == samples::Approx(limit).epsilon(1e-2));
+  CHECK(smallest == samples::Approx(-limit).epsilon(1e-2));
 }
 
 TEST_CASE_TEMPLATE("grains of a row spin on their tangential springs with their inertia", PackingType, Discs,

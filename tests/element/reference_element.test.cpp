@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "scarp/element/map.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/tet4.hpp"
@@ -83,7 +84,7 @@ TEST_CASE_TEMPLATE("shape functions add up to one and reproduce position", Eleme
                    scarp::Quad4, scarp::Tet4) {
   auto const xi = inner_point<Element>();
   auto const shape = Element::shape(xi);
-  CHECK(shape.sum() == doctest::Approx(1.0).epsilon(1e-15));  // analytic; round-off
+  CHECK(shape.sum() == samples::Approx(1.0).epsilon(1e-15));  // analytic; round-off
   CHECK((reference_corners<Element>().transpose() * shape - xi).norm() < 1e-15);
 }
 
@@ -110,7 +111,7 @@ TEST_CASE_TEMPLATE("quadrature is exact for linear functions on the reference ce
   }
   scarp::Vector<Element::dim> const centre = reference_corners<Element>().colwise().mean().transpose();
   // Analytic: volume of the reference cell; its centre is the mean of the corners.
-  CHECK(volume == doctest::Approx(Expected<Element>::volume).epsilon(1e-15));
+  CHECK(volume == samples::Approx(Expected<Element>::volume).epsilon(1e-15));
   CHECK((moment - volume * centre).norm() < 1e-15);
 }
 
@@ -141,7 +142,7 @@ TEST_CASE("a moved and stretched triangle has the area and the gradients of the 
   rows << 1.0, 2.0, 4.0, 2.5, 2.0, 6.0;
   auto const shape = scarp::spatial_shape<scarp::Tri3>(rows, scarp::Tri3::quadrature()[0]);
   // Analytic: half the cross product of the edges (3, 0.5) and (1, 4).
-  CHECK(shape.volume == doctest::Approx((3.0 * 4.0 - 0.5 * 1.0) / 2.0).epsilon(1e-15));
+  CHECK(shape.volume == samples::Approx((3.0 * 4.0 - 0.5 * 1.0) / 2.0).epsilon(1e-15));
   scarp::Vector<2> const slope(0.7, -1.3);
   scarp::Vector<3> const heights = rows * slope;  // of the plane through the corners
   CHECK((shape.gradients.transpose() * heights - slope).norm() < 1e-14);
@@ -150,11 +151,11 @@ TEST_CASE("a moved and stretched triangle has the area and the gradients of the 
 TEST_CASE("the side of an element has its length or area in space") {
   scarp::Corners<scarp::Line2, 2> line;
   line << 1.0, 1.0, 4.0, 5.0;
-  CHECK(scarp::measure<scarp::Line2, 2>(line, scarp::Vector<1>(0.5)) == doctest::Approx(5.0));  // analytic: 3-4-5
+  CHECK(scarp::measure<scarp::Line2, 2>(line, scarp::Vector<1>(0.5)) == samples::Approx(5.0));  // analytic: 3-4-5
   scarp::Corners<scarp::Tri3, 3> side;
   side << 0.0, 0.0, 1.0, 2.0, 0.0, 1.0, 0.0, 3.0, 1.0;
   CHECK(0.5 * scarp::measure<scarp::Tri3, 3>(side, scarp::Vector<2>::Zero()) ==
-        doctest::Approx(3.0));  // analytic: 2 * 3 / 2
+        samples::Approx(3.0));  // analytic: 2 * 3 / 2
 }
 
 TEST_CASE("an element turned inside out has a negative measure") {

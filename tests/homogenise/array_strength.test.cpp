@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "approx.hpp"
 #include "dem/sample_packings.hpp"
-#include "relative_error.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/shape/sphere.hpp"

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "dem/sample_packings.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 
@@ -46,8 +47,8 @@ TEST_CASE("an intact bond beyond Coulomb's limit does not slide, a broken one do
   auto const bonded = scarp::balance(packing, law);
   CHECK(bonded.sliding_share == 0.0);
   // Analytic: a force of 60 N along x and 50 N across, on a branch of 9.99 mm, in a volume of 0.002 m3.
-  CHECK(bonded.stress(0, 0) == doctest::Approx(-60.0 * 9.99e-3 / 2e-3).epsilon(1e-9));  // overlap is a small difference
-  CHECK(bonded.stress(1, 0) == doctest::Approx(-50.0 * 9.99e-3 / 2e-3).epsilon(1e-9));
+  CHECK(bonded.stress(0, 0) == samples::Approx(-60.0 * 9.99e-3 / 2e-3).epsilon(1e-9));  // overlap is a small difference
+  CHECK(bonded.stress(1, 0) == samples::Approx(-50.0 * 9.99e-3 / 2e-3).epsilon(1e-9));
   packing.pairs.scalars(0, 0) = 0.0;
   CHECK(scarp::balance(packing, law).sliding_share == 1.0);
 }

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "approx.hpp"
 #include "dem/sample_packings.hpp"
-#include "relative_error.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/sphere_grading.hpp"
 #include "scarp/homogenise/balance.hpp"
@@ -322,7 +322,7 @@ TEST_CASE("a doubled cell has the same stress and the same tangents") {
   CHECK(there.contacts == 4 * state.contacts);
   // Exact: sums over the same contacts. Round-off, 1e-15 of places over overlaps and forces that average out.
   CHECK((there.stress - state.stress).norm() < 1e-12 * state.stress.norm());
-  CHECK(there.sliding_share == doctest::Approx(state.sliding_share));
+  CHECK(there.sliding_share == samples::Approx(state.sliding_share));
   auto const affine = scarp::contact_tangent(one, law);
   CHECK((scarp::contact_tangent(four, law) - affine).norm() < 1e-12 * affine.norm());
   auto const relaxed = scarp::CondensedTangent{}(one, law);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "dem/sample_packings.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
@@ -40,11 +41,11 @@ TEST_CASE("a triangular lattice of equal discs has the closed-form moduli") {
   double const scale = std::sqrt(3.0) / 4.0 / samples::thickness;
   // Analytic: sum over the three bond directions, spacing cancels; per out-of-plane thickness
   // C11 = sqrt3/4 (3 kn + kt), C12 = sqrt3/4 (kn - kt), C66 = sqrt3/4 (kn + kt). Round-off with a margin.
-  CHECK(tangent(0, 0) == doctest::Approx(scale * (3.0 * kn + kt)).epsilon(1e-10));
-  CHECK(tangent(1, 1) == doctest::Approx(scale * (3.0 * kn + kt)).epsilon(1e-10));
-  CHECK(tangent(0, 1) == doctest::Approx(scale * (kn - kt)).epsilon(1e-10));
-  CHECK(tangent(2, 2) == doctest::Approx(scale * (kn + kt)).epsilon(1e-10));
-  CHECK(tangent(2, 2) == doctest::Approx((tangent(0, 0) - tangent(0, 1)) / 2.0).epsilon(1e-10));  // isotropy
+  CHECK(tangent(0, 0) == samples::Approx(scale * (3.0 * kn + kt)).epsilon(1e-10));
+  CHECK(tangent(1, 1) == samples::Approx(scale * (3.0 * kn + kt)).epsilon(1e-10));
+  CHECK(tangent(0, 1) == samples::Approx(scale * (kn - kt)).epsilon(1e-10));
+  CHECK(tangent(2, 2) == samples::Approx(scale * (kn + kt)).epsilon(1e-10));
+  CHECK(tangent(2, 2) == samples::Approx((tangent(0, 0) - tangent(0, 1)) / 2.0).epsilon(1e-10));  // isotropy
   CHECK(std::abs(tangent(0, 2)) < 1e-10 * tangent(0, 0));
   CHECK(std::abs(tangent(1, 2)) < 1e-10 * tangent(0, 0));
   CHECK((tangent - tangent.transpose()).norm() < 1e-10 * tangent(0, 0));
@@ -54,8 +55,8 @@ TEST_CASE("without tangential stiffness the lattice obeys Cauchy's relation") {
   scarp::Frictionless const smooth{.normal_stiffness = 6e6};
   auto const packing = listed(samples::triangular_lattice<SmoothDiscs>(4, radius, spacing), smooth);
   auto const tangent = scarp::to_voigt_tangent<2>(scarp::contact_tangent(packing, smooth));
-  CHECK(tangent(0, 1) == doctest::Approx(tangent(2, 2)).epsilon(1e-10));  // analytic: C12 = C66 for central forces
-  CHECK(tangent(0, 0) == doctest::Approx(3.0 * tangent(0, 1)).epsilon(1e-10));
+  CHECK(tangent(0, 1) == samples::Approx(tangent(2, 2)).epsilon(1e-10));  // analytic: C12 = C66 for central forces
+  CHECK(tangent(0, 0) == samples::Approx(3.0 * tangent(0, 1)).epsilon(1e-10));
 }
 
 TEST_CASE("a pressed lattice carries its closed-form pressure and is in balance") {
@@ -67,12 +68,12 @@ TEST_CASE("a pressed lattice carries its closed-form pressure and is in balance"
   double const expected = std::sqrt(3.0) * force / (spacing * samples::thickness);
   CHECK(state.contacts == 48);
   // The overlap, 1e-6 m, is a difference of numbers near 0.04 m: relative round-off 1e-17 x 4 / 1e-6.
-  CHECK(state.stress(0, 0) == doctest::Approx(-expected).epsilon(1e-9));
-  CHECK(state.stress(1, 1) == doctest::Approx(-expected).epsilon(1e-9));
+  CHECK(state.stress(0, 0) == samples::Approx(-expected).epsilon(1e-9));
+  CHECK(state.stress(1, 1) == samples::Approx(-expected).epsilon(1e-9));
   CHECK(std::abs(state.stress(0, 1)) < 1e-9 * expected);
   CHECK(state.unbalanced_ratio < 1e-9);
-  CHECK(state.mean_contact_force == doctest::Approx(force).epsilon(1e-9));
-  CHECK(state.deepest_overlap == doctest::Approx(2.0 * radius - spacing).epsilon(1e-9));
+  CHECK(state.mean_contact_force == samples::Approx(force).epsilon(1e-9));
+  CHECK(state.deepest_overlap == samples::Approx(2.0 * radius - spacing).epsilon(1e-9));
   CHECK(state.sliding_share == 0.0);
 }
 
@@ -107,9 +108,9 @@ TEST_CASE("grains that all point one way have the largest anisotropy of orientat
                                                 {{0.02, 0.02}, {0.07, 0.06}}, {0.7, 0.7});
   auto const fabric = scarp::particle_fabric(packing);
   // Analytic: n n^T of one direction, F = 4 (nn - I/2), sqrt(F:F/2) = 4 sqrt(1/2 / 2) = 2.
-  CHECK(fabric(0, 0) == doctest::Approx(std::cos(0.7) * std::cos(0.7)).epsilon(1e-14));
-  CHECK(fabric.trace() == doctest::Approx(1.0).epsilon(1e-14));
-  CHECK(scarp::fabric_anisotropy(fabric) == doctest::Approx(2.0).epsilon(1e-14));
+  CHECK(fabric(0, 0) == samples::Approx(std::cos(0.7) * std::cos(0.7)).epsilon(1e-14));
+  CHECK(fabric.trace() == samples::Approx(1.0).epsilon(1e-14));
+  CHECK(scarp::fabric_anisotropy(fabric) == samples::Approx(2.0).epsilon(1e-14));
 }
 
 TEST_CASE("grains without contact carry no stress and count as balanced") {

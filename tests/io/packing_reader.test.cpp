@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "io/scratch_folder.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/homogenise/balance.hpp"
@@ -97,7 +98,7 @@ TEST_CASE("a packing of Yade's with its shear forces has Yade's stress, tangent,
   auto const state = scarp::balance(packing, law());
   CHECK(state.contacts == 872);
   constexpr double relative = 1e-6;
-  auto const near = [&](double expected) { return doctest::Approx(expected).epsilon(relative).scale(0.0); };
+  auto const near = [&](double expected) { return samples::Approx(expected).epsilon(relative).scale(0.0); };
   CHECK(state.stress(0, 0) == near(-200000.0379345945));
   CHECK(state.stress(0, 1) == near(-0.2002965082033865));
   CHECK(state.stress(1, 0) == near(-0.20029650887530226));
@@ -147,7 +148,7 @@ TEST_CASE("shear forces come from the file, contact by contact, with the sign th
     largest = std::max(largest, expected.norm());
     worst = std::max(worst, (force - expected).norm());
   });
-  CHECK(largest == doctest::Approx(1.7921545373672846e-4));  // Yade's max_abs_shear_force
+  CHECK(largest == samples::Approx(1.7921545373672846e-4));  // Yade's max_abs_shear_force
   // shear_force() is a difference of numbers of some 1000 N: its round-off is 1e-13 N, Yade's frame turns to 1e-12.
   CHECK(worst < 1e-11);
 }
@@ -182,7 +183,7 @@ TEST_CASE("contacts are found where the file's cell is not reduced and its image
   // Wrapping by other vectors costs round-off of positions, 1e-16 m of overlaps of 1e-4 m.
   CHECK((state.stress - expected.stress).norm() < 1e-9 * expected.stress.norm());
   // Shear forces of 1e-4 N show in the stress's shear part: the wrong sign of every other one would change it.
-  CHECK(state.stress(0, 1) == doctest::Approx(expected.stress(0, 1)).epsilon(1e-6));
+  CHECK(state.stress(0, 1) == samples::Approx(expected.stress(0, 1)).epsilon(1e-6));
 }
 
 // Expected: SudoDEM2D 6666937. The cell is L0 (exp ex, exp ey) with the logarithmic strains ex, ey at the start of
@@ -195,15 +196,15 @@ TEST_CASE("a packing of SudoDEM's has SudoDEM's contacts and void ratio") {
   scarp::Tensor<2> cell = scarp::Tensor<2>::Zero();
   cell(0, 0) = side * std::exp(-0.5063647597133606);
   cell(1, 1) = side * std::exp(-0.50607017741176);
-  CHECK(cell(0, 0) == doctest::Approx(0.16526).epsilon(1e-4));  // as the README rounds it
+  CHECK(cell(0, 0) == samples::Approx(0.16526).epsilon(1e-4));  // as the README rounds it
   auto packing = scarp::read_packing<Ellipses>(path, cell, density, thickness).packing;
-  CHECK(packing.void_ratio() == doctest::Approx(0.15343875585097405).epsilon(1e-6));
+  CHECK(packing.void_ratio() == samples::Approx(0.15343875585097405).epsilon(1e-6));
   REQUIRE(scarp::rebuild_pairs(packing, 1e-3).acceptable());
   auto const state = scarp::balance(packing, law());
   CHECK(state.contacts == 956);
   // Without their shear forces contacts give the mean stress only: normal forces carry all of it in discs, nearly in
   // these.
-  CHECK(state.stress.trace() / 2.0 == doctest::Approx(-2e5).epsilon(0.01));
+  CHECK(state.stress.trace() / 2.0 == samples::Approx(-2e5).epsilon(0.01));
 }
 
 TEST_CASE("grains may have any ids, and none at all") {
@@ -245,7 +246,7 @@ TEST_CASE("numbers in single precision are those of the file, rounded") {
   auto named = scarp::read_packing<Floats>(reference("yade/particles.csv"), yade_cell(), density, thickness);
   // Positions of 0.2 m are good to 1e-8 m, 3e-6 of the smallest radius.
   scarp::read_contacts(named, reference("yade/contacts.csv"), law(), 1e-4);
-  CHECK(scarp::balance(named.packing, law()).stress.trace() / 2.0 == doctest::Approx(-2e5).epsilon(1e-3));
+  CHECK(scarp::balance(named.packing, law()).stress.trace() / 2.0 == samples::Approx(-2e5).epsilon(1e-3));
 }
 
 TEST_CASE("grains that cannot be are refused with their line") {
@@ -293,7 +294,7 @@ TEST_CASE("contacts are set by ids and images that refer to places as the file h
   scarp::for_each_contact(named.packing, law(), [&](auto const& contact) {
     ++contacts;
     bool const upright = named.ids[contact.second] == 10;
-    CHECK(contact.shear_force()(1) == doctest::Approx(upright ? 7.0 : -7.0));
+    CHECK(contact.shear_force()(1) == samples::Approx(upright ? 7.0 : -7.0));
   });
   CHECK(contacts == 1);
   CHECK(named.packing.pairs.critical_step > 0.0);

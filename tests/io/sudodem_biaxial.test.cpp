@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "approx.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/servo.hpp"
@@ -56,7 +57,7 @@ Ellipses relaxed(std::string const& name, double width, double height) {
   REQUIRE(scarp::Servo{}.reach(stepper, packing, law, loading).acceptable());
   REQUIRE(stepper.stop(packing, law).acceptable());
   // Measured: 4.5e-4 for A, 9e-4 for G.
-  CHECK(packing.void_ratio() == doctest::Approx(void_ratio).epsilon(2e-3));
+  CHECK(packing.void_ratio() == samples::Approx(void_ratio).epsilon(2e-3));
   return packing;
 }
 

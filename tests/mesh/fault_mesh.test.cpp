@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "approx.hpp"
+
 namespace {
 
 using scarp::FaultMesh;
@@ -60,7 +62,7 @@ TEST_CASE("the layer has its full area and the announced number of triangles at 
   for (double const size : {0.4, 0.83, 1.25, 2.5, 4.0}) {
     FaultMesh const scene{.size = size};
     auto const mesh = scene.generate();
-    CHECK(area(mesh, 0) == doctest::Approx(75.0 * 25.0).epsilon(1e-12));  // analytic; round-off of 1e4 terms
+    CHECK(area(mesh, 0) == samples::Approx(75.0 * 25.0).epsilon(1e-12));  // analytic; round-off of 1e4 terms
     CHECK(static_cast<int>(mesh.elements.size()) == scene.triangle_count());
     CHECK(mesh.regions == std::vector<std::string>{"soil"});
   }
@@ -99,8 +101,8 @@ TEST_CASE("cells are finest in the band and grow to the sides") {
   double const first = *std::next(lines.begin()) - *lines.begin();
   auto const middle = lines.lower_bound(-10.0);
   double const inner = *std::next(middle) - *middle;
-  CHECK(inner == doctest::Approx(1.0).epsilon(0.05));          // rounding to whole cells
-  CHECK(first / inner == doctest::Approx(3.0).epsilon(0.05));  // the first cell is a little smaller than its left side
+  CHECK(inner == samples::Approx(1.0).epsilon(0.05));          // rounding to whole cells
+  CHECK(first / inner == samples::Approx(3.0).epsilon(0.05));  // the first cell is a little smaller than its left side
 }
 
 TEST_CASE("rows can be finer at bedrock") {
@@ -113,25 +115,25 @@ TEST_CASE("rows can be finer at bedrock") {
   double const top = *lines.rbegin() - *std::next(lines.rbegin());
   // Analytic: heights grow by the ratio 2^(1/n) from row to row, so the last of n is 2^((n-1)/n) times the first.
   CHECK(top / bottom ==
-        doctest::Approx(std::pow(2.0, 1.0 - 1.0 / static_cast<double>(lines.size() - 1))).epsilon(1e-10));
+        samples::Approx(std::pow(2.0, 1.0 - 1.0 / static_cast<double>(lines.size() - 1))).epsilon(1e-10));
 }
 
 TEST_CASE("the boundaries cover the outline") {
   auto const mesh = FaultMesh{}.generate();
-  CHECK(length(mesh, "left") == doctest::Approx(25.0).epsilon(1e-13));
-  CHECK(length(mesh, "right") == doctest::Approx(25.0).epsilon(1e-13));
-  CHECK(length(mesh, "bottom") == doctest::Approx(75.0).epsilon(1e-13));
-  CHECK(length(mesh, "surface") == doctest::Approx(75.0).epsilon(1e-13));
+  CHECK(length(mesh, "left") == samples::Approx(25.0).epsilon(1e-13));
+  CHECK(length(mesh, "right") == samples::Approx(25.0).epsilon(1e-13));
+  CHECK(length(mesh, "bottom") == samples::Approx(75.0).epsilon(1e-13));
+  CHECK(length(mesh, "surface") == samples::Approx(75.0).epsilon(1e-13));
 }
 
 TEST_CASE("a footing stands on the surface and shares its nodes") {
   auto const mesh = with_footing().generate();
   auto const footing = scarp::region_number(mesh, "footing");
-  CHECK(area(mesh, footing) == doctest::Approx(7.0 * 1.5).epsilon(1e-13));
-  CHECK(area(mesh, scarp::region_number(mesh, "soil")) == doctest::Approx(75.0 * 25.0).epsilon(1e-12));
-  CHECK(length(mesh, "footing_base") == doctest::Approx(7.0).epsilon(1e-13));
-  CHECK(length(mesh, "footing_top") == doctest::Approx(7.0).epsilon(1e-13));
-  CHECK(length(mesh, "surface") == doctest::Approx(68.0).epsilon(1e-13));
+  CHECK(area(mesh, footing) == samples::Approx(7.0 * 1.5).epsilon(1e-13));
+  CHECK(area(mesh, scarp::region_number(mesh, "soil")) == samples::Approx(75.0 * 25.0).epsilon(1e-12));
+  CHECK(length(mesh, "footing_base") == samples::Approx(7.0).epsilon(1e-13));
+  CHECK(length(mesh, "footing_top") == samples::Approx(7.0).epsilon(1e-13));
+  CHECK(length(mesh, "surface") == samples::Approx(68.0).epsilon(1e-13));
   CHECK(static_cast<int>(mesh.elements.size()) == with_footing().triangle_count());
   std::set<std::pair<double, double>> places;
   for (auto const& node : mesh.nodes) {

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
+
 TEST_CASE("an even spacing gives even lines") {
   auto const lines = scarp::graded_lines(scarp::Spacing({{0.0, 0.5}, {2.0, 0.5}}), {0.0, 2.0});
   CHECK(lines == std::vector<double>{0.0, 0.5, 1.0, 1.5, 2.0});  // analytic, exact in binary
@@ -15,7 +17,7 @@ TEST_CASE("a linear spacing gives cells that grow by a constant ratio") {
   REQUIRE(lines.size() == 9);
   for (std::size_t k = 2; k < lines.size(); ++k) {
     CHECK((lines[k] - lines[k - 1]) / (lines[k - 1] - lines[k - 2]) ==
-          doctest::Approx(std::pow(5.0, 1.0 / 8.0)).epsilon(1e-12));  // round-off of logarithm and exponential
+          samples::Approx(std::pow(5.0, 1.0 / 8.0)).epsilon(1e-12));  // round-off of logarithm and exponential
   }
   CHECK(lines.back() == 5.0);
 }

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
+
 namespace {
 
 double area(scarp::Mesh<scarp::Tri3> const& mesh) {
@@ -20,7 +22,7 @@ TEST_CASE("a crossed rectangle has four triangles and one centre node per cell")
   auto const mesh = scarp::RectangleMesh{.width = 3.0, .height = 2.0, .columns = 6, .rows = 4}.generate();
   CHECK(mesh.elements.size() == 4 * 6 * 4);   // analytic
   CHECK(mesh.nodes.size() == 7 * 5 + 6 * 4);  // analytic
-  CHECK(area(mesh) == doctest::Approx(6.0).epsilon(1e-14));
+  CHECK(area(mesh) == samples::Approx(6.0).epsilon(1e-14));
 }
 
 TEST_CASE("the named boundaries lie on their sides and run counter-clockwise") {
@@ -34,7 +36,7 @@ TEST_CASE("the named boundaries lie on their sides and run counter-clockwise") {
       length +=
           (mesh.nodes[static_cast<std::size_t>(second)] - mesh.nodes[static_cast<std::size_t>(first)]).dot(along[side]);
     }
-    CHECK(length == doctest::Approx(lengths[side]).epsilon(1e-15));
+    CHECK(length == samples::Approx(lengths[side]).epsilon(1e-15));
   }
   for (int const node : scarp::boundary_nodes(mesh, "top")) {
     CHECK(mesh.nodes[static_cast<std::size_t>(node)].y() == 2.0);
@@ -46,7 +48,7 @@ TEST_CASE("distortion moves interior nodes only, differently for every seed and 
   auto distorted = plain;
   distorted.distortion = 0.2;
   auto const mesh = distorted.generate();
-  CHECK(area(mesh) == doctest::Approx(6.0).epsilon(1e-14));  // analytic: the outline stays
+  CHECK(area(mesh) == samples::Approx(6.0).epsilon(1e-14));  // analytic: the outline stays
   auto const straight = plain.generate();
   int moved = 0;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "approx.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/time_stepping.hpp"
@@ -205,7 +206,7 @@ void check_any_ratio_of_sizes_and_any_shear() {
       // The lattice is the same one, and the places are the same ones on it.
       Tensor<dim> const change = before.cell.inverse() * packing.cell;
       CHECK((change.array() - change.array().round()).abs().maxCoeff() < 1e-12);
-      CHECK(change.determinant() == doctest::Approx(1.0).epsilon(1e-12));
+      CHECK(change.determinant() == samples::Approx(1.0).epsilon(1e-12));
       for (std::size_t i = 0; i < packing.grain_count(); ++i) {
         auto const from = before.position.row(i);
         auto const to = packing.position.row(i);

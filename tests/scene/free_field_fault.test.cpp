@@ -5,6 +5,7 @@
 
 #include <regex>
 
+#include "approx.hpp"
 #include "io/scratch_folder.hpp"
 #include "scarp/scene/convergence_log.hpp"
 #include "scarp/scene/field_series.hpp"
@@ -112,8 +113,8 @@ TEST_CASE("elastic ground starts in balance with the given stress ratio and the 
     auto const stress = problem.materials().committed_stress(point);
     double const depth = problem.discretisation().site(point, scene.layer.depth).depth;
     double const overburden = scene.surcharge + scene.unit_weight * depth;
-    CHECK(stress(1) == doctest::Approx(-overburden).epsilon(1e-12));  // round-off of the settling solve
-    CHECK(stress(0) == doctest::Approx(-sample::k0 * overburden).epsilon(1e-12));
+    CHECK(stress(1) == samples::Approx(-overburden).epsilon(1e-12));  // round-off of the settling solve
+    CHECK(stress(0) == samples::Approx(-sample::k0 * overburden).epsilon(1e-12));
     CHECK(std::abs(stress(2)) < 1e-12 * overburden);
   }
 }
@@ -131,9 +132,9 @@ TEST_CASE("the fault moves the hanging wall by the throw and leaves the foot wal
   auto const profile = surface_of(problem);
   // Analytic: the sides are prescribed; a sum of some tens of increments, the last cut off at `smallest` = 1e-7 m.
   CHECK(std::abs(profile.front().settlement) < 1e-12);
-  CHECK(profile.back().settlement == doctest::Approx(scene.throw_to).epsilon(1e-6));
+  CHECK(profile.back().settlement == samples::Approx(scene.throw_to).epsilon(1e-6));
   CHECK(profile.back().x - profile.back().x_initial ==
-        doctest::Approx(scene.throw_to / std::tan(scene.fault.dip)).epsilon(1e-6));
+        samples::Approx(scene.throw_to / std::tan(scene.fault.dip)).epsilon(1e-6));
   auto const found = scarp::outcrop(profile, run.load);
   CHECK(found.steepest_x > scene.layer.left);
   CHECK(found.steepest_x < scene.layer.right);

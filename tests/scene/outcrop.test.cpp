@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 
 namespace {
@@ -23,17 +24,17 @@ constexpr double round_off = 1e-14;
 
 TEST_CASE("the outcrop lies where the line of the steepest part meets the undeformed surface") {
   auto const found = scarp::outcrop(bent_profile(), 2.1);
-  CHECK(found.outcrop_x == doctest::Approx(-10.0).epsilon(round_off));
-  CHECK(found.steepest_x == doctest::Approx(-5.0).epsilon(round_off));
-  CHECK(found.width == doctest::Approx(10.5).epsilon(round_off));  // analytic: 2.1 m at 0.2 per metre
+  CHECK(found.outcrop_x == samples::Approx(-10.0).epsilon(round_off));
+  CHECK(found.steepest_x == samples::Approx(-5.0).epsilon(round_off));
+  CHECK(found.width == samples::Approx(10.5).epsilon(round_off));  // analytic: 2.1 m at 0.2 per metre
 }
 
 TEST_CASE("a steepest part within the slope projects back to the surface") {
   // Analytic: 0.5 per metre between (1, 0.3) and (2, 0.8) meets zero at 1 - 0.3/0.5 = 0.4.
   auto const found = scarp::outcrop({{0.0, 0.0, 0.1}, {1.0, 1.0, 0.3}, {2.0, 2.0, 0.8}, {4.0, 4.0, 1.0}}, 1.0);
-  CHECK(found.outcrop_x == doctest::Approx(0.4).epsilon(round_off));
+  CHECK(found.outcrop_x == samples::Approx(0.4).epsilon(round_off));
   CHECK(found.steepest_x == 1.5);
-  CHECK(found.width == doctest::Approx(2.0).epsilon(round_off));
+  CHECK(found.width == samples::Approx(2.0).epsilon(round_off));
 }
 
 TEST_CASE("a surface that has not settled, or only rises, has no outcrop") {
@@ -49,10 +50,10 @@ TEST_CASE("settlement is linear between the points and constant beyond them") {
   auto const profile = bent_profile();
   CHECK(scarp::settlement_at(profile, -100.0) == 0.0);
   CHECK(scarp::settlement_at(profile, -12.0) == 0.0);
-  CHECK(scarp::settlement_at(profile, -5.0) == doctest::Approx(1.0).epsilon(round_off));
-  CHECK(scarp::settlement_at(profile, 0.0) == doctest::Approx(2.0).epsilon(round_off));
-  CHECK(scarp::settlement_at(profile, 5.0) == doctest::Approx(2.05).epsilon(round_off));
-  CHECK(scarp::settlement_at(profile, 100.0) == doctest::Approx(2.1).epsilon(round_off));
+  CHECK(scarp::settlement_at(profile, -5.0) == samples::Approx(1.0).epsilon(round_off));
+  CHECK(scarp::settlement_at(profile, 0.0) == samples::Approx(2.0).epsilon(round_off));
+  CHECK(scarp::settlement_at(profile, 5.0) == samples::Approx(2.05).epsilon(round_off));
+  CHECK(scarp::settlement_at(profile, 100.0) == samples::Approx(2.1).epsilon(round_off));
 }
 
 TEST_CASE("the profile runs from left to right and tells where each node was and is") {

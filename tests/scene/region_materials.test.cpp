@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/mesh/fault_mesh.hpp"
 
@@ -41,15 +42,15 @@ TEST_CASE("every point answers with the provider of its own region") {
     in_footing += above ? 1 : 0;
     // Analytic: -gamma z in the ground, nothing in the footing.
     double const vertical = above ? 0.0 : -16e3 * site.depth;
-    CHECK(materials.committed_stress(point)(1) == doctest::Approx(vertical).epsilon(1e-14));
+    CHECK(materials.committed_stress(point)(1) == samples::Approx(vertical).epsilon(1e-14));
     double const shear_modulus = above ? 20e9 / 2.4 : 20e6 / 2.6;  // analytic: E / (2 (1 + nu))
-    CHECK(materials.committed_tangent(point)(2, 2) == doctest::Approx(shear_modulus).epsilon(1e-14));
+    CHECK(materials.committed_tangent(point)(2, 2) == samples::Approx(shear_modulus).epsilon(1e-14));
     auto const before = materials.committed_stress(point);
     auto const answer = materials.respond(point, stretch);
     CHECK(materials.committed_stress(point) == before);
     double const modulus = materials.committed_tangent(point)(0, 0);
     // Round-off of the initial stress, and E - ln U of second order.
-    CHECK(answer.stress(0) - before(0) == doctest::Approx(modulus * 1e-6).epsilon(1e-5));
+    CHECK(answer.stress(0) - before(0) == samples::Approx(modulus * 1e-6).epsilon(1e-5));
     CHECK(materials.work(point) == 0);
   }
   CHECK(in_footing > 0);

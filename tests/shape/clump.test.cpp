@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "approx.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/shape/clump_templates.hpp"
@@ -103,11 +104,11 @@ TEST_CASE("a clump of one disc is the disc, wherever its template puts it") {
       CHECK(std::abs(clump.arm_second[a] - disc.arm_second[a]) < 1e-13);
     }
   }
-  CHECK(Single::content({0.4}) == doctest::Approx(Disc::content({0.6})).epsilon(1e-14));
-  CHECK(Single::gyration_squared({0.4}) == doctest::Approx(Disc::gyration_squared({0.6})).epsilon(1e-13));
-  CHECK(Single::bounding_radius({0.4}) == doctest::Approx(0.6).epsilon(1e-14));
+  CHECK(Single::content({0.4}) == samples::Approx(Disc::content({0.6})).epsilon(1e-14));
+  CHECK(Single::gyration_squared({0.4}) == samples::Approx(Disc::gyration_squared({0.6})).epsilon(1e-13));
+  CHECK(Single::bounding_radius({0.4}) == samples::Approx(0.6).epsilon(1e-14));
   CHECK(Single::eccentricity({0.4}) < 1e-14);
-  CHECK(Single::least_curvature_radius({0.4}) == doctest::Approx(0.6).epsilon(1e-15));
+  CHECK(Single::least_curvature_radius({0.4}) == samples::Approx(0.6).epsilon(1e-15));
 }
 
 TEST_CASE("two overlapping discs have the area and inertia of both less those of their lens") {
@@ -123,9 +124,9 @@ TEST_CASE("two overlapping discs have the area and inertia of both less those of
   double const area = std::numbers::pi * 1.49 - segment_a - segment_b;
   double const moment_a = 2.0 / 3.0 * std::pow(std::sin(a), 3);
   double const moment_b = 1.1 * segment_b - 2.0 / 3.0 * std::pow(0.7 * std::sin(b), 3);
-  CHECK(whole.area == doctest::Approx(area).epsilon(1e-14));
+  CHECK(whole.area == samples::Approx(area).epsilon(1e-14));
   CHECK(whole.centroid(0) ==
-        doctest::Approx((std::numbers::pi * 0.49 * 1.1 - moment_a - moment_b) / area).epsilon(1e-13));
+        samples::Approx((std::numbers::pi * 0.49 * 1.1 - moment_a - moment_b) / area).epsilon(1e-13));
   CHECK(std::abs(whole.centroid(1)) < 1e-15);
 
   // Polar moment of a segment about its disc's centre: the sector's r^4 a / 2 less that of the triangle of height
@@ -137,7 +138,7 @@ TEST_CASE("two overlapping discs have the area and inertia of both less those of
   double const polar_b =
       polar_segment(0.7, b) - 2.0 * 1.1 * (2.0 / 3.0 * std::pow(0.7 * std::sin(b), 3)) + 1.1 * 1.1 * segment_b;
   double const polar = std::numbers::pi * (0.5 + 0.49 * (0.49 / 2.0 + 1.1 * 1.1)) - polar_segment(1.0, a) - polar_b;
-  CHECK(whole.polar_moment == doctest::Approx(polar - area * whole.centroid.squaredNorm()).epsilon(1e-13));
+  CHECK(whole.polar_moment == samples::Approx(polar - area * whole.centroid.squaredNorm()).epsilon(1e-13));
 }
 
 TEST_CASE_TEMPLATE("area, centroid and inertia of a union are those of its scan lines", Template, OneDisc, Crowd, Ring,
@@ -148,10 +149,10 @@ TEST_CASE_TEMPLATE("area, centroid and inertia of a union are those of its scan 
   // Independent: the midpoint rule errs by some (8/lines)^1.5 at the round ends of each disc, near 2.5e-7 of the
   // moments.
   double const centroid_squared = moments.centroid[0] * moments.centroid[0] + moments.centroid[1] * moments.centroid[1];
-  CHECK(whole.area == doctest::Approx(moments.area).epsilon(1e-6));
+  CHECK(whole.area == samples::Approx(moments.area).epsilon(1e-6));
   CHECK(std::abs(whole.centroid(0) - moments.centroid[0]) < 1e-6);
   CHECK(std::abs(whole.centroid(1) - moments.centroid[1]) < 1e-6);
-  CHECK(whole.polar_moment == doctest::Approx(moments.polar - moments.area * centroid_squared).epsilon(3e-6));
+  CHECK(whole.polar_moment == samples::Approx(moments.polar - moments.area * centroid_squared).epsilon(3e-6));
 }
 
 TEST_CASE("the parts of a clump lie about the centroid of their union and turn with the grain") {
@@ -167,10 +168,10 @@ TEST_CASE("the parts of a clump lie about the centroid of their union and turn w
   auto const turned = scarp::disc_union(placed);
   // Analytic: a rigid motion changes neither area nor inertia; round-off of some thirty arcs.
   CHECK(turned.centroid.norm() < 1e-14);
-  CHECK(turned.area == doctest::Approx(Shape::content({1.0})).epsilon(1e-13));
-  CHECK(turned.polar_moment / turned.area == doctest::Approx(Shape::gyration_squared({1.0})).epsilon(1e-13));
-  CHECK(Shape::content({0.5}) == doctest::Approx(0.25 * turned.area).epsilon(1e-13));
-  CHECK(Shape::gyration_squared({0.5}) == doctest::Approx(0.25 * Shape::gyration_squared({1.0})).epsilon(1e-15));
+  CHECK(turned.area == samples::Approx(Shape::content({1.0})).epsilon(1e-13));
+  CHECK(turned.polar_moment / turned.area == samples::Approx(Shape::gyration_squared({1.0})).epsilon(1e-13));
+  CHECK(Shape::content({0.5}) == samples::Approx(0.25 * turned.area).epsilon(1e-13));
+  CHECK(Shape::gyration_squared({0.5}) == samples::Approx(0.25 * Shape::gyration_squared({1.0})).epsilon(1e-15));
 }
 
 TEST_CASE("parts touch as discs at their places and the arms reach from the centres of the grains") {

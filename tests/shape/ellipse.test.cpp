@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "approx.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/grain_view.hpp"
 #include "scarp/shape/disc.hpp"
@@ -90,7 +91,7 @@ TEST_CASE("the overlap of two ellipses is the least of all directions") {
     CHECK(touch.overlap <= least + 1e-13);
     CHECK(touch.overlap > least - 1e-8);
     CHECK(touch.overlap ==
-          doctest::Approx(pair.gap_function(std::atan2(touch.normal[1], touch.normal[0]))).epsilon(1e-12));
+          samples::Approx(pair.gap_function(std::atan2(touch.normal[1], touch.normal[0]))).epsilon(1e-12));
   }
 }
 
@@ -159,22 +160,22 @@ TEST_CASE("an ellipse of aspect one is a disc") {
       CHECK(std::abs(ellipse.arm_second[a] - disc.arm_second[a]) < 1e-14);
     }
   }
-  CHECK(Ellipse::content({0.7, 0.7}) == doctest::Approx(Disc::content({0.7})).epsilon(1e-15));
-  CHECK(Ellipse::gyration_squared({0.7, 0.7}) == doctest::Approx(Disc::gyration_squared({0.7})).epsilon(1e-15));
+  CHECK(Ellipse::content({0.7, 0.7}) == samples::Approx(Disc::content({0.7})).epsilon(1e-15));
+  CHECK(Ellipse::gyration_squared({0.7, 0.7}) == samples::Approx(Disc::gyration_squared({0.7})).epsilon(1e-15));
   CHECK(Ellipse::eccentricity({0.7, 0.7}) == Disc::eccentricity({0.7}));
-  CHECK(Ellipse::least_curvature_radius({0.7, 0.7}) == doctest::Approx(0.7).epsilon(1e-15));
+  CHECK(Ellipse::least_curvature_radius({0.7, 0.7}) == samples::Approx(0.7).epsilon(1e-15));
 }
 
 TEST_CASE("area, inertia and curvature of an ellipse follow its axes") {
   // Analytic: area pi a b, second moment (a^2 + b^2)/4 per area, least radius of curvature b^2/a.
-  CHECK(Ellipse::content({2.0, 1.5}) == doctest::Approx(3.0 * std::numbers::pi).epsilon(1e-15));
-  CHECK(Ellipse::gyration_squared({2.0, 1.5}) == doctest::Approx(6.25 / 4.0).epsilon(1e-15));
-  CHECK(Ellipse::least_curvature_radius({2.0, 1.5}) == doctest::Approx(2.25 / 2.0).epsilon(1e-15));
+  CHECK(Ellipse::content({2.0, 1.5}) == samples::Approx(3.0 * std::numbers::pi).epsilon(1e-15));
+  CHECK(Ellipse::gyration_squared({2.0, 1.5}) == samples::Approx(6.25 / 4.0).epsilon(1e-15));
+  CHECK(Ellipse::least_curvature_radius({2.0, 1.5}) == samples::Approx(2.25 / 2.0).epsilon(1e-15));
   CHECK(Ellipse::bounding_radius({1.5, 2.0}) == 2.0);
   auto const tip = Ellipse::support(Placed{2.0, 1.5, 0.0}.pose(), Point<2, double>{1.0, 0.0});
-  CHECK(tip.value == doctest::Approx(2.0).epsilon(1e-15));
+  CHECK(tip.value == samples::Approx(2.0).epsilon(1e-15));
   CHECK(tip.slope == 0.0);
-  CHECK(tip.curvature_radius == doctest::Approx(2.25 / 2.0).epsilon(1e-15));
+  CHECK(tip.curvature_radius == samples::Approx(2.25 / 2.0).epsilon(1e-15));
 }
 
 TEST_CASE("the same pair seen from the other grain has the opposite normal") {

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/shape/disc.hpp"
@@ -84,8 +85,8 @@ TEST_CASE("volume and inertia of a sphere are those of its layers of discs") {
     volume += weight * Disc::content({disc});
     second_moment += weight * Disc::content({disc}) * Disc::gyration_squared({disc});
   }
-  CHECK(Sphere::content({radius}) == doctest::Approx(volume).epsilon(1e-13));
-  CHECK(Sphere::gyration_squared({radius}) == doctest::Approx(second_moment / volume).epsilon(1e-10));
+  CHECK(Sphere::content({radius}) == samples::Approx(volume).epsilon(1e-13));
+  CHECK(Sphere::gyration_squared({radius}) == samples::Approx(second_moment / volume).epsilon(1e-10));
   CHECK(Sphere::bounding_radius({radius}) == radius);
   CHECK(Sphere::eccentricity({radius}) == 0.0);
 }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "approx.hpp"
 #include "solver/sample_block.hpp"
 
 namespace {
@@ -56,7 +57,7 @@ TEST_CASE("a softening block is pulled past its peak in steps that the observer 
     iterations += report.iterations();
     if (!report.verdict.acceptable()) continue;
     CHECK(report.load > load);
-    CHECK(report.load - load == doctest::Approx(report.load_increment).epsilon(1e-9));
+    CHECK(report.load - load == samples::Approx(report.load_increment).epsilon(1e-9));
     load = report.load;
   }
   CHECK(iterations == run.iterations);

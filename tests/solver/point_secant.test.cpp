@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
 
@@ -43,7 +44,7 @@ TEST_CASE("a tangent that softens is raised to the floor") {
   Strain const strain(1e-3, -1e-3, 0.0);
   Tangent const updated = rule.update<2>(elastic(), elastic(), strain, -2.0 * elastic() * strain);
   double const floor = 0.1 * elastic().trace() / 3.0;
-  CHECK(least_eigenvalue(updated) == doctest::Approx(floor).epsilon(1e-9));
+  CHECK(least_eigenvalue(updated) == samples::Approx(floor).epsilon(1e-9));
   scarp::PointSecant const no_floor{.floor = -1e300};
   Tangent const lowered = no_floor.update<2>(elastic(), elastic(), strain, -2.0 * elastic() * strain);
   CHECK(least_eigenvalue(lowered) < 0.0);

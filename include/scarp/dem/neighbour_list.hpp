@@ -167,15 +167,19 @@ std::vector<NearPair<Shape::dim>> find_near_pairs(Population<Shape, Scalar> cons
 }
 
 /// The pairs in another order: neighbours in the list have different grains, so that the pair loop need not wait for one
-/// pair's forces before it can add the next one's.
+/// pair's forces before it can add the next one's. Within groups, whose grains stay in the nearest caches.
 template <int Dim>
 std::vector<NearPair<Dim>> interleaved(std::vector<NearPair<Dim>> const& sorted) {
   constexpr std::size_t strands = 16;  // at least the lanes of a pack
-  std::size_t const stride = (sorted.size() + strands - 1) / strands;
+  constexpr std::size_t group = 64 * strands;
   std::vector<NearPair<Dim>> woven;
   woven.reserve(sorted.size());
-  for (std::size_t begin = 0; begin < stride; ++begin) {
-    for (std::size_t at = begin; at < sorted.size(); at += stride) woven.push_back(sorted[at]);
+  for (std::size_t begin = 0; begin < sorted.size(); begin += group) {
+    std::size_t const end = std::min(begin + group, sorted.size());
+    std::size_t const stride = (end - begin + strands - 1) / strands;
+    for (std::size_t first = begin; first < begin + stride; ++first) {
+      for (std::size_t at = first; at < end; at += stride) woven.push_back(sorted[at]);
+    }
   }
   return woven;
 }

@@ -14,7 +14,7 @@ template <class Shape, class Law, class Scalar>
 struct PairBlock {
   using Layout = RowLayout<Shape, Law>;
   using Lanes = Pack<Scalar>;
-  static constexpr std::size_t size = 32;  ///< pairs
+  static constexpr std::size_t size = 64;  ///< pairs
   static constexpr auto axes = static_cast<std::size_t>(Shape::dim);
   static constexpr std::size_t turns = Layout::turns;
   static constexpr std::size_t pose_size = Layout::pose_size;
