@@ -140,8 +140,9 @@ TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then 
   for (; step < slides; ++step) {
     advance(stepper, packing);
     double const speed = packing.velocity(1, 1) - packing.velocity(0, 1);
-    // The row tilts by the path over the spacing, 1e-4 at the end, whose square is the error.
-    CHECK(speed == samples::Approx(relative - deceleration * time_step * (step + 1)).epsilon(1e-5));
+    // The row tilts by the path over the spacing, 1e-4 at the end; its square opens the contacts by 5e-5 of their overlap, which
+    // costs a tenth of that in speed.
+    CHECK(std::abs(speed - (relative - deceleration * time_step * (step + 1))) < 1e-5 * relative);
   }
   // Stuck: springs 2 k_t on relative motion with m/2 each, from the rest at the limit force.
   double const frequency = std::sqrt(4.0 * law.tangential_stiffness * packing.population->inverse_mass()[0]);
