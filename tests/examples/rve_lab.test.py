@@ -11,6 +11,9 @@ import sys
 import tempfile
 import time
 
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
 LAB = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "rve_lab"
 YADE = pathlib.Path(__file__).resolve().parents[1] / "reference" / "yade"
 SUDODEM = YADE.parent / "sudodem"
@@ -19,15 +22,6 @@ PRESSURE = 2e5  # [Pa]
 FABRIC = (0.5010209421, 0.0004253299)  # xx, xy of Yade's contacts, tests/reference/README.md
 INPUT = ["--particles", str(YADE / "particles.csv"), "--contacts", str(YADE / "contacts.csv")]
 COMPONENTS = ("sxx", "sxy", "syx", "syy")
-troubles = []
-checks = 0
-
-
-def expect(truth, message):
-    global checks
-    checks += 1
-    if not truth:
-        troubles.append(message)
 
 
 def run(*arguments, folder):
@@ -183,6 +177,4 @@ for check in (check_paths, check_cell, check_held_stress, check_relax, check_rou
     with tempfile.TemporaryDirectory() as scratch:
         check(pathlib.Path(scratch))
     print(f"{check.__name__}: {time.monotonic() - started:.1f} s")
-print("\n".join(troubles))
-print(f"{checks} checks, {len(troubles)} failed")
-sys.exit(1 if troubles else 0)
+finish()

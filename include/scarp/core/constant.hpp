@@ -5,8 +5,7 @@
 
 namespace scarp {
 
-namespace detail {
-
+/// The scalar that a pack has many of, or the scalar itself.
 template <class T>
 struct ScalarOf {
   using type = T;
@@ -17,18 +16,16 @@ struct ScalarOf<T> {
   using type = typename T::value_type;
 };
 
-}  // namespace detail
-
 /// A number as scalar type T; a pack gets it in every lane, rounded to the pack's precision.
 template <class T>
 constexpr T constant(double value) {
-  return T(static_cast<typename detail::ScalarOf<T>::type>(value));
+  return T(static_cast<typename ScalarOf<T>::type>(value));
 }
 
 /// The smallest normal number: as a floor of divisors it keeps 0/0 away in any system of units.
 template <class T>
 constexpr T tiny() {
-  return T(std::numeric_limits<typename detail::ScalarOf<T>::type>::min());
+  return T(std::numeric_limits<typename ScalarOf<T>::type>::min());
 }
 
 }  // namespace scarp

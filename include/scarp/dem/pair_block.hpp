@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "scarp/dem/contact_sums.hpp"
 #include "scarp/dem/pair_lanes.hpp"

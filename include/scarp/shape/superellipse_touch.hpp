@@ -11,17 +11,6 @@
 
 namespace scarp {
 
-/// The scalar that a pack has many of, or the scalar itself.
-template <class T>
-struct LaneOf {
-  using type = T;
-};
-template <class T>
-  requires requires { typename T::value_type; }
-struct LaneOf<T> {
-  using type = typename T::value_type;
-};
-
 /// Support function, and where the normal stands among the grain's axes: `tilt` is the tangent of its angle from the
 /// nearest one (that of larger r |n|), never zero. The slope is there nearly linear in the tilt to the power 1 / bend.
 template <class T>
@@ -94,7 +83,7 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
   constexpr int most_evaluations = 40;
   constexpr double largest_step = 0.5;  // radians
   constexpr double small_step = 1e-4;   // radians; the expansions' error in the normal is of second order in it
-  constexpr double resolution = std::numeric_limits<typename LaneOf<T>::type>::epsilon();
+  constexpr double resolution = std::numeric_limits<typename ScalarOf<T>::type>::epsilon();
   constexpr double small_gain = std::max(1e-10, 2.0 * resolution);  // of overlap, relative to the grains
   T const one = constant<T>(1);
   T const half = constant<T>(0.5);

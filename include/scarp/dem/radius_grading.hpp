@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/core/random.hpp"
+
+namespace scarp {
+
+/// Radii of round grains, uniform between two bounds [m].
+template <class ShapePolicy>
+struct RadiusGrading {
+  using Shape = ShapePolicy;
+
+  double smallest = 0.0;
+  double largest = 0.0;
+
+  typename Shape::template Size<double> sample(Random& random) const { return {random.uniform(smallest, largest)}; }
+};
+
+}  // namespace scarp
