@@ -48,7 +48,7 @@ struct Column {
 
 TEST_CASE("the grid nodes of a column under gravity settle by the exact parabola") {
   Column const column;
-  double const modulus = column.soil.lame_lambda + 2.0 * column.soil.shear_modulus;
+  double const modulus = column.soil.elasticity.lame_lambda + 2.0 * column.soil.elasticity.shear_modulus;
   double const height = 6.0;
   int checked = 0;
   for (int n = 0; n < column.disc.node_count(); ++n) {
@@ -68,7 +68,7 @@ TEST_CASE("the grid nodes of a column under gravity settle by the exact parabola
 
 TEST_CASE("the centre of a crossed cell settles more than its corners' mean by what its own weight makes of it") {
   Column const column;
-  double const modulus = column.soil.lame_lambda + 2.0 * column.soil.shear_modulus;
+  double const modulus = column.soil.elasticity.lame_lambda + 2.0 * column.soil.elasticity.shear_modulus;
   auto const& mesh = column.disc.mesh();
   for (std::size_t cell = 0; cell < mesh.elements.size(); cell += 4) {
     int const centre = mesh.elements[cell][2];
@@ -78,7 +78,7 @@ TEST_CASE("the centre of a crossed cell settles more than its corners' mean by w
     }
     // Analytic: stiffness against the excess is 8 A (M/h^2 + G/w^2) with A a quarter of the cell, w x h; the centre
     // carries a third of the cell's weight: excess = -gamma / (6 (M/h^2 + G/w^2)).
-    double const exact = -unit_weight / (6.0 * (modulus / (1.2 * 1.2) + column.soil.shear_modulus / (1.0 * 1.0)));
+    double const exact = -unit_weight / (6.0 * (modulus / (1.2 * 1.2) + column.soil.elasticity.shear_modulus / (1.0 * 1.0)));
     CHECK(column.displacement(2 * centre + 1) - mean ==
           samples::Approx(exact).epsilon(1e-9));  // difference of larger ones
   }

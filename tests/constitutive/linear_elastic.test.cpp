@@ -57,8 +57,8 @@ TEST_CASE("oedometric compression gives the constrained modulus and the ratio of
 TEST_CASE("Young's modulus and Poisson's ratio are turned into Lame's moduli") {
   auto const steel = Elastic::from_young_poisson(210e9, 0.3);
   // Analytic: lambda = E nu / ((1 + nu)(1 - 2 nu)), G = E / (2 (1 + nu)); round-off.
-  CHECK(steel.lame_lambda == samples::Approx(210e9 * 0.3 / (1.3 * 0.4)).epsilon(1e-14));
-  CHECK(steel.shear_modulus == samples::Approx(210e9 / 2.6).epsilon(1e-14));
+  CHECK(steel.elasticity.lame_lambda == samples::Approx(210e9 * 0.3 / (1.3 * 0.4)).epsilon(1e-14));
+  CHECK(steel.elasticity.shear_modulus == samples::Approx(210e9 / 2.6).epsilon(1e-14));
 }
 
 TEST_CASE("a pure rotation turns the stress exactly, at every angle") {

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/constitutive/isotropic_elasticity.hpp"
+#include "scarp/constitutive/mohr_coulomb_return.hpp"
+#include "scarp/constitutive/rotated_increment.hpp"
+#include "scarp/core/principal.hpp"
+
+namespace scarp {
+
+/// Linear elasticity below a Mohr-Coulomb surface with tension cut-off; flow by the angle of dilation (associated where
+/// tension is cut off); strength constant or a function of the plastic shear strain. In two dimensions plane strain with the stress out of the
+/// plane as part of the state. An increment's answer is an implicit Euler step from the committed stress, turned by the
+/// increment's rotation.
+template <int Dim, class InitialStress = StressFree<Dim>, StrengthLaw StrengthType = ConstantStrength>
+  requires InitialStressField<InitialStress, Dim>
+struct MohrCoulomb {
+  static constexpr int dim = Dim;
+
+  struct State {
+    VoigtStress<3> stress = VoigtStress<3>::Zero();  ///< of all three dimensions [Pa]
+    double plastic_shear = 0.0;                      ///< accumulated difference of the outer principal plastic strains
+    VoigtTangent<Dim> tangent = VoigtTangent<Dim>::Zero();  ///< consistent with the increment that led here [Pa]
+  };
+
+  IsotropicElasticity elasticity{};
+  StrengthType strength{};
+  InitialStress initial{};  ///< every point's start, by depth
+
+  /// The stress out of the plane starts as the horizontal one in it.
+  /// \throws InputError for a strength or elasticity that cannot be
+  State initial_state(Site<Dim> const& site) const {
+    require_sound(strength.at(0.0));
+    static_cast<void>(IsotropicElasticity::from_lame(elasticity.lame_lambda, elasticity.shear_modulus));
+    VoigtStress<Dim> const start = initial.at(site.depth);
+    Tensor<3> stress = Tensor<3>::Zero();
+    stress.template topLeftCorner<Dim, Dim>() = from_voigt_stress<Dim, double>(start);
+    if (Dim == 2) stress(2, 2) = start(0);
+    return {to_voigt_stress<3, double>(stress), 0.0, elasticity.template stiffness<Dim>()};
+  }
+
+  VoigtStress<Dim> stress(State const& state) const {
+    Tensor<Dim> const part = from_voigt_stress<3, double>(state.stress).template topLeftCorner<Dim, Dim>();
+    return to_voigt_stress<Dim, double>(part);
+  }
+
+  /// Derivative of the last increment's answer with respect to its strain; before any, the elastic stiffness.
+  VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
+
+  /// Fails with `not_finite`, `element_inverted`, or `no_return` where softening is so steep that no strength belongs to the
+  /// increment; `trial` is then a copy of `committed`.
+  Response<Dim> respond(State const& committed, Gradient<Dim> const& increment, State& trial) const {
+    trial = committed;
+    RotatedIncrement<Dim> const moved(increment);
+    if (!moved.verdict.acceptable()) return {stress(committed), moved.verdict};
+    Tensor<3> strain = Tensor<3>::Zero();
+    Tensor<3> turn = Tensor<3>::Identity();
+    strain.template topLeftCorner<Dim, Dim>() = moved.strain;
+    turn.template topLeftCorner<Dim, Dim>() = moved.turn;
+    Tensor<3> const predicted = from_voigt_stress<3, double>(committed.stress) + elasticity.stress<3>(strain);
+    if (!predicted.allFinite()) return {stress(committed), {Status::failed, Reason::not_finite}};
+    Principal const outer = principal(predicted);
+    double plastic_shear = committed.plastic_shear;
+    auto returned = settle(outer.values, plastic_shear);
+    if (!returned.found) return {stress(committed), {Status::failed, Reason::no_return}};
+    if constexpr (StrengthType::changes) soften_tangent(returned, outer.values, plastic_shear);
+    Tensor<3> const directions = turn * outer.directions;
+    Tensor<3> const answer = directions * returned.stress.asDiagonal() * directions.transpose();
+    trial.stress = to_voigt_stress<3, double>(answer);
+    trial.plastic_shear = plastic_shear;
+    trial.tangent = tangent_of(returned, outer.values, directions);
+    return {stress(trial), {}};
+  }
+
+ private:
+  using Return = detail::PrincipalReturn;
+
+  Return returned_at(Vector<3> const& trial, double plastic_shear) const {
+    return detail::MohrCoulombReturn(strength.at(plastic_shear), elasticity.lame_lambda,
+                                     elasticity.shear_modulus)(trial);
+  }
+
+  static double shear_of(Vector<3> const& plastic_strain) {
+    return plastic_strain.maxCoeff() - plastic_strain.minCoeff();
+  }
+
+  /// The return whose plastic shear strain gives the strength that it returned to. plastic_shear: committed, then new
+  Return settle(Vector<3> const& trial, double& plastic_shear) const {
+    Return returned = returned_at(trial, plastic_shear);
+    if constexpr (!StrengthType::changes) {
+      plastic_shear += shear_of(returned.plastic_strain);
+      return returned;
+    }
+    double const before = plastic_shear;
+    double low = before;
+    double gap_low =
+        shear_of(returned.plastic_strain);  // plastic shear that the strength at `low` lets happen beyond it
+    if (!returned.found || gap_low == 0.0) return returned;
+    double high = before + gap_low;
+    double gap_high = 0.0;
+    constexpr int most = 200;
+    for (int k = 0;; ++k) {
+      returned = returned_at(trial, high);
+      gap_high = before + shear_of(returned.plastic_strain) - high;
+      if (!returned.found || k == most) return {};
+      if (!(gap_high > 0.0)) break;
+      low = high;
+      gap_low = gap_high;
+      high += 2.0 * gap_high;
+    }
+    for (int k = 0; k < most; ++k) {  // Illinois' variant of the false position
+      double const middle = high - gap_high * (high - low) / (gap_high - gap_low);
+      returned = returned_at(trial, middle);
+      double const gap = before + shear_of(returned.plastic_strain) - middle;
+      plastic_shear = middle;
+      if (!returned.found || std::abs(gap) <= 1e-14 * (high - before) + 1e-16) return returned;
+      if (gap * gap_high < 0.0) {
+        low = high;
+        gap_low = gap_high;
+      } else {
+        gap_low *= 0.5;
+      }
+      high = middle;
+      gap_high = gap;
+    }
+    return {};
+  }
+
+  /// Adds to a return's tangent what the change of strength with the plastic shear strain does,
+  /// \f$ d\sigma = D\,d\varepsilon + \sigma_\kappa\,d\kappa,\; d\kappa = w\cdot d\varepsilon^p \f$ with w = +1 and -1 at the outer principal strains.
+  void soften_tangent(Return& returned, Vector<3> const& trial, double plastic_shear) const {
+    if (returned.planes == 0) return;
+    constexpr double step = 1e-6;  // of plastic strain; the strength is smooth over it but for single kinks
+    Vector<3> const slope =
+        (returned_at(trial, plastic_shear + step).stress - returned_at(trial, plastic_shear - step).stress) /
+        (2.0 * step);
+    Vector<3> weight = Vector<3>::Zero();
+    Eigen::Index largest = 0;
+    Eigen::Index smallest = 0;
+    returned.plastic_strain.maxCoeff(&largest);
+    returned.plastic_strain.minCoeff(&smallest);
+    weight(largest) = 1.0;
+    weight(smallest) = -1.0;
+    double const twice_shear = 2.0 * elasticity.shear_modulus;  // weight adds up to zero: no volumetric part
+    Vector<3> const by_strain = weight - returned.tangent.transpose() * weight / twice_shear;
+    double const by_itself = -weight.dot(slope) / twice_shear;
+    returned.tangent += slope * by_strain.transpose() / (1.0 - by_itself);
+  }
+
+  VoigtTangent<Dim> tangent_of(Return const& returned, Vector<3> const& trial, Tensor<3> const& directions) const {
+    VoigtTangent<3> const whole =
+        isotropic_derivative(returned.tangent, trial / (2.0 * elasticity.shear_modulus), returned.stress, directions);
+    if constexpr (Dim == 3) {
+      return whole;
+    } else {
+      constexpr std::array in_plane{0, 1, 5};
+      VoigtTangent<2> part;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+          part(i, j) = whole(in_plane[static_cast<std::size_t>(i)], in_plane[static_cast<std::size_t>(j)]);
+      }
+      return part;
+    }
+  }
+};
+
+static_assert(ConstitutiveProvider<MohrCoulomb<2>>);
+static_assert(ConstitutiveProvider<MohrCoulomb<3>>);
+
+}  // namespace scarp

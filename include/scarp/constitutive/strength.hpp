@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <numbers>
+
+#include "scarp/core/error.hpp"
+
+namespace scarp {
+
+/// Mohr-Coulomb strength of a material: what its stress may not exceed and how it flows there.
+struct Strength {
+  double cohesion = 0.0;                                     ///< [Pa]
+  double friction = 0.0;                                     ///< phi [rad], from 0 to below pi/2
+  double dilation = 0.0;                                     ///< psi [rad], from 0 to phi
+  double tension = std::numeric_limits<double>::infinity();  ///< largest tensile principal stress [Pa]
+
+  /// Hydrostatic tension at which the surface closes, \f$ c \cot\varphi \f$ [Pa]; infinite without friction.
+  double apex() const {
+    return friction > 0.0 ? cohesion / std::tan(friction) : std::numeric_limits<double>::infinity();
+  }
+
+  /// The tensile stress that is cut off; beyond the apex there is nothing to cut.
+  double cut_off() const { return std::min(tension, apex()); }
+};
+
+/// \throws InputError for angles out of order (were they given in degrees?), negative or not finite strengths
+inline void require_sound(Strength const& strength) {
+  require_not_negative("cohesion", strength.cohesion);
+  if (!(strength.friction >= 0.0 && strength.friction < 0.999 * std::numbers::pi / 2.0)) {
+    refuse("the friction angle is {} rad (it must be from 0 to below a right angle): {}", strength.friction,
+           strength.friction > 1.5 && strength.friction < 90.0 ? "was it given in degrees?" : "give radians");
+  }
+  if (!(strength.dilation >= 0.0 && strength.dilation <= strength.friction)) {
+    refuse(
+        "the angle of dilation is {} rad with a friction of {} rad (beyond it flow would create energy): choose one "
+        "from 0 to the friction",
+        strength.dilation, strength.friction);
+  }
+  if (!(strength.tension >= 0.0)) {
+    refuse("the tensile strength is {} Pa (it must not be negative): give zero for none, infinity for no cut-off",
+           strength.tension);
+  }
+}
+
+/// at(plastic shear strain): the strength after so much plastic shear, the accumulated difference of the largest and the
+/// smallest principal plastic strain. `changes`: whether it depends on it at all.
+template <class Law>
+concept StrengthLaw = std::copyable<Law> && requires(Law const& law, double plastic_shear) {
+  { law.at(plastic_shear) } -> std::same_as<Strength>;
+  { Law::changes } -> std::convertible_to<bool>;
+};
+
+/// Strength that plastic strain does not change.
+struct ConstantStrength {
+  static constexpr bool changes = false;
+
+  Strength strength{};
+
+  Strength at(double) const { return strength; }
+};
+
+static_assert(StrengthLaw<ConstantStrength>);
+
+}  // namespace scarp

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/constitutive/mohr_coulomb.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+
+#include "approx.hpp"
+#include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/core/random.hpp"
+
+namespace {
+
+using scarp::Strength;
+using scarp::Tensor;
+using scarp::Vector;
+using scarp::detail::MohrCoulombReturn;
+
+double degrees(double angle) { return angle * std::numbers::pi / 180.0; }
+
+/// A strength and a trial stress at random; angles include 0, cohesion includes 0, some have a tension cut-off.
+struct RandomCase {
+  Strength strength;
+  scarp::IsotropicElasticity elasticity;
+  Vector<3> trial;
+
+  explicit RandomCase(scarp::Random& random) {
+    strength.friction = random.uniform() < 0.15 ? 0.0 : degrees(random.uniform(1.0, 50.0));
+    strength.dilation = random.uniform() < 0.3 ? 0.0 : strength.friction * random.uniform();
+    if (random.uniform() < 0.2) strength.dilation = strength.friction;
+    bool const needs_cohesion = strength.friction == 0.0;
+    strength.cohesion = !needs_cohesion && random.uniform() < 0.2 ? 0.0 : random.uniform(0.1, 10.0);
+    if (random.uniform() < 0.3) strength.tension = strength.cohesion * random.uniform();
+    elasticity = scarp::IsotropicElasticity::from_young_poisson(random.uniform(100.0, 1e4), random.uniform(0.0, 0.49));
+    double const size = std::pow(10.0, random.uniform(-1.0, 3.0));
+    for (int i = 0; i < 3; ++i) trial(i) = size * random.uniform(-1.0, 1.0);
+    trial.array() -= size * random.uniform(-0.5, 1.0);
+    if (random.uniform() < 0.1) trial(1) = trial(0);
+    if (random.uniform() < 0.1) trial(2) = trial(1);
+    std::sort(trial.data(), trial.data() + 3, std::greater<>());
+  }
+
+  double scale() const { return std::max(strength.cohesion, trial.cwiseAbs().maxCoeff()); }
+
+  /// Largest excess over the surface of all six pairs and three cut-offs, whatever the order of the stresses.
+  double excess(Vector<3> const& stress) const {
+    double worst = -1e300;
+    double const sine = std::sin(strength.friction);
+    for (int i = 0; i < 3; ++i) {
+      worst = std::max(worst, stress(i) - strength.cut_off());
+      for (int j = 0; j < 3; ++j) {
+        if (i == j) continue;
+        double const shear = stress(i) - stress(j) + (stress(i) + stress(j)) * sine;
+        worst = std::max(worst, shear - 2.0 * strength.cohesion * std::cos(strength.friction));
+      }
+    }
+    return worst;
+  }
+};
+
+MohrCoulombReturn return_of(RandomCase const& drawn) {
+  return {drawn.strength, drawn.elasticity.lame_lambda, drawn.elasticity.shear_modulus};
+}
+
+Tensor<3> principal_compliance(scarp::IsotropicElasticity const& elasticity) {
+  return elasticity.stiffness<3>().topLeftCorner<3, 3>().inverse();
+}
+
+/// The admissible stress that is nearest to the trial stress in the energy norm, by Dykstra's alternating projections onto all
+/// nine half-spaces; knows nothing of faces, edges and corners. Boyle and Dykstra 1986.
+Vector<3> nearest_admissible(RandomCase const& drawn) {
+  Tensor<3> const stiffness = drawn.elasticity.stiffness<3>().topLeftCorner<3, 3>();
+  std::vector<std::pair<Vector<3>, double>> planes;
+  double const sine = std::sin(drawn.strength.friction);
+  for (int i = 0; i < 3; ++i) {
+    if (std::isfinite(drawn.strength.cut_off())) planes.emplace_back(Vector<3>::Unit(i), drawn.strength.cut_off());
+    for (int j = 0; j < 3; ++j) {
+      if (i == j) continue;
+      planes.emplace_back((1.0 + sine) * Vector<3>::Unit(i) - (1.0 - sine) * Vector<3>::Unit(j),
+                          2.0 * drawn.strength.cohesion * std::cos(drawn.strength.friction));
+    }
+  }
+  std::vector<Vector<3>> kept(planes.size(), Vector<3>::Zero());
+  Vector<3> point = drawn.trial;
+  for (int sweep = 0; sweep < 20000; ++sweep) {
+    double moved = 0.0;  // of the corrections: the point may rest for many sweeps before it goes on
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      auto const& [normal, limit] = planes[k];
+      Vector<3> const from = point + kept[k];
+      double const over = std::max(0.0, normal.dot(from) - limit);
+      point = from - over * stiffness * normal / normal.dot(stiffness * normal);
+      moved = std::max(moved, (from - point - kept[k]).norm());
+      kept[k] = from - point;
+    }
+    if (moved <= 1e-13 * drawn.scale()) break;
+  }
+  return point;
+}
+
+}  // namespace
+
+TEST_CASE("a hundred thousand random trial stresses return to the surface, dissipating, in order") {
+  scarp::Random random(20260101);
+  std::array<int, 4> places{};
+  for (int draw = 0; draw < 100'000; ++draw) {
+    RandomCase const drawn(random);
+    auto const returned = return_of(drawn)(drawn.trial);
+    CAPTURE(draw);
+    REQUIRE(returned.found);
+    ++places[static_cast<std::size_t>(returned.planes)];
+    REQUIRE(drawn.excess(returned.stress) <= 1e-10 * drawn.scale());
+    if (returned.planes > 0) REQUIRE(drawn.excess(returned.stress) >= -1e-10 * drawn.scale());
+    REQUIRE(returned.stress.dot(returned.plastic_strain) >=
+            -1e-12 * drawn.scale() * returned.plastic_strain.cwiseAbs().maxCoeff());
+    REQUIRE(returned.stress(0) >= returned.stress(1) - 1e-10 * drawn.scale());
+    REQUIRE(returned.stress(1) >= returned.stress(2) - 1e-10 * drawn.scale());
+    Vector<3> const elastic = principal_compliance(drawn.elasticity) * (drawn.trial - returned.stress);
+    REQUIRE((elastic - returned.plastic_strain).norm() <= 1e-9 * (elastic.norm() + 1e-6));
+  }
+  MESSAGE("elastic " << places[0] << ", faces " << places[1] << ", edges " << places[2] << ", corners " << places[3]);
+  for (int const count : places) CHECK(count > 3000);
+}
+
+TEST_CASE("associated return is the nearest admissible stress in the energy norm, as alternating projections find it") {
+  scarp::Random random(7);
+  std::array<int, 4> places{};
+  int compared = 0;
+  for (int draw = 0; draw < 3000; ++draw) {
+    RandomCase drawn(random);
+    drawn.strength.dilation = drawn.strength.friction;
+    auto const returned = return_of(drawn)(drawn.trial);
+    REQUIRE(returned.found);
+    auto const expected = nearest_admissible(drawn);
+    // Alternating projections may be slow between nearly parallel planes; where they have not arrived they say nothing.
+    if (drawn.excess(expected) > 1e-11 * drawn.scale()) continue;
+    ++compared;
+    ++places[static_cast<std::size_t>(returned.planes)];
+    CAPTURE(draw);
+    CHECK((returned.stress - expected).norm() <= 1e-7 * drawn.scale());
+  }
+  MESSAGE(compared << " compared: faces " << places[1] << ", edges " << places[2] << ", corners " << places[3]);
+  CHECK(compared > 2000);
+  for (int const count : places) CHECK(count > 100);
+}
+
+namespace {
+
+template <class Provider>
+struct Derivative {
+  double worst = 0.0;
+  int compared = 0;
+};
+
+/// Largest distance of the consistent tangent from central differences, relative to the elastic stiffness, over random
+/// increments whose neighbours return to the same place.
+template <int Dim, class StrengthType>
+Derivative<StrengthType> tangent_error(StrengthType const& strength, int draws) {
+  using Provider = scarp::MohrCoulomb<Dim, scarp::StressFree<Dim>, StrengthType>;
+  Provider const soil{scarp::IsotropicElasticity::from_young_poisson(1e4, 0.3), strength, {}};
+  scarp::Random random(11);
+  Derivative<StrengthType> result;
+  for (int draw = 0; draw < draws; ++draw) {
+    auto state = soil.initial_state({});
+    state.stress.template head<3>().setConstant(-random.uniform(0.0, 40.0));
+    if constexpr (StrengthType::changes) state.plastic_shear = random.uniform(0.005, 0.05);
+    scarp::Gradient<Dim> increment;
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j) increment(i, j) = 4e-3 * random.uniform(-1.0, 1.0);
+    }
+    increment = ((increment + increment.transpose()) / 2.0).eval();
+    // The strain of the answer is E = 2 (U - I)(U + I)^-1: drive by the U that belongs to a wanted strain.
+    auto const stretch_of = [](scarp::Gradient<Dim> const& strain) -> scarp::Gradient<Dim> {
+      Tensor<Dim> const identity = Tensor<Dim>::Identity();
+      return 2.0 * strain * (2.0 * identity - strain).inverse();
+    };
+    auto trial = state;
+    auto const answer = soil.respond(state, stretch_of(increment), trial);
+    REQUIRE(answer.verdict.acceptable());
+    auto const tangent = soil.tangent(trial);
+    double const step = 1e-7;
+    scarp::VoigtTangent<Dim> up;
+    scarp::VoigtTangent<Dim> down;
+    for (int k = 0; k < scarp::voigt_size<Dim>; ++k) {
+      auto const [i, j] = scarp::voigt_indices<Dim>()[static_cast<std::size_t>(k)];
+      scarp::Gradient<Dim> unit = scarp::Gradient<Dim>::Zero();
+      unit(i, j) += 0.5;
+      unit(j, i) += 0.5;
+      auto other = state;
+      up.col(k) = (soil.respond(state, stretch_of(increment + step * unit), other).stress - answer.stress) / step;
+      down.col(k) = (answer.stress - soil.respond(state, stretch_of(increment - step * unit), other).stress) / step;
+    }
+    double const size = soil.elasticity.template stiffness<Dim>().norm();
+    if ((up - down).norm() > 1e-4 * size) continue;  // on a kink between two places
+    result.worst = std::max(result.worst, ((up + down) / 2.0 - tangent).norm() / size);
+    ++result.compared;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("the consistent tangent is the derivative of the answer") {
+  // Central differences: round-off of stresses of 100 Pa over 1e-7 of strain, 1e-7 Pa, relative to 1e4 Pa: 1e-11; curvature,
+  // from turning principal axes, 1e-14 times strain^-2.
+  Strength const sand{.cohesion = 5.0, .friction = degrees(33.0), .dilation = degrees(7.0)};
+  Strength const cut{.cohesion = 5.0, .friction = degrees(33.0), .dilation = degrees(7.0), .tension = 1.0};
+  Strength const clay{.cohesion = 5.0};
+  for (auto const& strength : {sand, cut, clay}) {
+    auto const plane = tangent_error<2>(scarp::ConstantStrength{strength}, 2000);
+    auto const space = tangent_error<3>(scarp::ConstantStrength{strength}, 2000);
+    MESSAGE("plane " << plane.worst << " in " << plane.compared << ", space " << space.worst << " in "
+                     << space.compared);
+    CHECK(plane.worst < 1e-6);
+    CHECK(space.worst < 1e-6);
+    CHECK(plane.compared > 1900);
+    CHECK(space.compared > 1900);
+  }
+}
+
+TEST_CASE("the consistent tangent is the derivative of the answer while strength falls") {
+  scarp::SofteningStrength const strength{
+      .peak = {.cohesion = 5.0, .friction = degrees(35.0), .dilation = degrees(10.0)},
+      .residual = {.cohesion = 1.0, .friction = degrees(28.0), .dilation = 0.0},
+      .strain_to_residual = 0.08};
+  auto const plane = tangent_error<2>(strength, 2000);
+  auto const space = tangent_error<3>(strength, 2000);
+  MESSAGE("plane " << plane.worst << " in " << plane.compared << ", space " << space.worst << " in " << space.compared);
+  CHECK(plane.worst < 1e-6);
+  CHECK(space.worst < 1e-6);
+  CHECK(plane.compared > 1900);
+  CHECK(space.compared > 1900);
+}
+
+TEST_CASE("triaxial compression fails at the stress ratio of Mohr and Coulomb and dilates as asked") {
+  Strength const sand{.cohesion = 2e3, .friction = degrees(30.0), .dilation = degrees(10.0)};
+  scarp::MohrCoulomb<3> const soil{scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3), {sand}, {}};
+  auto state = soil.initial_state({});
+  double const lateral = 50e3;
+  state.stress.head<3>().setConstant(-lateral);
+  scarp::Gradient<3> rate = scarp::Gradient<3>::Zero();
+  rate(2, 2) = -2e-4;
+  double width = 0.0;
+  for (int step = 0; step < 100; ++step) {
+    width = 6e-5;
+    auto trial = state;
+    for (int k = 0; k < 50; ++k) {  // lateral strain that keeps the lateral stress
+      rate(0, 0) = rate(1, 1) = width;
+      auto const answer = soil.respond(state, rate, trial);
+      REQUIRE(answer.verdict.acceptable());
+      auto const tangent = soil.tangent(trial);
+      double const slope = tangent(0, 0) + tangent(0, 1);
+      width += -(answer.stress(0) + lateral) / (std::abs(slope) > 1.0 ? slope : 1e7);
+    }
+    state = trial;
+  }
+  // Analytic: sigma_1 = N sigma_3 + 2 c sqrt(N), N = tan^2(45 + phi/2) = 3; N from the angle of friction.
+  double const ratio = 3.0;
+  CHECK(-state.stress(2) == samples::Approx(ratio * lateral + 2.0 * 2e3 * std::sqrt(ratio)).epsilon(1e-9));
+  double const sine = std::sin(degrees(10.0));
+  // On the edge two planes share the flow: 2 d_eps_lateral = -(1 + sin psi)/(1 - sin psi) d_eps_axial.
+  CHECK(width == samples::Approx((1.0 + sine) / (1.0 - sine) * 2e-4 / 2.0).epsilon(2e-3));
+}
+
+TEST_CASE("strength that softens reaches its residual value and stays there") {
+  scarp::SofteningStrength const strength{
+      .peak = {.cohesion = 10e3}, .residual = {.cohesion = 4e3}, .strain_to_residual = 0.02};
+  scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
+      scarp::IsotropicElasticity::from_young_poisson(10e6, 0.3), strength, {}};
+  auto state = clay.initial_state({});
+  double highest = 0.0;
+  scarp::Gradient<2> shear = scarp::Gradient<2>::Zero();
+  shear(0, 1) = shear(1, 0) = 1e-4;
+  for (int step = 0; step < 200; ++step) {
+    auto trial = state;
+    REQUIRE(clay.respond(state, shear, trial).verdict.acceptable());
+    state = trial;
+    highest = std::max(highest, state.stress(5));
+  }
+  // Analytic: simple shear of a Tresca material yields at c; steps of 2e-4 of shear may pass the peak by one of them.
+  CHECK(highest == samples::Approx(10e3).epsilon(0.1));
+  CHECK(state.stress(5) == samples::Approx(4e3).epsilon(1e-9));
+}
+
+TEST_CASE("softening too steep for the elastic unloading of a point is refused with a reason") {
+  scarp::SofteningStrength const strength{
+      .peak = {.cohesion = 10e3}, .residual = {.cohesion = 1e3}, .strain_to_residual = 1e-5};
+  scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
+      scarp::IsotropicElasticity::from_young_poisson(10e6, 0.3), strength, {}};
+  auto const state = clay.initial_state({});
+  auto trial = state;
+  scarp::Gradient<2> shear = scarp::Gradient<2>::Zero();
+  shear(0, 1) = shear(1, 0) = 2e-3;
+  auto const answer = clay.respond(state, shear, trial);
+  // Either a strength on the softening branch or the residual one belongs to it: never anything in between, never NaN.
+  REQUIRE(answer.stress.allFinite());
+  if (answer.verdict.acceptable()) CHECK(trial.stress(5) == samples::Approx(1e3).epsilon(1e-6));
+}
+
+TEST_CASE("a strength that cannot be is refused") {
+  scarp::MohrCoulomb<2> soil{scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3), {}, {}};
+  for (Strength const& wrong :
+       {Strength{.cohesion = -1.0}, Strength{.friction = 30.0}, Strength{.friction = 0.5, .dilation = 0.6},
+        Strength{.friction = std::numeric_limits<double>::quiet_NaN()}, Strength{.cohesion = 1.0, .tension = -1.0},
+        Strength{.friction = std::numbers::pi / 2.0}}) {
+    soil.strength.strength = wrong;
+    CHECK_THROWS_AS(soil.initial_state({}), scarp::InputError);
+  }
+}
