@@ -6,17 +6,19 @@
 #include <algorithm>
 #include <vector>
 
-#include "scarp/core/error.hpp"
+#include "scarp/bvp/time_function.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {
 
-/// Prescribed displacements of nodes: displacement [m] = rate * load factor, in the unit that the load factor has.
-/// Degree of freedom = dim * node + axis.
+/// Prescribed displacements of nodes: displacement [m] = rate * load factor, in the unit that the load factor has, or rate *
+/// course(load factor). Degree of freedom = dim * node + axis; those of bodies beside the mesh follow.
 class Constraints {
  public:
+  /// extra_dofs: degrees of freedom that follow those of the nodes
   template <class Element>
-  explicit Constraints(Mesh<Element> const& mesh) : dim_(Element::dim), nodes_(detail::count(mesh.nodes)) {}
+  explicit Constraints(Mesh<Element> const& mesh, int extra_dofs = 0)
+      : dim_(Element::dim), nodes_(detail::count(mesh.nodes)), extra_dofs_(extra_dofs) {}
 
   /// \throws InputError for a node or axis that does not exist, or one that is already moved
   void fix(int node, int axis) { move(node, axis, 0.0); }
@@ -28,26 +30,27 @@ class Constraints {
     }
   }
 
-  /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different rate
-  void move(int node, int axis, double rate) {
+  /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different motion
+  void move(int node, int axis, double rate, TimeFunction course = {}) {
     if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
       refuse("node {}, axis {} is prescribed (the mesh has nodes 0 to {} and axes 0 to {}): check the numbers", node,
              axis, nodes_ - 1, dim_ - 1);
     }
-    require_finite("rate of a prescribed displacement", rate);
-    int const dof = dim_ * node + axis;
-    auto const place = std::lower_bound(dofs_.begin(), dofs_.end(), dof);
-    auto const rate_place = rates_.begin() + (place - dofs_.begin());
-    if (place == dofs_.end() || *place != dof) {
-      rates_.insert(rate_place, rate);
-      dofs_.insert(place, dof);
-    } else if (*rate_place != rate) {
-      refuse("node {}, axis {} is prescribed twice (rates {} and {} differ): decide for one of them", node, axis,
-             *rate_place, rate);
-    }
+    prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(course));
   }
 
-  int dof_count() const { return dim_ * nodes_; }
+  /// A degree of freedom beside the mesh, counted from 0.
+  /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
+  void move_extra(int number, double rate, TimeFunction course = {}) {
+    if (number < 0 || number >= extra_dofs_) {
+      refuse("degree of freedom {} beside the mesh is prescribed (there are {}): check the number", number,
+             extra_dofs_);
+    }
+    prescribe(dim_ * nodes_ + number, fmt::format("degree of freedom {} beside the mesh", number), rate,
+              std::move(course));
+  }
+
+  int dof_count() const { return dim_ * nodes_ + extra_dofs_; }
   int free_count() const { return dof_count() - detail::count(dofs_); }
 
   /// Prescribed degrees of freedom in increasing order.
@@ -78,20 +81,45 @@ class Constraints {
     return free;
   }
 
-  /// Displacement [m] of all degrees of freedom for a load factor or its increment; the free ones are zero.
-  Eigen::VectorXd displacement(double load) const {
+  /// Displacement [m] of all degrees of freedom between two load factors; the free ones are zero.
+  Eigen::VectorXd displacement(double from, double to) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(dof_count());
     for (std::size_t k = 0; k < dofs_.size(); ++k) {
-      all(dofs_[k]) = rates_[k] * load;
+      auto const& course = courses_[k];
+      all(dofs_[k]) = rates_[k] * (course == TimeFunction{} ? to - from : course(to) - course(from));
     }
     return all;
   }
 
+  /// From the load factor 0.
+  Eigen::VectorXd displacement(double load) const { return displacement(0.0, load); }
+
  private:
+  void prescribe(int dof, std::string const& what, double rate, TimeFunction course) {
+    require_finite("rate of a prescribed displacement", rate);
+    auto const place = std::lower_bound(dofs_.begin(), dofs_.end(), dof);
+    auto const k = place - dofs_.begin();
+    if (place == dofs_.end() || *place != dof) {
+      rates_.insert(rates_.begin() + k, rate);
+      courses_.insert(courses_.begin() + k, std::move(course));
+      dofs_.insert(place, dof);
+      return;
+    }
+    auto const known = static_cast<std::size_t>(k);
+    if (rates_[known] != rate) {
+      refuse("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, rates_[known], rate);
+    }
+    if (rate != 0.0 && !(courses_[known] == course)) {
+      refuse("{} is prescribed twice (by different courses of the rate {}): decide for one of them", what, rate);
+    }
+  }
+
   int dim_;
   int nodes_;
+  int extra_dofs_;
   std::vector<int> dofs_;
   std::vector<double> rates_;
+  std::vector<TimeFunction> courses_;
 };
 
 }  // namespace scarp

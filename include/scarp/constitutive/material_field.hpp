@@ -23,6 +23,7 @@ concept MaterialField = requires {
   { constant.work(point) } -> std::same_as<long>;
   { constant.committed_stress(point) } -> std::same_as<VoigtStress<Field::dim>>;
   { constant.committed_tangent(point) } -> std::same_as<VoigtTangent<Field::dim>>;
+  { constant.trial_tangent(point) } -> std::same_as<VoigtTangent<Field::dim>>;
   {field.commit()};
 };
 
@@ -76,6 +77,7 @@ class ProviderField {
 
   VoigtStress<dim> committed_stress(int point) const { return provider_.stress(committed_[number(point)]); }
   VoigtTangent<dim> committed_tangent(int point) const { return provider_.tangent(committed_[number(point)]); }
+  VoigtTangent<dim> trial_tangent(int point) const { return provider_.tangent(trial_[number(point)]); }
 
   /// The trial states become the committed ones.
   void commit() { committed_.swap(trial_); }

@@ -85,6 +85,11 @@ class RegionMaterials {
     visit(point, [&](auto const& field, int local) { tangent = field.committed_tangent(local); });
     return tangent;
   }
+  VoigtTangent<dim> trial_tangent(int point) const {
+    VoigtTangent<dim> tangent;
+    visit(point, [&](auto const& field, int local) { tangent = field.trial_tangent(local); });
+    return tangent;
+  }
   void commit() {
     boost::hana::for_each(fields_, [](auto& field) { field.commit(); });
   }

@@ -7,7 +7,7 @@
 
 namespace scarp {
 
-/// The composition root: one discretisation, a provider for each region, constraints, and dead loads, as a problem that a
+/// The composition root: one discretisation, a provider for each region, constraints and loads, as a problem that a
 /// solver can take. Regions are written as values, `make_problem(..., hana::make_tuple(Region{"soil", soil}))`.
 template <class DiscretisationType, class Executor, class... Providers>
 using SceneProblem = EquilibriumProblem<DiscretisationType, RegionMaterials<Providers...>, Executor>;
@@ -16,9 +16,9 @@ using SceneProblem = EquilibriumProblem<DiscretisationType, RegionMaterials<Prov
 template <class DiscretisationType, class Executor, class... Providers>
 SceneProblem<DiscretisationType, Executor, Providers...> make_problem(
     DiscretisationType discretisation, double surface_level, boost::hana::tuple<Region<Providers>...> const& regions,
-    Constraints constraints, Eigen::VectorXd dead_load, Executor& executor) {
+    Constraints constraints, LoadHistory loads, Executor& executor) {
   RegionMaterials<Providers...> materials(discretisation, surface_level, regions);
-  return {std::move(discretisation), std::move(materials), std::move(constraints), std::move(dead_load), executor};
+  return {std::move(discretisation), std::move(materials), std::move(constraints), std::move(loads), executor};
 }
 
 }  // namespace scarp

@@ -6,7 +6,9 @@
 #include <numeric>
 #include <vector>
 
+#include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/constraints.hpp"
+#include "scarp/bvp/load_history.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/solver/executor.hpp"
 
@@ -21,20 +23,23 @@ struct Evaluation {
   long inner_steps = 0;        ///< DEM steps of all points
 };
 
-/// A boundary-value problem in increments: discretisation, materials, constraints whose load factor grows, and dead loads.
-template <class DiscretisationType, MaterialField Materials, class Executor>
+/// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
+/// perhaps something attached to the mesh.
+template <class DiscretisationType, MaterialField Materials, class Executor, class Attached = NoAttachment>
 class EquilibriumProblem {
  public:
   static constexpr int dim = DiscretisationType::dim;
 
-  /// dead_load [N], shape (dof_count)
-  EquilibriumProblem(DiscretisationType discretisation, Materials materials, Constraints constraints,
-                     Eigen::VectorXd dead_load, Executor& executor)
+  /// loads [N], shape (degrees of freedom of mesh and attachment)
+  /// \throws InputError for sizes that do not fit together
+  EquilibriumProblem(DiscretisationType discretisation, Materials materials, Constraints constraints, LoadHistory loads,
+                     Executor& executor, Attached attached = {})
       : discretisation_(std::move(discretisation)),
         materials_(std::move(materials)),
         constraints_(std::move(constraints)),
-        dead_load_(std::move(dead_load)),
+        loads_(std::move(loads)),
         executor_(executor),
+        attached_(std::move(attached)),
         free_dofs_(constraints_.free_dofs()),
         gradients_(points()),
         responses_(points()) {
@@ -42,17 +47,31 @@ class EquilibriumProblem {
       refuse("materials are given for {} points (the mesh has {}): make one field over all sites",
              materials_.point_count(), discretisation_.point_count());
     }
-    if (dead_load_.size() != discretisation_.dof_count()) {
-      refuse("the dead load has {} entries (the mesh has {} degrees of freedom): size it by dof_count",
-             dead_load_.size(), discretisation_.dof_count());
+    if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count()) {
+      refuse("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
+             loads_.size(), constraints_.dof_count(), dof_count());
+    }
+    aim(0.0);
+  }
+
+  int dof_count() const {
+    if constexpr (is_bare) {
+      return discretisation_.dof_count();
+    } else {
+      return discretisation_.dof_count() + attached_.extra_dofs();
     }
   }
+
+  /// Sets the load factor whose loads the forces are measured against from now on.
+  void aim(double load) { load_now_ = loads_.at(load); }
 
   DiscretisationType const& discretisation() const { return discretisation_; }
   Materials const& materials() const { return materials_; }
   Constraints const& constraints() const { return constraints_; }
   std::vector<int> const& free_dofs() const { return free_dofs_; }
+  LoadHistory const& loads() const { return loads_; }
   Executor& executor() const { return executor_; }
+  Attached const& attached() const { return attached_; }
 
   /// Gradients and answers of the last evaluation.
   std::vector<Gradient<dim>> const& gradients() const { return gradients_; }
@@ -74,7 +93,7 @@ class EquilibriumProblem {
   /// Fixes every point's work for the load step from a predicted increment; the points' gradients are kept.
   Verdict plan(Eigen::VectorXd const& increment) {
     if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
-    if (discretisation_.gradients(increment, gradients_)) return {Status::failed, Reason::element_inverted};
+    if (discretisation_.gradients(of_nodes(increment), gradients_)) return {Status::failed, Reason::element_inverted};
     for (int point = 0; point < discretisation_.point_count(); ++point) {
       materials_.plan(point, gradients_[static_cast<std::size_t>(point)]);
     }
@@ -88,7 +107,7 @@ class EquilibriumProblem {
       evaluation.verdict = {Status::failed, Reason::not_finite};
       return evaluation;
     }
-    if (auto const inverted = discretisation_.gradients(increment, gradients_)) {
+    if (auto const inverted = discretisation_.gradients(of_nodes(increment), gradients_)) {
       evaluation.verdict = {Status::failed, Reason::element_inverted};
       evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
       return evaluation;
@@ -128,14 +147,25 @@ class EquilibriumProblem {
       responses_[k] = {committed[k], {}};
     }
     Evaluation evaluation;
-    add_up(Eigen::VectorXd::Zero(discretisation_.dof_count()), evaluation);
+    add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
     return evaluation;
   }
 
-  /// Stiffness [N/m] at an increment with the stresses of the last evaluation.
+  /// Stiffness [N/m] at the increment of the last evaluation, with its stresses.
   void stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
                  Eigen::SparseMatrix<double>& matrix) const {
-    discretisation_.stiffness(increment, stresses(), tangents, matrix);
+    if constexpr (is_bare) {
+      discretisation_.stiffness(increment, stresses(), tangents, matrix);
+    } else {
+      Eigen::SparseMatrix<double> elements;
+      discretisation_.stiffness(of_nodes(increment), stresses(), tangents, elements);
+      elements.conservativeResize(dof_count(), dof_count());
+      std::vector<Eigen::Triplet<double>> entries;
+      attached_.add_stiffness(entries);
+      Eigen::SparseMatrix<double> part(dof_count(), dof_count());
+      part.setFromTriplets(entries.begin(), entries.end());
+      matrix = elements + part;
+    }
   }
 
   /// Tangents of all points' committed states.
@@ -143,13 +173,30 @@ class EquilibriumProblem {
     return all_tangents([&](int point) { return materials_.committed_tangent(point); });
   }
 
+  /// Tangents of all points' trial states, which belong to the last evaluation.
+  std::vector<VoigtTangent<dim>> trial_tangents() const {
+    return all_tangents([&](int point) { return materials_.trial_tangent(point); });
+  }
+
   /// Makes the increment and the points' trial states the committed ones.
   void commit(Eigen::VectorXd const& increment) {
-    discretisation_.commit(increment);
+    if constexpr (!is_bare) attached_.commit(discretisation_.positions(), increment);
+    discretisation_.commit(of_nodes(increment));
     materials_.commit();
   }
 
  private:
+  static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
+  static_assert(is_bare || Attachment<Attached, dim>);
+
+  decltype(auto) of_nodes(Eigen::VectorXd const& increment) const {
+    if constexpr (is_bare) {
+      return (increment);
+    } else {
+      return Eigen::VectorXd(increment.head(discretisation_.dof_count()));
+    }
+  }
+
   std::size_t points() const { return static_cast<std::size_t>(discretisation_.point_count()); }
 
   std::vector<VoigtStress<dim>> stresses() const {
@@ -184,16 +231,21 @@ class EquilibriumProblem {
     return values;
   }
 
-  void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) const {
-    discretisation_.internal_force(increment, stresses(), evaluation.unbalanced);
-    evaluation.unbalanced -= dead_load_;
+  void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) {
+    discretisation_.internal_force(of_nodes(increment), stresses(), evaluation.unbalanced);
+    if constexpr (!is_bare) {
+      evaluation.unbalanced.conservativeResizeLike(Eigen::VectorXd::Zero(dof_count()));
+      Verdict const verdict = attached_.add_forces(discretisation_.positions(), increment, evaluation.unbalanced);
+      if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
+    }
+    evaluation.unbalanced -= load_now_;
     double free = 0.0;
     for (int const dof : free_dofs_) free += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
     double prescribed = 0.0;
     for (int const dof : constraints_.prescribed_dofs())
       prescribed += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
     // A body held nowhere has no reactions: measure against the loads.
-    double const scale = prescribed > 0.0 ? prescribed : dead_load_.squaredNorm();
+    double const scale = prescribed > 0.0 ? prescribed : load_now_.squaredNorm();
     evaluation.residual = free == 0.0 ? 0.0 : std::sqrt(free / scale);
     if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable()) {
       evaluation.verdict = {Status::failed, Reason::not_finite};
@@ -203,8 +255,10 @@ class EquilibriumProblem {
   DiscretisationType discretisation_;
   Materials materials_;
   Constraints constraints_;
-  Eigen::VectorXd dead_load_;
+  LoadHistory loads_;
+  Eigen::VectorXd load_now_;
   Executor& executor_;
+  Attached attached_;
   std::vector<int> free_dofs_;
   std::vector<Gradient<dim>> gradients_;
   std::vector<Response<dim>> responses_;

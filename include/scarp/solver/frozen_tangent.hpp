@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/core/voigt.hpp"
+#include "scarp/solver/tangent_rule.hpp"
 
 namespace scarp {
 
@@ -18,5 +18,7 @@ struct FrozenTangent {
     return tangent;
   }
 };
+
+static_assert(TangentRule<FrozenTangent, 2> && TangentRule<FrozenTangent, 3>);
 
 }  // namespace scarp

@@ -76,8 +76,8 @@ struct LoadStepping {
     step.load = load;
     auto const started = std::chrono::steady_clock::now();
     Eigen::VectorXd displacement;
-    if (step.verdict = session.begin(); step.verdict.acceptable()) {
-      displacement = session.predict(0.0);
+    if (step.verdict = session.begin(load); step.verdict.acceptable()) {
+      displacement = session.predict(load, load);
       session.correct(displacement, step);
     }
     step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -115,7 +115,7 @@ struct LoadStepping {
       step.step = run.steps + 1;
       auto const started = std::chrono::steady_clock::now();
       Eigen::VectorXd displacement;
-      if (fresh) step.verdict = session.begin();
+      if (fresh) step.verdict = session.begin(run.load);
       if (!step.verdict.acceptable()) {  // tangents or matrix, which no smaller increment mends
         run.verdict = step.verdict;
         observer.attempted(problem, step);
@@ -123,9 +123,9 @@ struct LoadStepping {
       }
       fresh = false;
       if (step.verdict.acceptable()) {
-        displacement = limited_prediction(session, problem, increment);
-        step.load_increment = increment;
-        step.load = to - run.load - increment < smallest ? to : run.load + increment;
+        displacement = limited_prediction(session, problem, run.load, to, increment);
+        step.load = end_of(run.load, to, increment);
+        step.load_increment = step.load < to ? increment : to - run.load;
         session.correct(displacement, step);
       }
       step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -153,15 +153,21 @@ struct LoadStepping {
  private:
   /// Cuts the increment until the prediction strains no point more than allowed; the prediction is nearly linear in it.
   template <class Session, class Problem>
-  Eigen::VectorXd limited_prediction(Session const& session, Problem& problem, double& increment) const {
+  Eigen::VectorXd limited_prediction(Session& session, Problem& problem, double load, double to,
+                                     double& increment) const {
     for (;;) {
-      Eigen::VectorXd const displacement = session.predict(increment);
+      Eigen::VectorXd const displacement = session.predict(load, end_of(load, to, increment));
       problem.plan(displacement);
       double const ratio = problem.largest_gradient() / largest_gradient;
       // Part of a prediction may come from the present imbalance, which no smaller increment takes away.
       if (!(ratio > 1.001) || increment < 2.0 * smallest) return displacement;
       increment = std::max(increment * std::max(1.0 / ratio, 0.3), smallest);
     }
+  }
+
+  /// Load factor that a step ends at; one that would leave less than the smallest increment goes to the end.
+  double end_of(double load, double to, double increment) const {
+    return to - load - increment < smallest ? to : load + increment;
   }
 
   static void count(RunReport& run, StepReport const& step, bool accepted) {

@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
-#include "scarp/core/voigt.hpp"
+#include "scarp/solver/tangent_rule.hpp"
 
 namespace scarp {
 
@@ -44,5 +44,7 @@ struct PointSecant {
     return lifted;
   }
 };
+
+static_assert(TangentRule<PointSecant, 2> && TangentRule<PointSecant, 3>);
 
 }  // namespace scarp

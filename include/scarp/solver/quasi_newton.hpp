@@ -10,18 +10,19 @@
 #include "scarp/solver/point_secant.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
+#include "scarp/solver/tangent_rule.hpp"
 
 namespace scarp {
 
 /// Newton-type iteration for one load step. Every iteration restarts the points from their committed states with the whole
 /// increment; the tangent rule says what the points' tangents become on the way, the mixing what the correction becomes.
-template <class TangentRule = PointSecant, class Mixing = PlainStep, class LinearSolver = SparseLu>
+template <TangentRule<2> Rule = PointSecant, class Mixing = PlainStep, class LinearSolver = SparseLu>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 30;
   double hopeless = 10.0;    ///< residual beyond which a step is given up
   int most_refinements = 4;  ///< of points that have not converged, in each iteration
-  TangentRule rule{};
+  Rule rule{};
   Mixing mixing{};
 
   /// The iteration on one problem: factorisation and what the points' tangents have learned.
@@ -33,9 +34,11 @@ struct QuasiNewton {
     Session(QuasiNewton const& settings, Problem& problem)
         : settings_(settings), mixing_(settings.mixing), problem_(problem), system_(problem.constraints()) {}
 
-    /// Readies a step from the committed state: tangents, factorisation, present imbalance.
-    Verdict begin() {
+    /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
+    Verdict begin(double load) {
+      problem_.aim(load);
       provider_ = problem_.committed_tangents();
+      if (first_.empty()) first_ = provider_;
       if (learned_.empty()) learned_ = provider_;
       working_.resize(provider_.size());
       for (std::size_t k = 0; k < working_.size(); ++k) {
@@ -46,10 +49,13 @@ struct QuasiNewton {
       return linear_.factorize(system_.matrix(stiffness_));
     }
 
-    /// First guess of the displacement increment for a growth of the load factor.
-    Eigen::VectorXd predict(double load_increment) const {
-      Eigen::VectorXd increment = problem_.constraints().displacement(load_increment);
-      Eigen::VectorXd const force = -system_.gather(committed_.unbalanced + stiffness_ * increment);
+    /// First guess of the displacement increment between two load factors; from then on forces are measured against the
+    /// loads of the second one.
+    Eigen::VectorXd predict(double from, double to) {
+      problem_.aim(to);
+      Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
+      Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
+      Eigen::VectorXd const force = system_.gather(more_load - committed_.unbalanced - stiffness_ * increment);
       system_.scatter(linear_.solve(force), increment);
       return increment;
     }
@@ -103,6 +109,16 @@ struct QuasiNewton {
     }
 
     void learn() {
+      if constexpr (FollowsTrialTangent<Rule, dim>) {
+        auto const trial = problem_.trial_tangents();
+        for (std::size_t k = 0; k < working_.size(); ++k)
+          working_[k] = settings_.rule.template at_trial<dim>(trial[k], first_[k]);
+      } else {
+        learn_from_answers();
+      }
+    }
+
+    void learn_from_answers() {
       for (std::size_t k = 0; k < working_.size(); ++k) {
         Gradient<dim> const& gradient = problem_.gradients()[k];
         VoigtStress<dim> const& stress = problem_.responses()[k].stress;
@@ -121,6 +137,7 @@ struct QuasiNewton {
     LinearSolver linear_;
     Eigen::SparseMatrix<double> stiffness_;
     Evaluation committed_;
+    std::vector<VoigtTangent<dim>> first_;  ///< of the state that the session began with
     std::vector<VoigtTangent<dim>> provider_;
     std::vector<VoigtTangent<dim>> working_;
     std::vector<VoigtTangent<dim>> learned_;

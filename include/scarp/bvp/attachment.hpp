@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include <concepts>
+#include <vector>
+
+#include "scarp/core/status.hpp"
+#include "scarp/core/tensor.hpp"
+
+namespace scarp {
+
+/// What acts on the nodes of a mesh beside its elements: contact with another body, springs, the other body itself with
+/// degrees of freedom of its own, which follow those of the mesh. Committed and trial states as for materials:
+/// add_forces(nodes, increment, forces): adds the internal forces [N] at an increment from the committed state, given the
+/// committed positions of the nodes [m]; add_stiffness(entries): their derivative at the last increment asked for;
+/// commit(nodes, increment): makes that state the committed one, before the nodes move.
+template <class Part, int Dim>
+concept Attachment = requires(Part& part, Part const& constant, std::vector<Vector<Dim>> const& nodes,
+                              Eigen::VectorXd const& increment, Eigen::VectorXd& forces,
+                              std::vector<Eigen::Triplet<double>>& entries) {
+  { constant.extra_dofs() } -> std::same_as<int>;
+  { part.add_forces(nodes, increment, forces) } -> std::same_as<Verdict>;
+  {constant.add_stiffness(entries)};
+  {part.commit(nodes, increment)};
+};
+
+/// Nothing: the elements alone.
+struct NoAttachment {};
+
+}  // namespace scarp

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/facet_chain.hpp"
+#include "scarp/bvp/lever.hpp"
+#include "scarp/contact/contact_law.hpp"
+
+namespace scarp {
+
+/// The body that stands on a mesh's outline: how its places move. place(k): committed; place(k, nodes, increment): after an
+/// increment; levers_at(k, ...): what moves it. Its own degrees of freedom begin where those of the mesh's nodes end.
+template <class Body>
+concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k, std::vector<Vector<2>> const& nodes,
+                                Eigen::VectorXd const& increment) {
+  { constant.extra_dofs() } -> std::same_as<int>;
+  { constant.point_count() } -> std::same_as<std::size_t>;
+  { constant.area(k) } -> std::same_as<double>;
+  { constant.place(k, nodes) } -> std::same_as<Vector<2>>;
+  { constant.place(k, nodes, increment) } -> std::same_as<Vector<2>>;
+  {constant.levers_at(k, nodes, increment)};
+  {body.commit(nodes, increment)};
+};
+
+/// What an interface says of one of its points.
+struct InterfacePoint {
+  Vector<2> place = Vector<2>::Zero();  ///< of the standing body [m]
+  double area = 0.0;                    ///< [m2]
+  double pressure = 0.0;                ///< [Pa], positive pushes apart
+  double shear = 0.0;                   ///< [Pa], on the standing body, along the mesh's outline
+  double gap = 0.0;                     ///< [m], negative: overlap
+};
+
+/// Contact between the outline of a mesh and a body that stands on it, in the plane: a contact law, in stresses over displacements
+/// [Pa/m] where grains have forces, at fixed points of the standing body against the nearest facet. The areas are the body's, so
+/// the force of a uniform pressure is exact; a point that slides from facet to facet changes its force continuously.
+template <ContactLaw Law, StandsOnMesh Body>
+class Interface {
+  static_assert(!Law::needs.moment && !Law::needs.radius && !Law::needs.motion,
+                "an interface has neither rolling nor radii nor dashpots: take a law of springs and sliders");
+
+ public:
+  using Memory = ContactMemory<2, double>;
+
+  /// nodes [m]: committed places. Laws with bonds begin intact at every point.
+  Interface(Law law, Body body, FacetChain ground, std::vector<Vector<2>> const& nodes)
+      : law_(std::move(law)), body_(std::move(body)), ground_(std::move(ground)) {
+    committed_.resize(body_.point_count());
+    for (std::size_t k = 0; k < committed_.size(); ++k) {
+      committed_[k].foot = ground_.nearest(body_.place(k, nodes), nodes);
+      if constexpr (requires(Memory & memory) { Law::bond(memory); }) Law::bond(committed_[k].memory);
+    }
+    trial_ = committed_;
+  }
+
+  Law const& law() const { return law_; }
+  Body const& body() const { return body_; }
+  int extra_dofs() const { return body_.extra_dofs(); }
+
+  Verdict add_forces(std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) {
+    auto moved = nodes;
+    for (std::size_t n = 0; n < nodes.size(); ++n) moved[n] += increment.segment<2>(static_cast<Eigen::Index>(2 * n));
+    for (std::size_t k = 0; k < trial_.size(); ++k) {
+      touch(k, nodes, moved, increment);
+      Vector<2> const force = body_.area(k) * stress_vector(trial_[k]);
+      for (auto const& lever : couplings_[k]) forces(lever.dof) -= lever.direction.dot(force);
+    }
+    return {};
+  }
+
+  void add_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
+    for (std::size_t k = 0; k < trial_.size(); ++k) {
+      Tensor<2> const stiffness = body_.area(k) * trial_[k].stiffness;
+      for (auto const& row : couplings_[k]) {
+        for (auto const& column : couplings_[k])
+          entries.emplace_back(row.dof, column.dof, row.direction.dot(stiffness * column.direction));
+      }
+    }
+  }
+
+  void commit(std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) {
+    body_.commit(nodes, increment);
+    committed_ = trial_;
+  }
+
+  /// State of the last evaluation, point by point.
+  std::vector<InterfacePoint> points() const {
+    std::vector<InterfacePoint> all;
+    for (std::size_t k = 0; k < trial_.size(); ++k)
+      all.push_back({trial_[k].place, body_.area(k), trial_[k].pressure, trial_[k].shear, -trial_[k].overlap});
+    return all;
+  }
+
+ private:
+  struct State {
+    FacetChain::Foot foot{};
+    Memory memory{};
+    Vector<2> place = Vector<2>::Zero();
+    Vector<2> along = Vector<2>::UnitX();
+    double overlap = 0.0;
+    double pressure = 0.0;
+    double shear = 0.0;
+    Tensor<2> stiffness =
+        Tensor<2>::Zero();  ///< of the stress on the body against its motion relative to the ground [Pa/m]
+  };
+
+  static Vector<2> outward(Vector<2> const& along) { return {along.y(), -along.x()}; }
+  static Vector<2> stress_vector(State const& state) {
+    return state.pressure * outward(state.along) + state.shear * state.along;
+  }
+
+  ContactForce<2, double> answer(double overlap, double slip, Memory& memory) const {
+    Approach<2, double> approach{.overlap = overlap, .slip = slip};
+    return law_.respond(approach, memory);
+  }
+
+  /// Finds the foot of a point, asks the law, and notes the derivative by forward differences: laws of springs and sliders are
+  /// piecewise linear, and the closing side is the one that matters at a point that just touches.
+  void touch(std::size_t k, std::vector<Vector<2>> const& nodes, std::vector<Vector<2>> const& moved,
+             Eigen::VectorXd const& increment) {
+    State const& before = committed_[k];
+    State& state = trial_[k];
+    state = before;
+    state.place = body_.place(k, nodes, increment);
+    state.foot = ground_.nearest(state.place, moved);
+    state.along = ground_.along(state.foot.facet, moved);
+    Vector<2> const normal = outward(state.along);
+    Vector<2> const apart = state.place - ground_.place(state.foot, moved);
+    state.overlap = state.foot.at_end ? -apart.norm() : -apart.dot(normal);
+    Vector<2> const relative =
+        state.place - body_.place(k, nodes) - ground_.place(before.foot, moved) + ground_.place(before.foot, nodes);
+    double const slip = relative.dot(state.along);
+    auto const force = answer(state.overlap, slip, state.memory);
+    state.pressure = force.normal;
+    state.shear = force.shear;
+
+    double const step = 1e-9 * facet_length(state.foot.facet, moved);
+    Tensor<2> derivative;  // of (pressure, shear) with respect to the motion along (normal, tangent)
+    if (force.normal == 0.0 && std::abs(state.overlap) < step) {
+      // Just touching: a body without weight is held by the closed contact's springs or by nothing.
+      auto const closed = law_.stiffness(0.0, 0.0);
+      derivative << -closed.normal, 0.0, 0.0, -closed.tangential;
+    } else {
+      Memory closing = before.memory;
+      Memory sliding = before.memory;
+      auto const closer = answer(state.overlap + step, slip, closing);
+      auto const further = answer(state.overlap, slip + step, sliding);
+      derivative << force.normal - closer.normal, further.normal - force.normal,  //
+          force.shear - closer.shear, further.shear - force.shear;
+      derivative /= step;
+    }
+    Tensor<2> frame;
+    frame << normal, state.along;
+    state.stiffness = -frame * derivative * frame.transpose();
+    couple(k, nodes, increment);
+  }
+
+  double facet_length(int facet, std::vector<Vector<2>> const& nodes) const {
+    return (ground_.place({facet, 1.0}, nodes) - ground_.place({facet, 0.0}, nodes)).norm();
+  }
+
+  /// Degrees of freedom that move a point relative to its foot.
+  void couple(std::size_t k, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) {
+    couplings_.resize(trial_.size());
+    auto& levers = couplings_[k];
+    levers.clear();
+    for (auto const& lever : body_.levers_at(k, nodes, increment)) levers.push_back(lever);
+    auto const& foot = trial_[k].foot;
+    auto const& facet = ground_.facets()[detail::index(foot.facet)];
+    for (int axis = 0; axis < 2; ++axis) {
+      levers.push_back({2 * facet[0] + axis, -(1.0 - foot.xi) * Vector<2>::Unit(axis)});
+      levers.push_back({2 * facet[1] + axis, -foot.xi * Vector<2>::Unit(axis)});
+    }
+  }
+
+  Law law_;
+  Body body_;
+  FacetChain ground_;
+  std::vector<State> committed_;
+  std::vector<State> trial_;
+  std::vector<std::vector<Lever>> couplings_;
+};
+
+}  // namespace scarp

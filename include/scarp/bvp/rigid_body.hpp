@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+
+#include "scarp/bvp/lever.hpp"
+#include "scarp/core/error.hpp"
+
+namespace scarp {
+
+/// A rigid body in the plane with three degrees of freedom beside those of a mesh: the displacement of its reference point
+/// along x and y [m] and its rotation times `arm`, counter-clockwise [m], so that all three are lengths and their forces newtons.
+class RigidBody {
+ public:
+  static constexpr int extra_dofs = 3;
+  static constexpr int levers = 3;
+
+  /// reference [m]: the point that loads act on; arm [m]: such as half the width
+  RigidBody(Vector<2> const& reference, double arm) : reference_(reference), arm_(require_positive("arm", arm)) {}
+
+  /// Committed place of the reference point [m] and rotation [rad], counter-clockwise.
+  Vector<2> const& reference() const { return reference_; }
+  double rotation() const { return angle_; }
+  double arm() const { return arm_; }
+
+  /// Where a place of the body, given relative to the reference point before any rotation [m], is now.
+  Vector<2> place(Vector<2> const& own) const { return reference_ + scarp::rotation(angle_) * own; }
+
+  /// The same after an increment of the body's degrees of freedom, which begin at `first`.
+  Vector<2> place(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
+    return reference_ + increment.segment<2>(first) + turned(increment(first + 2)) * own;
+  }
+
+  std::array<Lever, levers> levers_at(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
+    Vector<2> const arm = turned(increment(first + 2)) * own;
+    return {{{first, Vector<2>::UnitX()},
+             {first + 1, Vector<2>::UnitY()},
+             {first + 2, Vector<2>(-arm.y(), arm.x()) / arm_}}};
+  }
+
+  void commit(Eigen::VectorXd const& increment, int first) {
+    reference_ += increment.segment<2>(first);
+    angle_ += increment(first + 2) / arm_;
+  }
+
+ private:
+  Tensor<2> turned(double along_arm) const { return scarp::rotation(angle_ + along_arm / arm_); }
+
+  Vector<2> reference_;
+  double arm_;
+  double angle_ = 0.0;
+};
+
+}  // namespace scarp

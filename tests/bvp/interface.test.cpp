@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/bvp/interface.hpp"
+
+#include <doctest/doctest.h>
+
+#include "approx.hpp"
+#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/standing_body.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/equilibrium_problem.hpp"
+#include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+
+namespace {
+
+using Grid = scarp::Discretisation<scarp::Tri3>;
+using Soil = scarp::LinearElastic<2>;
+using Tied = scarp::CohesiveBond<scarp::LinearFrictional>;
+template <class Law>
+using Footed = scarp::Interface<Law, scarp::RigidFooting>;
+template <class Law>
+using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor, Footed<Law>>;
+using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A rigid footing of 2 m in the middle of a block of 6 m x 2 m.
+struct Bed {
+  double young = 20e6;
+  bool rigid_ground = false;
+  int columns = 12;
+  double width = 2.0;
+  scarp::SerialExecutor executor{};
+
+  template <class Law>
+  Problem<Law> problem(Law const& law, scarp::Vector<2> const& force, double moment,
+                       scarp::TimeFunction const& course = {}) {
+    scarp::RectangleMesh const shape{.width = 6.0, .height = 2.0, .columns = columns, .rows = columns / 3};
+    Grid grid(shape.generate());
+    auto const& mesh = grid.mesh();
+    scarp::Constraints constraints(mesh, scarp::RigidBody::extra_dofs);
+    if (rigid_ground) {
+      for (int n = 0; n < grid.node_count(); ++n) constraints.fix(n);
+    } else {
+      for (int const node : boundary_nodes(mesh, "bottom")) constraints.fix(node);
+      for (int const node : boundary_nodes(mesh, "left")) constraints.fix(node, 0);
+      for (int const node : boundary_nodes(mesh, "right")) constraints.fix(node, 0);
+    }
+    scarp::FacetChain ground(boundary(mesh, "top"));
+    std::vector<double> breaks;
+    for (int const node : boundary_nodes(mesh, "top")) breaks.push_back(mesh.nodes[static_cast<std::size_t>(node)].x());
+    double const arm = width / 2.0;
+    scarp::RigidFooting const footing({{3.0, 2.0}, arm}, {3.0 - arm, 2.0}, {3.0 + arm, 2.0}, breaks, 1.0,
+                                      grid.dof_count());
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(grid.dof_count() + 3);
+    load.tail<3>() << force, moment / arm;
+    scarp::LoadHistory loads(Eigen::VectorXd::Zero(load.size()));
+    loads.add(load, course);
+    std::vector<scarp::Site<2>> sites;
+    for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
+    scarp::ProviderField<Soil> field(Soil::from_young_poisson(young, 0.3), sites);
+    Footed<Law> interface(law, footing, ground, mesh.nodes);
+    return {std::move(grid),  std::move(field), std::move(constraints),
+            std::move(loads), executor,         std::move(interface)};
+  }
+};
+
+scarp::LoadStepping one_step() { return {.first = 1.0, .largest_gradient = 1.0}; }
+
+}  // namespace
+
+TEST_CASE("a rigid footing on springs settles and tilts as Winkler's bed") {
+  Bed bed{.rigid_ground = true};
+  double const k = 50e6;
+  scarp::LinearFrictional const springs{.normal_stiffness = k, .tangential_stiffness = k, .friction = 0.5};
+  double const force = 200e3;
+  double const moment = 20e3;  // inside the core: W/M = 0.1 m < B/6, so that nothing lifts
+  auto problem = bed.problem(springs, {0.0, -force}, moment);
+  scarp::NoObserver nobody;
+  auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);
+  REQUIRE(run.verdict.acceptable());
+  auto const& body = problem.attached().body().body();
+  // Analytic: settlement W/(k B), tilt M/(k B^3/12); second order in the tilt, 1e-7.
+  CHECK(2.0 - body.reference().y() == samples::Approx(force / (k * 2.0)).epsilon(1e-6));
+  CHECK(body.rotation() == samples::Approx(moment / (k * 8.0 / 12.0)).epsilon(1e-6));
+}
+
+TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle, none is negative, forces balance") {
+  Bed bed{.rigid_ground = true, .columns = 96};
+  double const k = 50e6;
+  scarp::LinearFrictional const springs{.normal_stiffness = k, .tangential_stiffness = k, .friction = 0.5};
+  double const force = 200e3;
+  double const eccentricity = 0.5;
+  auto problem = bed.problem(springs, {0.0, -force}, force * eccentricity);
+  scarp::NoObserver nobody;
+  auto const run = scarp::LoadStepping{.first = 0.1, .largest_gradient = 1.0}.run(Newton{.tolerance = 1e-9}, problem,
+                                                                                  0.0, 1.0, nobody);
+  REQUIRE(run.verdict.acceptable());
+  double sum = 0.0;
+  double contact = 0.0;
+  double highest = 0.0;
+  for (auto const& point : problem.attached().points()) {
+    CHECK(point.pressure >= 0.0);
+    sum += point.pressure * point.area;
+    if (point.pressure > 0.0) contact += point.area;
+    highest = std::max(highest, point.pressure);
+  }
+  // Analytic: contact length 3 (B/2 - e), edge pressure 2 W/length; the points do not reach the edge and the last touching
+  // one is a sixteenth of the width, 2/32, wide.
+  double const length = 3.0 * (1.0 - eccentricity);
+  CHECK(sum == samples::Approx(force).epsilon(1e-9));
+  CHECK(std::abs(contact - length) < 2.0 / 32.0);
+  CHECK(highest == samples::Approx(2.0 * force / length).epsilon(0.03));
+}
+
+TEST_CASE("a block slides when the tangential load passes friction, not before") {
+  Bed bed{.rigid_ground = true};
+  double const mu = 0.4;
+  scarp::LinearFrictional const law{.normal_stiffness = 1e9, .tangential_stiffness = 1e9, .friction = mu};
+  double const weight = 100e3;
+  auto problem = bed.problem(law, {weight, 0.0}, 0.0);  // load factor = horizontal over vertical load
+  Eigen::VectorXd dead = Eigen::VectorXd::Zero(problem.dof_count());
+  dead(problem.dof_count() - 2) = -weight;
+  scarp::LoadHistory loads(dead);
+  Eigen::VectorXd push = Eigen::VectorXd::Zero(problem.dof_count());
+  push(problem.dof_count() - 3) = weight;
+  loads.add(push, {});
+  auto grid = problem.discretisation();
+  scarp::SerialExecutor executor;
+  Problem<scarp::LinearFrictional> sliding(grid, problem.materials(), problem.constraints(), loads, executor,
+                                           problem.attached());
+  scarp::NoObserver nobody;
+  scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-7, .largest_gradient = 1.0};
+  Newton const newton{.tolerance = 1e-9, .most_iterations = 12};
+  REQUIRE(stepping.settle(newton, sliding, 0.0, nobody).verdict.acceptable());
+  auto const run = stepping.run(newton, sliding, 0.0, 1.0, nobody);
+  // Analytic: tan(theta) = mu.
+  CHECK_FALSE(run.verdict.acceptable());
+  CHECK(run.load <= mu * (1.0 + 1e-6));
+  CHECK(run.load == samples::Approx(mu).epsilon(1e-5));
+}
+
+TEST_CASE("a bonded interface holds tension up to its strength and has none once it is broken") {
+  Bed bed{.rigid_ground = true};
+  double const strength = 30e3;
+  Tied const bonded{{.normal_stiffness = 1e9, .tangential_stiffness = 1e9, .friction = 0.5}, strength, infinity};
+  scarp::NoObserver nobody;
+  for (double const share : {0.99, 1.01}) {
+    auto problem = bed.problem(bonded, {0.0, share * strength * bed.width}, 0.0);
+    auto const run = scarp::LoadStepping{.first = 0.25, .smallest = 1e-3, .largest_gradient = 1.0}.run(
+        Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);
+    CHECK(run.verdict.acceptable() == (share < 1.0));
+    if (share > 1.0) CHECK(run.load == samples::Approx(1.0 / share).epsilon(3e-3));
+  }
+}
+
+TEST_CASE("a stiff tied interface presses an elastic bed as a rough rigid punch: Newton converges at once") {
+  Bed bed{.columns = 24};
+  Tied const tied{{.normal_stiffness = 1e10, .tangential_stiffness = 1e10, .friction = 0.0}, infinity, infinity};
+  auto problem = bed.problem(tied, {0.0, -1e3}, 50.0);
+  scarp::NoObserver nobody;
+  Newton const newton{.tolerance = 1e-8};
+  auto const run = one_step().run(newton, problem, 0.0, 1.0, nobody);
+  REQUIRE(run.verdict.acceptable());
+  CHECK(run.iterations <= 5);
+  auto const& body = problem.attached().body().body();
+  CHECK(body.reference().y() < 2.0);
+  CHECK(body.rotation() > 0.0);
+  double sum = 0.0;
+  for (auto const& point : problem.attached().points()) sum += point.pressure * point.area;
+  CHECK(sum == samples::Approx(1e3).epsilon(1e-7));
+}
+
+TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whether or not their nodes meet") {
+  // The contact patch test: block 1 m x 1 m on block 1 m x 1 m, different numbers of columns.
+  for (int const upper_columns : {4, 7}) {
+    auto lower = scarp::RectangleMesh{.width = 1.0, .height = 1.0, .columns = 4, .rows = 4}.generate();
+    auto const upper =
+        scarp::RectangleMesh{.width = 1.0, .height = 1.0, .columns = upper_columns, .rows = upper_columns}.generate();
+    int const offset = static_cast<int>(lower.nodes.size());
+    for (auto const& node : upper.nodes) lower.nodes.emplace_back(node + scarp::Vector<2>::UnitY());
+    auto const shifted = [&](auto numbers) {
+      for (int& number : numbers) number += offset;
+      return numbers;
+    };
+    for (auto const& element : upper.elements) {
+      lower.elements.push_back(shifted(element));
+      lower.element_region.push_back(0);
+    }
+    for (auto const& [name, facets] : upper.boundaries) {
+      for (auto const& facet : facets) lower.boundaries["upper_" + name].push_back(shifted(facet));
+    }
+    Grid grid(lower);
+    auto const& mesh = grid.mesh();
+    scarp::Constraints constraints(mesh);
+    for (int const node : boundary_nodes(mesh, "bottom")) constraints.fix(node, 1);
+    for (char const* side : {"left", "upper_left"}) {
+      for (int const node : boundary_nodes(mesh, side)) constraints.fix(node, 0);
+    }
+    for (char const* side : {"right", "upper_right"}) {
+      for (int const node : boundary_nodes(mesh, side)) constraints.fix(node, 0);
+    }
+    double const pressure = 1e3;
+    Eigen::VectorXd const load = traction(grid, "upper_top", scarp::Vector<2>(0.0, -pressure));
+    scarp::LoadHistory loads(Eigen::VectorXd::Zero(load.size()));
+    loads.add(load, {});
+    std::vector<double> breaks;
+    for (int const node : boundary_nodes(mesh, "top")) breaks.push_back(mesh.nodes[static_cast<std::size_t>(node)].x());
+    scarp::MeshedFooting const footing(scarp::FacetChain(boundary(mesh, "upper_bottom")), breaks, mesh.nodes, 1.0);
+    using Law = scarp::LinearFrictional;
+    using Contact = scarp::Interface<Law, scarp::MeshedFooting>;
+    Contact interface(Law{.normal_stiffness = 1e9, .tangential_stiffness = 1e9, .friction = 0.3}, footing,
+                      scarp::FacetChain(boundary(mesh, "top")), mesh.nodes);
+    std::vector<scarp::Site<2>> sites;
+    for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
+    scarp::SerialExecutor executor;
+    scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor, Contact> problem(
+        grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, loads, executor, interface);
+    scarp::NoObserver nobody;
+    auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);
+    REQUIRE(run.verdict.acceptable());
+    // Analytic: vertical stress -p everywhere; updated-Lagrangian width is kept by the sides. Round-off of the contact's
+    // stiffness over the soil's, 50, times the residual.
+    for (auto const& stress : problem.committed_stresses())
+      CHECK(stress(1) == samples::Approx(-pressure).epsilon(1e-9));
+    for (auto const& point : problem.attached().points())
+      CHECK(point.pressure == samples::Approx(pressure).epsilon(1e-9));
+  }
+}
