@@ -17,10 +17,10 @@ struct FaultBlock {
   double tip = 0.0;                     ///< horizontal position where the fault meets the bottom of the mesh [m]
 
   /// Bottom nodes right of the tip and the whole side "right" move by (h / tan(dip), -h); bottom nodes up to the tip
-  /// and the side "left" stay. The first axis is horizontal, the last vertical; in 3D the fault strikes along the other.
+  /// and the side "left" stay; throw = course(load factor). The first axis is horizontal, the last vertical; in 3D the fault strikes along the other.
   /// \throws InputError for a dip outside (0, pi/2], a tip outside the bottom, or a mesh without these boundaries
   template <class Element>
-  Constraints constraints(Mesh<Element> const& mesh) const {
+  Constraints constraints(Mesh<Element> const& mesh, int extra_dofs = 0, TimeFunction const& course = {}) const {
     check_dip();
     auto const bottom = boundary_nodes(mesh, "bottom");
     auto const x_of = [&](int node) { return mesh.nodes[detail::index(node)](0); };
@@ -31,16 +31,16 @@ struct FaultBlock {
              bottom.empty() ? 0.0 : x_of(*first), bottom.empty() ? 0.0 : x_of(*last));
     }
     double const round_off = 1e-9 * (x_of(*last) - x_of(*first));  // a node on the tip belongs to the foot wall
-    Constraints constraints(mesh);
+    Constraints constraints(mesh, extra_dofs);
     for (int const node : boundary_nodes(mesh, "left")) {
       constraints.fix(node);
     }
     for (int const node : boundary_nodes(mesh, "right")) {
-      move_with_hanging_wall(constraints, node, Element::dim);
+      move_with_hanging_wall(constraints, node, Element::dim, course);
     }
     for (int const node : bottom) {
       if (x_of(node) > tip + round_off) {
-        move_with_hanging_wall(constraints, node, Element::dim);
+        move_with_hanging_wall(constraints, node, Element::dim, course);
       } else {
         constraints.fix(node);
       }
@@ -63,12 +63,12 @@ struct FaultBlock {
     }
   }
 
-  void move_with_hanging_wall(Constraints& constraints, int node, int dim) const {
+  void move_with_hanging_wall(Constraints& constraints, int node, int dim, TimeFunction const& course) const {
     for (int axis = 1; axis + 1 < dim; ++axis) {
       constraints.fix(node, axis);
     }
-    constraints.move(node, 0, heave());
-    constraints.move(node, dim - 1, -1.0);
+    constraints.move(node, 0, heave(), course);
+    constraints.move(node, dim - 1, -1.0, course);
   }
 };
 

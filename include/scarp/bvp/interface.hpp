@@ -3,6 +3,7 @@
 
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/facet_chain.hpp"
+#include "scarp/bvp/interface_point.hpp"
 #include "scarp/bvp/lever.hpp"
 #include "scarp/contact/contact_law.hpp"
 
@@ -20,15 +21,6 @@ concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k,
   { constant.place(k, nodes, increment) } -> std::same_as<Vector<2>>;
   {constant.levers_at(k, nodes, increment)};
   {body.commit(nodes, increment)};
-};
-
-/// What an interface says of one of its points.
-struct InterfacePoint {
-  Vector<2> place = Vector<2>::Zero();  ///< of the standing body [m]
-  double area = 0.0;                    ///< [m2]
-  double pressure = 0.0;                ///< [Pa], positive pushes apart
-  double shear = 0.0;                   ///< [Pa], on the standing body, along the mesh's outline
-  double gap = 0.0;                     ///< [m], negative: overlap
 };
 
 /// Contact between the outline of a mesh and a body that stands on it, in the plane: a contact law, in stresses over displacements
@@ -86,8 +78,10 @@ class Interface {
   /// State of the last evaluation, point by point.
   std::vector<InterfacePoint> points() const {
     std::vector<InterfacePoint> all;
-    for (std::size_t k = 0; k < trial_.size(); ++k)
-      all.push_back({trial_[k].place, body_.area(k), trial_[k].pressure, trial_[k].shear, -trial_[k].overlap});
+    for (std::size_t k = 0; k < trial_.size(); ++k) {
+      State const& state = trial_[k];
+      all.push_back({state.place, body_.area(k), stress_vector(state), state.pressure, state.shear, -state.overlap});
+    }
     return all;
   }
 

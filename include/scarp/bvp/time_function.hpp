@@ -34,6 +34,13 @@ class TimeFunction {
   /// From 0 to 1 between two load factors.
   static TimeFunction ramp(double from, double to) { return TimeFunction({{from, 0.0}, {to, 1.0}}); }
 
+  /// Zero up to a load factor, then the load factor beyond it.
+  static TimeFunction after(double start) {
+    TimeFunction course({{start, 0.0}});
+    course.slope_at_end_ = 1.0;
+    return course;
+  }
+
   friend bool operator==(TimeFunction const&, TimeFunction const&) = default;
 
   double operator()(double load) const {
@@ -41,7 +48,7 @@ class TimeFunction {
     auto const next = std::upper_bound(knots_.begin(), knots_.end(), load,
                                        [](double value, auto const& knot) { return value < knot.first; });
     if (next == knots_.begin()) return knots_.front().second;
-    if (next == knots_.end()) return knots_.back().second;
+    if (next == knots_.end()) return knots_.back().second + slope_at_end_ * (load - knots_.back().first);
     auto const& [left, low] = *(next - 1);
     auto const& [right, high] = *next;
     return low + (load - left) / (right - left) * (high - low);
@@ -49,6 +56,7 @@ class TimeFunction {
 
  private:
   std::vector<std::pair<double, double>> knots_;
+  double slope_at_end_ = 0.0;
 };
 
 }  // namespace scarp

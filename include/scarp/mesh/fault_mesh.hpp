@@ -8,17 +8,17 @@
 
 namespace scarp {
 
-/// Block on the ground surface that shares the surface's nodes (tied, no slip). [m]
+/// Block on the ground surface that shares the surface's nodes (tied, no slip), or the place of one beside the mesh. [m]
 struct Footing {
   double centre = 0.0;  ///< horizontal position
   double width = 0.0;
-  double height = 0.0;
+  double height = 0.0;  ///< zero: nothing is meshed above the surface
 };
 
 /// Soil layer over a fault: y = 0 is bedrock level, y = depth the ground surface, the fault meets bedrock at (tip, 0).
 /// Crossed triangles, finest in the band where the shear band and its outcrop are expected; vertical grid lines pass
-/// through the tip and the edges of the footing. Regions "soil" and, with a footing, "footing"; boundaries "left",
-/// "right", "bottom", "surface" (ground that nothing covers), "footing_base", "footing_top".
+/// through the tip and the edges of the footing. Regions "soil" and, with a meshed footing, "footing"; boundaries "left",
+/// "right", "bottom", "surface" (ground that nothing covers), "footing_base" (the ground below it), "footing_top".
 struct FaultMesh {
   double left = -52.0;          ///< [m]
   double right = 23.0;          ///< [m]
@@ -135,6 +135,8 @@ struct FaultMesh {
 
   Spacing footing_spacing() const { return Spacing({{depth, size}, {depth + footing->height, size}}); }
 
+  bool has_meshed_footing() const { return footing && footing->height > 0.0; }
+
   int footing_row_count() const {
     return cells_between(footing_spacing(), depth, depth + footing->height, footing_rows);
   }
@@ -157,13 +159,20 @@ struct FaultMesh {
         under_footing += added;
       }
     }
-    return 4 * (cells * cells_between(rows(), 0.0, depth) + (footing ? under_footing * footing_row_count() : 0));
+    return 4 * (cells * cells_between(rows(), 0.0, depth) +
+                (has_meshed_footing() ? under_footing * footing_row_count() : 0));
   }
 
   void add_footing(Mesh<Tri3>& mesh, std::vector<double> const& xs, GridNumbers const& soil, int last_row) const {
     auto const line = [&](double x) { return static_cast<int>(std::find(xs.begin(), xs.end(), x) - xs.begin()); };
     int const first = line(footing_edge(-1.0));
     int const end = line(footing_edge(+1.0));
+    auto& surface = mesh.boundaries["surface"];
+    surface = upper_facets(soil, 0, first, last_row);
+    auto const beyond = upper_facets(soil, end, detail::count(xs) - 1, last_row);
+    surface.insert(surface.end(), beyond.begin(), beyond.end());
+    mesh.boundaries["footing_base"] = upper_facets(soil, first, end, last_row);
+    if (!has_meshed_footing()) return;
     std::vector<double> const xs_above(xs.begin() + first, xs.begin() + end + 1);
     auto const ys_above = graded_lines(footing_spacing(), {depth, depth + footing->height}, footing_rows);
     int const rows_above = detail::count(ys_above) - 1;
@@ -173,11 +182,6 @@ struct FaultMesh {
     }
     mesh.regions.emplace_back("footing");
     add_crossed_grid(mesh, xs_above, ys_above, numbers, 1);
-    auto& surface = mesh.boundaries["surface"];
-    surface = upper_facets(soil, 0, first, last_row);
-    auto const beyond = upper_facets(soil, end, detail::count(xs) - 1, last_row);
-    surface.insert(surface.end(), beyond.begin(), beyond.end());
-    mesh.boundaries["footing_base"] = upper_facets(soil, first, end, last_row);
     mesh.boundaries["footing_top"] = upper_facets(numbers, 0, end - first, rows_above);
   }
 
@@ -217,7 +221,7 @@ struct FaultMesh {
     }
     require_finite("centre of the footing", footing->centre);
     require_positive("width of the footing", footing->width);
-    require_positive("height of the footing", footing->height);
+    require_not_negative("height of the footing", footing->height);
     double const from = footing_edge(-1.0);
     double const to = footing_edge(+1.0);
     if (!(from > left && to < right)) {
