@@ -8,6 +8,21 @@
 
 namespace scarp {
 
+/// The element's own rule if the changes of shape at its points and one change of volume can hold every motion of the
+/// element, else one of degree 4: six points in Tri6, fourteen in Tet10.
+struct ShapeChangeRule {
+  template <GivesQuadrature Element>
+  static auto points() {
+    constexpr int dim = Element::dim;
+    constexpr int held = quadrature_size<Element> * (voigt_size<dim> - 1) + 1;
+    if constexpr (held >= dim * Element::nodes - dim * (dim + 1) / 2) {
+      return Element::quadrature();
+    } else {
+      return Element::template rule<4>();
+    }
+  }
+};
+
 /// Every point has the shape change at its own place and the volume change of the whole element, so that a material
 /// that keeps its volume binds an element once and not at every point. In the plane the split is one of the plane,
 /// with dim = 2: \f$ \varepsilon_{zz} \f$ stays zero.
@@ -133,6 +148,6 @@ struct MeanDilatation {
   }
 };
 
-using BBar = MeanDilatation<FullRule>;
+using BBar = MeanDilatation<ShapeChangeRule>;
 
 }  // namespace scarp
