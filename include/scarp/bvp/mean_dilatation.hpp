@@ -26,6 +26,7 @@ struct ShapeChangeRule {
 /// Every point has the shape change at its own place and the volume change of the whole element, so that a material
 /// that keeps its volume binds an element once and not at every point. In the plane the split is one of the plane,
 /// with dim = 2: \f$ \varepsilon_{zz} \f$ stays zero.
+/// Made for Quad4 and Hex8; with one volume change per element a quadratic element converges only like a linear one.
 /// Small strain: \f$ \bar G = G + \tfrac1{dim} (\overline{tr\,G} - tr\,G) I \f$ with the mean over the element's volume,
 /// Hughes, Int. J. Numer. Meth. Engng 15 (1980) 1413.
 /// Large: \f$ \bar F = (\bar J / J)^{1/dim} F \f$ with \f$ \bar J \f$ the element's volume at the end over that at the
