@@ -203,16 +203,21 @@ class Discretisation {
   /// visit(element, shapes) for all elements in order, as they are at the given positions.
   template <class Visit>
   void for_each_element(std::vector<Vector<dim>> const& nodes, Visit&& visit) const {
-    auto const points = Scheme::template points<Element>();
-    Shapes shapes;
     for (int element = 0; element < detail::count(mesh_.elements); ++element) {
       auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], nodes);
-      for (std::size_t p = 0; p < shapes.size(); ++p) {
-        shapes[p] = spatial_shape<Element>(rows, points[p]);
-        shapes[p].volume *= thickness_;
-      }
-      visit(element, shapes);
+      visit(element, shapes_at(rows, std::make_index_sequence<material_points<Scheme, Element>>{}));
     }
+  }
+
+  template <std::size_t... Point>
+  Shapes shapes_at(Corners<Element, dim> const& rows, std::index_sequence<Point...>) const {
+    auto const points = Scheme::template points<Element>();
+    auto const at = [&](std::size_t p) {
+      auto shape = spatial_shape<Element>(rows, points[p]);
+      shape.volume *= thickness_;
+      return shape;
+    };
+    return {{at(Point)...}};
   }
 
   Mesh<Element> mesh_;

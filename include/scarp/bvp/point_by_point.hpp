@@ -40,11 +40,13 @@ struct PointByPoint {
   template <class Element, std::size_t Points>
   static Corners<Element, Element::dim> forces(std::array<SpatialShape<Element>, Points> const& shapes,
                                                std::span<VoigtStress<Element::dim> const, Points> stresses) {
-    Corners<Element, Element::dim> sum = Corners<Element, Element::dim>::Zero();
-    for (std::size_t p = 0; p < Points; ++p) {
+    auto const of_point = [&](std::size_t p) -> Corners<Element, Element::dim> {
       Tensor<Element::dim> const stress = from_voigt_stress<Element::dim, double>(stresses[p]);
-      Corners<Element, Element::dim> const forces = shapes[p].volume * shapes[p].gradients * stress;
-      sum += forces;
+      return shapes[p].volume * shapes[p].gradients * stress;
+    };
+    Corners<Element, Element::dim> sum = of_point(0);
+    for (std::size_t p = 1; p < Points; ++p) {
+      sum += of_point(p);
     }
     return sum;
   }
