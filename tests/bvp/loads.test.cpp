@@ -27,8 +27,8 @@ TEST_CASE("body forces add up to the weight of each region") {
   CHECK(sum<2>(forces).x() == 0.0);
 }
 
-TEST_CASE_TEMPLATE("body forces keep the moment of the weight on distorted meshes", Element, scarp::Tri3, scarp::Quad4,
-                   scarp::Tet4) {
+TEST_CASE_TEMPLATE("body forces keep the moment of the weight on distorted meshes", Element, scarp::Tri3, scarp::Tri6,
+                   scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20) {
   constexpr int dim = Element::dim;
   scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(3));
   scarp::Vector<dim> const gravity = -20e3 * scarp::Vector<dim>::Unit(dim - 1);
@@ -37,10 +37,35 @@ TEST_CASE_TEMPLATE("body forces keep the moment of the weight on distorted meshe
   for (int n = 0; n < disc.node_count(); ++n) {
     lever += disc.mesh().nodes[static_cast<std::size_t>(n)](0) * forces(dim * n + dim - 1);
   }
-  // Analytic: unit block, centre at 1/2. Shapes reproduce linear functions; the quadrature of Tri3, Tet4 and of
-  // bilinear Quad4 (x times the Jacobian is at most cubic along an axis) is exact for them.
+  // Analytic: unit block, centre at 1/2. Shapes reproduce linear functions; the quadrature of simplices and of straight
+  // squares and cubes (x times the Jacobian is at most cubic along an axis) is exact for them.
   CHECK(lever == samples::Approx(-20e3 / 2.0).epsilon(1e-13));
   CHECK(sum<dim>(forces)(dim - 1) == samples::Approx(-20e3).epsilon(1e-13));
+}
+
+TEST_CASE("a force that varies within the elements has its resultant and its moment") {
+  scarp::Discretisation<scarp::Tri6> const disc(sample::distorted_block<scarp::Tri6>(3), 0.5);
+  auto const forces = scarp::varying_body_force(
+      disc, [](scarp::Vector<2> const& x) { return scarp::Vector<2>(0.0, x.x() * x.x() * x.y()); });
+  double lever = 0.0;
+  for (int n = 0; n < disc.node_count(); ++n) {
+    lever += disc.mesh().nodes[static_cast<std::size_t>(n)].x() * forces(2 * n + 1);
+  }
+  CHECK(sum<2>(forces).y() == samples::Approx(0.5 / 3.0 / 2.0).epsilon(1e-13));  // analytic: t int x^2 int y
+  CHECK(lever == samples::Approx(0.5 / 4.0 / 2.0).epsilon(1e-13));               // analytic: t int x^3 int y
+}
+
+TEST_CASE_TEMPLATE("a traction on a quadratic side does the work of its resultant", Element, scarp::Tri6, scarp::Quad8,
+                   scarp::Tet10, scarp::Hex20) {
+  constexpr int dim = Element::dim;
+  scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(2));
+  auto const forces = scarp::traction(disc, "right", scarp::Vector<dim>::LinSpaced(1e3, -2e3));
+  CHECK((sum<dim>(forces) - scarp::Vector<dim>::LinSpaced(1e3, -2e3)).norm() < 1e-9);  // analytic: side of 1 m2
+  double lever = 0.0;
+  for (int n = 0; n < disc.node_count(); ++n) {
+    lever += disc.mesh().nodes[static_cast<std::size_t>(n)](1) * forces(dim * n);
+  }
+  CHECK(lever == samples::Approx(1e3 / 2.0).epsilon(1e-13));  // analytic: at mid-height
 }
 
 TEST_CASE("a traction adds up to its resultant and is shared by length") {

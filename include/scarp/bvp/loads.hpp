@@ -12,9 +12,9 @@ namespace scarp {
 /// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
 /// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
 /// force_of_region(number of a region): b [N/m3], shape (dim)
-template <class Element, class Motion, class ForceOfRegion>
+template <class Element, class Motion, class Scheme, class ForceOfRegion>
   requires std::convertible_to<std::invoke_result_t<ForceOfRegion const&, int>, Vector<Element::dim>> Eigen::VectorXd
-  body_force(Discretisation<Element, Motion> const& discretisation, ForceOfRegion const& force_of_region) {
+  body_force(Discretisation<Element, Motion, Scheme> const& discretisation, ForceOfRegion const& force_of_region) {
     constexpr int dim = Element::dim;
     auto const& mesh = discretisation.mesh();
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
@@ -33,11 +33,35 @@ template <class Element, class Motion, class ForceOfRegion>
     return forces;
   }
 
+/// As body_force, for a force per volume that varies within the elements; integrated exactly up to degree 4.
+/// force_at(position on the initial mesh [m]): b [N/m3], shape (dim)
+template <GivesRules Element, class Motion, class Scheme, class ForceAt>
+Eigen::VectorXd varying_body_force(Discretisation<Element, Motion, Scheme> const& discretisation,
+                                   ForceAt const& force_at) {
+  constexpr int dim = Element::dim;
+  auto const& mesh = discretisation.mesh();
+  auto const rule = Element::template rule<4>();
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
+  for (auto const& nodes : mesh.elements) {
+    auto const rows = corners<Element, dim>(nodes, mesh.nodes);
+    for (auto const& where : rule) {
+      ShapeValues<Element> const shape = Element::shape(where.xi);
+      Vector<dim> const position = rows.transpose() * shape;
+      Vector<dim> const per_volume = force_at(position);
+      double const volume = discretisation.thickness() * where.weight * measure<Element, dim>(rows, where.xi);
+      for (int a = 0; a < Element::nodes; ++a) {
+        forces.template segment<dim>(dim * nodes[detail::index(a)]) += shape(a) * volume * per_volume;
+      }
+    }
+  }
+  return forces;
+}
+
 /// Nodal forces [N], shape (dof_count), consistent with a force per area [Pa] on a boundary of the initial mesh:
 /// \f$ f_a = \int N_a t\,dA \f$. A dead load: it follows neither the size nor the direction of the deformed boundary.
 /// \throws InputError for an unknown boundary
-template <class Element, class Motion>
-Eigen::VectorXd traction(Discretisation<Element, Motion> const& discretisation, std::string_view boundary_name,
+template <class Element, class Motion, class Scheme>
+Eigen::VectorXd traction(Discretisation<Element, Motion, Scheme> const& discretisation, std::string_view boundary_name,
                          Vector<Element::dim> const& per_area) {
   using Facet = typename Element::Facet;
   constexpr int dim = Element::dim;

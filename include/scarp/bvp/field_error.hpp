@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+
+#include "scarp/core/error.hpp"
+#include "scarp/mesh/mesh.hpp"
+
+namespace scarp {
+
+/// Norms of the difference between a field on a mesh and a function of position, taken over the mesh's volume.
+struct FieldError {
+  double value = 0.0;     ///< \f$ L_2 \f$ norm, unit of the field times m^(dim/2)
+  double gradient = 0.0;  ///< \f$ L_2 \f$ norm of the gradient (the \f$ H^1 \f$ seminorm)
+};
+
+/// Integrated exactly up to degree 5 on undistorted elements: differences of the order of the next polynomial that a
+/// quadratic element lacks are resolved.
+/// displacement [m], shape (dim * number of nodes); exact(x): shape (dim); exact_gradient(x): shape (dim, dim)
+template <GivesRules Element, class Exact, class ExactGradient>
+FieldError field_error(Mesh<Element> const& mesh, Eigen::VectorXd const& displacement, Exact const& exact,
+                       ExactGradient const& exact_gradient) {
+  constexpr int dim = Element::dim;
+  if (displacement.size() != dim * detail::count(mesh.nodes)) {
+    refuse("the displacement has {} entries (the mesh needs {}): size it by dim * number of nodes", displacement.size(),
+           dim * detail::count(mesh.nodes));
+  }
+  auto const rule = Element::template rule<5>();
+  FieldError squares;
+  for (auto const& element : mesh.elements) {
+    auto const rows = corners<Element, dim>(element, mesh.nodes);
+    Corners<Element, dim> moves;
+    for (int a = 0; a < Element::nodes; ++a) {
+      moves.row(a) = displacement.template segment<dim>(dim * element[detail::index(a)]).transpose();
+    }
+    for (auto const& point : rule) {
+      ShapeValues<Element> const shape = Element::shape(point.xi);
+      auto const spatial = spatial_shape<Element>(rows, point);
+      Vector<dim> const place = rows.transpose() * shape;
+      Vector<dim> const off = moves.transpose() * shape - Vector<dim>(exact(place));
+      Gradient<dim> const slope_off = moves.transpose() * spatial.gradients - Gradient<dim>(exact_gradient(place));
+      squares.value += spatial.volume * off.squaredNorm();
+      squares.gradient += spatial.volume * slope_off.squaredNorm();
+    }
+  }
+  return {std::sqrt(squares.value), std::sqrt(squares.gradient)};
+}
+
+}  // namespace scarp

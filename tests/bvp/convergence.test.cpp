@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <doctest/doctest.h>
+
+#include "../../examples/cook_membrane/membrane.hpp"
+#include "../../examples/mesh_orders/manufactured.hpp"
+#include "approx.hpp"
+#include "scarp/bvp/mean_dilatation.hpp"
+#include "scarp/element/hex20.hpp"
+#include "scarp/element/tet10.hpp"
+
+namespace {
+
+/// Analytic: an element of degree p has the order p + 1 in the displacement and p in its gradient. These meshes are too
+/// coarse for the orders by up to 0.15 (`./examples/run mesh_orders` shows them on finer ones).
+template <class Element, class Scheme>
+void check_orders(int degree, int cells) {
+  auto const coarse = mesh_orders::solve<Element, Scheme>(cells);
+  auto const fine = mesh_orders::solve<Element, Scheme>(2 * cells);
+  auto const order = orders(coarse, fine);
+  CHECK(order.value > degree + 1 - 0.2);
+  CHECK(order.gradient > degree - 0.2);
+}
+
+}  // namespace
+
+TEST_CASE("plane elements converge at the order of their degree") {
+  check_orders<scarp::Tri3, scarp::FullIntegration>(1, 8);
+  check_orders<scarp::Quad4, scarp::FullIntegration>(1, 8);
+  check_orders<scarp::Quad4, scarp::BBar>(1, 8);
+  check_orders<scarp::Tri6, scarp::FullIntegration>(2, 8);
+  check_orders<scarp::Quad8, scarp::FullIntegration>(2, 8);
+  check_orders<scarp::Quad8, scarp::ReducedIntegration>(2, 8);
+}
+
+TEST_CASE("elements in space converge at the order of their degree") {
+  check_orders<scarp::Tet4, scarp::FullIntegration>(1, 4);
+  check_orders<scarp::Hex8, scarp::FullIntegration>(1, 4);
+  check_orders<scarp::Hex8, scarp::BBar>(1, 4);
+  check_orders<scarp::Tet10, scarp::FullIntegration>(2, 2);
+  check_orders<scarp::Hex20, scarp::FullIntegration>(2, 2);
+  check_orders<scarp::Hex20, scarp::ReducedIntegration>(2, 2);
+}
+
+TEST_CASE("Cook's panel in plane stress has the deflection that is quoted for it") {
+  // Other codes: 23.96 at the middle of the right side for E = 1, Poisson's ratio 1/3 and unit force is the value that
+  // papers since Cook (1974) compare with. Plane strain with E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) is the same problem.
+  cook_membrane::Panel const panel{.young = 0.9375, .poisson = 0.25};
+  CHECK(cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(16, panel).middle ==
+        samples::Approx(23.96).epsilon(2e-3));
+}
+
+TEST_CASE("mean dilatation does not lock where every point on its own does") {
+  // Regression: limit of finer meshes, `./examples/run cook_membrane`; three kinds of elements agree on it within 5e-4.
+  double const limit = 0.08075;
+  CHECK(cook_membrane::solve<scarp::Quad4, scarp::BBar>(16).deflection == samples::Approx(limit).epsilon(0.03));
+  CHECK(cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(8).deflection ==
+        samples::Approx(limit).epsilon(0.05));
+  CHECK(cook_membrane::solve<scarp::Quad4, scarp::FullIntegration>(16).deflection < 0.4 * limit);
+  // Locking comes from the material: with Poisson's ratio 0.3 both are right.
+  cook_membrane::Panel const panel{.poisson = 0.3};
+  CHECK(cook_membrane::solve<scarp::Quad4, scarp::FullIntegration>(16, panel).deflection ==
+        samples::Approx(cook_membrane::solve<scarp::Quad4, scarp::BBar>(16, panel).deflection).epsilon(0.03));
+}
+
+TEST_CASE("errors of a field are integrals over the mesh") {
+  auto const mesh = scarp::BoxMesh<scarp::Tri6>{.lengths = {2.0, 1.0}, .cells = {2, 2}, .distortion = 0.2}.generate();
+  Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(2 * static_cast<int>(mesh.nodes.size()));
+  auto const field = [](scarp::Vector<2> const& x) { return scarp::Vector<2>(x.x() * x.x(), 0.0); };
+  auto const slope = [](scarp::Vector<2> const& x) -> scarp::Gradient<2> {
+    return (scarp::Gradient<2>() << 2.0 * x.x(), 0.0, 0.0, 0.0).finished();
+  };
+  auto const error = field_error(mesh, nothing, field, slope);
+  // Analytic: the integrals of x^4 and 4 x^2 from 0 to 2.
+  CHECK(error.value == samples::Approx(std::sqrt(32.0 / 5.0)).epsilon(1e-14));
+  CHECK(error.gradient == samples::Approx(std::sqrt(32.0 / 3.0)).epsilon(1e-14));
+  CHECK_THROWS_AS(field_error(mesh, Eigen::VectorXd(3), field, slope), scarp::InputError);
+}
