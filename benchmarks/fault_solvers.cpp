@@ -3,9 +3,10 @@
 // 100 grains, one packing) to h/H = 0.03 at a residual of 5e-3 with every pair of tangent rule and mixing.
 #include <benchmark/benchmark.h>
 
-#include "../examples/fault_rupture/study.hpp"
+#include "../examples/fault_rupture/scenes.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
+#include "scarp/solver/thread_executor.hpp"
 
 namespace {
 
@@ -21,7 +22,7 @@ fault_rupture::Choice quick_choice() {
 
 template <class Rule, class Mixing>
 void solve(benchmark::State& state) {
-  static auto const study = fault_rupture::make_scene(quick_choice());
+  static auto const study = fault_rupture::make<fault_rupture::SandFreeField>(quick_choice());
   scarp::FreeFieldFault<Sand, scarp::QuasiNewton<Rule, Mixing>> scene;
   scene.soil = study.soil;
   scene.layer = study.layer;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "../examples/fault_rupture/study.hpp"
+#include "../examples/fault_rupture/scenes.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/homogenise/sliding_aware_tangent.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
@@ -38,7 +38,7 @@ struct Candidate {
 double throw_over_depth = 0.03;
 
 template <class Rule, class Mixing>
-void run(std::string const& solver, Candidate const& candidate, fault_rupture::FreeField const& study) {
+void run(std::string const& solver, Candidate const& candidate, fault_rupture::SandFreeField const& study) {
   scarp::FreeFieldFault<Soil, scarp::QuasiNewton<Rule, Mixing>> scene;
   scene.soil.law = study.soil.law;
   scene.soil.source = study.soil.source;
@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   choice.size = 5.0;
   choice.grains = 100;
   choice.throw_over_depth = throw_over_depth;
-  auto const study = fault_rupture::make_scene(choice);
+  auto const study = fault_rupture::make<fault_rupture::SandFreeField>(choice);
   std::vector<Candidate> const candidates{
       {"eq. 6", {ElasticContactTangent{}}},
       {"sliding-aware, share 0", {SlidingAwareTangent{}}},

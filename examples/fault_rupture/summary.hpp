@@ -5,44 +5,53 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
 #include "scarp/io/atomic_file.hpp"
+#include "scarp/scene/footing_log.hpp"
 #include "scarp/scene/outcrop.hpp"
-#include "study.hpp"
+#include "scenes.hpp"
 
 namespace fault_rupture {
 
-/// The ground after the geostatic stage, before the fault moves.
+/// The ground after the geostatic stage, before anything is placed and the fault moves.
 struct AtRest {
-  double k0 = 0.0;  ///< mean over the points of horizontal over vertical stress
+  double k0 = 0.0;  ///< mean over the soil's points of horizontal over vertical stress
   double k0_min = 0.0;
   double k0_max = 0.0;
-  double void_ratio_min = 0.0;
+  double void_ratio_min = 0.0;  ///< not finite where the soil has no packings
   double void_ratio_max = 0.0;
   double vertical_error = 0.0;  ///< largest |vertical stress / overburden - 1|
 };
 
-template <class Problem>
-AtRest at_rest(Problem const& problem, FreeField const& scene) {
+template <class Problem, class SceneType>
+AtRest at_rest(Problem const& problem, SceneType const& scene) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   AtRest rest{0.0, infinity, -infinity, infinity, -infinity, 0.0};
-  int const points = problem.discretisation().point_count();
-  for (int point = 0; point < points; ++point) {
+  auto const& grid = problem.discretisation();
+  int const soil = scarp::region_number(grid.mesh(), "soil");
+  int points = 0;
+  for (int point = 0; point < grid.point_count(); ++point) {
+    auto const site = grid.site(point, scene.layer.depth);
+    if (site.region != soil) continue;
+    ++points;
     auto const stress = problem.materials().committed_stress(point);
-    double const depth = problem.discretisation().site(point, scene.layer.depth).depth;
     double const ratio = stress(0) / stress(1);
-    rest.k0 += ratio / points;
+    rest.k0 += ratio;
     rest.k0_min = std::min(rest.k0_min, ratio);
     rest.k0_max = std::max(rest.k0_max, ratio);
-    double const overburden = scene.surcharge + scene.unit_weight * depth;
+    double const overburden = scene.surcharge + scene.unit_weight * site.depth;
     rest.vertical_error = std::max(rest.vertical_error, std::abs(-stress(1) / overburden - 1.0));
     problem.materials().visit(point, [&](auto const& field, int local) {
-      double const void_ratio = field.committed(local).packing.void_ratio();
-      rest.void_ratio_min = std::min(rest.void_ratio_min, void_ratio);
-      rest.void_ratio_max = std::max(rest.void_ratio_max, void_ratio);
+      if constexpr (requires { field.committed(local).packing; }) {
+        double const void_ratio = field.committed(local).packing.void_ratio();
+        rest.void_ratio_min = std::min(rest.void_ratio_min, void_ratio);
+        rest.void_ratio_max = std::max(rest.void_ratio_max, void_ratio);
+      }
     });
   }
+  rest.k0 /= points;
   return rest;
 }
 
@@ -60,8 +69,27 @@ inline Usage usage() {
   return {seconds(used.ru_utime) + seconds(used.ru_stime), 1024.0 * static_cast<double>(used.ru_maxrss)};
 }
 
-template <class Problem>
-nlohmann::ordered_json summary(Choice const& choice, FreeField const& scene, Problem const& problem, AtRest const& rest,
+/// A structure's motion and what presses on its base; nothing for bare ground.
+template <class Problem, class SceneType>
+void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem const& problem) {
+  if constexpr (requires { scene.structure.motion(problem); }) {
+    auto const motion = scene.structure.motion(problem);
+    auto const pressure = scarp::base_pressure(motion);
+    auto const& footing = scene.structure.footing;
+    double const weight = footing.bearing * footing.width;
+    json["bearing_pressure"] = footing.bearing;
+    json["tilt"] = motion.tilt;
+    json["settlement"] = motion.settlement;
+    json["sideways"] = motion.sideways;
+    json["contact_pressure_min"] = pressure.least;
+    json["contact_pressure_max"] = pressure.largest;
+    json["pressed_share"] = pressure.pressed;
+    json["support_error"] = std::abs(scarp::support(motion) - weight) / weight;
+  }
+}
+
+template <class Problem, class SceneType>
+nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Problem const& problem, AtRest const& rest,
                                scarp::RunReport const& run, double wall_seconds) {
   auto const& grid = problem.discretisation();
   auto const profile =
@@ -75,21 +103,26 @@ nlohmann::ordered_json summary(Choice const& choice, FreeField const& scene, Pro
   nlohmann::ordered_json json;
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
   json["elements"] = grid.mesh().elements.size();
-  json["grains_per_rve"] = choice.grains;
-  json["seed"] = choice.seed;
+  if (choice.soil == Soil::dem) {
+    json["grains_per_rve"] = choice.grains;
+    json["seed"] = choice.seed;
+  }
   json["throw_over_depth"] = run.load / scene.layer.depth;
   json["k0"] = rest.k0;
   json["k0_min"] = rest.k0_min;
   json["k0_max"] = rest.k0_max;
-  json["void_ratio_min"] = rest.void_ratio_min;
-  json["void_ratio_max"] = rest.void_ratio_max;
+  if (choice.soil == Soil::dem) {
+    json["void_ratio_min"] = rest.void_ratio_min;
+    json["void_ratio_max"] = rest.void_ratio_max;
+  }
   json["vertical_stress_error"] = rest.vertical_error;
   json["outcrop_x"] = found.outcrop_x;
   json["steepest_x"] = found.steepest_x;
   json["outcrop_width"] = found.width;
   json["settlement_foot_over_throw"] = per_throw(scarp::settlement_at(profile, scene.layer.left + from_side));
   json["settlement_hanging_over_throw"] = per_throw(scarp::settlement_at(profile, scene.layer.right - from_side));
-  json["tolerance"] = choice.tolerance;
+  add_footing(json, scene, problem);
+  json["tolerance"] = scene.solver.tolerance;
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;
   json["refused_steps"] = run.refused;
@@ -106,14 +139,17 @@ nlohmann::ordered_json summary(Choice const& choice, FreeField const& scene, Pro
 
 /// The run beside the study's numbers, as text.
 inline std::string table(nlohmann::ordered_json const& json) {
-  auto const number = [&](char const* key) { return json[key].is_number() ? json[key].get<double>() : std::nan(""); };
+  auto const number = [&](char const* key) {
+    return json.contains(key) && json[key].is_number() ? json[key].get<double>() : std::nan("");
+  };
   std::string text = fmt::format("{:<44} {:>12} {}\n", "quantity", "this run", "  study / yardstick");
   auto const row = [&](std::string const& what, std::string const& value, char const* reference) {
     text += fmt::format("{:<44} {:>12}   {}\n", what, value, reference);
   };
   row("K0 before faulting, mean", fmt::format("{:.3f}", number("k0")), "about 0.4");
-  row("void ratio over the depth", fmt::format("{:.3f}-{:.3f}", number("void_ratio_min"), number("void_ratio_max")),
-      "0.160-0.179");
+  if (json.contains("void_ratio_min"))
+    row("void ratio over the depth", fmt::format("{:.3f}-{:.3f}", number("void_ratio_min"), number("void_ratio_max")),
+        "0.160-0.179");
   row("vertical stress against overburden, largest error",
       fmt::format("{:.2f} %", 100.0 * number("vertical_stress_error")), "0");
   row("throw / depth", fmt::format("{:.4f}", number("throw_over_depth")), "0.085");
@@ -124,6 +160,15 @@ inline std::string table(nlohmann::ordered_json const& json) {
   row("settlement of the far foot wall / throw", fmt::format("{:.4f}", number("settlement_foot_over_throw")), "0");
   row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_over_throw")),
       "1");
+  if (json.contains("tilt")) {
+    row("tilt of the footing towards the hanging wall [degrees]",
+        fmt::format("{:.3f}", number("tilt") * 180.0 / std::numbers::pi), "no figure given");
+    row("settlement of the footing [m]", fmt::format("{:.3f}", number("settlement")), "no figure given");
+    row("contact pressure [kPa]",
+        fmt::format("{:.0f}-{:.0f}", number("contact_pressure_min") / 1e3, number("contact_pressure_max") / 1e3),
+        "mean: the bearing pressure");
+    row("imbalance of the footing over its weight", fmt::format("{:.1e}", number("support_error")), "0");
+  }
   row("largest residual of an accepted step", fmt::format("{:.2e}", number("max_accepted_residual")), "not reported");
   return text;
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace fault_rupture {
+
+enum class Case { free, heavy, light };
+enum class Soil { dem, mohr_coulomb, elastic };
+enum class Base { sticking, frictional };
+
+/// What a user may choose; defaults are the study's free field on a mesh for a ten-minute run.
+struct Choice {
+  Case scene = Case::free;
+  Soil soil = Soil::dem;
+  Base base = Base::sticking;
+  bool quick = false;  ///< looser defaults of tolerance and load steps with packings
+  double size = 2.5;   ///< [m], cell width in the band
+  int triangles = 0;   ///< wanted number instead of `size`; 0 for none
+  int grains = 400;
+  std::uint64_t seed = 1;
+  double preparation_friction = 0.09;
+  double throw_over_depth = 0.085;
+  double dip = 60.0;                       ///< [degrees]
+  double tip = 0.0;                        ///< [m]
+  std::optional<double> tolerance;         ///< of the force residual; 5e-3 with packings, else 1e-10
+  std::optional<double> largest_gradient;  ///< of a load step; 0.01 with packings, else 0.02
+  int most_iterations = 30;
+  double strain_per_step = 1e-5;
+  int least_dem_steps = 20;
+  double unbalanced_tolerance = 0.05;
+  double footing_centre = -10.5;  ///< x [m]
+  double footing_width = 10.0;    ///< [m]
+  double bearing_pressure = 0.0;  ///< [Pa]; 0 for the case's own, 91 kPa or 37 kPa
+  double base_friction = 0.5;     ///< coefficient of the frictional base
+  int threads = 0;                ///< 0 for all the machine has
+  int frames = 40;
+  double probe_a_x = -3.5;  ///< [m], in the band
+  double probe_a_y = 6.0;
+  double probe_b_x = -20.0;  ///< beside it
+  double probe_b_y = 12.0;
+  double time_limit = 0.0;  ///< [s], 0 for none
+  std::string output = "output/fault_rupture";
+};
+
+}  // namespace fault_rupture

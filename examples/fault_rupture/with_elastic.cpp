@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "run_scene.hpp"
+
+namespace fault_rupture {
+template int run(Choice const&, ElasticFreeField const&, std::chrono::steady_clock::time_point);
+template int run(Choice const&, ElasticStickingFooting const&, std::chrono::steady_clock::time_point);
+template int run(Choice const&, ElasticFrictionalFooting const&, std::chrono::steady_clock::time_point);
+}  // namespace fault_rupture
