@@ -10,6 +10,8 @@ struct Line2 {
   static constexpr int dim = 1;
   static constexpr int nodes = 2;
   static constexpr int vtk_cell_type = 3;
+  static constexpr int gmsh_type = 1;
+  static constexpr std::array<int, 2> gmsh_order{0, 1};
 
   static ShapeValues<Line2> shape(Vector<1> const& xi) { return {1.0 - xi(0), xi(0)}; }
 
@@ -19,6 +21,6 @@ struct Line2 {
   static std::array<QuadraturePoint<1>, 1> quadrature() { return {{{Vector<1>(0.5), 1.0}}}; }
 };
 
-static_assert(ReferenceCell<Line2>);
+static_assert(ReferenceCell<Line2> && HasGmshType<Line2>);
 
 }  // namespace scarp

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cmath>
-
+#include "scarp/element/gauss_rule.hpp"
 #include "scarp/element/line2.hpp"
 
 namespace scarp {
 
 /// Square [-1, 1] x [-1, 1], nodes counter-clockwise from (-1, -1), bilinear shapes
-/// \f$ N_a = (1 + \xi_a \xi)(1 + \eta_a \eta)/4 \f$, two-by-two Gauss points.
+/// \f$ N_a = (1 + \xi_a \xi)(1 + \eta_a \eta)/4 \f$.
 struct Quad4 {
   using Facet = Line2;
 
@@ -16,6 +15,8 @@ struct Quad4 {
   static constexpr int nodes = 4;
   static constexpr int facet_nodes = 2;
   static constexpr int vtk_cell_type = 9;
+  static constexpr int gmsh_type = 3;
+  static constexpr std::array<int, 4> gmsh_order{0, 1, 2, 3};
 
   static ShapeValues<Quad4> shape(Vector<2> const& xi) {
     Signs const c = signs();
@@ -30,10 +31,16 @@ struct Quad4 {
     return gradients;
   }
 
-  static std::array<QuadraturePoint<2>, 4> quadrature() {
-    double const g = 1.0 / std::sqrt(3.0);
-    return {{{{-g, -g}, 1.0}, {{g, -g}, 1.0}, {{g, g}, 1.0}, {{-g, g}, 1.0}}};
+  template <int Degree>
+  static auto rule() {
+    return cube_rule<2, Degree>();
   }
+
+  /// Two by two points: the stiffness of a parallelogram is exact.
+  static auto quadrature() { return gauss_rule<2, 2>(); }
+
+  /// One point: two hourglass modes of a single element have no stiffness.
+  static auto reduced_quadrature() { return gauss_rule<2, 1>(); }
 
   static constexpr std::array<std::array<int, 2>, 4> facets() { return {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}; }
 
@@ -47,6 +54,6 @@ struct Quad4 {
   }
 };
 
-static_assert(ReferenceElement<Quad4>);
+static_assert(ReferenceElement<Quad4> && GivesReducedQuadrature<Quad4> && HasGmshType<Quad4>);
 
 }  // namespace scarp

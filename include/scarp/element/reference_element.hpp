@@ -62,6 +62,28 @@ concept HasVtkCellType = requires {
   { Element::vtk_cell_type } -> std::convertible_to<int>;
 };
 
+/// For meshes made by Gmsh: its number of the element type, and for each of our local nodes Gmsh's local node.
+template <class Element>
+concept HasGmshType = HasNodes<Element> && requires {
+  { Element::gmsh_type } -> std::convertible_to<int>;
+  { Element::gmsh_order } -> std::convertible_to<std::array<int, Element::nodes>>;
+};
+
+/// reduced_quadrature(): fewer points than quadrature(), one order lower.
+template <class Element>
+concept GivesReducedQuadrature = GivesQuadrature<Element> && requires {
+  requires std::tuple_size_v<decltype(Element::reduced_quadrature())> <
+      std::tuple_size_v<decltype(Element::quadrature())>;
+  { Element::reduced_quadrature()[0] } -> std::convertible_to<QuadraturePoint<Element::dim>>;
+};
+
+/// rule<Degree>(): points that integrate polynomials up to a degree exactly (in total on a simplex, along each axis
+/// otherwise), for norms and for bodies' loads that vary in space.
+template <class Element>
+concept GivesRules = HasNodes<Element> && requires {
+  { Element::template rule<1>()[0] } -> std::convertible_to<QuadraturePoint<Element::dim>>;
+};
+
 /// A finite element on its reference shape, without state: all members are static.
 template <class Element>
 concept ReferenceElement = ReferenceCell<Element> && HasFacets<Element> && HasVtkCellType<Element>;

@@ -13,6 +13,8 @@ struct Tet4 {
   static constexpr int nodes = 4;
   static constexpr int facet_nodes = 3;
   static constexpr int vtk_cell_type = 10;
+  static constexpr int gmsh_type = 4;
+  static constexpr std::array<int, 4> gmsh_order{0, 1, 2, 3};
 
   static ShapeValues<Tet4> shape(Vector<3> const& xi) { return {1.0 - xi.sum(), xi(0), xi(1), xi(2)}; }
 
@@ -22,12 +24,17 @@ struct Tet4 {
     return gradients;
   }
 
-  /// Centroid rule: exact for linear functions.
-  static std::array<QuadraturePoint<3>, 1> quadrature() { return {{{Vector<3>::Constant(0.25), 1.0 / 6.0}}}; }
+  template <int Degree>
+  static auto rule() {
+    return simplex_rule<3, Degree>();
+  }
+
+  /// Centroid: the stiffness of the constant strain is exact.
+  static auto quadrature() { return rule<1>(); }
 
   static constexpr std::array<std::array<int, 3>, 4> facets() { return {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}}; }
 };
 
-static_assert(ReferenceElement<Tet4>);
+static_assert(ReferenceElement<Tet4> && HasGmshType<Tet4>);
 
 }  // namespace scarp

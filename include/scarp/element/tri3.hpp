@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/element/line2.hpp"
+#include "scarp/element/simplex_rule.hpp"
 
 namespace scarp {
 
@@ -13,6 +14,8 @@ struct Tri3 {
   static constexpr int nodes = 3;
   static constexpr int facet_nodes = 2;
   static constexpr int vtk_cell_type = 5;
+  static constexpr int gmsh_type = 2;
+  static constexpr std::array<int, 3> gmsh_order{0, 1, 2};
 
   static ShapeValues<Tri3> shape(Vector<2> const& xi) { return {1.0 - xi(0) - xi(1), xi(0), xi(1)}; }
 
@@ -22,12 +25,17 @@ struct Tri3 {
     return gradients;
   }
 
-  /// Centroid rule: exact for linear functions.
-  static std::array<QuadraturePoint<2>, 1> quadrature() { return {{{Vector<2>(1.0 / 3.0, 1.0 / 3.0), 0.5}}}; }
+  template <int Degree>
+  static auto rule() {
+    return simplex_rule<2, Degree>();
+  }
+
+  /// Centroid: the stiffness of the constant strain is exact.
+  static auto quadrature() { return rule<1>(); }
 
   static constexpr std::array<std::array<int, 2>, 3> facets() { return {{{0, 1}, {1, 2}, {2, 0}}}; }
 };
 
-static_assert(ReferenceElement<Tri3>);
+static_assert(ReferenceElement<Tri3> && HasGmshType<Tri3>);
 
 }  // namespace scarp

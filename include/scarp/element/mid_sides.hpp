@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+
+#include "scarp/element/index.hpp"
+#include "scarp/element/reference_element.hpp"
+
+namespace scarp {
+
+/// A cell with one more node in the middle of each edge. Its first nodes are those of `Linear`, on the same reference
+/// shape; mid_sides() are the two corners that each further node lies between.
+template <class Element>
+concept HasMidSides = ReferenceCell<Element> && ReferenceCell<typename Element::Linear> && requires {
+  requires Element::Linear::dim == Element::dim;
+  requires Element::mid_sides()
+  .size() + Element::Linear::nodes == Element::nodes;
+  { Element::mid_sides()[0] } -> std::convertible_to<std::array<int, 2>>;
+};
+
+namespace detail {
+
+/// Quadratic shapes of a simplex from its linear ones L: \f$ N_a = L_a (2 L_a - 1) \f$ at the corners and
+/// \f$ N_m = 4 L_a L_b \f$ in the middle between two.
+template <class Element>
+ShapeValues<Element> quadratic_simplex(Vector<Element::dim> const& xi) {
+  constexpr auto mid_sides = Element::mid_sides();
+  auto const linear = Element::Linear::shape(xi);
+  ShapeValues<Element> shape;
+  for (int a = 0; a < linear.size(); ++a) {
+    shape(a) = linear(a) * (2.0 * linear(a) - 1.0);
+  }
+  for (int m = 0; m < count(mid_sides); ++m) {
+    auto const [a, b] = mid_sides[index(m)];
+    shape(linear.size() + m) = 4.0 * linear(a) * linear(b);
+  }
+  return shape;
+}
+
+template <class Element>
+ShapeGradients<Element> quadratic_simplex_gradients(Vector<Element::dim> const& xi) {
+  constexpr auto mid_sides = Element::mid_sides();
+  auto const linear = Element::Linear::shape(xi);
+  auto const slopes = Element::Linear::shape_gradients(xi);
+  ShapeGradients<Element> gradients;
+  for (int a = 0; a < linear.size(); ++a) {
+    gradients.row(a) = (4.0 * linear(a) - 1.0) * slopes.row(a);
+  }
+  for (int m = 0; m < count(mid_sides); ++m) {
+    auto const [a, b] = mid_sides[index(m)];
+    gradients.row(linear.size() + m) = 4.0 * (linear(a) * slopes.row(b) + linear(b) * slopes.row(a));
+  }
+  return gradients;
+}
+
+/// Serendipity shapes of [-1, 1]^dim. Between two corners that differ along \f$ \xi \f$,
+/// \f$ N_m = (1 - \xi^2)(L_a + L_b) \f$ with the multilinear shapes L; a corner has \f$ N_a = L_a - \sum_m N_m / 2 \f$
+/// over its edges. Written out at a corner of the square this is the usual
+/// \f$ (1 + \xi_a\xi)(1 + \eta_a\eta)(\xi_a\xi + \eta_a\eta - 1)/4 \f$.
+template <class Element>
+ShapeValues<Element> serendipity(Vector<Element::dim> const& xi) {
+  constexpr auto mid_sides = Element::mid_sides();
+  auto const linear = Element::Linear::shape(xi);
+  ShapeValues<Element> shape;
+  shape.head(linear.size()) = linear;
+  for (int m = 0; m < count(mid_sides); ++m) {
+    auto const [a, b] = mid_sides[index(m)];
+    double const along = xi(Element::mid_side_axes()[index(m)]);
+    double const middle = (1.0 - along * along) * (linear(a) + linear(b));
+    shape(linear.size() + m) = middle;
+    shape(a) -= middle / 2.0;
+    shape(b) -= middle / 2.0;
+  }
+  return shape;
+}
+
+template <class Element>
+ShapeGradients<Element> serendipity_gradients(Vector<Element::dim> const& xi) {
+  constexpr auto mid_sides = Element::mid_sides();
+  auto const linear = Element::Linear::shape(xi);
+  auto const slopes = Element::Linear::shape_gradients(xi);
+  ShapeGradients<Element> gradients;
+  gradients.topRows(linear.size()) = slopes;
+  for (int m = 0; m < count(mid_sides); ++m) {
+    auto const [a, b] = mid_sides[index(m)];
+    int const axis = Element::mid_side_axes()[index(m)];
+    Eigen::Matrix<double, 1, Element::dim> middle = (1.0 - xi(axis) * xi(axis)) * (slopes.row(a) + slopes.row(b));
+    middle(axis) -= 2.0 * xi(axis) * (linear(a) + linear(b));
+    gradients.row(linear.size() + m) = middle;
+    gradients.row(a) -= middle / 2.0;
+    gradients.row(b) -= middle / 2.0;
+  }
+  return gradients;
+}
+
+}  // namespace detail
+
+}  // namespace scarp
