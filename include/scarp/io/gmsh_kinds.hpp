@@ -22,11 +22,11 @@ inline std::map<int, std::size_t> gmsh_kinds(GmshContent const& content, int dim
   return kinds;
 }
 
-/// Such as "12 of type 2 (3-node triangle), 1 of type 3 (4-node quadrangle)".
+/// Such as "12 elements of type 2 (3-node triangle), 40 elements of type 3 (4-node quadrangle)".
 inline std::string shown_gmsh_kinds(std::map<int, std::size_t> const& kinds) {
   std::vector<std::string> parts;
   for (auto const& [type, elements] : kinds) {
-    parts.push_back(fmt::format("{} of type {} ({})", elements, type, find_gmsh_type(type)->name));
+    parts.push_back(fmt::format("{} elements of type {} ({})", elements, type, find_gmsh_type(type)->name));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -54,12 +54,12 @@ inline void require_gmsh_kind(GmshContent const& content, int wanted) {
         content.file, type.dim);
   }
   if (highest != type.dim) {
-    refuse("'{}' is a mesh of {} dimensions, {}, and is read as {} of {} dimensions: {}", content.file, highest,
-           shown_gmsh_kinds(kinds), type.element, type.dim, other_kind_advice(kinds));
+    refuse("'{}' is a {}D mesh with {} ({} needs a {}D one): {}", content.file, highest, shown_gmsh_kinds(kinds),
+           type.element, type.dim, other_kind_advice(kinds));
   }
   if (kinds.size() > 1 || kinds.begin()->first != wanted) {
-    refuse("'{}' has elements {}, and is read as {} (a mesh holds one kind): {}", content.file, shown_gmsh_kinds(kinds),
-           type.element, other_kind_advice(kinds));
+    refuse("'{}' holds {} (all elements of a mesh of {} are of type {}): {}", content.file, shown_gmsh_kinds(kinds),
+           type.element, wanted, other_kind_advice(kinds));
   }
 }
 
