@@ -192,22 +192,22 @@ TEST_CASE("meshes of Gmsh have the measures of their geometry, the same from all
 
 TEST_CASE("a mesh of other elements is refused and the right element named") {
   says(complaint<scarp::Tet4>(square_22),
-       "'m.msh' is a 2D mesh with 2 elements of type 2 (3-node triangle) (Tet4 needs a 3D one): read it as Tri3");
+       "'m.msh' is a 2D mesh with 2 x type 2 (3-node triangle) (Tet4 needs a 3D one): read it as Tri3");
   says(complaint<scarp::Quad4>(square_22),
-       "'m.msh' holds 2 elements of type 2 (3-node triangle) (all elements of a mesh of Quad4 are of type 3): read it "
+       "'m.msh' holds 2 x type 2 (3-node triangle) (all elements of a mesh of Quad4 are of type 3): read it "
        "as "
        "Tri3");
   says(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 3 2 2 1 7 12 40 31")),
-       "'m.msh' holds 1 elements of type 2 (3-node triangle), 1 elements of type 3 (4-node quadrangle) (all elements "
+       "'m.msh' holds 1 x type 2 (3-node triangle), 1 x type 3 (4-node quadrangle) (all elements "
        "of a "
        "mesh of Tri3 are of type 2): mesh with one kind");
   says(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 4 2 2 1 7 12 40 31")),
-       "'m.msh' is a 3D mesh with 1 elements of type 4 (4-node tetrahedron) (Tri3 needs a 2D one): read it as Tet4");
+       "'m.msh' is a 3D mesh with 1 x type 4 (4-node tetrahedron) (Tri3 needs a 2D one): read it as Tet4");
   says(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 6 2 2 1 7 12 40 31 7 12")),
        "(Tri3 needs a 2D one): mesh with another kind");
   auto const lines =
       with(with(square_22, "30 2 2 2 1 7 40 31", "30 1 2 2 1 7 40"), "21 2 3 1 1 77 7 12 40", "21 1 2 2 1 40 31");
-  says(complaint(lines), "'m.msh' is a 1D mesh with 4 elements of type 1 (2-node line) (Tri3 needs a 2D one)");
+  says(complaint(lines), "'m.msh' holds neither surface nor volume elements");
   says(complaint(with(square_22, "5 1 2 4 1 12 7", "5 8 2 4 1 12 7 31")),
        "the physical group 'ground' of 'm.msh' holds elements of type 8 (3-node line), such as 5 (the sides of Tri3 "
        "have "
@@ -283,5 +283,5 @@ TEST_CASE("what is no mesh of a version that is read is refused") {
   CHECK_THROWS_AS(scarp::read_gmsh<scarp::Tri3>("nowhere.msh"), scarp::InputError);
   CHECK_THROWS_AS(scarp::read_gmsh<scarp::Tri3>(std::filesystem::temp_directory_path()), scarp::InputError);
   std::string const no_elements = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Elements\n0 0 0 0\n$EndElements\n";
-  says(complaint(no_elements), "'m.msh' has no elements");
+  says(complaint(no_elements), "'m.msh' holds neither surface nor volume elements");
 }

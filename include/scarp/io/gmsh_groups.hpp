@@ -18,20 +18,21 @@ struct GmshGroup {
   std::int32_t tag;
 };
 
-/// Elements in the order of a file, one after the other of one type and group.
+/// The elements of one group, all of one type.
 struct GmshRun {
   GmshGroup group;
   std::int32_t type;
   std::int32_t nodes_each;
-  std::int32_t first_tag;
+  std::vector<std::int32_t> tags{};
   std::vector<std::int32_t> nodes{};  ///< tags, in Gmsh's order
 
-  std::size_t size() const { return nodes.size() / index(nodes_each); }
+  std::size_t size() const { return tags.size(); }
 
   template <class Cell>
-  void add(std::array<int, Cell::nodes> const& numbers) {
+  void add(std::int32_t tag, std::array<int, Cell::nodes> const& numbers) {
     std::array<std::int32_t, Cell::nodes> ordered{};
     for (int a = 0; a < Cell::nodes; ++a) ordered[index(Cell::gmsh_order[index(a)])] = numbers[index(a)] + 1;
+    tags.push_back(tag);
     nodes.insert(nodes.end(), ordered.begin(), ordered.end());
   }
 };
@@ -45,7 +46,7 @@ inline std::string const& require_gmsh_name(std::string const& name) {
   return name;
 }
 
-/// Regions first, then boundaries, numbered from 1.
+/// Regions first, then boundaries, with tags from 1.
 template <class Element>
 std::vector<GmshGroup> gmsh_groups(Mesh<Element> const& mesh) {
   std::vector<GmshGroup> groups;
@@ -62,26 +63,25 @@ std::vector<GmshGroup> gmsh_groups(Mesh<Element> const& mesh) {
   return groups;
 }
 
-/// Elements in their order, numbered from 1, then the sides of the boundaries.
+/// One run for each group that is not empty. The tags are the elements' order, from 1, then that of the sides.
 template <class Element>
-std::vector<GmshRun> gmsh_runs(Mesh<Element> const& mesh, std::vector<GmshGroup> const& groups) {
+std::vector<GmshRun> gmsh_runs(Mesh<Element> const& mesh) {
   using Facet = typename Element::Facet;
   std::vector<GmshRun> runs;
-  std::int32_t next = 1;
+  for (auto const& group : gmsh_groups(mesh)) {
+    bool const region = group.dim == Element::dim;
+    runs.push_back({group, region ? Element::gmsh_type : Facet::gmsh_type, region ? Element::nodes : Facet::nodes});
+  }
+  std::int32_t tag = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    auto const& group = groups[index(mesh.element_region[e])];
-    if (runs.empty() || runs.back().group.tag != group.tag) {
-      runs.push_back({group, Element::gmsh_type, Element::nodes, next});
-    }
-    runs.back().template add<Element>(mesh.elements[e]);
-    ++next;
+    runs[index(mesh.element_region[e])].template add<Element>(++tag, mesh.elements[e]);
   }
-  auto group = groups.begin() + count(mesh.regions);
+  auto run = runs.begin() + count(mesh.regions);
   for (auto const& entry : mesh.boundaries) {
-    runs.push_back({*group++, Facet::gmsh_type, Facet::nodes, next});
-    for (auto const& side : entry.second) runs.back().template add<Facet>(side);
-    next += count(entry.second);
+    for (auto const& side : entry.second) run->template add<Facet>(++tag, side);
+    ++run;
   }
+  std::erase_if(runs, [](GmshRun const& empty) { return empty.size() == 0; });
   return runs;
 }
 

@@ -22,11 +22,11 @@ inline std::map<int, std::size_t> gmsh_kinds(GmshContent const& content, int dim
   return kinds;
 }
 
-/// Such as "12 elements of type 2 (3-node triangle), 40 elements of type 3 (4-node quadrangle)".
+/// Such as "12 x type 2 (3-node triangle), 40 x type 3 (4-node quadrangle)".
 inline std::string shown_gmsh_kinds(std::map<int, std::size_t> const& kinds) {
   std::vector<std::string> parts;
   for (auto const& [type, elements] : kinds) {
-    parts.push_back(fmt::format("{} elements of type {} ({})", elements, type, find_gmsh_type(type)->name));
+    parts.push_back(fmt::format("{} x type {} ({})", elements, type, find_gmsh_type(type)->name));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -47,10 +47,10 @@ inline void require_gmsh_kind(GmshContent const& content, int wanted) {
     if (!block.tags.empty()) highest = std::max(highest, block.type.dim);
   }
   auto const kinds = gmsh_kinds(content, highest);
-  if (highest == 0) {
+  if (highest < 2) {
     refuse(
-        "'{}' has no elements (in Gmsh only those in physical groups are saved once there is a group): mesh in {}D "
-        "and put surfaces or volumes into groups",
+        "'{}' holds neither surface nor volume elements (once there is a physical group, Gmsh saves only what is in "
+        "one): mesh in {}D and put surfaces or volumes into groups",
         content.file, type.dim);
   }
   if (highest != type.dim) {

@@ -49,9 +49,10 @@ inline bool read_gmsh_format(GmshStream& stream) {
   return version == 4.1;
 }
 
-inline GmshContent read_gmsh_content(std::filesystem::path const& path) {
-  GmshStream stream(read_file(path), path.string());
-  GmshContent content{.file = path.string()};
+/// bytes: of the file; file: its name in complaints
+inline GmshContent read_gmsh_content(std::string bytes, std::string const& file) {
+  GmshStream stream(std::move(bytes), file);
+  GmshContent content{.file = file};
   bool const is_41 = read_gmsh_format(stream);
   GmshSections22 const sections_22;
   GmshSections41 sections_41;
@@ -89,7 +90,7 @@ inline GmshContent read_gmsh_content(std::filesystem::path const& path) {
 /// turned inside out, or in 2D not flat in z
 template <HasGmshType Element>
 Mesh<Element> read_gmsh(std::filesystem::path const& path) {
-  return detail::assemble_gmsh<Element>(detail::read_gmsh_content(path));
+  return detail::assemble_gmsh<Element>(detail::read_gmsh_content(read_file(path), path.string()));
 }
 
 }  // namespace scarp

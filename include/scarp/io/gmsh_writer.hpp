@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/gmsh_groups.hpp"
@@ -15,7 +14,7 @@ namespace detail {
 inline void write_gmsh_run(GmshSink& sink, GmshRun const& run, bool is_41) {
   auto const each = index(run.nodes_each);
   for (std::size_t e = 0; e < run.size(); ++e) {
-    auto const tag = run.first_tag + static_cast<std::int32_t>(e);
+    auto const tag = run.tags[e];
     if (is_41) {
       sink.values(static_cast<std::uint64_t>(tag));
     } else if (sink.binary()) {
@@ -45,14 +44,13 @@ inline void write_gmsh_22(GmshSink& sink, std::vector<std::array<double, 3>> con
   for (auto const& run : runs) elements += run.size();
   sink.text(fmt::format("$Elements\n{}\n", elements));
   for (auto const& run : runs) {
-    if (run.size() == 0) continue;
     if (sink.binary()) sink.values(run.type, static_cast<std::int32_t>(run.size()), 2);
     write_gmsh_run(sink, run, false);
   }
   sink.end_section("Elements");
 }
 
-/// Each physical group that is not empty is one entity of the same tag, in the box of all nodes and without sides.
+/// Each physical group that is not empty is an entity of the same tag, in the box of all nodes and without sides.
 inline void write_gmsh_entities(GmshSink& sink, std::vector<std::array<double, 3>> const& positions,
                                 std::vector<GmshRun> const& runs) {
   auto low = positions.front();
@@ -63,23 +61,17 @@ inline void write_gmsh_entities(GmshSink& sink, std::vector<std::array<double, 3
       high[k] = std::max(high[k], position[k]);
     }
   }
-  std::map<std::int32_t, std::int32_t> dims;  // by tag
-  for (auto const& run : runs) {
-    if (run.size() > 0) dims[run.group.tag] = run.group.dim;
-  }
   sink.text("$Entities\n");
   for (std::int32_t dim = 0; dim < 4; ++dim) {
-    auto const same = [&](auto const& entry) { return entry.second == dim; };
-    sink.values(static_cast<std::uint64_t>(std::count_if(dims.begin(), dims.end(), same)));
+    auto const same = [&](GmshRun const& run) { return run.group.dim == dim; };
+    sink.values(static_cast<std::uint64_t>(std::count_if(runs.begin(), runs.end(), same)));
   }
   sink.end_line();
-  for (std::int32_t dim = 0; dim < 4; ++dim) {
-    for (auto const& [tag, own] : dims) {
-      if (own != dim) continue;
-      sink.values(tag, low[0], low[1], low[2]);
-      if (dim > 0) sink.values(high[0], high[1], high[2]);
-      sink.values(std::uint64_t{1}, tag);
-      if (dim > 0) sink.values(std::uint64_t{0});
+  for (std::int32_t dim = 1; dim < 4; ++dim) {
+    for (auto const& run : runs) {
+      if (run.group.dim != dim) continue;
+      auto const tag = run.group.tag;
+      sink.values(tag, low[0], low[1], low[2], high[0], high[1], high[2], std::uint64_t{1}, tag, std::uint64_t{0});
       sink.end_line();
     }
   }
@@ -104,17 +96,12 @@ inline void write_gmsh_41(GmshSink& sink, std::vector<std::array<double, 3>> con
     sink.end_line();
   }
   sink.end_section("Nodes");
-  std::uint64_t blocks = 0;
   std::uint64_t elements = 0;
-  for (auto const& run : runs) {
-    blocks += run.size() > 0 ? 1 : 0;
-    elements += run.size();
-  }
+  for (auto const& run : runs) elements += run.size();
   sink.text("$Elements\n");
-  sink.values(blocks, elements, std::uint64_t{1}, elements);
+  sink.values(static_cast<std::uint64_t>(runs.size()), elements, std::uint64_t{1}, elements);
   sink.end_line();
   for (auto const& run : runs) {
-    if (run.size() == 0) continue;
     sink.values(run.group.dim, run.group.tag, run.type, static_cast<std::uint64_t>(run.size()));
     sink.end_line();
     write_gmsh_run(sink, run, true);
@@ -132,7 +119,7 @@ template <HasGmshType Element>
 void write_gmsh(std::filesystem::path const& path, Mesh<Element> const& mesh, GmshFormat format = {}) {
   validate(mesh);
   auto const groups = detail::gmsh_groups(mesh);
-  auto const runs = detail::gmsh_runs(mesh, groups);
+  auto const runs = detail::gmsh_runs(mesh);
   bool const is_41 = format.version == GmshVersion::v4_1;
   detail::GmshSink sink(format.encoding == GmshEncoding::binary);
   sink.text(fmt::format("$MeshFormat\n{} {:d} 8\n", is_41 ? "4.1" : "2.2", sink.binary()));
