@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "approx.hpp"
-#include "bvp/sample_problems.hpp"
+#include "bvp/stiffness_check.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 
 namespace {
@@ -24,91 +24,18 @@ concept MakesDiscretisation = requires {
 static_assert(MakesDiscretisation<scarp::Tri3, scarp::SmallStrain> && !MakesDiscretisation<scarp::Tri3, Eulerian>);
 static_assert(!MakesDiscretisation<scarp::Line2, scarp::SmallStrain>);
 
-/// Compressible neo-Hookean solid, whose stress is a closed function of the whole deformation from the mesh and whose
-/// tangent is exact at any increment: \f$ J\sigma = \mu (b - I) + \lambda \ln J\,I \f$, plane strain in 2D.
-/// The tangent refers to the co-rotational (Jaumann) rate of Cauchy stress: \f$ C:d = (\lambda\,tr(d) I +
-/// 2(\mu - \lambda \ln J) d)/J + d\sigma + \sigma d - tr(d)\sigma \f$. It follows from
-/// \f$ \dot b = l b + b l^T,\; \dot J = J\,tr(d) \f$ put into the derivative of the stress, with l = d and no spin.
-template <int Dim>
-struct NeoHookean {
-  static constexpr int dim = Dim;
-  struct State {
-    scarp::Tensor<Dim> deformation = scarp::Tensor<Dim>::Identity();
-  };
-  double lambda = 3e6;
-  double mu = 2e6;
-
-  scarp::Tensor<Dim> cauchy(scarp::Tensor<Dim> const& deformation) const {
-    double const volume = deformation.determinant();
-    scarp::Tensor<Dim> const identity = scarp::Tensor<Dim>::Identity();
-    return (mu * (deformation * deformation.transpose() - identity) + lambda * std::log(volume) * identity) / volume;
-  }
-  scarp::Response<Dim> respond(State const& committed, scarp::Gradient<Dim> const& increment, State& trial) const {
-    trial.deformation = (scarp::Tensor<Dim>::Identity() + increment) * committed.deformation;
-    return {scarp::to_voigt_stress<Dim, double>(cauchy(trial.deformation)), {}};
-  }
-  scarp::VoigtTangent<Dim> tangent(State const& state) const {
-    double const volume = state.deformation.determinant();
-    scarp::Tensor<Dim> const stress = cauchy(state.deformation);
-    scarp::VoigtTangent<Dim> tangent;
-    constexpr auto indices = scarp::voigt_indices<Dim>();
-    for (int k = 0; k < scarp::voigt_size<Dim>; ++k) {
-      auto const [i, j] = indices[static_cast<std::size_t>(k)];
-      scarp::Tensor<Dim> d = scarp::Tensor<Dim>::Zero();
-      d(i, j) += 0.5;
-      d(j, i) += 0.5;
-      scarp::Tensor<Dim> const change =
-          (lambda * d.trace() * scarp::Tensor<Dim>::Identity() + 2.0 * (mu - lambda * std::log(volume)) * d) / volume +
-          d * stress + stress * d - d.trace() * stress;
-      tangent.col(k) = scarp::to_voigt_stress<Dim, double>(change);
-    }
-    return tangent;
-  }
-};
-
-template <class Provider, class Discretisation>
-Eigen::VectorXd force(Provider const& provider, Discretisation const& disc,
-                      std::vector<typename Provider::State> const& committed, Eigen::VectorXd const& increment) {
-  Eigen::VectorXd out;
-  disc.internal_force(increment, sample::answers(provider, disc, committed, increment).stresses, out);
-  return out;
-}
-
-/// Largest difference between the stiffness and central differences of the force, relative to the largest entry.
-template <class Provider, class Discretisation>
-double stiffness_error(Provider const& provider, Discretisation const& disc,
-                       std::vector<typename Provider::State> const& committed, Eigen::VectorXd const& increment) {
-  auto const points = sample::answers(provider, disc, committed, increment);
-  Eigen::MatrixXd const stiffness = disc.stiffness(increment, points.stresses, points.tangents);
-  double worst = 0.0;
-  double const step = 1e-6;
-  for (int dof = 0; dof < disc.dof_count(); ++dof) {
-    Eigen::VectorXd const move = step * Eigen::VectorXd::Unit(disc.dof_count(), dof);
-    Eigen::VectorXd const slope =
-        (force(provider, disc, committed, increment + move) - force(provider, disc, committed, increment - move)) /
-        (2.0 * step);
-    worst = std::max(worst, (slope - stiffness.col(dof)).cwiseAbs().maxCoeff());
-  }
-  return worst / stiffness.cwiseAbs().maxCoeff();
-}
-
-template <class Provider, class Discretisation>
-std::vector<typename Provider::State> fresh(Discretisation const& disc) {
-  return std::vector<typename Provider::State>(static_cast<std::size_t>(disc.point_count()));
-}
-
 }  // namespace
 
 TEST_CASE_TEMPLATE("the stiffness is the derivative of the internal force at a large increment", Element, scarp::Tri3,
                    scarp::Quad4, scarp::Tet4) {
   scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(2));
-  NeoHookean<Element::dim> const solid;
+  sample::NeoHookean<Element::dim> const solid;
   Eigen::VectorXd const increment =
       sample::affine<Element::dim>(disc.mesh().nodes, sample::general_gradient<Element::dim>(0.3)) +
       sample::random_increment(disc.dof_count(), 0.03, 9);
   // Central differences: truncation about (1e-6 over an element size of 0.1)^2, round-off 1e-16 over 1e-6, with the
   // force per stiffness up to 0.1: both below 1e-9.
-  CHECK(stiffness_error(solid, disc, fresh<decltype(solid)>(disc), increment) < 1e-8);
+  CHECK(sample::stiffness_error(solid, disc, sample::fresh<decltype(solid)>(disc), increment) < 1e-8);
 }
 
 TEST_CASE_TEMPLATE("the stiffness includes the turning of the stress that a point already carries", Element,
@@ -119,21 +46,21 @@ TEST_CASE_TEMPLATE("the stiffness includes the turning of the stress that a poin
   scarp::VoigtStress<Element::dim> const high = scarp::VoigtStress<Element::dim>::LinSpaced(-2e6, 1e6);
   std::vector<typename Provider::State> const stressed(static_cast<std::size_t>(disc.point_count()), {high});
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
-  CHECK(stiffness_error(soil, disc, stressed, nothing) < 1e-8);  // as above
+  CHECK(sample::stiffness_error(soil, disc, stressed, nothing) < 1e-8);  // as above
 }
 
 TEST_CASE("small-strain stiffness is the derivative of the internal force") {
   scarp::Discretisation<scarp::Quad4, scarp::SmallStrain> const disc(sample::distorted_block<scarp::Quad4>(2));
   auto const soil = scarp::LinearElastic<2>::from_lame(3e6, 2e6);
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
-  CHECK(stiffness_error(soil, disc, fresh<scarp::LinearElastic<2>>(disc), nothing) < 1e-8);
+  CHECK(sample::stiffness_error(soil, disc, sample::fresh<scarp::LinearElastic<2>>(disc), nothing) < 1e-8);
 }
 
 TEST_CASE("a stressed patch that turns by 30 degrees keeps its stress in its own frame and its forces turn along") {
   scarp::Discretisation<scarp::Tri3> disc(sample::distorted_block<scarp::Tri3>(3));
   auto const soil = scarp::LinearElastic<2>::from_lame(3e6, 2e6);
   Eigen::VectorXd const first = sample::random_increment(disc.dof_count(), 0.02, 4);
-  auto const before = sample::answers(soil, disc, fresh<scarp::LinearElastic<2>>(disc), first);
+  auto const before = sample::answers(soil, disc, sample::fresh<scarp::LinearElastic<2>>(disc), first);
   Eigen::VectorXd force_before;
   disc.internal_force(first, before.stresses, force_before);
   disc.commit(first);
@@ -164,7 +91,7 @@ TEST_CASE_TEMPLATE("a free body has its rigid motions and no other zero mode", E
   scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(2));
   auto const soil = scarp::LinearElastic<Element::dim>::from_lame(3e6, 2e6);
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
-  auto const points = sample::answers(soil, disc, fresh<decltype(soil)>(disc), nothing);
+  auto const points = sample::answers(soil, disc, sample::fresh<decltype(soil)>(disc), nothing);
   Eigen::MatrixXd const stiffness = disc.stiffness(nothing, points.stresses, points.tangents);
   CHECK((stiffness - stiffness.transpose()).norm() < 1e-15 * stiffness.norm() * 10.0);
   Eigen::VectorXd const values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();
@@ -273,7 +200,7 @@ TEST_CASE("the stiffness matrix keeps its memory from call to call and has the s
   scarp::Discretisation<scarp::Tri3> const disc(sample::distorted_block<scarp::Tri3>(3));
   auto const soil = scarp::LinearElastic<2>::from_lame(3e6, 2e6);
   Eigen::VectorXd const increment = sample::random_increment(disc.dof_count(), 0.02, 8);
-  auto const points = sample::answers(soil, disc, fresh<scarp::LinearElastic<2>>(disc), increment);
+  auto const points = sample::answers(soil, disc, sample::fresh<scarp::LinearElastic<2>>(disc), increment);
   Eigen::SparseMatrix<double> matrix;
   disc.stiffness(increment, points.stresses, points.tangents, matrix);
   Eigen::SparseMatrix<double> const first = matrix;

@@ -2,16 +2,18 @@
 #include <doctest/doctest.h>
 
 #include "bvp/sample_problems.hpp"
+#include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 
 namespace {
 
 /// Prescribes the affine displacement on the outline and lets Newton's method find the interior.
-template <class Element, class Motion>
+template <class Element, class Motion, class Scheme = scarp::FullIntegration>
 void check_patch(double size, int iterations) {
   constexpr int dim = Element::dim;
   using Provider = scarp::LinearElastic<dim>;
-  scarp::Discretisation<Element, Motion> const disc(sample::distorted_block<Element>(3));
+  scarp::Discretisation<Element, Motion, Scheme> const disc(
+      sample::distorted_block<Element>(Element::dim == 2 ? 3 : 2));
   auto const soil = Provider::from_lame(3e6, 2e6);
   auto const gradient = sample::general_gradient<dim>(size);
   Eigen::VectorXd const expected = sample::affine<dim>(disc.mesh().nodes, gradient);
@@ -55,16 +57,26 @@ void check_patch(double size, int iterations) {
   }
 }
 
+#define ALL_ELEMENTS \
+  scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
+
 }  // namespace
 
 TEST_CASE_TEMPLATE("a linear displacement on the outline of a distorted patch is found inside with one linear solve",
-                   Element, scarp::Tri3, scarp::Quad4, scarp::Tet4) {
+                   Element, ALL_ELEMENTS) {
   check_patch<Element, scarp::SmallStrain>(1e-3, 1);
+  check_patch<Element, scarp::SmallStrain, scarp::BBar>(1e-3, 1);
+  if constexpr (scarp::GivesReducedQuadrature<Element>) {
+    check_patch<Element, scarp::SmallStrain, scarp::ReducedIntegration>(1e-3, 1);
+  }
 }
 
-TEST_CASE_TEMPLATE("a large homogeneous deformation is found inside a distorted patch", Element, scarp::Tri3,
-                   scarp::Quad4, scarp::Tet4) {
+TEST_CASE_TEMPLATE("a large homogeneous deformation is found inside a distorted patch", Element, ALL_ELEMENTS) {
   check_patch<Element, scarp::UpdatedLagrangian>(0.2, 25);
+  check_patch<Element, scarp::UpdatedLagrangian, scarp::BBar>(0.2, 25);
+  if constexpr (scarp::GivesReducedQuadrature<Element>) {
+    check_patch<Element, scarp::UpdatedLagrangian, scarp::ReducedIntegration>(0.2, 25);
+  }
 }
 
 TEST_CASE("a stretched patch carries the stress of its strain") {

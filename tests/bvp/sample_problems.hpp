@@ -11,8 +11,9 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/core/random.hpp"
-#include "scarp/element/quad4.hpp"
-#include "scarp/element/tet4.hpp"
+#include "scarp/element/hex20.hpp"
+#include "scarp/element/tet10.hpp"
+#include "scarp/mesh/box_mesh.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 
 /// Small distorted meshes for every element, and what the tests of the finite-element side do with them.
@@ -20,84 +21,14 @@ namespace sample {
 
 /// Unit square or cube of `cells` cells along each axis, interior nodes moved at random.
 template <class Element>
-scarp::Mesh<Element> distorted_block(int cells);
+scarp::Mesh<Element> distorted_block(int cells) {
+  return scarp::BoxMesh<Element>{.cells = scarp::BoxMesh<Element>::filled(cells), .distortion = 0.15, .seed = 5}
+      .generate();
+}
 
 template <>
 inline scarp::Mesh<scarp::Tri3> distorted_block<scarp::Tri3>(int cells) {
   return scarp::RectangleMesh{.columns = cells, .rows = cells, .distortion = 0.2, .seed = 5}.generate();
-}
-
-/// Grid nodes with the interior ones moved; node (i, j, k) has the number i + n (j + n k).
-template <int Dim>
-std::vector<scarp::Vector<Dim>> grid_nodes(int cells) {
-  scarp::Random random(5);
-  int const lines = cells + 1;
-  int total = 1;
-  for (int axis = 0; axis < Dim; ++axis) {
-    total *= lines;
-  }
-  std::vector<scarp::Vector<Dim>> nodes;
-  for (int n = 0; n < total; ++n) {
-    scarp::Vector<Dim> node;
-    bool inside = true;
-    int rest = n;
-    for (int axis = 0; axis < Dim; ++axis) {
-      int const line = rest % lines;
-      rest /= lines;
-      inside = inside && line > 0 && line < cells;
-      node(axis) = static_cast<double>(line) / cells;
-    }
-    for (int axis = 0; axis < Dim; ++axis) {
-      double const move = random.uniform(-0.15, 0.15) / cells;
-      node(axis) += inside ? move : 0.0;
-    }
-    nodes.push_back(node);
-  }
-  return nodes;
-}
-
-template <>
-inline scarp::Mesh<scarp::Quad4> distorted_block<scarp::Quad4>(int cells) {
-  int const lines = cells + 1;
-  scarp::Mesh<scarp::Quad4> mesh;
-  mesh.nodes = grid_nodes<2>(cells);
-  mesh.regions = {"soil"};
-  for (int j = 0; j < cells; ++j) {
-    for (int i = 0; i < cells; ++i) {
-      int const first = i + lines * j;
-      mesh.elements.push_back({first, first + 1, first + 1 + lines, first + lines});
-      mesh.element_region.push_back(0);
-    }
-  }
-  return mesh;
-}
-
-/// Every cube is cut into six tetrahedra along its space diagonal (Kuhn's division).
-template <>
-inline scarp::Mesh<scarp::Tet4> distorted_block<scarp::Tet4>(int cells) {
-  int const lines = cells + 1;
-  scarp::Mesh<scarp::Tet4> mesh;
-  mesh.nodes = grid_nodes<3>(cells);
-  mesh.regions = {"soil"};
-  std::array<int, 3> const steps{1, lines, lines * lines};
-  constexpr std::array<std::array<std::size_t, 3>, 6> orders{
-      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-  for (int k = 0; k < cells; ++k) {
-    for (int j = 0; j < cells; ++j) {
-      for (int i = 0; i < cells; ++i) {
-        int const corner = i + lines * (j + lines * k);
-        for (std::size_t o = 0; o < orders.size(); ++o) {
-          int const first = corner + steps[orders[o][0]];
-          int const second = first + steps[orders[o][1]];
-          int const last = second + steps[orders[o][2]];
-          bool const even = o < 3;  // odd orders would turn the tetrahedron over
-          mesh.elements.push_back({corner, even ? first : second, even ? second : first, last});
-          mesh.element_region.push_back(0);
-        }
-      }
-    }
-  }
-  return mesh;
 }
 
 /// Increment of every node by a displacement gradient: u = G X.

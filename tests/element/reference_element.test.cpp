@@ -255,6 +255,7 @@ TEST_CASE_TEMPLATE("rules are exact up to their degree, with inner points and po
   check_rule<Element, 4>();
   check_rule<Element, 5>();
   check_rule<Element, 6>();
+  check_rule<Element, 7>();
 }
 
 TEST_CASE_TEMPLATE("quadrature is exact to the degree of the stiffness of an undistorted element and no further",

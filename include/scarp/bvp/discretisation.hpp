@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/bvp/kinematics.hpp"
+#include "scarp/bvp/point_by_point.hpp"
 #include "scarp/bvp/sparsity.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 
@@ -14,13 +15,14 @@ namespace scarp {
 
 /// Finite elements on a mesh: displacement increments to gradients at the integration points, stresses at the points to
 /// nodal forces and stiffness. Knows no material; keeps only the committed positions of the nodes.
-/// Degree of freedom = dim * node + axis; point = (number of an element's quadrature points) * element + its own
-/// number. All sums run in the order of the elements, so that the same input gives the same bits.
-template <ReferenceElement Element, Kinematics Motion = UpdatedLagrangian>
+/// Degree of freedom = dim * node + axis; point = (number of an element's material points) * element + its own number,
+/// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input gives the same bits.
+template <ReferenceElement Element, Kinematics Motion = UpdatedLagrangian, class Scheme = FullIntegration>
+  requires Integration<Scheme, Element>
 class Discretisation {
  public:
   static constexpr int dim = Element::dim;
-  static constexpr int points_per_element = quadrature_size<Element>;
+  static constexpr int points_per_element = static_cast<int>(material_points<Scheme, Element>);
 
   /// thickness [m] out of the plane; in 3D it is 1
   /// \throws InputError for an invalid mesh or thickness
@@ -35,6 +37,11 @@ class Discretisation {
   Mesh<Element> const& mesh() const { return mesh_; }
   double thickness() const { return thickness_; }
   int node_count() const { return detail::count(mesh_.nodes); }
+  /// The point's place on the reference element; its weight is that of Scheme.
+  static QuadraturePoint<dim> local_point(int point) {
+    return Scheme::template points<Element>()[detail::index(point % points_per_element)];
+  }
+
   int dof_count() const { return dim * node_count(); }
   int point_count() const { return points_per_element * detail::count(mesh_.elements); }
 
@@ -44,9 +51,8 @@ class Discretisation {
   /// Where a point is in the committed configuration; surface_level [m] is the height of the ground surface.
   Site<dim> site(int point, double surface_level) const {
     int const element = point / points_per_element;
-    auto const where = Element::quadrature()[detail::index(point % points_per_element)];
     auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions_);
-    Vector<dim> const position = rows.transpose() * Element::shape(where.xi);
+    Vector<dim> const position = rows.transpose() * Element::shape(local_point(point).xi);
     return {point, mesh_.element_region[detail::index(element)], position, surface_level - position(dim - 1)};
   }
 
@@ -57,12 +63,13 @@ class Discretisation {
     require_length("displacement increment", increment.size(), dof_count());
     require_length("gradients", std::ssize(out), point_count());
     std::optional<int> inverted;
-    for_each_point(reference(), [&](int element, int point, SpatialShape<Element> const& shape) {
-      auto const moves = element_part(increment, element);
-      Gradient<dim> const gradient = moves.transpose() * shape.gradients;
-      out[detail::index(point)] = Motion::template seen<dim>(gradient);
-      if (Motion::follows_motion && !inverted && !((Tensor<dim>::Identity() + gradient).determinant() > 0.0)) {
-        inverted = element;
+    for_each_element(reference(), [&](int element, Shapes const& shapes) {
+      auto const gradients = Scheme::template gradients<Motion>(shapes, element_part(increment, element));
+      for (std::size_t p = 0; p < gradients.size(); ++p) {
+        out[first_point(element) + p] = Motion::template seen<dim>(gradients[p]);
+        if (Motion::follows_motion && !inverted && !((Tensor<dim>::Identity() + gradients[p]).determinant() > 0.0)) {
+          inverted = element;
+        }
       }
     });
     return inverted;
@@ -75,9 +82,8 @@ class Discretisation {
     require_length("displacement increment", increment.size(), dof_count());
     require_length("stresses", std::ssize(stresses), point_count());
     out.setZero(dof_count());
-    for_each_point(balanced(increment), [&](int element, int point, SpatialShape<Element> const& shape) {
-      Tensor<dim> const stress = from_voigt_stress<dim, double>(stresses[detail::index(point)]);
-      Corners<Element, dim> const forces = shape.volume * shape.gradients * stress;
+    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+      Corners<Element, dim> const forces = Scheme::forces(shapes, of_element(stresses, element));
       auto const& nodes = mesh_.elements[detail::index(element)];
       for (int a = 0; a < Element::nodes; ++a) {
         out.template segment<dim>(dim * nodes[detail::index(a)]) += forces.row(a).transpose();
@@ -95,22 +101,12 @@ class Discretisation {
     require_length("tangents", std::ssize(tangents), point_count());
     sparsity_.reset(out);
     double* const values = out.valuePtr();
-    for_each_point(balanced(increment), [&](int element, int point, SpatialShape<Element> const& shape) {
-      auto const& stress = stresses[detail::index(point)];
-      auto const& tangent = tangents[detail::index(point)];
-      int const* to = sparsity_.addresses().data() + element * entries_per_element;
-      for (int b = 0; b < Element::nodes; ++b) {
-        for (int k = 0; k < dim; ++k) {
-          Gradient<dim> further = Gradient<dim>::Zero();
-          further.row(k) = shape.gradients.row(b);
-          Tensor<dim> const flux = Motion::template flux_change<dim>(further, stress, tangent);
-          Corners<Element, dim> const column = shape.volume * shape.gradients * flux.transpose();
-          for (int a = 0; a < Element::nodes; ++a) {
-            for (int i = 0; i < dim; ++i) {
-              values[*to++] += column(a, i);
-            }
-          }
-        }
+    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+      ElementMatrix<Element> const matrix =
+          Scheme::template stiffness<Motion>(shapes, of_element(stresses, element), of_element(tangents, element));
+      int const* const to = sparsity_.addresses().data() + element * matrix.size();
+      for (int entry = 0; entry < matrix.size(); ++entry) {
+        values[to[entry]] += matrix(entry);
       }
     });
   }
@@ -126,8 +122,10 @@ class Discretisation {
   std::vector<double> volumes(Eigen::VectorXd const& increment) const {
     require_length("displacement increment", increment.size(), dof_count());
     std::vector<double> volumes(detail::index(point_count()));
-    for_each_point(balanced(increment), [&](int, int point, SpatialShape<Element> const& shape) {
-      volumes[detail::index(point)] = shape.volume;
+    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+      for (std::size_t p = 0; p < shapes.size(); ++p) {
+        volumes[first_point(element) + p] = shapes[p].volume;
+      }
     });
     return volumes;
   }
@@ -149,7 +147,16 @@ class Discretisation {
   }
 
  private:
-  static constexpr std::ptrdiff_t entries_per_element = Element::nodes * dim * Element::nodes * dim;
+  using Shapes = ElementShapes<Element, material_points<Scheme, Element>>;
+
+  static constexpr std::size_t first_point(int element) { return detail::index(points_per_element * element); }
+
+  /// The entries of an array of all points that belong to an element.
+  template <class Value>
+  static std::span<Value const, material_points<Scheme, Element>> of_element(std::span<Value const> values,
+                                                                             int element) {
+    return values.subspan(first_point(element)).template first<material_points<Scheme, Element>>();
+  }
 
   static void require_length(char const* what, std::ptrdiff_t length, int wanted) {
     if (length != wanted) {
@@ -193,17 +200,18 @@ class Discretisation {
     return rows;
   }
 
-  /// visit(element, point, shape) for all points in order, on the elements as they are at the given positions.
+  /// visit(element, shapes) for all elements in order, as they are at the given positions.
   template <class Visit>
-  void for_each_point(std::vector<Vector<dim>> const& nodes, Visit&& visit) const {
-    int point = 0;
+  void for_each_element(std::vector<Vector<dim>> const& nodes, Visit&& visit) const {
+    auto const points = Scheme::template points<Element>();
+    Shapes shapes;
     for (int element = 0; element < detail::count(mesh_.elements); ++element) {
       auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], nodes);
-      for (auto const& where : Element::quadrature()) {
-        auto shape = spatial_shape<Element>(rows, where);
-        shape.volume *= thickness_;
-        visit(element, point++, shape);
+      for (std::size_t p = 0; p < shapes.size(); ++p) {
+        shapes[p] = spatial_shape<Element>(rows, points[p]);
+        shapes[p].volume *= thickness_;
       }
+      visit(element, shapes);
     }
   }
 

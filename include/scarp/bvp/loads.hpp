@@ -12,9 +12,9 @@ namespace scarp {
 /// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
 /// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
 /// force_of_region(number of a region): b [N/m3], shape (dim)
-template <class Element, class Motion, class ForceOfRegion>
+template <class Element, class Motion, class Scheme, class ForceOfRegion>
   requires std::convertible_to<std::invoke_result_t<ForceOfRegion const&, int>, Vector<Element::dim>> Eigen::VectorXd
-  body_force(Discretisation<Element, Motion> const& discretisation, ForceOfRegion const& force_of_region) {
+  body_force(Discretisation<Element, Motion, Scheme> const& discretisation, ForceOfRegion const& force_of_region) {
     constexpr int dim = Element::dim;
     auto const& mesh = discretisation.mesh();
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
@@ -36,8 +36,8 @@ template <class Element, class Motion, class ForceOfRegion>
 /// Nodal forces [N], shape (dof_count), consistent with a force per area [Pa] on a boundary of the initial mesh:
 /// \f$ f_a = \int N_a t\,dA \f$. A dead load: it follows neither the size nor the direction of the deformed boundary.
 /// \throws InputError for an unknown boundary
-template <class Element, class Motion>
-Eigen::VectorXd traction(Discretisation<Element, Motion> const& discretisation, std::string_view boundary_name,
+template <class Element, class Motion, class Scheme>
+Eigen::VectorXd traction(Discretisation<Element, Motion, Scheme> const& discretisation, std::string_view boundary_name,
                          Vector<Element::dim> const& per_area) {
   using Facet = typename Element::Facet;
   constexpr int dim = Element::dim;

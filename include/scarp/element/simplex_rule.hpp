@@ -31,7 +31,8 @@ auto conical_rule() {
 
 /// Points in the simplex with corners at the origin and the unit points, exact up to the total degree `Degree`.
 /// Degree 1: centroid. Degree 2: three or four inner points, Hammer and Stroud, Math. Tables Aids Comp. 10 (1956) 137.
-/// Degree 4 of the triangle: six points, Cowper, Int. J. Numer. Meth. Engng 7 (1973) 405. Others: conical product.
+/// Degree 4 of the triangle: six points, Cowper, Int. J. Numer. Meth. Engng 7 (1973) 405. Degree 5 of the tetrahedron:
+/// fourteen points, Walkington, Quadrature on simplices of arbitrary dimension (2000). Others: conical product.
 template <int Dim, int Degree>
 auto simplex_rule() {
   using Point = QuadraturePoint<Dim>;
@@ -57,6 +58,30 @@ auto simplex_rule() {
     double const b = 0.58541019662496852;  // (5 + 3 sqrt 5)/20
     double const weight = 1.0 / 24.0;
     return std::array<Point, 4>{{{{a, a, a}, weight}, {{b, a, a}, weight}, {{a, b, a}, weight}, {{a, a, b}, weight}}};
+  } else if constexpr (Dim == 3 && (Degree >= 3 && Degree <= 5)) {
+    double const a = 0.31088591926330061;
+    double const b = 0.092735250310891226;
+    double const c = 0.045503704125649649;
+    double const u = 0.018781320953002642;
+    double const v = 0.012248840519393658;
+    double const w = 0.0070910034628469110;
+    double const far_a = 1.0 - 3.0 * a;
+    double const far_b = 1.0 - 3.0 * b;
+    double const far_c = 0.5 - c;
+    return std::array<Point, 14>{{{{a, a, a}, u},
+                                  {{far_a, a, a}, u},
+                                  {{a, far_a, a}, u},
+                                  {{a, a, far_a}, u},
+                                  {{b, b, b}, v},
+                                  {{far_b, b, b}, v},
+                                  {{b, far_b, b}, v},
+                                  {{b, b, far_b}, v},
+                                  {{far_c, c, c}, w},
+                                  {{c, far_c, c}, w},
+                                  {{c, c, far_c}, w},
+                                  {{c, far_c, far_c}, w},
+                                  {{far_c, c, far_c}, w},
+                                  {{far_c, far_c, c}, w}}};
   } else {
     return detail::conical_rule<Dim, Degree>();
   }

@@ -15,15 +15,16 @@
 
 namespace scarp {
 
-/// Gradient of the committed with respect to the initial position at a point.
+/// Gradient of the committed with respect to the initial position at a point; what its material sees may differ, see
+/// MeanDilatation.
 template <class DiscretisationType>
 Tensor<DiscretisationType::dim> total_deformation(DiscretisationType const& discretisation, int point) {
   using Element = typename std::remove_cvref_t<decltype(discretisation.mesh())>::ElementType;
   constexpr int dim = DiscretisationType::dim;
   constexpr int per_element = DiscretisationType::points_per_element;
   auto const& nodes = discretisation.mesh().elements[static_cast<std::size_t>(point / per_element)];
-  auto const where = Element::quadrature()[static_cast<std::size_t>(point % per_element)];
-  auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, discretisation.mesh().nodes), where);
+  auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, discretisation.mesh().nodes),
+                                            DiscretisationType::local_point(point));
   return corners<Element, dim>(nodes, discretisation.positions()).transpose() * shape.gradients;
 }
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/bvp/integration.hpp"
+
+#include <doctest/doctest.h>
+#include <Eigen/Eigenvalues>
+
+#include "approx.hpp"
+#include "bvp/stiffness_check.hpp"
+#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/mean_dilatation.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+
+namespace {
+
+struct OnlyPoints {
+  template <class Element>
+  static auto points() {
+    return Element::quadrature();
+  }
+};
+static_assert(scarp::PlacesPoints<OnlyPoints, scarp::Quad4> && !scarp::Integration<OnlyPoints, scarp::Quad4>);
+static_assert(scarp::Integration<scarp::BBar, scarp::Hex20> &&
+              scarp::Integration<scarp::ReducedIntegration, scarp::Quad8>);
+static_assert(!scarp::Integration<scarp::ReducedIntegration, scarp::Tri3>, "one point is already the full rule");
+static_assert(!scarp::Integration<scarp::ReducedIntegration, scarp::Tri6>, "three points are the fewest that hold it");
+
+#define ALL_ELEMENTS \
+  scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
+
+/// Stiffness of an unloaded body of linear elastic material.
+template <class Discretisation>
+Eigen::MatrixXd elastic_stiffness(Discretisation const& disc) {
+  constexpr int dim = Discretisation::dim;
+  auto const soil = scarp::LinearElastic<dim>::from_lame(3e6, 2e6);
+  auto const points = static_cast<std::size_t>(disc.point_count());
+  std::vector<scarp::VoigtStress<dim>> const stresses(points, scarp::VoigtStress<dim>::Zero());
+  std::vector<scarp::VoigtTangent<dim>> const tangents(points, soil.tangent({}));
+  return disc.stiffness(Eigen::VectorXd::Zero(disc.dof_count()), stresses, tangents);
+}
+
+/// Number of motions without stiffness of one slightly distorted element.
+template <class Element, class Scheme>
+int zero_modes() {
+  auto mesh = scarp::BoxMesh<Element>{}.generate();
+  mesh.elements.resize(1);
+  mesh.element_region.resize(1);
+  mesh.boundaries.clear();
+  scarp::Random random(17);
+  std::vector<int> number(mesh.nodes.size(), -1);
+  std::vector<scarp::Vector<Element::dim>> nodes;
+  for (int& node : mesh.elements[0]) {
+    nodes.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+    for (auto& coordinate : nodes.back()) {
+      coordinate += random.uniform(-0.04, 0.04);
+    }
+    node = static_cast<int>(nodes.size()) - 1;
+  }
+  mesh.nodes = nodes;
+  Eigen::MatrixXd const stiffness = elastic_stiffness(scarp::Discretisation<Element, scarp::SmallStrain, Scheme>(mesh));
+  Eigen::VectorXd const values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();
+  int const zero = static_cast<int>((values.array().abs() < 1e-12 * values.maxCoeff()).count());
+  // Round-off of the eigenvalues is 1e-14 of the largest; nothing may lie between that and the true modes.
+  CHECK((values.array() > 1e-4 * values.maxCoeff()).count() == values.size() - zero);
+  return zero;
+}
+
+template <class Element>
+constexpr int rigid_modes = Element::dim*(Element::dim + 1) / 2;
+
+/// A large increment, or nothing where small strains have no use for it.
+template <class Element, class Motion, class Scheme>
+double distance_of_stiffness() {
+  scarp::Discretisation<Element, Motion, Scheme> const disc(
+      sample::distorted_block<Element>(Element::dim == 2 ? 2 : 1));
+  Eigen::VectorXd const increment =
+      sample::affine<Element::dim>(disc.mesh().nodes, sample::general_gradient<Element::dim>(0.3)) +
+      sample::random_increment(disc.dof_count(), 0.03, 9);
+  if constexpr (Motion::follows_motion) {
+    sample::NeoHookean<Element::dim> const solid;
+    return sample::stiffness_error(solid, disc, sample::fresh<decltype(solid)>(disc), increment);
+  } else {
+    using Provider = scarp::LinearElastic<Element::dim>;
+    auto const soil = Provider::from_lame(3e6, 2e6);
+    Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
+    return sample::stiffness_error(soil, disc, sample::fresh<Provider>(disc), nothing);
+  }
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("with mean dilatation the stiffness is the derivative of the internal force", Element, scarp::Tri6,
+                   scarp::Quad4, scarp::Quad8, scarp::Tet10, scarp::Hex8) {
+  // Central differences: truncation about (1e-6 over an element size of 0.1)^2, round-off 1e-16 over 1e-6, with the
+  // force per stiffness up to 0.1: both below 1e-9.
+  CHECK(distance_of_stiffness<Element, scarp::SmallStrain, scarp::BBar>() < 1e-8);
+  CHECK(distance_of_stiffness<Element, scarp::UpdatedLagrangian, scarp::BBar>() < 1e-8);
+}
+
+TEST_CASE_TEMPLATE("at fewer points the stiffness is the derivative of the internal force", Element, scarp::Quad4,
+                   scarp::Quad8, scarp::Hex8) {
+  CHECK(distance_of_stiffness<Element, scarp::SmallStrain, scarp::ReducedIntegration>() < 1e-8);  // as above
+  CHECK(distance_of_stiffness<Element, scarp::UpdatedLagrangian, scarp::ReducedIntegration>() < 1e-8);
+}
+
+TEST_CASE_TEMPLATE("an element has its rigid motions and no other zero mode", Element, ALL_ELEMENTS) {
+  // Analytic: dim translations and dim (dim - 1)/2 rotations.
+  CHECK(zero_modes<Element, scarp::FullIntegration>() == rigid_modes<Element>);
+  CHECK(zero_modes<Element, scarp::BBar>() == rigid_modes<Element>);
+}
+
+TEST_CASE("with fewer points an element has the known number of hourglass modes") {
+  // Analytic: degrees of freedom less independent strains (3 or 6 per point) less rigid modes: 8 - 3 - 3 and
+  // 24 - 6 - 6; 16 - 12 - 3; 60 - 48 - 6.
+  CHECK(zero_modes<scarp::Quad4, scarp::ReducedIntegration>() == 3 + 2);
+  CHECK(zero_modes<scarp::Hex8, scarp::ReducedIntegration>() == 6 + 12);
+  CHECK(zero_modes<scarp::Quad8, scarp::ReducedIntegration>() == 3 + 1);
+  CHECK(zero_modes<scarp::Hex20, scarp::ReducedIntegration>() == 6 + 6);
+}
