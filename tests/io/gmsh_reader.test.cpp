@@ -133,6 +133,30 @@ TEST_CASE("version 4.1 finds groups by entities, with signs and parameters") {
   CHECK(mesh.boundaries.at("physical_4") == std::vector<std::array<int, 2>>{{0, 1}});
 }
 
+TEST_CASE("the sign of a region in version 4.1 turns its elements") {
+  // Gmsh 4.8 saves "Physical Surface(5) = {-3}" so; in version 2.2 it turns the elements itself.
+  auto const turned =
+      with(with(square_41, "0 1 5\n$EndE", "1 -5 0\n$EndE"), "7 12 40\n9 7 40 31", "7 40 12\n9 7 31 40");
+  CHECK(read(turned).elements == read(square_41).elements);
+  says(complaint(with(square_41, "0 1 5\n$EndE", "1 -5 0\n$EndE")),
+       "element 8 of 'm.msh' (its nodes there: 7, 12, 40)");
+}
+
+TEST_CASE("a cell that is turned round twice is the same") {
+  samples::for_each_element([](char const* name, auto element) {
+    using Facet = typename decltype(element)::Facet;
+    CAPTURE(name);
+    std::array<int, Facet::nodes> nodes{};
+    for (int a = 0; a < Facet::nodes; ++a) nodes[static_cast<std::size_t>(a)] = 10 + a;
+    auto const turned = scarp::detail::turned_round<Facet>(nodes);
+    CHECK_FALSE(scarp::detail::same_winding<Facet>(turned, nodes));
+    CHECK(scarp::detail::same_winding<Facet>(scarp::detail::turned_round<Facet>(turned), nodes));
+  });
+  // By hand: corners 1 4 3 2, then the middles of 1-4, 4-3, 3-2, 2-1.
+  CHECK(scarp::detail::turned_round<scarp::Quad8>({1, 2, 3, 4, 12, 23, 34, 41}) ==
+        std::array<int, 8>{1, 4, 3, 2, 41, 34, 23, 12});
+}
+
 TEST_CASE("other sections, ends of lines as on Windows and a lifted plane do no harm") {
   auto const plain = read(square_22);
   auto text = with(square_22, "$Nodes", "$Periodic\n1\n0 1 1\n$EndPeriodic\n$Nodes");

@@ -86,14 +86,17 @@ void refuse_repeated_elements(GmshContent const& content, std::vector<GmshPick> 
 template <class Element>
 void refuse_inverted_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
                               Mesh<Element> const& mesh) {
+  constexpr std::string_view advice = Element::dim == 2
+                                          ? "turn the surface so that its normal points along z, or mesh it again"
+                                          : "mesh the geometry again";
   for (int e = 0; e < count(mesh.elements); ++e) {
     if (auto const determinant = bad_jacobian(mesh, e)) {
       auto const& pick = picks[index(e)];
       refuse(
           "element {} of '{}' (its nodes there: {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way "
-          "round): mesh the geometry again, in Gmsh with surfaces turned to the positive z axis",
+          "round): {}",
           pick.tag, content.file, fmt::join(std::span(pick.nodes, index(Element::nodes)), ", "), *determinant,
-          Element::dim);
+          Element::dim, advice);
     }
   }
 }

@@ -7,26 +7,6 @@
 
 namespace scarp::detail {
 
-/// Whether two lists name the nodes of a side in the same sense of rotation, begun at any corner: corners come first,
-/// then, if there are any, mid-side nodes.
-template <class Facet>
-bool same_winding(std::array<int, Facet::nodes> const& a, std::array<int, Facet::nodes> const& b) {
-  if constexpr (Facet::dim == 1) {
-    return a == b;
-  } else {
-    constexpr int corners = static_cast<int>(Facet::facets().size());
-    for (int shift = 0; shift < corners; ++shift) {
-      bool same = true;
-      for (int k = 0; k < Facet::nodes && same; ++k) {
-        int const ring = k / corners * corners;
-        same = a[index(k)] == b[index(ring + (k - ring + shift) % corners)];
-      }
-      if (same) return true;
-    }
-    return false;
-  }
-}
-
 /// All sides of all elements, to be found by their nodes in any order.
 template <class Element>
 class ElementSides {

@@ -23,7 +23,8 @@ struct GmshNode {
 /// Elements of one type in the same physical groups.
 struct GmshBlock {
   GmshType type;
-  std::vector<int> groups{};  ///< tags, none of them zero; empty: in no group
+  std::vector<int> groups{};  ///< tags above zero; empty: in no group
+  bool turned = false;        ///< the elements are meant to be run through the other way
   std::vector<std::int64_t> tags{};
   std::vector<std::int64_t> nodes{};  ///< tags, type.nodes for each element, in Gmsh's order
 };
@@ -38,7 +39,7 @@ struct GmshContent {
   std::vector<GmshBlock> blocks{};
 };
 
-/// A group may carry a sign that turns the geometrical entity round; the group is the same.
+/// Zero stands for no group.
 inline void add_group(std::vector<int>& groups, int tag) {
   if (tag != 0 && tag != std::numeric_limits<int>::min()) groups.push_back(std::abs(tag));
 }

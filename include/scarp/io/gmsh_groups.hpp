@@ -38,7 +38,7 @@ struct GmshRun {
 };
 
 inline std::string const& require_gmsh_name(std::string const& name) {
-  constexpr std::size_t longest = 127;  // [GmshManual], section "MSH file format"
+  constexpr std::size_t longest = 127;  // Gmsh 4.8 Reference Manual, section 9.1
   if (name.empty() || name.size() > longest || name.find_first_of("\"\r\n") != std::string::npos) {
     refuse("a region or boundary is named '{}' (Gmsh takes 1 to {} letters on one line, no quotes): rename it", name,
            longest);

@@ -9,6 +9,7 @@
 
 #include "scarp/element/index.hpp"
 #include "scarp/io/gmsh_content.hpp"
+#include "scarp/io/gmsh_winding.hpp"
 
 namespace scarp::detail {
 
@@ -16,6 +17,7 @@ namespace scarp::detail {
 struct GmshPick {
   std::int64_t tag;
   std::span<int const> groups;
+  bool turned;
   std::int64_t const* nodes;  ///< tags, in Gmsh's order
 };
 
@@ -26,7 +28,7 @@ inline std::vector<GmshPick> pick_gmsh_elements(GmshContent const& content, int 
     if (block.type.type != type) continue;
     auto const* nodes = block.nodes.data();
     for (auto const tag : block.tags) {
-      picks.push_back({tag, block.groups, nodes});
+      picks.push_back({tag, block.groups, block.turned, nodes});
       nodes += block.type.nodes;
     }
   }
@@ -78,7 +80,7 @@ class GmshNumbering {
   std::array<int, Cell::nodes> numbers(GmshPick const& pick) const {
     std::array<int, Cell::nodes> numbers;
     for (int a = 0; a < Cell::nodes; ++a) numbers[index(a)] = (*this)(pick.nodes[Cell::gmsh_order[index(a)]]);
-    return numbers;
+    return pick.turned ? turned_round<Cell>(numbers) : numbers;
   }
 
  private:

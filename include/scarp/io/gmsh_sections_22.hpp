@@ -7,7 +7,7 @@
 
 namespace scarp::detail {
 
-/// $Nodes and $Elements of MSH 2.2. [GmshManual], section "MSH file format version 2"
+/// $Nodes and $Elements of MSH 2.2. Gmsh 4.8 Reference Manual, section 9.3.1
 class GmshSections22 {
  public:
   void read_nodes(GmshStream& stream, GmshContent& content) const {

@@ -7,11 +7,11 @@
 
 namespace scarp::detail {
 
-/// $Entities, $Nodes and $Elements of MSH 4.1. [GmshManual], section "MSH file format"
+/// $Entities, $Nodes and $Elements of MSH 4.1. Gmsh 4.8 Reference Manual, section 9.1
 class GmshSections41 {
  public:
   void read_entities(GmshStream& stream) {
-    groups_.emplace();
+    entities_.emplace();
     std::array<std::size_t, 4> counts{};
     for (auto& entities : counts) entities = stream.count("the number of entities", 5);
     for (int dim = 0; dim < 4; ++dim) {
@@ -45,8 +45,8 @@ class GmshSections41 {
     std::size_t read = 0;
     for (std::size_t k = 0; k < blocks; ++k) {
       auto const dim = stream.value<std::int32_t>("the dimension of an entity");
-      auto const entity = stream.value<std::int32_t>("the tag of an entity");
-      auto groups = groups_of(stream, {dim, entity});
+      auto const tag = stream.value<std::int32_t>("the tag of an entity");
+      auto entity = entity_of(stream, {dim, tag});
       auto const type = known_gmsh_type(stream, stream.value<std::int32_t>("the type of elements"));
       if (type.dim != dim) {
         refuse("{} has elements of type {} ({}) on an entity of dimension {} (they have dimension {}): write it again",
@@ -54,7 +54,7 @@ class GmshSections41 {
       }
       auto const in_block =
           stream.count("the number of elements of an entity", static_cast<std::size_t>(type.nodes) + 1);
-      content.blocks.push_back({type, std::move(groups)});
+      content.blocks.push_back({type, std::move(entity.groups), entity.turned});
       auto& block = content.blocks.back();
       for (std::size_t e = 0; e < in_block; ++e) {
         block.tags.push_back(stream.value<std::int64_t>("the tag of an element"));
@@ -68,6 +68,10 @@ class GmshSections41 {
   }
 
  private:
+  struct Entity {
+    std::vector<int> groups{};
+    bool turned = false;
+  };
   struct Totals {
     std::size_t blocks;
     std::size_t entries;
@@ -92,27 +96,30 @@ class GmshSections41 {
     int const tag = stream.value<std::int32_t>("the tag of an entity");
     int const extents = dim == 0 ? 3 : 6;  // a point, or the corners of a box
     for (int k = 0; k < extents; ++k) stream.value<double>("a coordinate of an entity");
-    auto& groups = (*groups_)[{dim, tag}];
+    auto& entity = (*entities_)[{dim, tag}];
     auto const in_groups = stream.count("the number of physical groups of an entity", 1);
     for (std::size_t k = 0; k < in_groups; ++k) {
-      add_group(groups, stream.value<std::int32_t>("the tag of a physical group"));
+      auto const group = stream.value<std::int32_t>("the tag of a physical group");
+      add_group(entity.groups, group);
+      // MSH 2.2 has the elements of a group with negative entities turned already.
+      if (k == 0) entity.turned = group < 0;
     }
     if (dim == 0) return;
     auto const sides = stream.count("the number of sides of an entity", 1);
     for (std::size_t k = 0; k < sides; ++k) stream.value<std::int32_t>("the tag of a side of an entity");
   }
 
-  std::vector<int> groups_of(GmshStream const& stream, DimTag entity) const {
-    if (!groups_) return {};
-    auto const found = groups_->find(entity);
-    if (found == groups_->end()) {
+  Entity entity_of(GmshStream const& stream, DimTag entity) const {
+    if (!entities_) return {};
+    auto const found = entities_->find(entity);
+    if (found == entities_->end()) {
       refuse("{} names entity {} of dimension {} (it is not listed in $Entities): write it again, not partitioned",
              stream.place(), entity.second, entity.first);
     }
     return found->second;
   }
 
-  std::optional<std::map<DimTag, std::vector<int>>> groups_{};  ///< of each entity; none in files without $Entities
+  std::optional<std::map<DimTag, Entity>> entities_{};  ///< none in files without $Entities
 };
 
 }  // namespace scarp::detail

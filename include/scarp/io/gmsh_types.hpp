@@ -7,7 +7,7 @@
 
 namespace scarp::detail {
 
-/// An element type of Gmsh's file formats. [GmshManual], section "MSH file format"
+/// An element type of Gmsh's file formats. Gmsh 4.8 Reference Manual, section 9.1
 struct GmshType {
   int type;
   int dim;
