@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,20 +74,27 @@ void validate_nodes(Mesh<Element> const& mesh) {
   }
 }
 
-/// A volume below 1e-10 of the element's extent to the power dim counts as zero: it is round-off of flat elements.
+/// The Jacobian at a point of an element where it is not positive, if there is such a point. A volume below 1e-10 of the
+/// element's extent to the power dim counts as zero: it is round-off of flat elements.
+template <class Element>
+std::optional<double> bad_jacobian(Mesh<Element> const& mesh, int element) {
+  auto const rows = corners<Element, Element::dim>(mesh.elements[index(element)], mesh.nodes);
+  double const extent = (rows.colwise().maxCoeff() - rows.colwise().minCoeff()).maxCoeff();
+  for (auto const& point : Element::quadrature()) {
+    double const determinant = measure<Element, Element::dim>(rows, point.xi);
+    if (!(determinant > 1e-10 * std::pow(extent, Element::dim))) return determinant;
+  }
+  return std::nullopt;
+}
+
 template <class Element>
 void validate_jacobians(Mesh<Element> const& mesh) {
   for (int e = 0; e < count(mesh.elements); ++e) {
-    auto const rows = corners<Element, Element::dim>(mesh.elements[index(e)], mesh.nodes);
-    double const extent = (rows.colwise().maxCoeff() - rows.colwise().minCoeff()).maxCoeff();
-    for (auto const& point : Element::quadrature()) {
-      double const determinant = measure<Element, Element::dim>(rows, point.xi);
-      if (!(determinant > 1e-10 * std::pow(extent, Element::dim))) {
-        refuse(
-            "element {} (nodes {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way round): "
-            "reorder or move its nodes",
-            e, fmt::join(mesh.elements[index(e)], ", "), determinant, Element::dim);
-      }
+    if (auto const determinant = bad_jacobian(mesh, e)) {
+      refuse(
+          "element {} (nodes {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way round): "
+          "reorder or move its nodes",
+          e, fmt::join(mesh.elements[index(e)], ", "), *determinant, Element::dim);
     }
   }
 }
