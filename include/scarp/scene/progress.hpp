@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "scarp/bvp/describe_dof.hpp"
 #include "scarp/scene/observers.hpp"
 
 namespace scarp {
@@ -26,17 +27,19 @@ class Progress : public NeverStops {
     } else {
       fmt::print(stderr, "step {:4}  refused at h/H {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n",
                  report.step, report.load / load_unit_, report.iterations(), report.residual(),
-                 name(report.verdict.reason), where(problem, report.worst_point));
+                 name(report.verdict.reason), where(problem, report));
     }
     std::fflush(stderr);
   }
 
  private:
   template <class Problem>
-  static std::string where(Problem const& problem, int point) {
-    if (point < 0) return "";
-    auto const place = problem.discretisation().site(point, 0.0).position;
-    return fmt::format(" at point {} ({:.2f}, {:.2f})", point, place(0), place(1));
+  static std::string where(Problem const& problem, StepReport const& report) {
+    if (report.weak_dof >= 0)
+      return fmt::format(", nothing holds {}", describe_dof(problem.discretisation().mesh(), report.weak_dof));
+    if (report.worst_point < 0) return "";
+    auto const place = problem.discretisation().site(report.worst_point, 0.0).position;
+    return fmt::format(" at point {} ({:.2f}, {:.2f})", report.worst_point, place(0), place(1));
   }
 
   double to_;

@@ -100,6 +100,13 @@ class EquilibriumProblem {
     return {};
   }
 
+  /// Brings what is attached into balance with its own loads, the nodes held, where it can do so by itself.
+  void balance_attached(Eigen::VectorXd& increment) {
+    if constexpr (requires { attached_.balance(discretisation_.positions(), increment, load_now_); }) {
+      if (increment.allFinite()) attached_.balance(discretisation_.positions(), increment, load_now_);
+    }
+  }
+
   /// Lets every point respond to an increment from its committed state and adds up the forces.
   Evaluation evaluate(Eigen::VectorXd const& increment) {
     Evaluation evaluation;

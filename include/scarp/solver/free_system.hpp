@@ -33,6 +33,9 @@ class FreeSystem {
     return part;
   }
 
+  /// Number among all degrees of freedom of a free one; -1 stays.
+  int dof(int free) const { return free < 0 ? -1 : free_dofs_[static_cast<std::size_t>(free)]; }
+
   Eigen::VectorXd gather(Eigen::VectorXd const& full) const {
     Eigen::VectorXd part(static_cast<Eigen::Index>(free_dofs_.size()));
     for (std::size_t k = 0; k < free_dofs_.size(); ++k) part(static_cast<Eigen::Index>(k)) = full(free_dofs_[k]);

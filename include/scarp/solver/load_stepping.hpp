@@ -29,6 +29,7 @@ struct RunReport {
   Verdict verdict;
   Reason last_failure = Reason::none;  ///< why the last refused attempt was refused
   int worst_point = -1;                ///< material point of that attempt, -1 for none
+  int weak_dof = -1;                   ///< degree of freedom that its singular system did not hold, -1 for none
   double load = 0.0;                   ///< load factor of the committed state
   int steps = 0;                       ///< accepted
   int refused = 0;                     ///< attempts that were rolled back
@@ -76,7 +77,9 @@ struct LoadStepping {
     step.load = load;
     auto const started = std::chrono::steady_clock::now();
     Eigen::VectorXd displacement;
-    if (step.verdict = session.begin(load); step.verdict.acceptable()) {
+    step.verdict = session.begin(load);
+    session.describe(step);
+    if (step.verdict.acceptable()) {
       displacement = session.predict(load, load);
       session.correct(displacement, step);
     }
@@ -116,8 +119,10 @@ struct LoadStepping {
       auto const started = std::chrono::steady_clock::now();
       Eigen::VectorXd displacement;
       if (fresh) step.verdict = session.begin(run.load);
+      session.describe(step);
       if (!step.verdict.acceptable()) {  // tangents or matrix, which no smaller increment mends
         run.verdict = step.verdict;
+        run.weak_dof = step.weak_dof;
         observer.attempted(problem, step);
         return run;
       }
@@ -185,6 +190,7 @@ struct LoadStepping {
       ++run.refused;
       run.last_failure = step.verdict.reason;
       run.worst_point = step.worst_point;
+      run.weak_dof = step.weak_dof;
     }
   }
 };

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <vector>
 
+#include "scarp/solver/conditioning.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/free_system.hpp"
 #include "scarp/solver/plain_step.hpp"
 #include "scarp/solver/point_secant.hpp"
-#include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/solver/tangent_rule.hpp"
 
@@ -16,7 +16,7 @@ namespace scarp {
 
 /// Newton-type iteration for one load step. Every iteration restarts the points from their committed states with the whole
 /// increment; the tangent rule says what the points' tangents become on the way, the mixing what the correction becomes.
-template <TangentRule<2> Rule = PointSecant, class Mixing = PlainStep, class LinearSolver = SparseLu>
+template <TangentRule<2> Rule = PointSecant, class Mixing = PlainStep, LinearSolver Linear = SparseLu>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 30;
@@ -30,6 +30,7 @@ struct QuasiNewton {
   class Session {
    public:
     static constexpr int dim = Problem::dim;
+    static constexpr double singular = 1e15;  ///< condition beyond which no digit of a solution is left
 
     Session(QuasiNewton const& settings, Problem& problem)
         : settings_(settings), mixing_(settings.mixing), problem_(problem), system_(problem.constraints()) {}
@@ -46,7 +47,18 @@ struct QuasiNewton {
       }
       committed_ = problem_.evaluate_committed();
       problem_.stiffness(Eigen::VectorXd::Zero(committed_.unbalanced.size()), working_, stiffness_);
-      return linear_.factorize(system_.matrix(stiffness_));
+      matrix_ = system_.matrix(stiffness_);
+      Verdict verdict = linear_.factorize(matrix_);
+      condition_ = verdict.acceptable() ? condition_estimate(matrix_, linear_) : 0.0;
+      if (condition_ > singular) verdict = {Status::failed, Reason::singular_system};
+      weak_dof_ = verdict.reason == Reason::singular_system ? system_.dof(weakest_unknown(matrix_)) : -1;
+      return verdict;
+    }
+
+    /// Adds what begin() found out about the linear system.
+    void describe(StepReport& report) const {
+      report.condition = condition_;
+      report.weak_dof = weak_dof_;
     }
 
     /// First guess of the displacement increment between two load factors; from then on forces are measured against the
@@ -67,8 +79,11 @@ struct QuasiNewton {
       mixing_.forget();
       last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
       last_stresses_ = problem_.committed_stresses();
+      double linear_residual = 0.0;
       for (;;) {
         report.history.emplace_back();
+        report.history.back().linear_residual = linear_residual;
+        problem_.balance_attached(increment);
         Evaluation evaluation = recorded(report, [&] { return problem_.evaluate(increment); });
         // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
         for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
@@ -82,8 +97,19 @@ struct QuasiNewton {
           return;
         }
         problem_.stiffness(increment, working_, stiffness_);
-        if (report.verdict = linear_.factorize(system_.matrix(stiffness_)); !report.verdict.acceptable()) return;
-        Eigen::VectorXd const correction = linear_.solve(-system_.gather(evaluation.unbalanced));
+        matrix_ = system_.matrix(stiffness_);
+        Eigen::VectorXd const force = -system_.gather(evaluation.unbalanced);
+        Eigen::VectorXd correction;
+        report.verdict = linear_.factorize(matrix_);
+        if (report.verdict.acceptable()) {
+          correction = linear_.solve(force);
+          linear_residual = (matrix_ * correction - force).norm() / force.norm();
+          if (!(linear_residual < 1.0)) report.verdict = {Status::failed, Reason::singular_system};
+        }
+        if (!report.verdict.acceptable()) {
+          report.weak_dof = system_.dof(weakest_unknown(matrix_));
+          return;
+        }
         system_.scatter(mixing_.next(system_.gather(increment), correction), increment);
       }
     }
@@ -134,8 +160,11 @@ struct QuasiNewton {
     Mixing mixing_;
     Problem& problem_;
     FreeSystem system_;
-    LinearSolver linear_;
+    Linear linear_;
     Eigen::SparseMatrix<double> stiffness_;
+    SparseMatrix matrix_;  ///< its free part
+    double condition_ = 0.0;
+    int weak_dof_ = -1;
     Evaluation committed_;
     std::vector<VoigtTangent<dim>> first_;  ///< of the state that the session began with
     std::vector<VoigtTangent<dim>> provider_;

@@ -3,33 +3,23 @@
 
 #include <Eigen/SparseLU>
 
-#include "scarp/core/status.hpp"
+#include "scarp/solver/linear_solver.hpp"
 
 namespace scarp {
 
-/// Direct solver for unsymmetric sparse systems (Eigen's supernodal LU with column ordering). The ordering is kept as
-/// long as the matrix keeps its size.
+/// Direct solver for unsymmetric sparse systems (Eigen's supernodal LU with column ordering).
 class SparseLu {
  public:
-  /// \return failed / singular_system, or not_finite when the matrix holds NaN
-  Verdict factorize(Eigen::SparseMatrix<double> const& matrix) {
-    if (!matrix.coeffs().allFinite()) return {Status::failed, Reason::not_finite};
-    if (matrix.rows() != rows_ || matrix.nonZeros() != entries_) {
-      solver_.analyzePattern(matrix);
-      rows_ = matrix.rows();
-      entries_ = matrix.nonZeros();
-    }
-    solver_.factorize(matrix);
-    if (solver_.info() != Eigen::Success) return {Status::failed, Reason::singular_system};
-    return {};
-  }
-
+  Verdict factorize(SparseMatrix const& matrix) { return detail::factorize_with(solver_, pattern_, matrix); }
   Eigen::VectorXd solve(Eigen::VectorXd const& right) const { return solver_.solve(right); }
+  Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const { return solver_.transpose().solve(right); }
 
  private:
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> solver_;
-  Eigen::Index rows_ = -1;
-  Eigen::Index entries_ = -1;
+  // Eigen's solver hands out its transposed view from a non-const object only.
+  mutable Eigen::SparseLU<SparseMatrix> solver_;
+  detail::PatternMemory pattern_;
 };
+
+static_assert(LinearSolver<SparseLu>);
 
 }  // namespace scarp

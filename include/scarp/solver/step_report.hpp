@@ -9,6 +9,7 @@ namespace scarp {
 
 struct IterationRecord {
   double residual = 0.0;
+  double linear_residual = 0.0;   ///< |K x - b| / |b| of the linear system that led here
   long inner_steps = 0;           ///< DEM steps of all points
   double material_seconds = 0.0;  ///< wall time in the material points
 };
@@ -22,7 +23,9 @@ struct StepReport {
   int worst_point = -1;  ///< material point behind a verdict that is not ok, -1 for none
   std::vector<IterationRecord> history;
   double largest_gradient = 0.0;  ///< of the prediction, over all points
-  double seconds = 0.0;           ///< wall time of the attempt
+  double condition = 0.0;  ///< estimate of the stiffness at the start of the step, 1-norm; 0 where it was not made
+  int weak_dof = -1;       ///< degree of freedom that a singular system does not hold, -1 for none
+  double seconds = 0.0;    ///< wall time of the attempt
 
   int iterations() const { return static_cast<int>(history.size()); }
   double residual() const { return history.empty() ? 0.0 : history.back().residual; }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "scarp/solver/sparse_lu.hpp"
+
+namespace scarp {
+
+/// Estimate of the condition number in the 1-norm, |A| |A^-1|, from a few solves: a lower bound, seldom below a third of the
+/// truth (Hager, SIAM J. Sci. Stat. Comput. 5, 1984; Higham, ACM TOMS 14, 1988). Infinite when a solve is not finite.
+template <LinearSolver Solver>
+double condition_estimate(SparseMatrix const& matrix, Solver const& solver) {
+  Eigen::Index const size = matrix.rows();
+  if (size == 0) return 1.0;
+  Eigen::VectorXd x = Eigen::VectorXd::Constant(size, 1.0 / static_cast<double>(size));
+  double inverse_norm = 0.0;
+  constexpr int most = 5;
+  for (int k = 0; k < most; ++k) {
+    Eigen::VectorXd const y = solver.solve(x);
+    if (!y.allFinite()) return std::numeric_limits<double>::infinity();
+    double const found = y.lpNorm<1>();
+    if (found <= inverse_norm) break;
+    inverse_norm = found;
+    Eigen::VectorXd const signs = y.unaryExpr([](double value) { return value < 0.0 ? -1.0 : 1.0; });
+    Eigen::VectorXd const z = solver.solve_transposed(signs);
+    if (!z.allFinite()) return std::numeric_limits<double>::infinity();
+    Eigen::Index steepest = 0;
+    if (z.cwiseAbs().maxCoeff(&steepest) <= z.dot(x)) break;
+    x = Eigen::VectorXd::Unit(size, steepest);
+  }
+  double norm = 0.0;
+  for (Eigen::Index column = 0; column < size; ++column) {
+    double sum = 0.0;
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) sum += std::abs(entry.value());
+    norm = std::max(norm, sum);
+  }
+  return norm * inverse_norm;
+}
+
+/// The unknown that a singular or nearly singular matrix holds least: the largest entry of the vector that it maps nearest to
+/// nothing, by inverse iteration with a small shift. -1 when that fails too.
+inline int weakest_unknown(SparseMatrix const& matrix) {
+  Eigen::Index const size = matrix.rows();
+  if (size == 0 || !matrix.coeffs().allFinite()) return -1;
+  double const shift = 1e-9 * matrix.coeffs().abs().maxCoeff();
+  SparseMatrix unit(size, size);
+  unit.setIdentity();
+  SparseLu solver;
+  if (!solver.factorize(matrix + shift * unit).acceptable()) return -1;
+  Eigen::VectorXd mode(size);
+  for (Eigen::Index k = 0; k < size; ++k) mode(k) = 1.0 + 0.3 * std::sin(1.7 * static_cast<double>(k));
+  for (int k = 0; k < 3; ++k) {
+    mode = solver.solve(mode / mode.norm());
+    if (!mode.allFinite()) return -1;
+  }
+  Eigen::Index weakest = 0;
+  mode.cwiseAbs().maxCoeff(&weakest);
+  return static_cast<int>(weakest);
+}
+
+}  // namespace scarp

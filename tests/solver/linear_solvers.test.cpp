@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/solver/linear_solver.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+
+#include "approx.hpp"
+#include "scarp/bvp/describe_dof.hpp"
+#include "scarp/bvp/discretisation.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/core/random.hpp"
+#include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/solver/conditioning.hpp"
+#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/equilibrium_problem.hpp"
+#include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/sparse_ldlt.hpp"
+#ifdef SCARP_HAS_SUITESPARSE
+#include "scarp/solver/cholmod.hpp"
+#include "scarp/solver/umfpack.hpp"
+#define SCARP_SYMMETRIC_SOLVERS scarp::SparseLu, scarp::SparseLdlt, scarp::Cholmod, scarp::Umfpack
+#define SCARP_GENERAL_SOLVERS scarp::SparseLu, scarp::Umfpack
+#else
+#define SCARP_SYMMETRIC_SOLVERS scarp::SparseLu, scarp::SparseLdlt
+#define SCARP_GENERAL_SOLVERS scarp::SparseLu
+#endif
+
+namespace {
+
+using scarp::Reason;
+using scarp::SparseMatrix;
+
+/// Well conditioned, a third filled; symmetric positive definite or neither.
+SparseMatrix random_matrix(int size, std::uint64_t seed, bool symmetric) {
+  scarp::Random random(seed);
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+  for (auto& entry : dense.reshaped()) {
+    double const value = random.uniform(-1.0, 1.0);
+    entry = random.uniform() < 0.3 ? value : 0.0;
+  }
+  if (symmetric) dense = (dense + dense.transpose()).eval();
+  dense.diagonal().array() += size;
+  return dense.sparseView();
+}
+
+template <class Solver>
+void solves(SparseMatrix const& matrix) {
+  Eigen::VectorXd const right = Eigen::VectorXd::LinSpaced(matrix.rows(), -1.0, 2.0);
+  Solver solver;
+  REQUIRE(solver.factorize(matrix).acceptable());
+  // Round-off of a direct solver on a well-conditioned system.
+  CHECK((matrix * solver.solve(right) - right).norm() < 1e-13 * right.norm());
+  CHECK((matrix.transpose() * solver.solve_transposed(right) - right).norm() < 1e-13 * right.norm());
+}
+
+using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
+using Soil = scarp::LinearElastic<2>;
+
+/// A block of two regions side by side that do not share nodes; only the left one is held.
+Grid two_blocks() {
+  auto mesh = scarp::RectangleMesh{.width = 1.0, .height = 1.0, .columns = 3, .rows = 3}.generate();
+  int const offset = static_cast<int>(mesh.nodes.size());
+  auto const single = mesh;
+  mesh.regions = {"held", "adrift"};
+  for (auto const& node : single.nodes) mesh.nodes.emplace_back(node + scarp::Vector<2>(2.0, 0.0));
+  for (auto element : single.elements) {
+    for (int& node : element) node += offset;
+    mesh.elements.push_back(element);
+    mesh.element_region.push_back(1);
+  }
+  return Grid(mesh);
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("every linear solver solves symmetric systems, one after the other", Solver,
+                   SCARP_SYMMETRIC_SOLVERS) {
+  for (int const size : {5, 40, 40, 17}) solves<Solver>(random_matrix(size, 3, true));
+}
+
+TEST_CASE_TEMPLATE("solvers of unsymmetric systems solve them", Solver, SCARP_GENERAL_SOLVERS) {
+  for (int const size : {5, 40, 40, 17}) solves<Solver>(random_matrix(size, 4, false));
+}
+
+TEST_CASE_TEMPLATE("every linear solver says that a singular or not finite matrix cannot be solved", Solver,
+                   SCARP_SYMMETRIC_SOLVERS) {
+  SparseMatrix matrix = random_matrix(20, 5, true);
+  Solver solver;
+  matrix.coeffRef(3, 3) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(solver.factorize(matrix).reason == Reason::not_finite);
+  Eigen::MatrixXd dense = random_matrix(20, 5, true);
+  dense.row(7).setZero();
+  dense.col(7).setZero();
+  SparseMatrix const singular = dense.sparseView();
+  auto const verdict = solver.factorize(singular);
+  CHECK(verdict.reason == Reason::singular_system);
+  CHECK(solver.factorize(random_matrix(20, 5, true)).acceptable());
+}
+
+TEST_CASE("the estimate of the condition number is close below the true one") {
+  scarp::Random random(1);
+  for (int draw = 0; draw < 50; ++draw) {
+    Eigen::MatrixXd dense = random_matrix(30, static_cast<std::uint64_t>(draw), false);
+    dense.row(static_cast<int>(random.uniform(0.0, 30.0))) *= std::pow(10.0, random.uniform(-8.0, 8.0));
+    SparseMatrix const matrix = dense.sparseView();
+    scarp::SparseLu solver;
+    REQUIRE(solver.factorize(matrix).acceptable());
+    auto const norm = [](Eigen::MatrixXd const& a) { return a.cwiseAbs().colwise().sum().maxCoeff(); };
+    double const exact = norm(dense) * norm(dense.inverse());
+    double const estimate = scarp::condition_estimate(matrix, solver);
+    CHECK(estimate <= exact * (1.0 + 1e-6));
+    CHECK(estimate >= exact / 3.0);
+  }
+}
+
+TEST_CASE("a body that nothing holds is found out: a singular system, and which node of which region drifts") {
+  auto const grid = two_blocks();
+  scarp::Constraints constraints(grid.mesh());
+  for (int n = 0; n < 4; ++n) constraints.fix(n);  // the left block's bottom row
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+  Eigen::VectorXd const load = Eigen::VectorXd::Ones(grid.dof_count());
+  scarp::SerialExecutor executor;
+  scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor> problem(
+      grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, load, executor);
+  scarp::NoObserver nobody;
+  auto const run = scarp::LoadStepping{.first = 1.0}.run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0,
+                                                         1.0, nobody);
+  CHECK(run.verdict.reason == Reason::singular_system);
+  REQUIRE(run.weak_dof >= 0);
+  auto const words = describe_dof(grid.mesh(), run.weak_dof);
+  CHECK(words.find("region adrift") != std::string::npos);
+  CHECK(words.find("node ") != std::string::npos);
+}
