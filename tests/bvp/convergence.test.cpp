@@ -42,8 +42,8 @@ TEST_CASE("elements in space converge at the order of their degree") {
 }
 
 TEST_CASE("Cook's panel in plane stress has the deflection that is quoted for it") {
-  // Other codes: 23.96 at the middle of the right side for E = 1, Poisson's ratio 1/3 and unit force is the value that
-  // papers since Cook (1974) compare with. Plane strain with E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) is the same problem.
+  // Other codes: 23.96 at the middle of the right side for E = 1, Poisson's ratio 1/3 and unit force, the usual reference
+  // for this panel. Plane strain with E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) is the same problem.
   cook_membrane::Panel const panel{.young = 0.9375, .poisson = 0.25};
   CHECK(cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(16, panel).middle ==
         samples::Approx(23.96).epsilon(2e-3));
