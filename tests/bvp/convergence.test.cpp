@@ -49,7 +49,7 @@ TEST_CASE("Cook's panel has the deflections that other codes find") {
   CHECK(cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(16, sheet).middle ==
         samples::Approx(23.97).epsilon(2e-3));
   // Another code: 16.4326 in plane strain for lambda = 7500, G = 0.375 (Poisson's ratio 0.499975), the limit of its
-  // triangles; FinEALE, Cook_3D_strain.m. 32 cells miss 0.0042 of it, 64 cells 0.001.
+  // triangles; FinEtools' Matlab predecessor, function Cook_3D_strain. 32 cells miss 0.0042 of it, 64 cells 0.001.
   double const lambda = 7500.0;
   double const shear = 0.375;
   cook_membrane::Panel const rubber{.young = shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
