@@ -51,7 +51,7 @@ struct Outcome {
   double seconds = 0.0;  ///< of the sparsity, assembly and direct solve
 };
 
-/// Solves for the wave in a unit box whose outline follows it; `distortion` moves the corners at random on top of bend().
+/// Solves for the wave in a unit box whose outline follows it; `distortion` moves the corners at random before bend().
 template <class Element, class Scheme>
 Outcome solve(int cells, double distortion = 0.0) {
   constexpr int dim = Element::dim;

@@ -71,8 +71,8 @@ bool table(Choice const& choice) {
 int main(int argc, char** argv) {
   Choice choice;
   CLI::App app{"L2 and H1 errors of all elements for a manufactured solution of linear elasticity"};
-  app.add_option("--levels", choice.levels, "meshes in the plane, each half as coarse; one fewer in space")
-      ->check(CLI::Range(3, 6));
+  app.add_option("--levels", choice.levels, "meshes in the plane, each twice as fine; one fewer in space")
+      ->check(CLI::Range(4, 6));
   app.add_option("--distortion", choice.distortion, "random moves of corners, as a part of the cell's size")
       ->check(examples::number_from(0.0, true, 0.2));
   app.option_defaults()->always_capture_default();

@@ -41,12 +41,20 @@ TEST_CASE("elements in space converge at the order of their degree") {
   check_orders<scarp::Hex20, scarp::ReducedIntegration>(2, 2);
 }
 
-TEST_CASE("Cook's panel in plane stress has the deflection that is quoted for it") {
-  // Other codes: 23.96 at the middle of the right side for E = 1, Poisson's ratio 1/3 and unit force is the value that
-  // papers since Cook (1974) compare with. Plane strain with E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) is the same problem.
-  cook_membrane::Panel const panel{.young = 0.9375, .poisson = 0.25};
-  CHECK(cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(16, panel).middle ==
-        samples::Approx(23.96).epsilon(2e-3));
+TEST_CASE("Cook's panel has the deflections that other codes find") {
+  // Another code: 23.97 at the middle of the right side for plane stress, E = 1, Poisson's ratio 1/3 and unit force;
+  // FinEtools.jl, tutorials/Cook-plane-stress-tutorial.md. Plane strain with E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) is
+  // the same problem. 16 cells miss 0.0013 of it.
+  cook_membrane::Panel const sheet{.young = 0.9375, .poisson = 0.25};
+  CHECK(cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(16, sheet).middle ==
+        samples::Approx(23.97).epsilon(2e-3));
+  // Another code: 16.4326 in plane strain for lambda = 7500, G = 0.375 (Poisson's ratio 0.499975), the limit of its
+  // triangles; FinEtools' Matlab predecessor, function Cook_3D_strain. 32 cells miss 0.0042 of it, 64 cells 0.001.
+  double const lambda = 7500.0;
+  double const shear = 0.375;
+  cook_membrane::Panel const rubber{.young = shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
+                                    .poisson = lambda / (2.0 * (lambda + shear))};
+  CHECK(cook_membrane::solve<scarp::Quad4, scarp::BBar>(32, rubber).middle == samples::Approx(16.4326).epsilon(6e-3));
 }
 
 TEST_CASE("mean dilatation does not lock where every point on its own does") {

@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 #include <Eigen/Eigenvalues>
 
+#include <limits>
+#include <optional>
+
 #include "approx.hpp"
 #include "bvp/stiffness_check.hpp"
 #include "scarp/bvp/loads.hpp"
@@ -64,10 +67,20 @@ int zero_modes() {
   return zero;
 }
 
+template <int Dim, class Element>
+std::vector<scarp::Vector<Dim>> moved(scarp::Mesh<Element> const& mesh, Eigen::VectorXd const& increment) {
+  auto nodes = mesh.nodes;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    nodes[n] += increment.segment<Dim>(Dim * static_cast<int>(n));
+  }
+  return nodes;
+}
+
 template <class Element>
 constexpr int rigid_modes = Element::dim*(Element::dim + 1) / 2;
 
-/// A large increment, or nothing where small strains have no use for it.
+/// Distance of the stiffness from the derivative of the forces, at a large increment of a hyperelastic solid where the
+/// configuration moves.
 template <class Element, class Motion, class Scheme>
 double distance_of_stiffness() {
   scarp::Discretisation<Element, Motion, Scheme> const disc(
@@ -115,4 +128,48 @@ TEST_CASE("with fewer points an element has the known number of hourglass modes"
   CHECK(zero_modes<scarp::Hex8, scarp::ReducedIntegration>() == 6 + 12);
   CHECK(zero_modes<scarp::Quad8, scarp::ReducedIntegration>() == 3 + 1);
   CHECK(zero_modes<scarp::Hex20, scarp::ReducedIntegration>() == 6 + 6);
+}
+
+TEST_CASE_TEMPLATE("with mean dilatation an element has one volume change and every point its own shape change",
+                   Element, scarp::Quad4, scarp::Hex8, scarp::Tri6) {
+  constexpr int dim = Element::dim;
+  using Tensor = scarp::Tensor<dim>;
+  scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::BBar> const disc(sample::distorted_block<Element>(2));
+  constexpr auto per_element = static_cast<std::size_t>(disc.points_per_element);
+  Eigen::VectorXd const increment = sample::affine<dim>(disc.mesh().nodes, sample::general_gradient<dim>(0.2)) +
+                                    sample::random_increment(disc.dof_count(), 0.03, 12);
+  std::vector<scarp::Gradient<dim>> seen(static_cast<std::size_t>(disc.point_count()));
+  CHECK_FALSE(disc.gradients(increment, seen).has_value());
+  auto const before = disc.volumes(Eigen::VectorXd::Zero(disc.dof_count()));
+  auto const after = disc.volumes(increment);
+  for (std::size_t e = 0; e < disc.mesh().elements.size(); ++e) {
+    double start = 0.0;
+    double end = 0.0;
+    for (std::size_t p = e * per_element; p < (e + 1) * per_element; ++p) {
+      start += before[p];
+      end += after[p];
+    }
+    for (std::size_t p = e * per_element; p < (e + 1) * per_element; ++p) {
+      Tensor const deformation = Tensor::Identity() + seen[p];
+      CHECK(deformation.determinant() == samples::Approx(end / start).epsilon(1e-13));  // analytic; round-off
+      auto const rows = scarp::corners<Element, dim>(disc.mesh().elements[e], disc.mesh().nodes);
+      auto const ends = scarp::corners<Element, dim>(disc.mesh().elements[e], moved<dim>(disc.mesh(), increment));
+      auto const shape = scarp::spatial_shape<Element>(rows, disc.local_point(static_cast<int>(p)));
+      Tensor const own = ends.transpose() * shape.gradients;
+      Tensor const without_volume = own / std::pow(own.determinant(), 1.0 / dim);
+      CHECK((deformation / std::pow(end / start, 1.0 / dim) - without_volume).norm() < 1e-13);  // as above
+    }
+  }
+}
+
+TEST_CASE("an element that is turned inside out is named also with mean dilatation") {
+  scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::BBar> const disc(
+      scarp::BoxMesh<scarp::Quad4>{.cells = {2, 1}}.generate());
+  Eigen::VectorXd increment = Eigen::VectorXd::Zero(disc.dof_count());
+  std::vector<scarp::Gradient<2>> gradients(8);
+  CHECK_FALSE(disc.gradients(increment, gradients).has_value());
+  increment(2 * disc.mesh().elements[1][2]) = -0.9;  // the upper right corner of the second element, past its left side
+  CHECK(disc.gradients(increment, gradients) == std::optional<int>(1));
+  increment(0) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(disc.gradients(increment, gradients) == std::optional<int>(0));
 }

@@ -115,7 +115,7 @@ scarp::Vector<Element::dim> inner_point() {
   return reference_nodes<Element>().colwise().mean().transpose() + scarp::Vector<Element::dim>::LinSpaced(0.03, 0.11);
 }
 
-/// \f$ \int \prod_i x_i^{k_i} \f$ over the reference cell. Analytic: products of one-dimensional integrals on [-1, 1]^d;
+/// \f$ \int \prod_i x_i^{k_i} \f$ over the reference cell. Analytic: products of integrals on [-1, 1];
 /// \f$ \prod k_i! / (d + \sum k_i)! \f$ on the unit simplex.
 template <class Element>
 double moment(std::array<int, 3> const& powers) {

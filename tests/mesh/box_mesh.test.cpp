@@ -119,8 +119,8 @@ TEST_CASE_TEMPLATE("neighbours share all nodes of their common side", Element, A
 }
 
 TEST_CASE("numbers of nodes and elements are those of the grid") {
-  // Analytic, 2 x 3 (x 3) cells: corners 3 * 4 (* 4); edges of squares 2 * 4 + 3 * 3 = 17, of cubes 2*4*4 + 3*3*4 + 3*4*3
-  // = 104; diagonals one per square: 6; of cubes one per face (2*3*4 + 2*4*3 + 3*3*3 = 75) and one per cell (18).
+  // Analytic, 2 x 3 (x 3) cells: corners 3 * 4 (* 4); edges of squares 2 * 4 + 3 * 3 = 17, of cubes 2*4*4 + 3*3*4 +
+  // 3*4*3 = 104; diagonals one per square: 6; of cubes one per face (2*3*4 + 2*4*3 + 3*3*3 = 75) and one per cell (18).
   auto const size = [](auto const& mesh) { return std::pair(mesh.nodes.size(), mesh.elements.size()); };
   using Pair = std::pair<std::size_t, std::size_t>;
   CHECK(size(distorted_box<scarp::Tri3>().generate()) == Pair(12, 12));
@@ -143,8 +143,8 @@ TEST_CASE_TEMPLATE("a map to a ring sector bends quadratic sides", Element, scar
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) {
     CHECK(mesh.nodes[static_cast<std::size_t>(node)].norm() == samples::Approx(1.0).epsilon(1e-15));
   }
-  // Analytic: 3 pi / 4. A chord of half-angle a = pi/32 with its middle on the circle is off by about a^4/30 = 3e-6 of the
-  // length; straight sides would be off by a^2/6 = 2e-3.
+  // Analytic: 3 pi / 4. A chord of half-angle a = pi/32 with its middle on the circle is off by about a^4/30 = 3e-6 of
+  // the length; straight sides would be off by a^2/6 = 2e-3.
   CHECK(volume(mesh) == samples::Approx(0.75 * std::numbers::pi).epsilon(1e-5));
 }
 

@@ -16,7 +16,8 @@ namespace scarp {
 /// Finite elements on a mesh: displacement increments to gradients at the integration points, stresses at the points to
 /// nodal forces and stiffness. Knows no material; keeps only the committed positions of the nodes.
 /// Degree of freedom = dim * node + axis; point = (number of an element's material points) * element + its own number,
-/// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input gives the same bits.
+/// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
+/// gives the same bits.
 template <ReferenceElement Element, Kinematics Motion = UpdatedLagrangian, class Scheme = FullIntegration>
   requires Integration<Scheme, Element>
 class Discretisation {
@@ -37,13 +38,13 @@ class Discretisation {
   Mesh<Element> const& mesh() const { return mesh_; }
   double thickness() const { return thickness_; }
   int node_count() const { return detail::count(mesh_.nodes); }
-  /// The point's place on the reference element; its weight is that of Scheme.
+  int dof_count() const { return dim * node_count(); }
+  int point_count() const { return points_per_element * detail::count(mesh_.elements); }
+
+  /// Where a point is on the reference element, with its weight.
   static QuadraturePoint<dim> local_point(int point) {
     return Scheme::template points<Element>()[detail::index(point % points_per_element)];
   }
-
-  int dof_count() const { return dim * node_count(); }
-  int point_count() const { return points_per_element * detail::count(mesh_.elements); }
 
   /// Committed positions of the nodes [m].
   std::vector<Vector<dim>> const& positions() const { return positions_; }
@@ -75,7 +76,7 @@ class Discretisation {
     return inverted;
   }
 
-  /// \f$ f_{a} = \int \sigma \nabla N_a\,dv \f$ [N]; out: shape (dof_count), overwritten
+  /// \f$ f_{a} = \int \sigma \nabla N_a\,dv \f$ [N] as Scheme sums it; out: shape (dof_count), overwritten
   /// stresses [Pa] at the end of the increment, shape (point_count)
   void internal_force(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                       Eigen::VectorXd& out) const {

@@ -27,14 +27,14 @@ struct ShapeChangeRule {
 /// that keeps its volume binds an element once and not at every point. In the plane the split is one of the plane,
 /// with dim = 2: \f$ \varepsilon_{zz} \f$ stays zero.
 /// Made for Quad4 and Hex8; with one volume change per element a quadratic element converges only like a linear one.
-/// Small strain: \f$ \bar G = G + \tfrac1{dim} (\overline{tr\,G} - tr\,G) I \f$ with the mean over the element's volume,
+/// Small strain: \f$ \bar G = G + \tfrac1{dim} (\overline{tr\,G} - tr\,G) I \f$ with the mean over the element,
 /// Hughes, Int. J. Numer. Meth. Engng 15 (1980) 1413.
 /// Large: \f$ \bar F = (\bar J / J)^{1/dim} F \f$ with \f$ \bar J \f$ the element's volume at the end over that at the
 /// start, Simo, Taylor and Pister, Comput. Meth. Appl. Mech. Engng 51 (1985) 177. Forces are the virtual power of
 /// \f$ \bar F \f$'s velocity over the points' volumes v at the end:
 /// \f$ f_a = \sum_p v\,(\sigma \nabla N_a + s\,(\overline{\nabla N_a} - \nabla N_a)),\; s = tr(\sigma)/dim \f$
-/// The original weighs by the volumes that \f$ \bar J \f$ gives instead, which makes a hyperelastic stiffness symmetric;
-/// the two differ where the volume change varies within an element.
+/// The original weighs by the volumes that \f$ \bar J \f$ gives instead, which makes a hyperelastic stiffness
+/// symmetric; the two differ where the volume change varies within an element.
 template <class Rule>
 struct MeanDilatation {
   template <class Element>

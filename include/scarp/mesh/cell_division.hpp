@@ -18,7 +18,7 @@ template <class Element>
 inline constexpr bool is_cube = Element::nodes == 1 << Element::dim;
 
 /// Vertices of a cell are numbered by bits: bit i is set on the upper side along axis i. Kuhn's division along the
-/// cell's diagonal from vertex 0: two triangles or six tetrahedra, one for each order of the axes; neighbouring cells fit.
+/// cell's diagonal from vertex 0: two triangles or six tetrahedra, one for each order of the axes; neighbours fit.
 template <class Element>
   requires is_simplex<Element> std::vector<std::array<int, Element::nodes>> cell_division() {
     constexpr int dim = Element::dim;
