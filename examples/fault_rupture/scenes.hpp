@@ -46,8 +46,8 @@ inline void set(scarp::BareGround&, Choice const&) {}
 inline void set(scarp::StickingFooting& structure, Choice const& choice) { structure.footing = footing_of(choice); }
 inline void set(RigidFooting& structure, Choice const& choice) {
   structure.footing = footing_of(choice);
-  // Overlap of a tenth of a millimetre under the heavy footing: small against any settlement.
-  structure.interface = {.normal_stiffness = 1e9, .tangential_stiffness = 1e9, .friction = choice.base_friction};
+  // Overlap of a millimetre under the heavy footing: small against any settlement, and soft enough for the solver.
+  structure.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = choice.base_friction};
 }
 
 /// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/LU>
-
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/facet_chain.hpp"
 #include "scarp/bvp/interface_point.hpp"
@@ -16,7 +14,6 @@ namespace scarp {
 template <class Body>
 concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k, std::vector<Vector<2>> const& nodes,
                                 Eigen::VectorXd const& increment) {
-  { Body::own_dofs } -> std::convertible_to<int>;
   { constant.extra_dofs() } -> std::same_as<int>;
   { constant.point_count() } -> std::same_as<std::size_t>;
   { constant.area(k) } -> std::same_as<double>;
@@ -63,35 +60,6 @@ class Interface {
     return {};
   }
 
-  /// Moves the standing body's own degrees of freedom, the nodes held, until its forces are those of `load`: a few Newton steps on a
-  /// system of their number, shortened where they would not help. Without this a heavy ground's tolerance would hide a light body's imbalance.
-  void balance(std::vector<Vector<2>> const& nodes, Eigen::VectorXd& increment, Eigen::VectorXd const& load) {
-    constexpr int own = Body::own_dofs;
-    if constexpr (own > 0) {
-      using Own = Eigen::Matrix<double, own, 1>;
-      auto const first = static_cast<Eigen::Index>(2 * nodes.size());
-      Own const wanted = load.template segment<own>(first);
-      Own unbalanced = own_forces(nodes, increment) - wanted;
-      constexpr int most_steps = 40;
-      for (int k = 0; k < most_steps && unbalanced.norm() > 1e-13 * wanted.norm(); ++k) {
-        Own const step = -own_stiffness(first).partialPivLu().solve(unbalanced);
-        if (!step.allFinite()) return;
-        double share = 1.0;
-        constexpr double least_share = 1e-3;
-        for (Eigen::VectorXd const start = increment; share >= least_share; share *= 0.5) {
-          increment.template segment<own>(first) = start.template segment<own>(first) + share * step;
-          Own const left = own_forces(nodes, increment) - wanted;
-          bool const better = left.norm() < unbalanced.norm();
-          if (!better && share * 0.5 >= least_share) continue;
-          if (!better) increment = start;
-          unbalanced = better ? left : unbalanced;
-          break;
-        }
-        if (share < 2.0 * least_share) return;
-      }
-    }
-  }
-
   void add_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
     for (std::size_t k = 0; k < trial_.size(); ++k) {
       Tensor<2> const stiffness = body_.area(k) * trial_[k].stiffness;
@@ -107,41 +75,17 @@ class Interface {
     committed_ = trial_;
   }
 
-  /// State of the last evaluation, point by point.
+  /// The committed state, point by point.
   std::vector<InterfacePoint> points() const {
     std::vector<InterfacePoint> all;
-    for (std::size_t k = 0; k < trial_.size(); ++k) {
-      State const& state = trial_[k];
+    for (std::size_t k = 0; k < committed_.size(); ++k) {
+      State const& state = committed_[k];
       all.push_back({state.place, body_.area(k), stress_vector(state), state.pressure, state.shear, -state.overlap});
     }
     return all;
   }
 
  private:
-  Eigen::Matrix<double, Body::own_dofs, 1> own_forces(std::vector<Vector<2>> const& nodes,
-                                                      Eigen::VectorXd const& increment) {
-    Eigen::VectorXd forces = Eigen::VectorXd::Zero(increment.size());
-    static_cast<void>(add_forces(nodes, increment, forces));
-    return forces.tail(Body::own_dofs);
-  }
-
-  /// With a trace of stiffness everywhere, lest a body that floats or slides make it singular.
-  Eigen::Matrix<double, Body::own_dofs, Body::own_dofs> own_stiffness(Eigen::Index first) const {
-    Eigen::Matrix<double, Body::own_dofs, Body::own_dofs> stiffness;
-    stiffness.setZero();
-    std::vector<Eigen::Triplet<double>> entries;
-    add_stiffness(entries);
-    for (auto const& entry : entries) {
-      if (entry.row() >= first && entry.col() >= first)
-        stiffness(entry.row() - first, entry.col() - first) += entry.value();
-    }
-    auto const closed = law_.stiffness(0.0, 0.0);
-    double area = 0.0;
-    for (std::size_t k = 0; k < trial_.size(); ++k) area += body_.area(k);
-    stiffness.diagonal().array() += 1e-6 * area * closed.normal;
-    return stiffness;
-  }
-
   struct State {
     FacetChain::Foot foot{};
     Memory memory{};

@@ -52,8 +52,7 @@ class RigidFooting {
   RigidBody const& body() const { return body_; }
   int first_dof() const { return first_; }
 
-  static constexpr int own_dofs = RigidBody::extra_dofs;
-  static int extra_dofs() { return own_dofs; }
+  static int extra_dofs() { return RigidBody::extra_dofs; }
   std::size_t point_count() const { return own_.size(); }
   double area(std::size_t k) const { return area_[k]; }
   Vector<2> place(std::size_t k, std::vector<Vector<2>> const&) const { return body_.place(own_[k]); }
@@ -92,8 +91,7 @@ class MeshedFooting {
     }
   }
 
-  static constexpr int own_dofs = 0;
-  static int extra_dofs() { return own_dofs; }
+  static int extra_dofs() { return 0; }
   std::size_t point_count() const { return at_.size(); }
   double area(std::size_t k) const { return area_[k]; }
   Vector<2> place(std::size_t k, std::vector<Vector<2>> const& nodes) const { return base_.place(at_[k], nodes); }

@@ -17,10 +17,11 @@ namespace scarp {
 /// Forces that an increment of displacement meets.
 struct Evaluation {
   Eigen::VectorXd unbalanced;  ///< internal minus external force of all degrees of freedom [N]
-  double residual = 0.0;       ///< |unbalanced| over free dofs / |reactions|, Euclidean norms
-  Verdict verdict;             ///< of the worst point
-  int worst_point = -1;        ///< that is not acceptable, -1 for none
-  long inner_steps = 0;        ///< DEM steps of all points
+  /// |unbalanced| over free dofs / |reactions|, Euclidean norms; where that is larger, that of what stands on the mesh over its loads
+  double residual = 0.0;
+  Verdict verdict;       ///< of the worst point
+  int worst_point = -1;  ///< that is not acceptable, -1 for none
+  long inner_steps = 0;  ///< DEM steps of all points
 };
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
@@ -98,13 +99,6 @@ class EquilibriumProblem {
       materials_.plan(point, gradients_[static_cast<std::size_t>(point)]);
     }
     return {};
-  }
-
-  /// Brings what is attached into balance with its own loads, the nodes held, where it can do so by itself.
-  void balance_attached(Eigen::VectorXd& increment) {
-    if constexpr (requires { attached_.balance(discretisation_.positions(), increment, load_now_); }) {
-      if (increment.allFinite()) attached_.balance(discretisation_.positions(), increment, load_now_);
-    }
   }
 
   /// Lets every point respond to an increment from its committed state and adds up the forces.
@@ -254,9 +248,19 @@ class EquilibriumProblem {
     // A body held nowhere has no reactions: measure against the loads.
     double const scale = prescribed > 0.0 ? prescribed : load_now_.squaredNorm();
     evaluation.residual = free == 0.0 ? 0.0 : std::sqrt(free / scale);
+    if constexpr (!is_bare) evaluation.residual = std::max(evaluation.residual, own_residual(evaluation.unbalanced));
     if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable()) {
       evaluation.verdict = {Status::failed, Reason::not_finite};
     }
+  }
+
+  /// Imbalance of a body beside the mesh relative to its own loads: the reactions of a heavy ground would hide it.
+  double own_residual(Eigen::VectorXd const& unbalanced) const {
+    int const first = discretisation_.dof_count();
+    double free = 0.0;
+    for (int const dof : free_dofs_) free += dof < first ? 0.0 : unbalanced(dof) * unbalanced(dof);
+    double const scale = load_now_.tail(dof_count() - first).norm();
+    return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
   }
 
   DiscretisationType discretisation_;

@@ -83,7 +83,6 @@ struct QuasiNewton {
       for (;;) {
         report.history.emplace_back();
         report.history.back().linear_residual = linear_residual;
-        problem_.balance_attached(increment);
         Evaluation evaluation = recorded(report, [&] { return problem_.evaluate(increment); });
         // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
         for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
