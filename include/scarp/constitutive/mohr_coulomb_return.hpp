@@ -106,16 +106,19 @@ class MohrCoulombReturn {
       flows.col(k) = chosen.flow;
       excess(k) = chosen.normal.dot(trial) - chosen.limit;
     }
-    Eigen::Matrix<double, Count, Count> const coupling = normals.transpose() * stiffness_ * flows;
-    Eigen::FullPivLU<Eigen::Matrix<double, Count, Count>> const solver(coupling);
-    if (Count > 1 && !solver.isInvertible()) return {};
-    Eigen::Matrix<double, Count, 1> const multipliers = solver.solve(excess);
+    using Square = Eigen::Matrix<double, Count, Count>;
+    Square const coupling = normals.transpose() * stiffness_ * flows;
+    // Planes whose flows oppose one plastic strain only, such as all three of a frictionless prism, are no corner.
+    double const size = coupling.diagonal().prod();
+    if (!(std::abs(coupling.determinant()) > 1e-10 * std::abs(size))) return {};
+    Square const inverse = coupling.inverse();
+    Eigen::Matrix<double, Count, 1> const multipliers = inverse * excess;
     if (!((multipliers.array() * stiffness_(0, 0)).minCoeff() >= -slack)) return {};
     PrincipalReturn result;
     result.plastic_strain = flows * multipliers;
     result.stress = trial - stiffness_ * result.plastic_strain;
     if (!admissible(result.stress, slack)) return {};
-    result.tangent = stiffness_ - stiffness_ * flows * solver.solve(normals.transpose() * stiffness_);
+    result.tangent = stiffness_ - stiffness_ * flows * inverse * normals.transpose() * stiffness_;
     result.planes = Count;
     result.found = true;
     return result;
