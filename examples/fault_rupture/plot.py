@@ -6,6 +6,7 @@ import sys
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import footing_figures
 import numpy as np
 import scarp_figures as figures
 from matplotlib.collections import PolyCollection
@@ -286,6 +287,16 @@ def convergence(folder):
     return fig
 
 
+def figures_of(folder):
+    """Those that the files of a run have something for: analytic soils have no packing, free fields no footing."""
+    chosen = {"deformation": deformation, "strain_development": strain_development, "surface": surface,
+              "probes": probes, "convergence": convergence}
+    if (folder / "packing_grains.csv").exists():
+        chosen |= {"packing": packing, "fabric": fabric}
+    if (folder / "footing.csv").exists():
+        chosen |= {"footing": footing_figures.footing, "base_pressure": footing_figures.base_pressure}
+    return chosen
+
+
 if __name__ == "__main__":
-    figures.draw_all({"packing": packing, "deformation": deformation, "strain_development": strain_development,
-                      "surface": surface, "probes": probes, "fabric": fabric, "convergence": convergence})
+    figures.draw_all(figures_of(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")))

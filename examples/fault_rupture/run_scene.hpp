@@ -19,7 +19,8 @@ namespace fault_rupture {
 
 /// An older, longer series would be mixed up with the new one, and an old summary would speak for it.
 inline void remove_older_results(std::filesystem::path const& folder) {
-  for (auto const* name : {"fields.pvd", "summary.json", "summary.txt", "footing.csv", "footing_base.csv"})
+  for (auto const* name : {"fields.pvd", "summary.json", "summary.txt", "footing.csv", "footing_base.csv",
+                           "packing_grains.csv", "packing_contacts.csv"})
     std::filesystem::remove(folder / name);
   for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
     std::string const name = file.path().filename().string();

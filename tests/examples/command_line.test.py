@@ -85,6 +85,10 @@ def check_bad_input():
     check_refusal(FAULT, "negative size", "--size", "-1", "--size")
     check_refusal(FAULT, "NaN size", "--size", "nan", "--size")
     check_refusal(FAULT, "dip beyond the vertical", "--dip", "91", "--dip")
+    check_refusal(FAULT, "unknown case", "--case", "middling", "--case")
+    check_refusal(FAULT, "unknown soil", "--soil", "cheese", "--soil")
+    check_refusal(FAULT, "unknown footing", "--footing", "flying", "--footing")
+    check_refusal(FAULT, "negative bearing pressure", "--bearing-pressure", "-1", "--bearing-pressure")
     check_refusal(FAULT, "negative threads", "--threads", "-2", "--threads")
     # These pass the command line; the scene refuses them.
     check_refusal(FAULT, "tip outside the domain", "--tip", "100", "fault tip is at x = 100 m")
