@@ -11,7 +11,10 @@ namespace scarp {
 class LoadHistory {
  public:
   /// The same at every load factor. forces: shape (degrees of freedom)
-  LoadHistory(Eigen::VectorXd dead_load) { add(std::move(dead_load), TimeFunction::constant(1.0)); }
+  template <class Derived>
+  LoadHistory(Eigen::MatrixBase<Derived> const& dead_load) {
+    add(dead_load, TimeFunction::constant(1.0));
+  }
 
   /// \throws InputError for a pattern of another size or one that is not finite
   void add(Eigen::VectorXd forces, TimeFunction course) {
