@@ -15,6 +15,7 @@
 #include "scarp/homogenise/sliding_aware_tangent.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
+#include "scarp/solver/thread_executor.hpp"
 
 namespace {
 
