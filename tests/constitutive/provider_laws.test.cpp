@@ -3,8 +3,12 @@
 
 #include "dem/sample_packings.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/dormant.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/constitutive/recorded.hpp"
+#include "scarp/constitutive/varied_parameters.hpp"
 
 namespace provider_laws {
 
@@ -21,6 +25,63 @@ struct Sample<scarp::LinearElastic<Dim>> {
   static Provider provider() { return Provider::from_lame(3e6, 2e6); }
   static State state(Provider const&) { return {VoigtStress<Dim>::LinSpaced(-5e5, 1e5)}; }
   static bool same(State const& a, State const& b) { return a.stress == b.stress; }
+};
+
+/// Cohesion keeps all increments of the laws well inside the surface, where the answer is smooth.
+template <int Dim>
+struct Sample<scarp::MohrCoulomb<Dim>> : Sample<scarp::LinearElastic<Dim>> {
+  using Provider = scarp::MohrCoulomb<Dim>;
+  using State = typename Provider::State;
+
+  static Provider provider() {
+    return {scarp::IsotropicElasticity::from_lame(3e6, 2e6), {{.cohesion = 1e6, .friction = 0.5}}, {}};
+  }
+  static State state(Provider const& provider) {
+    State state = provider.initial_state({});
+    state.stress = VoigtStress<3>::LinSpaced(-5e5, 1e5);
+    if (Dim == 2) state.stress.template segment<2>(3).setZero();  // nothing shears out of the plane
+    return state;
+  }
+  static bool same(State const& a, State const& b) {
+    return a.stress == b.stress && a.plastic_shear == b.plastic_shear && a.tangent == b.tangent;
+  }
+};
+
+/// An adaptor around plane elasticity obeys the laws as that does.
+struct AdaptedElastic : Sample<scarp::LinearElastic<2>> {
+  using Inner = scarp::LinearElastic<2>;
+  static Inner inner() { return Sample<Inner>::provider(); }
+  static bool same(auto const& a, auto const& b) { return a.own.stress == b.own.stress; }
+  static auto state(auto const& provider) {
+    auto state = provider.initial_state({});
+    state.own = Sample<Inner>::state(inner());
+    return state;
+  }
+};
+
+template <>
+struct Sample<scarp::Recorded<scarp::LinearElastic<2>>> : AdaptedElastic {
+  static scarp::Recorded<Inner> provider() { return {inner(), {}}; }
+  static bool same(auto const& a, auto const& b) {
+    return a.own.stress == b.own.stress && a.history.size() == b.history.size();
+  }
+};
+
+template <>
+struct Sample<scarp::VariedParameters<scarp::LinearElastic<2>>> : AdaptedElastic {
+  static scarp::VariedParameters<Inner> provider() {
+    return {{}, [](Inner const&, scarp::Site<2> const&) { return inner(); }};
+  }
+};
+
+template <>
+struct Sample<scarp::Dormant<scarp::LinearElastic<2>>> : AdaptedElastic {
+  static scarp::Dormant<Inner> provider() { return {inner()}; }
+  static auto state(scarp::Dormant<Inner> const& provider) {
+    auto state = AdaptedElastic::state(provider);
+    state.awake = true;
+    return state;
+  }
 };
 
 template <class PackingType>
@@ -49,38 +110,37 @@ using ElasticInPlane = scarp::LinearElastic<2>;
 using ElasticInSpace = scarp::LinearElastic<3>;
 using RveOfDiscs = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>;
 using RveOfEllipses = scarp::DemRve<samples::Ellipses, scarp::SamePacking<samples::Ellipses>>;
+#define EVERY_PROVIDER                                                                                     \
+  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses, \
+      scarp::Recorded<ElasticInPlane>, scarp::VariedParameters<ElasticInPlane>, scarp::Dormant<ElasticInPlane>
 
-TEST_CASE_TEMPLATE("every provider: committed state is never touched", Provider, ElasticInPlane, ElasticInSpace,
-                   RveOfDiscs, RveOfEllipses) {
+TEST_CASE_TEMPLATE("every provider: committed state is never touched", Provider, EVERY_PROVIDER) {
   provider_laws::committed_state_is_never_touched<Provider>();
 }
 
 TEST_CASE_TEMPLATE("every provider: the same input gives the same bits, whatever the trial state held", Provider,
-                   ElasticInPlane, ElasticInSpace, RveOfDiscs, RveOfEllipses) {
+                   EVERY_PROVIDER) {
   provider_laws::same_input_gives_the_same_bits<Provider>();
 }
 
-TEST_CASE_TEMPLATE("every provider: a zero increment changes nothing", Provider, ElasticInPlane, ElasticInSpace,
-                   RveOfDiscs, RveOfEllipses) {
+TEST_CASE_TEMPLATE("every provider: a zero increment changes nothing", Provider, EVERY_PROVIDER) {
   provider_laws::a_zero_increment_changes_nothing<Provider>();
 }
 
-TEST_CASE_TEMPLATE("every provider: a rotation turns the stress", Provider, ElasticInPlane, ElasticInSpace, RveOfDiscs,
-                   RveOfEllipses) {
+TEST_CASE_TEMPLATE("every provider: a rotation turns the stress", Provider, EVERY_PROVIDER) {
   provider_laws::a_rotation_turns_the_stress<Provider>();
 }
 
 TEST_CASE_TEMPLATE("every provider: the tangent is the derivative of the stress, or an upper bound of it", Provider,
-                   ElasticInPlane, ElasticInSpace, RveOfDiscs, RveOfEllipses) {
+                   EVERY_PROVIDER) {
   provider_laws::the_tangent_is_the_derivative_or_bounds_it<Provider>();
 }
 
-TEST_CASE_TEMPLATE("every provider: an increment that is no number fails with a reason", Provider, ElasticInPlane,
-                   ElasticInSpace, RveOfDiscs, RveOfEllipses) {
+TEST_CASE_TEMPLATE("every provider: an increment that is no number fails with a reason", Provider, EVERY_PROVIDER) {
   provider_laws::not_a_number_fails_with_a_reason<Provider>();
 }
 
 TEST_CASE_TEMPLATE("every provider: a tiny increment moves the stress no further than the tangent allows", Provider,
-                   ElasticInPlane, ElasticInSpace, RveOfDiscs, RveOfEllipses) {
+                   EVERY_PROVIDER) {
   provider_laws::the_answer_does_not_jump<Provider>();
 }

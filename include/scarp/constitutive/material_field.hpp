@@ -82,6 +82,12 @@ class ProviderField {
   /// The trial states become the committed ones.
   void commit() { committed_.swap(trial_); }
 
+  /// visit(state) may change a committed state, between load steps.
+  template <class Visit>
+  void for_each_committed(Visit&& visit) {
+    for (State& state : committed_) visit(state);
+  }
+
  private:
   static std::size_t number(int point) { return static_cast<std::size_t>(point); }
 

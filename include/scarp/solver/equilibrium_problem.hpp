@@ -186,6 +186,12 @@ class EquilibriumProblem {
     materials_.commit();
   }
 
+  /// visit(state) may change the points' committed states; between runs only, since a solver's session remembers tangents.
+  template <class Visit>
+  void for_each_committed(Visit&& visit) {
+    materials_.for_each_committed(visit);
+  }
+
  private:
   static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
   static_assert(is_bare || Attachment<Attached, dim>);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/core/error.hpp"
+
+namespace scarp {
+
+/// A provider of its own for every point, made from a common one and the point's site, as from a random field:
+/// \code
+/// CorrelatedField<2> const field({.lengths = {20.0, 2.0}, .seed = 7});
+/// Lognormal const young{.mean = 20e6, .variation = 0.4};
+/// VariedParameters<LinearElastic<2>> soil{{}, [=](LinearElastic<2> const&, Site<2> const& site) {
+///   return LinearElastic<2>::from_young_poisson(young.of(field(site.position)), 0.3);
+/// }};
+/// \endcode
+/// States share their point's provider; a copy of a state does not copy it.
+template <ConstitutiveProvider Provider>
+struct VariedParameters {
+  static constexpr int dim = Provider::dim;
+  using Plan = PlanOf<Provider>;
+
+  struct State {
+    std::shared_ptr<Provider const> provider;
+    typename Provider::State own;
+  };
+
+  Provider common{};
+  std::function<Provider(Provider const&, Site<dim> const&)> vary{};
+
+  /// \throws InputError without a function that varies, and whatever that function throws
+  State initial_state(Site<dim> const& site) const {
+    if (!vary) {
+      refuse("point {} has no parameters of its own (no function varies the common ones): give `vary`", site.index);
+    }
+    auto own = std::make_shared<Provider const>(vary(common, site));
+    auto state = own->initial_state(site);
+    return {std::move(own), std::move(state)};
+  }
+
+  VoigtStress<dim> stress(State const& state) const { return state.provider->stress(state.own); }
+  VoigtTangent<dim> tangent(State const& state) const { return state.provider->tangent(state.own); }
+
+  Plan plan(State const& committed, Gradient<dim> const& increment) const requires PlansWork<Provider> {
+    return committed.provider->plan(committed.own, increment);
+  }
+
+  /// As the common provider does: a plan knows no point.
+  Plan refined(Plan const& plan) const requires PlansWork<Provider> { return common.refined(plan); }
+
+  /// \param plan the provider's, or none
+  template <class... PlanType>
+  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial,
+                        PlanType const&... plan) const {
+    trial.provider = committed.provider;
+    return committed.provider->respond(committed.own, increment, trial.own, plan...);
+  }
+};
+
+}  // namespace scarp

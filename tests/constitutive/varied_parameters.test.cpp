@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/constitutive/varied_parameters.hpp"
+
+#include <doctest/doctest.h>
+
+#include "approx.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/material_field.hpp"
+#include "scarp/core/correlated_field.hpp"
+
+namespace {
+
+using Elastic = scarp::LinearElastic<2>;
+using Varied = scarp::VariedParameters<Elastic>;
+
+static_assert(scarp::ConstitutiveProvider<Varied> && !scarp::PlansWork<Varied>);
+
+Varied random_soil() {
+  scarp::CorrelatedField<2> const field({.lengths = {20.0, 2.0}, .seed = 7});
+  scarp::Lognormal const young{.mean = 20e6, .variation = 0.4};
+  return {{}, [=](Elastic const&, scarp::Site<2> const& site) {
+            return Elastic::from_young_poisson(young.of(field(site.position)), 0.3);
+          }};
+}
+
+scarp::Site<2> place(int index, double x, double y) {
+  return {.index = index, .region = 0, .position = {x, y}, .depth = 0.0};
+}
+
+}  // namespace
+
+TEST_CASE("every point answers with the parameters of its own place") {
+  std::vector<scarp::Site<2>> sites;
+  for (int k = 0; k < 50; ++k) sites.push_back(place(k, 3.0 * k, 0.1 * k));
+  auto const soil = random_soil();
+  scarp::ProviderField<Varied> points(soil, sites);
+  scarp::Gradient<2> stretch = scarp::Gradient<2>::Zero();
+  stretch(1, 1) = -1e-4;
+  double softest = 1e300;
+  double stiffest = 0.0;
+  for (int k = 0; k < points.point_count(); ++k) {
+    auto const own = soil.vary({}, sites[static_cast<std::size_t>(k)]);
+    auto alone = own.initial_state({});
+    CHECK(points.respond(k, stretch).stress == own.respond(alone, stretch, alone).stress);
+    CHECK(points.committed_tangent(k) == own.tangent(alone));
+    softest = std::min(softest, own.elasticity.shear_modulus);
+    stiffest = std::max(stiffest, own.elasticity.shear_modulus);
+  }
+  CHECK(stiffest > 1.5 * softest);
+}
+
+TEST_CASE("the parameters of a place depend on neither its number nor what was asked before") {
+  auto const soil = random_soil();
+  auto const first = soil.initial_state(place(0, 5.0, 6.0));
+  static_cast<void>(soil.initial_state(place(1, 70.0, 2.0)));
+  auto const again = random_soil().initial_state(place(9, 5.0, 6.0));
+  CHECK(soil.tangent(first) == soil.tangent(again));
+}
+
+TEST_CASE("copies of a state share its provider, and no function is refused") {
+  auto const soil = random_soil();
+  auto const state = soil.initial_state(place(0, 5.0, 6.0));
+  auto trial = soil.initial_state(place(1, 70.0, 2.0));
+  static_cast<void>(soil.respond(state, scarp::Gradient<2>::Zero(), trial));
+  CHECK(trial.provider == state.provider);
+  CHECK_THROWS_WITH_AS(Varied{}.initial_state(place(4, 0.0, 0.0)), doctest::Contains("point 4"), scarp::InputError);
+}
