@@ -20,6 +20,7 @@ struct Outcome {
   double answer = 0.0;
   scarp::RunReport run{};
   double seconds = 0.0;  ///< of the processor, mesh and set-up included
+  std::string note{};    ///< what kept the answer from being one
 };
 
 class Stopwatch {
@@ -51,7 +52,8 @@ struct Series {
       auto const& one = outcomes[k];
       fmt::print("{:<34} {:8} {:6} {:10.5g} {:10.5g} {:8.3f} {:>5} {:>10} {:5} {:5} {:7.2f}{}\n", k == 0 ? what : "",
                  one.elements, one.dofs, one.answer, formula, 100.0 * error(k), order(k), limit(k), one.run.steps,
-                 one.run.iterations, one.seconds, k + 1 < outcomes.size() ? "" : mark());
+                 one.run.iterations, one.seconds,
+                 (one.note.empty() ? "" : "  " + one.note) + (k + 1 < outcomes.size() ? "" : mark()));
     }
     std::fflush(stdout);
   }

@@ -29,8 +29,8 @@ bool block(std::string const& what, strip_footing::Footing const& footing, doubl
   examples::Series series{what, formula, gate};
   for (int level = 0; level < levels; ++level) {
     auto pressed = strip_footing::press<Element, Scheme>(footing, {.refinements = level});
-    pressed.outcome.answer /= unit;
-    series.outcomes.push_back(pressed.outcome);
+    pressed.answer /= unit;
+    series.outcomes.push_back(pressed);
   }
   series.print();
   return series.holds();
