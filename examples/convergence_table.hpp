@@ -60,7 +60,7 @@ struct Series {
 
  private:
   std::string order(std::size_t k) const {
-    if (k == 0 || error(k) == 0.0 || error(k - 1) * error(k) <= 0.0) return "";
+    if (k == 0 || std::abs(error(k)) < 1e-6 || error(k - 1) * error(k) <= 0.0) return "";
     return fmt::format("{:.2f}", std::log2(error(k - 1) / error(k)));
   }
   std::string limit(std::size_t k) const {

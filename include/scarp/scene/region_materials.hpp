@@ -34,8 +34,8 @@ class RegionMaterials {
 
   /// surface_level [m]: height of the ground surface, from which depths are measured
   /// \throws InputError for a region that the mesh does not have, one given twice, or one of the mesh without provider
-  template <class Element, class Motion>
-  RegionMaterials(Discretisation<Element, Motion> const& discretisation, double surface_level,
+  template <class Element, class Motion, class Scheme>
+  RegionMaterials(Discretisation<Element, Motion, Scheme> const& discretisation, double surface_level,
                   boost::hana::tuple<Region<Providers>...> const& regions)
       : where_(static_cast<std::size_t>(discretisation.point_count())),
         fields_(make_fields(discretisation, surface_level, regions, std::index_sequence_for<Providers...>{})) {
