@@ -28,8 +28,9 @@ struct Wave {
   }
 
   scarp::Vector<Dim> body_force(scarp::Vector<Dim> const& x) const {
-    return std::sin(wave.dot(x)) * ((solid.lame_lambda + solid.shear_modulus) * amplitude.dot(wave) * wave +
-                                    solid.shear_modulus * wave.squaredNorm() * amplitude);
+    auto const& [lame_lambda, shear_modulus] = solid.elasticity;
+    return std::sin(wave.dot(x)) * ((lame_lambda + shear_modulus) * amplitude.dot(wave) * wave +
+                                    shear_modulus * wave.squaredNorm() * amplitude);
   }
 };
 

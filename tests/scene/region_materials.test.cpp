@@ -5,6 +5,8 @@
 
 #include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/element/quad8.hpp"
+#include "scarp/mesh/box_mesh.hpp"
 #include "scarp/mesh/fault_mesh.hpp"
 
 namespace {
@@ -67,6 +69,18 @@ TEST_CASE("the order in which regions are named does not matter") {
   for (int point = 0; point < grid.point_count(); ++point) {
     CHECK(materials.committed_stress(point) == other.committed_stress(point));
     CHECK(materials.committed_tangent(point) == other.committed_tangent(point));
+  }
+}
+
+TEST_CASE("materials sit at the points of any integration") {
+  using Reduced = scarp::Discretisation<scarp::Quad8, scarp::SmallStrain, scarp::ReducedIntegration>;
+  Reduced const grid(scarp::BoxMesh<scarp::Quad8>{.cells = {3, 2}}.generate());
+  scarp::RegionMaterials<Soil> const materials(grid, 1.0, hana::make_tuple(soil()));
+  CHECK(materials.point_count() == 4 * 3 * 2);
+  // Analytic: -gamma z at the points' own depths.
+  for (int point = 0; point < grid.point_count(); ++point) {
+    double const depth_of_point = grid.site(point, 1.0).depth;
+    CHECK(materials.committed_stress(point)(1) == samples::Approx(-16e3 * depth_of_point).epsilon(1e-14));
   }
 }
 

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <doctest/doctest.h>
+
+#include "approx.hpp"
+#include "bvp/sample_problems.hpp"
+#include "scarp/bvp/mean_dilatation.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/element/quad8.hpp"
+#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+
+namespace {
+
+using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+
+template <int Dim>
+scarp::MohrCoulomb<Dim> clayey_sand() {
+  return {.elasticity = scarp::IsotropicElasticity::from_young_poisson(1e7, 0.3),
+          .strength = {{.cohesion = 1e3, .friction = 0.4, .dilation = 0.2}}};
+}
+
+template <class Element, class Scheme>
+using Problem =
+    scarp::EquilibriumProblem<scarp::Discretisation<Element, scarp::SmallStrain, Scheme>,
+                              scarp::ProviderField<scarp::MohrCoulomb<Element::dim>>, scarp::SerialExecutor>;
+
+template <class Element, class Scheme, class Hold>
+Problem<Element, Scheme> distorted_body(int cells, scarp::SerialExecutor& executor, Hold const& hold) {
+  scarp::Discretisation<Element, scarp::SmallStrain, Scheme> grid(sample::distorted_block<Element>(cells));
+  scarp::Constraints constraints(grid.mesh());
+  hold(grid.mesh(), constraints);
+  std::vector<scarp::Site<Element::dim>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+  scarp::ProviderField<scarp::MohrCoulomb<Element::dim>> field(clayey_sand<Element::dim>(), sites);
+  Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(grid.dof_count());
+  return {std::move(grid), std::move(field), std::move(constraints), nothing, executor};
+}
+
+/// Moves the outline of a distorted patch affinely, well beyond yielding.
+template <class Element, class Scheme = scarp::FullIntegration>
+void check_plastic_patch() {
+  constexpr int dim = Element::dim;
+  auto const gradient = sample::general_gradient<dim>(2e-3);
+  scarp::SerialExecutor executor;
+  auto problem = distorted_body<Element, Scheme>(
+      dim == 2 ? 3 : 2, executor, [&](auto const& mesh, scarp::Constraints& constraints) {
+        Eigen::VectorXd const moves = sample::affine<dim>(mesh.nodes, gradient);
+        for (int const node : sample::outline(mesh)) {
+          for (int axis = 0; axis < dim; ++axis) constraints.move(node, axis, moves(dim * node + axis));
+        }
+      });
+  REQUIRE(problem.constraints().free_count() > 0);
+  constexpr int steps = 4;
+  scarp::LoadStepping const equal{.first = 1.0 / steps, .largest = 1.0 / steps, .largest_gradient = 1.0};
+  scarp::NoObserver nobody;
+  auto const run = equal.run(Newton{.tolerance = 1e-11, .rule = {.floor = 1e-6}}, problem, 0.0, 1.0, nobody);
+  REQUIRE(run.verdict.acceptable());
+  REQUIRE(run.steps == steps);
+  // The answer of one point to the same increments: a uniform gradient is in equilibrium on any mesh.
+  auto const soil = clayey_sand<dim>();
+  auto state = soil.initial_state({});
+  for (int step = 0; step < steps; ++step) {
+    auto const before = state;
+    soil.respond(before, scarp::SmallStrain::seen<dim>(gradient / steps), state);
+  }
+  REQUIRE(state.plastic_shear > 1e-3);
+  for (int point = 0; point < problem.materials().point_count(); ++point) {
+    auto const& found = problem.materials().committed(point);
+    CHECK((found.stress - state.stress).norm() <= 1e-10 * state.stress.norm());
+    CHECK(found.plastic_shear == samples::Approx(state.plastic_shear).epsilon(1e-10));
+  }
+}
+
+struct Histories {
+  std::vector<scarp::StepReport> steps{};
+
+  template <class AnyProblem>
+  void attempted(AnyProblem const&, scarp::StepReport const& report) {
+    steps.push_back(report);
+  }
+  bool wants_stop() const { return false; }
+};
+
+/// Log-log slope of the last residuals above round-off; NaN when there are not three.
+double decay(scarp::StepReport const& step) {
+  std::vector<double> logs;
+  for (auto const& record : step.history) {
+    if (record.residual > 1e-12) logs.push_back(std::log(record.residual));
+  }
+  auto const n = logs.size();
+  if (n < 3) return std::nan("");
+  return (logs[n - 1] - logs[n - 2]) / (logs[n - 2] - logs[n - 3]);
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("a uniform plastic strain is found inside a distorted patch", Element, scarp::Tri3, scarp::Tri6,
+                   scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20) {
+  check_plastic_patch<Element>();
+}
+
+TEST_CASE("a uniform plastic strain is found with the integrations that do not lock") {
+  check_plastic_patch<scarp::Quad4, scarp::BBar>();
+  check_plastic_patch<scarp::Quad8, scarp::ReducedIntegration>();
+  check_plastic_patch<scarp::Tri6, scarp::BBar>();
+  check_plastic_patch<scarp::Hex8, scarp::BBar>();
+  check_plastic_patch<scarp::Hex20, scarp::ReducedIntegration>();
+}
+
+TEST_CASE("Newton's residuals fall quadratically on smooth plastic steps") {
+  scarp::SerialExecutor executor;
+  auto problem =
+      distorted_body<scarp::Quad4, scarp::BBar>(4, executor, [](auto const& mesh, scarp::Constraints& constraints) {
+        for (int const node : boundary_nodes(mesh, "bottom")) constraints.fix(node);
+        for (int const node : boundary_nodes(mesh, "top")) {
+          constraints.move(node, 0, 2e-3);
+          constraints.move(node, 1, -2e-3);
+        }
+      });
+  scarp::LoadStepping const stepping{.first = 0.05, .largest = 0.05, .largest_gradient = 1.0};
+  Histories histories;
+  auto const run = stepping.run(Newton{.tolerance = 1e-11}, problem, 0.0, 1.0, histories);
+  REQUIRE(run.verdict.acceptable());
+  for (auto const& step : histories.steps) {
+    std::string text;
+    for (auto const& record : step.history) text += fmt::format(" {:.2e}", record.residual);
+    MESSAGE(fmt::format("{:.2f}{} slope {:.2f}", step.load, text, decay(step)));
+  }
+}
