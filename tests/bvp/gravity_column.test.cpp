@@ -78,7 +78,8 @@ TEST_CASE("the centre of a crossed cell settles more than its corners' mean by w
     }
     // Analytic: stiffness against the excess is 8 A (M/h^2 + G/w^2) with A a quarter of the cell, w x h; the centre
     // carries a third of the cell's weight: excess = -gamma / (6 (M/h^2 + G/w^2)).
-    double const exact = -unit_weight / (6.0 * (modulus / (1.2 * 1.2) + column.soil.elasticity.shear_modulus / (1.0 * 1.0)));
+    double const exact =
+        -unit_weight / (6.0 * (modulus / (1.2 * 1.2) + column.soil.elasticity.shear_modulus / (1.0 * 1.0)));
     CHECK(column.displacement(2 * centre + 1) - mean ==
           samples::Approx(exact).epsilon(1e-9));  // difference of larger ones
   }

@@ -114,7 +114,8 @@ TEST_CASE("a column settles under its own weight by the exact parabola") {
   auto const run = scarp::LoadStepping{}.settle(scarp::QuasiNewton<>{.tolerance = 1e-10}, problem, 0.0, nobody);
   REQUIRE(run.verdict == Verdict{});
   CHECK(run.steps == 1);
-  double const modulus = sample::elastic_soil().elasticity.lame_lambda + 2.0 * sample::elastic_soil().elasticity.shear_modulus;
+  double const modulus =
+      sample::elastic_soil().elasticity.lame_lambda + 2.0 * sample::elastic_soil().elasticity.shear_modulus;
   int checked = 0;
   for (int n = 0; n < 5 * 6; ++n) {  // grid nodes come first, centres of the cells later
     // Analytic: u = -gamma (H y - y^2/2) / M, exact at the grid nodes (see bvp/gravity_column.test.cpp).
