@@ -53,7 +53,7 @@ bool factors(double degrees, Choice const& choice) {
                                            loaded.bearing_pressure(), 1.0, choice.levels, gate);
   strip_footing::Footing const flowing{.friction = friction, .dilation = 0.0};
   block<Quad8, ReducedIntegration>(fmt::format("Nc {:g} deg, rough, no dilation", degrees), flowing,
-                                   flowing.cohesion_factor(), 1.0, std::min(choice.levels, 2), std::nullopt);
+                                   flowing.cohesion_factor(), 1.0, 1, std::nullopt);
   return good;
 }
 

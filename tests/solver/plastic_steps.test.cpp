@@ -15,8 +15,8 @@ namespace {
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 
 template <int Dim>
-scarp::MohrCoulomb<Dim> clayey_sand() {
-  return {.elasticity = scarp::IsotropicElasticity::from_young_poisson(1e7, 0.3),
+scarp::MohrCoulomb<Dim> clayey_sand(double young = 1e7) {
+  return {.elasticity = scarp::IsotropicElasticity::from_young_poisson(young, 0.3),
           .strength = {{.cohesion = 1e3, .friction = 0.4, .dilation = 0.2}}};
 }
 
@@ -26,13 +26,14 @@ using Problem =
                               scarp::ProviderField<scarp::MohrCoulomb<Element::dim>>, scarp::SerialExecutor>;
 
 template <class Element, class Scheme, class Hold>
-Problem<Element, Scheme> distorted_body(int cells, scarp::SerialExecutor& executor, Hold const& hold) {
+Problem<Element, Scheme> distorted_body(int cells, scarp::SerialExecutor& executor, Hold const& hold,
+                                        double young = 1e7) {
   scarp::Discretisation<Element, scarp::SmallStrain, Scheme> grid(sample::distorted_block<Element>(cells));
   scarp::Constraints constraints(grid.mesh());
   hold(grid.mesh(), constraints);
   std::vector<scarp::Site<Element::dim>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
-  scarp::ProviderField<scarp::MohrCoulomb<Element::dim>> field(clayey_sand<Element::dim>(), sites);
+  scarp::ProviderField<scarp::MohrCoulomb<Element::dim>> field(clayey_sand<Element::dim>(young), sites);
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(grid.dof_count());
   return {std::move(grid), std::move(field), std::move(constraints), nothing, executor};
 }
@@ -72,21 +73,32 @@ void check_plastic_patch() {
   }
 }
 
-struct Histories {
+/// Steps in which the same points flow as in the step before.
+struct SmoothSteps {
   std::vector<scarp::StepReport> steps{};
+  std::vector<double> plastic_shear{};
+  std::vector<bool> flowing{};
 
   template <class AnyProblem>
-  void attempted(AnyProblem const&, scarp::StepReport const& report) {
-    steps.push_back(report);
+  void attempted(AnyProblem const& problem, scarp::StepReport const& report) {
+    std::vector<bool> now;
+    std::vector<double> shear;
+    for (int point = 0; point < problem.materials().point_count(); ++point) {
+      shear.push_back(problem.materials().committed(point).plastic_shear);
+      now.push_back(plastic_shear.empty() ? false : shear.back() > plastic_shear[static_cast<std::size_t>(point)]);
+    }
+    if (now == flowing && report.verdict.acceptable()) steps.push_back(report);
+    plastic_shear = shear;
+    flowing = now;
   }
   bool wants_stop() const { return false; }
 };
 
-/// Log-log slope of the last residuals above round-off; NaN when there are not three.
+/// Log-log slope of the last three residuals above round-off; NaN when there are not so many.
 double decay(scarp::StepReport const& step) {
   std::vector<double> logs;
   for (auto const& record : step.history) {
-    if (record.residual > 1e-12) logs.push_back(std::log(record.residual));
+    if (record.residual > 5e-11) logs.push_back(std::log(record.residual));
   }
   auto const n = logs.size();
   if (n < 3) return std::nan("");
@@ -110,21 +122,30 @@ TEST_CASE("a uniform plastic strain is found with the integrations that do not l
 
 TEST_CASE("Newton's residuals fall quadratically on smooth plastic steps") {
   scarp::SerialExecutor executor;
-  auto problem =
-      distorted_body<scarp::Quad4, scarp::BBar>(4, executor, [](auto const& mesh, scarp::Constraints& constraints) {
+  // Stiff, so that the strains are small: materials measure the stretch of an increment, small strain gives them its gradient, and
+  // their derivatives differ by the strain, which becomes a linear rate. Round-off of the strain grows with the stiffness.
+  double const young = 1e9;
+  auto problem = distorted_body<scarp::Quad4, scarp::BBar>(
+      3, executor,
+      [](auto const& mesh, scarp::Constraints& constraints) {
         for (int const node : boundary_nodes(mesh, "bottom")) constraints.fix(node);
         for (int const node : boundary_nodes(mesh, "top")) {
-          constraints.move(node, 0, 2e-3);
-          constraints.move(node, 1, -2e-3);
+          constraints.move(node, 0, 2e-5);
+          constraints.move(node, 1, -2e-5);
         }
-      });
-  scarp::LoadStepping const stepping{.first = 0.05, .largest = 0.05, .largest_gradient = 1.0};
-  Histories histories;
-  auto const run = stepping.run(Newton{.tolerance = 1e-11}, problem, 0.0, 1.0, histories);
+      },
+      young);
+  scarp::LoadStepping const stepping{.first = 0.1, .largest = 0.1, .largest_gradient = 1.0};
+  SmoothSteps smooth;
+  auto const run = stepping.run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, smooth);
   REQUIRE(run.verdict.acceptable());
-  for (auto const& step : histories.steps) {
-    std::string text;
-    for (auto const& record : step.history) text += fmt::format(" {:.2e}", record.residual);
-    MESSAGE(fmt::format("{:.2f}{} slope {:.2f}", step.load, text, decay(step)));
+  int measured = 0;
+  for (auto const& step : smooth.steps) {
+    double const slope = decay(step);
+    if (std::isnan(slope)) continue;
+    ++measured;
+    CAPTURE(step.load);
+    CHECK(slope >= 1.8);
   }
+  CHECK(measured >= 2);
 }
