@@ -18,10 +18,10 @@ using Sand = scarp::DemRve<Packing, scarp::SamePacking<Packing>>;
 
 /// What the user may choose.
 struct Choice {
-  int grains = 100;
-  std::uint64_t seed = 1;
+  int grains = 200;
+  std::uint64_t seed = 2;
   double pressure = 1e5;    ///< confining [Pa]
-  double strain = 0.01;     ///< shortening over height at the end
+  double strain = 0.02;     ///< shortening over height at the end
   double load_step = 1e-3;  ///< largest shortening of one load step
   double tolerance = 5e-3;  ///< residual of a load step
 };
