@@ -8,7 +8,8 @@
 namespace thick_cylinder {
 
 /// A circular opening in Mohr-Coulomb ground under an equal pressure from all sides, which is taken from the wall.
-/// Closed form: Salencon, Int. J. Rock Mech. Min. Sci. 6 (1969) 231; numbers as in FLAC's verification problem.
+/// Closed form: Salencon (1969), with the numbers of the verification problem "Cylindrical hole in an infinite Mohr-Coulomb
+/// medium" of FLAC and 3DEC (Itasca).
 struct Opening {
   double radius = 1.0;         ///< a [m]
   double outer = 50.0;         ///< where the mesh ends and the pressure far away acts [m]
