@@ -21,7 +21,6 @@ class RigidBody {
   /// Committed place of the reference point [m] and rotation [rad], counter-clockwise.
   Vector<2> const& reference() const { return reference_; }
   double rotation() const { return angle_; }
-  double arm() const { return arm_; }
 
   /// Where a place of the body, given relative to the reference point before any rotation [m], is now.
   Vector<2> place(Vector<2> const& own) const { return reference_ + scarp::rotation(angle_) * own; }

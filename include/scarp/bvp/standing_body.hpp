@@ -50,7 +50,6 @@ class RigidFooting {
   }
 
   RigidBody const& body() const { return body_; }
-  int first_dof() const { return first_; }
 
   static int extra_dofs() { return RigidBody::extra_dofs; }
   std::size_t point_count() const { return own_.size(); }

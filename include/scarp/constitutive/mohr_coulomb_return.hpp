@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cmath>
-#include <span>
+#include <utility>
 
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/core/tensor.hpp"
