@@ -12,7 +12,8 @@ namespace scarp {
 struct Footing {
   double centre = 0.0;  ///< horizontal position
   double width = 0.0;
-  double height = 0.0;  ///< zero: nothing is meshed above the surface
+  double height = 0.0;
+  bool meshed = true;  ///< otherwise only its place is marked, and the height does not matter
 };
 
 /// Soil layer over a fault: y = 0 is bedrock level, y = depth the ground surface, the fault meets bedrock at (tip, 0).
@@ -135,7 +136,7 @@ struct FaultMesh {
 
   Spacing footing_spacing() const { return Spacing({{depth, size}, {depth + footing->height, size}}); }
 
-  bool has_meshed_footing() const { return footing && footing->height > 0.0; }
+  bool has_meshed_footing() const { return footing && footing->meshed; }
 
   int footing_row_count() const {
     return cells_between(footing_spacing(), depth, depth + footing->height, footing_rows);
@@ -221,7 +222,7 @@ struct FaultMesh {
     }
     require_finite("centre of the footing", footing->centre);
     require_positive("width of the footing", footing->width);
-    require_not_negative("height of the footing", footing->height);
+    if (footing->meshed) require_positive("height of the footing", footing->height);
     double const from = footing_edge(-1.0);
     double const to = footing_edge(+1.0);
     if (!(from > left && to < right)) {

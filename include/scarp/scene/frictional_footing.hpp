@@ -16,7 +16,7 @@ struct FrictionalFooting {
   Law interface {};  ///< [Pa/m] where grains have [N/m]
 
   FaultMesh on(FaultMesh layer) const {
-    layer.footing = Footing{.centre = footing.centre, .width = footing.width, .height = 0.0};
+    layer.footing = Footing{.centre = footing.centre, .width = footing.width, .meshed = false};
     return layer;
   }
   static constexpr int extra_dofs() { return RigidBody::extra_dofs; }
