@@ -26,6 +26,7 @@ SCENE = """
 struct Elsewhere {{
   scarp::Verdict factorize(Eigen::SparseMatrix<double> const& matrix);
   Eigen::VectorXd solve(Eigen::VectorXd const& right) const;
+  Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const;
 }};
 scarp::RunReport run({1} const& soil) {{
   scarp::FreeFieldFault<{1}, scarp::QuasiNewton<scarp::FrozenTangent, scarp::PlainStep, Elsewhere>> const scene{{soil}};
@@ -61,6 +62,8 @@ with tempfile.TemporaryDirectory() as scratch:
     elastic = object_symbols(scratch, "elastic", SCENE.format(ELASTIC, soil, NOBODY))
     found = [line for line in elastic if DISCRETE.search(line) or OBSERVED.search(line)]
     expect(not found, "an elastic scene without observer contains:\n" + "\n".join(found[:20]))
+    found = [line for line in elastic if re.search("SparseLU|Cholesky", line)]
+    expect(not found, "a scene with a linear solver of its own contains another one:\n" + "\n".join(found[:20]))
     headers = included_headers(scratch, "elastic")
     for header in ("scarp/dem/", "scarp/shape/", "scarp/contact/", "scarp/homogenise/", "scarp/io/", "nanoflann.hpp"):
         expect(header not in headers, f"an elastic scene without observer pulls in {header}")

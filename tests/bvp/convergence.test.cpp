@@ -5,8 +5,6 @@
 #include "../../examples/mesh_orders/manufactured.hpp"
 #include "approx.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
-#include "scarp/element/hex20.hpp"
-#include "scarp/element/tet10.hpp"
 
 namespace {
 
@@ -23,22 +21,10 @@ void check_orders(int degree, int cells) {
 
 }  // namespace
 
-TEST_CASE("plane elements converge at the order of their degree") {
-  check_orders<scarp::Tri3, scarp::FullIntegration>(1, 8);
-  check_orders<scarp::Quad4, scarp::FullIntegration>(1, 8);
-  check_orders<scarp::Quad4, scarp::BBar>(1, 8);
-  check_orders<scarp::Tri6, scarp::FullIntegration>(2, 8);
-  check_orders<scarp::Quad8, scarp::FullIntegration>(2, 8);
+TEST_CASE("elements converge at the order of their degree") {
+  // The others are checked by the example itself, which ctest runs.
   check_orders<scarp::Quad8, scarp::ReducedIntegration>(2, 8);
-}
-
-TEST_CASE("elements in space converge at the order of their degree") {
-  check_orders<scarp::Tet4, scarp::FullIntegration>(1, 4);
-  check_orders<scarp::Hex8, scarp::FullIntegration>(1, 4);
   check_orders<scarp::Hex8, scarp::BBar>(1, 4);
-  check_orders<scarp::Tet10, scarp::FullIntegration>(2, 2);
-  check_orders<scarp::Hex20, scarp::FullIntegration>(2, 2);
-  check_orders<scarp::Hex20, scarp::ReducedIntegration>(2, 2);
 }
 
 TEST_CASE("Cook's panel has the deflections that other codes find") {

@@ -105,7 +105,7 @@ TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle
   double highest = 0.0;
   for (auto const& point : problem.attached().points()) {
     CHECK(point.pressure >= 0.0);
-    sum += point.pressure * point.area;
+    sum += point.stress.y() * point.area;
     if (point.pressure > 0.0) contact += point.area;
     highest = std::max(highest, point.pressure);
   }
@@ -163,7 +163,8 @@ TEST_CASE("a stiff tied interface presses an elastic bed as a rough rigid punch:
   Tied const tied{{.normal_stiffness = 1e10, .tangential_stiffness = 1e10, .friction = 0.0}, infinity, infinity};
   auto problem = bed.problem(tied, {0.0, -1e3}, 50.0);
   scarp::NoObserver nobody;
-  Newton const newton{.tolerance = 1e-8};
+  // Places of 3 m are rounded to 4e-16 m, times 1e10 Pa/m and 0.1 m2 at every point: about 1e-8 of the load.
+  Newton const newton{.tolerance = 1e-7};
   auto const run = one_step().run(newton, problem, 0.0, 1.0, nobody);
   REQUIRE(run.verdict.acceptable());
   CHECK(run.iterations <= 5);
@@ -172,7 +173,7 @@ TEST_CASE("a stiff tied interface presses an elastic bed as a rough rigid punch:
   CHECK(body.rotation() > 0.0);
   double sum = 0.0;
   for (auto const& point : problem.attached().points()) sum += point.pressure * point.area;
-  CHECK(sum == samples::Approx(1e3).epsilon(1e-7));
+  CHECK(sum == samples::Approx(1e3).epsilon(1e-6));
 }
 
 TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whether or not their nodes meet") {

@@ -39,7 +39,7 @@ Problem<Element, Scheme> distorted_body(int cells, scarp::SerialExecutor& execut
 }
 
 /// Moves the outline of a distorted patch affinely, well beyond yielding.
-template <class Element, class Scheme = scarp::FullIntegration>
+template <class Element, class Scheme>
 void check_plastic_patch() {
   constexpr int dim = Element::dim;
   auto const gradient = sample::general_gradient<dim>(2e-3);
@@ -107,17 +107,12 @@ double decay(scarp::StepReport const& step) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("a uniform plastic strain is found inside a distorted patch", Element, scarp::Tri3, scarp::Tri6,
-                   scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20) {
-  check_plastic_patch<Element>();
-}
-
-TEST_CASE("a uniform plastic strain is found with the integrations that do not lock") {
-  check_plastic_patch<scarp::Quad4, scarp::BBar>();
+TEST_CASE("a uniform plastic strain is found inside a distorted patch") {
+  // That a uniform stress is in equilibrium, whatever material it comes from, tests/bvp/patch shows for every element.
+  check_plastic_patch<scarp::Tri3, scarp::FullIntegration>();
   check_plastic_patch<scarp::Quad8, scarp::ReducedIntegration>();
-  check_plastic_patch<scarp::Tri6, scarp::BBar>();
+  check_plastic_patch<scarp::Tet10, scarp::FullIntegration>();
   check_plastic_patch<scarp::Hex8, scarp::BBar>();
-  check_plastic_patch<scarp::Hex20, scarp::ReducedIntegration>();
 }
 
 TEST_CASE("Newton's residuals fall quadratically on smooth plastic steps") {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "scarp/core/error.hpp"
@@ -19,7 +21,7 @@ class FacetChain {
  public:
   using Facet = std::array<int, Line2::nodes>;
 
-  /// A place on the chain: facet, local coordinate in [0, 1], and whether it lies at a free end.
+  /// A place on the chain: facet, local coordinate in [0, 1], and whether the chain ends there.
   struct Foot {
     int facet = 0;
     double xi = 0.0;
@@ -44,20 +46,43 @@ class FacetChain {
     return (b - a).normalized();
   }
 
+  /// The place of the chain that a point is opposite to along a direction, a unit vector out of the body: the nearest one on that
+  /// line, on either side of the point; without one the nearest end.
+  Foot opposite(Vector<2> const& point, Vector<2> const& direction, std::vector<Vector<2>> const& nodes) const {
+    constexpr double round_off = 1e-12;
+    constexpr double grazing = 0.1;  // cosine: steeper facets are not met by this side
+    std::optional<Foot> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int f = 0; f < detail::count(facets_); ++f) {
+      auto const& [a, b] = ends(f, nodes);
+      Vector<2> const side = b - a;
+      double const cross = side.y() * direction.x() - side.x() * direction.y();  // length times cosine
+      if (!(cross > grazing * side.norm())) continue;
+      Vector<2> const from = point - a;
+      double const xi = (from.y() * direction.x() - from.x() * direction.y()) / cross;
+      if (!(xi >= -round_off && xi <= 1.0 + round_off)) continue;
+      double const distance = std::abs((side.y() * from.x() - side.x() * from.y()) / cross);
+      if (!(distance < least)) continue;
+      least = distance;
+      best = Foot{f, std::clamp(xi, 0.0, 1.0), false};
+    }
+    if (best) return *best;
+    Foot end = nearest(point, nodes);
+    end.at_end = true;
+    return end;
+  }
+
   /// The nearest place of the chain to a point.
   Foot nearest(Vector<2> const& point, std::vector<Vector<2>> const& nodes) const {
     Foot best;
     double least = std::numeric_limits<double>::infinity();
     for (int f = 0; f < detail::count(facets_); ++f) {
       auto const& [a, b] = ends(f, nodes);
-      double const free = (point - a).dot(b - a) / (b - a).squaredNorm();
-      Foot const foot{f, std::clamp(free, 0.0, 1.0), false};
+      Foot const foot{f, std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0), false};
       double const distance = (point - place(foot, nodes)).squaredNorm();
       if (!(distance < least)) continue;
       least = distance;
       best = foot;
-      best.at_end = (free < 0.0 && is_end(facets_[detail::index(f)][0], 1)) ||
-                    (free > 1.0 && is_end(facets_[detail::index(f)][1], 0));
     }
     return best;
   }
@@ -66,11 +91,6 @@ class FacetChain {
   std::array<Vector<2>, 2> ends(int facet, std::vector<Vector<2>> const& nodes) const {
     auto const& [a, b] = facets_[detail::index(facet)];
     return {nodes[detail::index(a)], nodes[detail::index(b)]};
-  }
-
-  /// Whether no facet has the node at its end number `side`.
-  bool is_end(int node, std::size_t side) const {
-    return std::none_of(facets_.begin(), facets_.end(), [&](Facet const& facet) { return facet[side] == node; });
   }
 
   std::vector<Facet> facets_;

@@ -10,7 +10,7 @@
 namespace scarp {
 
 /// The body that stands on a mesh's outline: how its places move. place(k): committed; place(k, nodes, increment): after an
-/// increment; levers_at(k, ...): what moves it. Its own degrees of freedom begin where those of the mesh's nodes end.
+/// increment; along(k, ...): unit vector along its base there, body on the left; levers_at(k, ...): what moves it. Its own degrees of freedom begin where those of the mesh's nodes end.
 template <class Body>
 concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k, std::vector<Vector<2>> const& nodes,
                                 Eigen::VectorXd const& increment) {
@@ -19,13 +19,15 @@ concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k,
   { constant.area(k) } -> std::same_as<double>;
   { constant.place(k, nodes) } -> std::same_as<Vector<2>>;
   { constant.place(k, nodes, increment) } -> std::same_as<Vector<2>>;
+  { constant.along(k, nodes, increment) } -> std::same_as<Vector<2>>;
   {constant.levers_at(k, nodes, increment)};
   {body.commit(nodes, increment)};
 };
 
 /// Contact between the outline of a mesh and a body that stands on it, in the plane: a contact law, in stresses over displacements
-/// [Pa/m] where grains have forces, at fixed points of the standing body against the nearest facet. The areas are the body's, so
-/// the force of a uniform pressure is exact; a point that slides from facet to facet changes its force continuously.
+/// [Pa/m] where grains have forces, at fixed points of the standing body against the facet opposite to them. Areas and directions
+/// are the body's: the force of a uniform pressure is exact, and a point that slides over a kink of the ground changes its force
+/// continuously.
 template <ContactLaw Law, StandsOnMesh Body>
 class Interface {
   static_assert(!Law::needs.moment && !Law::needs.radius && !Law::needs.motion,
@@ -61,13 +63,14 @@ class Interface {
   }
 
   void add_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
-    for (std::size_t k = 0; k < trial_.size(); ++k) {
-      Tensor<2> const stiffness = body_.area(k) * trial_[k].stiffness;
-      for (auto const& row : couplings_[k]) {
-        for (auto const& column : couplings_[k])
-          entries.emplace_back(row.dof, column.dof, row.direction.dot(stiffness * column.direction));
-      }
-    }
+    add_stiffness(entries, [&](State const& state) { return state.stiffness; });
+  }
+
+  void add_held_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
+    add_stiffness(entries, [&](State const& state) {
+      bool const touches = state.pressure != 0.0 || state.stiffness != Tensor<2>::Zero();
+      return touches ? closed_stiffness(state) : Tensor<2>(Tensor<2>::Zero());
+    });
   }
 
   void commit(std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) {
@@ -98,6 +101,7 @@ class Interface {
         Tensor<2>::Zero();  ///< of the stress on the body against its motion relative to the ground [Pa/m]
   };
 
+  /// Out of the ground, which is on the left of its outline.
   static Vector<2> outward(Vector<2> const& along) { return {along.y(), -along.x()}; }
   static Vector<2> stress_vector(State const& state) {
     return state.pressure * outward(state.along) + state.shear * state.along;
@@ -108,7 +112,24 @@ class Interface {
     return law_.respond(approach, memory);
   }
 
-  /// Finds the foot of a point, asks the law, and notes the derivative by forward differences: laws of springs and sliders are
+  template <class StiffnessOf>
+  void add_stiffness(std::vector<Eigen::Triplet<double>>& entries, StiffnessOf const& of) const {
+    for (std::size_t k = 0; k < trial_.size(); ++k) {
+      Tensor<2> const stiffness = body_.area(k) * of(trial_[k]);
+      for (auto const& row : couplings_[k]) {
+        for (auto const& column : couplings_[k])
+          entries.emplace_back(row.dof, column.dof, row.direction.dot(stiffness * column.direction));
+      }
+    }
+  }
+
+  Tensor<2> closed_stiffness(State const& state) const {
+    auto const closed = law_.stiffness(std::max(state.overlap, 0.0), 0.0);
+    Vector<2> const normal = outward(state.along);
+    return closed.normal * normal * normal.transpose() + closed.tangential * state.along * state.along.transpose();
+  }
+
+  /// Finds the place opposite to a point, asks the law, and notes the derivative by forward differences: laws of springs and sliders are
   /// piecewise linear, and the closing side is the one that matters at a point that just touches.
   void touch(std::size_t k, std::vector<Vector<2>> const& nodes, std::vector<Vector<2>> const& moved,
              Eigen::VectorXd const& increment) {
@@ -116,9 +137,9 @@ class Interface {
     State& state = trial_[k];
     state = before;
     state.place = body_.place(k, nodes, increment);
-    state.foot = ground_.nearest(state.place, moved);
-    state.along = ground_.along(state.foot.facet, moved);
+    state.along = -body_.along(k, nodes, increment);
     Vector<2> const normal = outward(state.along);
+    state.foot = ground_.opposite(state.place, normal, moved);
     Vector<2> const apart = state.place - ground_.place(state.foot, moved);
     state.overlap = state.foot.at_end ? -apart.norm() : -apart.dot(normal);
     Vector<2> const relative =
@@ -129,23 +150,25 @@ class Interface {
     state.shear = force.shear;
 
     double const step = 1e-9 * facet_length(state.foot.facet, moved);
-    Tensor<2> derivative;  // of (pressure, shear) with respect to the motion along (normal, tangent)
     if (force.normal == 0.0 && std::abs(state.overlap) < step) {
       // Just touching: a body without weight is held by the closed contact's springs or by nothing.
-      auto const closed = law_.stiffness(0.0, 0.0);
-      derivative << -closed.normal, 0.0, 0.0, -closed.tangential;
+      state.stiffness = closed_stiffness(state);
     } else {
       Memory closing = before.memory;
       Memory sliding = before.memory;
       auto const closer = answer(state.overlap + step, slip, closing);
       auto const further = answer(state.overlap, slip + step, sliding);
+      Tensor<2> derivative;  // of (pressure, shear) with respect to the motion along (normal, tangent)
       derivative << force.normal - closer.normal, further.normal - force.normal,  //
           force.shear - closer.shear, further.shear - force.shear;
       derivative /= step;
+      // Along a facet that is not parallel to the base the gap changes too.
+      Vector<2> const facing = outward(ground_.along(state.foot.facet, moved));
+      derivative.col(1) += facing.dot(state.along) / facing.dot(normal) * derivative.col(0);
+      Tensor<2> frame;
+      frame << normal, state.along;
+      state.stiffness = -frame * derivative * frame.transpose();
     }
-    Tensor<2> frame;
-    frame << normal, state.along;
-    state.stiffness = -frame * derivative * frame.transpose();
     couple(k, nodes, increment);
   }
 

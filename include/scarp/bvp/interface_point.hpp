@@ -11,7 +11,7 @@ struct InterfacePoint {
   double area = 0.0;                     ///< [m2]
   Vector<2> stress = Vector<2>::Zero();  ///< of the ground on the standing body [Pa]
   double pressure = 0.0;                 ///< [Pa], positive pushes apart
-  double shear = 0.0;                    ///< [Pa], on the standing body, along the mesh's outline
+  double shear = 0.0;                    ///< [Pa], on the standing body, along its base, ground on the left
   double gap = 0.0;                      ///< [m], negative: overlap
 };
 

@@ -30,6 +30,11 @@ class RigidBody {
     return reference_ + increment.segment<2>(first) + turned(increment(first + 2)) * own;
   }
 
+  /// How a direction of the body is turned after it.
+  Vector<2> turned(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
+    return turned(increment(first + 2)) * own;
+  }
+
   std::array<Lever, levers> levers_at(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
     Vector<2> const arm = turned(increment(first + 2)) * own;
     return {{{first, Vector<2>::UnitX()},

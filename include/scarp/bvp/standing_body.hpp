@@ -41,7 +41,7 @@ class RigidFooting {
   /// dofs_before: degrees of freedom of the mesh's nodes
   RigidFooting(RigidBody body, Vector<2> const& left, Vector<2> const& right, std::vector<double> const& breaks,
                double thickness, int dofs_before)
-      : body_(std::move(body)), first_(dofs_before) {
+      : body_(std::move(body)), first_(dofs_before), base_((right - left).normalized()) {
     double const length = (right - left).norm();
     for (auto const& point : base_points(left.x(), right.x(), breaks)) {
       own_.push_back(left + point.along * (right - left) - body_.reference());
@@ -58,6 +58,9 @@ class RigidFooting {
   Vector<2> place(std::size_t k, std::vector<Vector<2>> const&, Eigen::VectorXd const& increment) const {
     return body_.place(own_[k], increment, first_);
   }
+  Vector<2> along(std::size_t, std::vector<Vector<2>> const&, Eigen::VectorXd const& increment) const {
+    return body_.turned(base_, increment, first_);
+  }
   std::array<Lever, RigidBody::levers> levers_at(std::size_t k, std::vector<Vector<2>> const&,
                                                  Eigen::VectorXd const& increment) const {
     return body_.levers_at(own_[k], increment, first_);
@@ -67,6 +70,7 @@ class RigidFooting {
  private:
   RigidBody body_;
   int first_;
+  Vector<2> base_;
   std::vector<Vector<2>> own_;
   std::vector<double> area_;
 };
@@ -98,6 +102,11 @@ class MeshedFooting {
     Vector<2> moved = place(k, nodes);
     for (auto const& lever : levers_at(k, nodes, increment)) moved += lever.direction * increment(lever.dof);
     return moved;
+  }
+  Vector<2> along(std::size_t k, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) const {
+    auto const& [a, b] = base_.facets()[detail::index(at_[k].facet)];
+    Vector<2> const side = base_.place({at_[k].facet, 1.0}, nodes) - base_.place({at_[k].facet, 0.0}, nodes);
+    return (side + increment.segment<2>(2 * b) - increment.segment<2>(2 * a)).normalized();
   }
   std::array<Lever, 4> levers_at(std::size_t k, std::vector<Vector<2>> const&, Eigen::VectorXd const&) const {
     auto const& [a, b] = base_.facets()[detail::index(at_[k].facet)];

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scarp/solver/sparse_lu.hpp"
+#include "scarp/solver/linear_solver.hpp"
 
 namespace scarp {
 
@@ -41,13 +41,14 @@ double condition_estimate(SparseMatrix const& matrix, Solver const& solver) {
 
 /// The unknown that a singular or nearly singular matrix holds least: the largest entry of the vector that it maps nearest to
 /// nothing, by inverse iteration with a small shift. -1 when that fails too.
-inline int weakest_unknown(SparseMatrix const& matrix) {
+template <LinearSolver Solver>
+int weakest_unknown(SparseMatrix const& matrix) {
   Eigen::Index const size = matrix.rows();
   if (size == 0 || !matrix.coeffs().allFinite()) return -1;
   double const shift = 1e-9 * matrix.coeffs().abs().maxCoeff();
   SparseMatrix unit(size, size);
   unit.setIdentity();
-  SparseLu solver;
+  Solver solver;
   if (!solver.factorize(matrix + shift * unit).acceptable()) return -1;
   Eigen::VectorXd mode(size);
   for (Eigen::Index k = 0; k < size; ++k) mode(k) = 1.0 + 0.3 * std::sin(1.7 * static_cast<double>(k));

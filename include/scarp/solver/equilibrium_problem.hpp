@@ -17,11 +17,10 @@ namespace scarp {
 /// Forces that an increment of displacement meets.
 struct Evaluation {
   Eigen::VectorXd unbalanced;  ///< internal minus external force of all degrees of freedom [N]
-  /// |unbalanced| over free dofs / |reactions|, Euclidean norms; where that is larger, that of what stands on the mesh over its loads
-  double residual = 0.0;
-  Verdict verdict;       ///< of the worst point
-  int worst_point = -1;  ///< that is not acceptable, -1 for none
-  long inner_steps = 0;  ///< DEM steps of all points
+  double residual = 0.0;       ///< see EquilibriumProblem::residual
+  Verdict verdict;             ///< of the worst point
+  int worst_point = -1;        ///< that is not acceptable, -1 for none
+  long inner_steps = 0;        ///< DEM steps of all points
 };
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
@@ -30,6 +29,7 @@ template <class DiscretisationType, MaterialField Materials, class Executor, cla
 class EquilibriumProblem {
  public:
   static constexpr int dim = DiscretisationType::dim;
+  static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
   /// \throws InputError for sizes that do not fit together
@@ -152,21 +152,55 @@ class EquilibriumProblem {
     return evaluation;
   }
 
-  /// Stiffness [N/m] at the increment of the last evaluation, with its stresses.
-  void stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
-                 Eigen::SparseMatrix<double>& matrix) const {
+  /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses.
+  void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
+                        Eigen::SparseMatrix<double>& matrix) const {
+    discretisation_.stiffness(of_nodes(increment), stresses(), tangents, matrix);
+    if constexpr (!is_bare) matrix.conservativeResize(dof_count(), dof_count());
+  }
+
+  /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment.
+  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) requires(!is_bare) {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
+    attached_.add_forces(discretisation_.positions(), increment, forces);
+    return forces;
+  }
+
+  /// Their derivative [N/m] where they were asked for last.
+  Eigen::SparseMatrix<double> attached_stiffness() const requires(!is_bare) {
+    return assembled([&](auto& entries) { attached_.add_stiffness(entries); });
+  }
+
+  /// The same as if nothing there slid.
+  Eigen::SparseMatrix<double> held_stiffness() const requires(!is_bare) {
+    return assembled([&](auto& entries) { attached_.add_held_stiffness(entries); });
+  }
+
+  /// \return |unbalanced| over free dofs / |reactions|, Euclidean norms; where that is larger, that of what stands on the mesh
+  /// over its loads
+  double residual(Eigen::VectorXd const& unbalanced) const {
+    double free = 0.0;
+    for (int const dof : free_dofs_) free += unbalanced(dof) * unbalanced(dof);
+    double prescribed = 0.0;
+    for (int const dof : constraints_.prescribed_dofs()) prescribed += unbalanced(dof) * unbalanced(dof);
+    // A body held nowhere has no reactions: measure against the loads.
+    double const scale = prescribed > 0.0 ? prescribed : load_now_.squaredNorm();
+    double const all = free == 0.0 ? 0.0 : std::sqrt(free / scale);
     if constexpr (is_bare) {
-      discretisation_.stiffness(increment, stresses(), tangents, matrix);
+      return all;
     } else {
-      Eigen::SparseMatrix<double> elements;
-      discretisation_.stiffness(of_nodes(increment), stresses(), tangents, elements);
-      elements.conservativeResize(dof_count(), dof_count());
-      std::vector<Eigen::Triplet<double>> entries;
-      attached_.add_stiffness(entries);
-      Eigen::SparseMatrix<double> part(dof_count(), dof_count());
-      part.setFromTriplets(entries.begin(), entries.end());
-      matrix = elements + part;
+      return std::max(all, residual_beside(unbalanced));
     }
+  }
+
+  /// Imbalance of a body beside the mesh relative to its own loads: the reactions of a heavy ground would hide it.
+  /// 0 without such a body or loads.
+  double residual_beside(Eigen::VectorXd const& unbalanced) const {
+    int const first = discretisation_.dof_count();
+    double free = 0.0;
+    for (int const dof : free_dofs_) free += dof < first ? 0.0 : unbalanced(dof) * unbalanced(dof);
+    double const scale = load_now_.tail(dof_count() - first).norm();
+    return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
   }
 
   /// Tangents of all points' committed states.
@@ -193,7 +227,6 @@ class EquilibriumProblem {
   }
 
  private:
-  static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
   static_assert(is_bare || Attachment<Attached, dim>);
 
   decltype(auto) of_nodes(Eigen::VectorXd const& increment) const {
@@ -202,6 +235,15 @@ class EquilibriumProblem {
     } else {
       return Eigen::VectorXd(increment.head(discretisation_.dof_count()));
     }
+  }
+
+  template <class Add>
+  Eigen::SparseMatrix<double> assembled(Add const& add) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    add(entries);
+    Eigen::SparseMatrix<double> matrix(dof_count(), dof_count());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
   }
 
   std::size_t points() const { return static_cast<std::size_t>(discretisation_.point_count()); }
@@ -246,27 +288,10 @@ class EquilibriumProblem {
       if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
     }
     evaluation.unbalanced -= load_now_;
-    double free = 0.0;
-    for (int const dof : free_dofs_) free += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
-    double prescribed = 0.0;
-    for (int const dof : constraints_.prescribed_dofs())
-      prescribed += evaluation.unbalanced(dof) * evaluation.unbalanced(dof);
-    // A body held nowhere has no reactions: measure against the loads.
-    double const scale = prescribed > 0.0 ? prescribed : load_now_.squaredNorm();
-    evaluation.residual = free == 0.0 ? 0.0 : std::sqrt(free / scale);
-    if constexpr (!is_bare) evaluation.residual = std::max(evaluation.residual, own_residual(evaluation.unbalanced));
+    evaluation.residual = residual(evaluation.unbalanced);
     if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable()) {
       evaluation.verdict = {Status::failed, Reason::not_finite};
     }
-  }
-
-  /// Imbalance of a body beside the mesh relative to its own loads: the reactions of a heavy ground would hide it.
-  double own_residual(Eigen::VectorXd const& unbalanced) const {
-    int const first = discretisation_.dof_count();
-    double free = 0.0;
-    for (int const dof : free_dofs_) free += dof < first ? 0.0 : unbalanced(dof) * unbalanced(dof);
-    double const scale = load_now_.tail(dof_count() - first).norm();
-    return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
   }
 
   DiscretisationType discretisation_;

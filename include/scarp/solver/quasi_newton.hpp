@@ -4,11 +4,11 @@
 #include <chrono>
 #include <vector>
 
-#include "scarp/solver/conditioning.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
-#include "scarp/solver/free_system.hpp"
+#include "scarp/solver/linearised_step.hpp"
 #include "scarp/solver/plain_step.hpp"
 #include "scarp/solver/point_secant.hpp"
+#include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/solver/tangent_rule.hpp"
 
@@ -30,10 +30,13 @@ struct QuasiNewton {
   class Session {
    public:
     static constexpr int dim = Problem::dim;
-    static constexpr double singular = 1e15;  ///< condition beyond which no digit of a solution is left
 
     Session(QuasiNewton const& settings, Problem& problem)
-        : settings_(settings), mixing_(settings.mixing), problem_(problem), system_(problem.constraints()) {}
+        : settings_(settings),
+          mixing_(settings.mixing),
+          problem_(problem),
+          linearised_(problem, 0.1 * settings.tolerance),
+          system_(problem.constraints()) {}
 
     /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
     Verdict begin(double load) {
@@ -45,13 +48,11 @@ struct QuasiNewton {
       for (std::size_t k = 0; k < working_.size(); ++k) {
         working_[k] = settings_.rule.template start<dim>(provider_[k], learned_[k]);
       }
-      committed_ = problem_.evaluate_committed();
-      problem_.stiffness(Eigen::VectorXd::Zero(committed_.unbalanced.size()), working_, stiffness_);
-      matrix_ = system_.matrix(stiffness_);
-      Verdict verdict = linear_.factorize(matrix_);
-      condition_ = verdict.acceptable() ? condition_estimate(matrix_, linear_) : 0.0;
-      if (condition_ > singular) verdict = {Status::failed, Reason::singular_system};
-      weak_dof_ = verdict.reason == Reason::singular_system ? system_.dof(weakest_unknown(matrix_)) : -1;
+      Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
+      Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, working_);
+      condition_ = verdict.acceptable() ? linearised_.condition() : 0.0;
+      if (condition_ > linearised_.singular) verdict = {Status::failed, Reason::singular_system};
+      weak_dof_ = verdict.reason == Reason::singular_system ? linearised_.weak_dof() : -1;
       return verdict;
     }
 
@@ -67,8 +68,8 @@ struct QuasiNewton {
       problem_.aim(to);
       Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
       Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
-      Eigen::VectorXd const force = system_.gather(more_load - committed_.unbalanced - stiffness_ * increment);
-      system_.scatter(linear_.solve(force), increment);
+      // A prediction that fails is no more than a poor first guess.
+      linearised_.solve(increment, more_load);
       return increment;
     }
 
@@ -80,6 +81,7 @@ struct QuasiNewton {
       last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
       last_stresses_ = problem_.committed_stresses();
       double linear_residual = 0.0;
+      Eigen::VectorXd const no_more = Eigen::VectorXd::Zero(increment.size());
       for (;;) {
         report.history.emplace_back();
         report.history.back().linear_residual = linear_residual;
@@ -95,20 +97,15 @@ struct QuasiNewton {
           if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
           return;
         }
-        problem_.stiffness(increment, working_, stiffness_);
-        matrix_ = system_.matrix(stiffness_);
-        Eigen::VectorXd const force = -system_.gather(evaluation.unbalanced);
-        Eigen::VectorXd correction;
-        report.verdict = linear_.factorize(matrix_);
-        if (report.verdict.acceptable()) {
-          correction = linear_.solve(force);
-          linear_residual = (matrix_ * correction - force).norm() / force.norm();
-          if (!(linear_residual < 1.0)) report.verdict = {Status::failed, Reason::singular_system};
-        }
+        Eigen::VectorXd next = increment;
+        report.verdict = linearised_.linearise(increment, evaluation.unbalanced, working_);
+        if (report.verdict.acceptable()) report.verdict = linearised_.solve(next, no_more);
         if (!report.verdict.acceptable()) {
-          report.weak_dof = system_.dof(weakest_unknown(matrix_));
+          report.weak_dof = linearised_.weak_dof();
           return;
         }
+        linear_residual = linearised_.linear_residual();
+        Eigen::VectorXd const correction = system_.gather(next - increment);
         system_.scatter(mixing_.next(system_.gather(increment), correction), increment);
       }
     }
@@ -158,13 +155,10 @@ struct QuasiNewton {
     QuasiNewton const& settings_;
     Mixing mixing_;
     Problem& problem_;
+    LinearisedStep<Problem, Linear> linearised_;
     FreeSystem system_;
-    Linear linear_;
-    Eigen::SparseMatrix<double> stiffness_;
-    SparseMatrix matrix_;  ///< its free part
     double condition_ = 0.0;
     int weak_dof_ = -1;
-    Evaluation committed_;
     std::vector<VoigtTangent<dim>> first_;  ///< of the state that the session began with
     std::vector<VoigtTangent<dim>> provider_;
     std::vector<VoigtTangent<dim>> working_;
