@@ -97,9 +97,9 @@ TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle
   double const eccentricity = 0.5;
   auto problem = bed.problem(springs, {0.0, -force}, force * eccentricity);
   scarp::NoObserver nobody;
-  auto const run = scarp::LoadStepping{.first = 0.1, .largest_gradient = 1.0}.run(Newton{.tolerance = 1e-9}, problem,
-                                                                                  0.0, 1.0, nobody);
+  auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);
   REQUIRE(run.verdict.acceptable());
+  CHECK(run.refused == 0);
   double sum = 0.0;
   double contact = 0.0;
   double highest = 0.0;
@@ -142,6 +142,28 @@ TEST_CASE("a block slides when the tangential load passes friction, not before")
   CHECK_FALSE(run.verdict.acceptable());
   CHECK(run.load <= mu * (1.0 + 1e-6));
   CHECK(run.load == samples::Approx(mu).epsilon(1e-5));
+}
+
+TEST_CASE("a base that slides over a kink of the ground changes its force continuously") {
+  // Ground of two facets, the right one falls by 0.3 over 1; a rigid base with one pair of points presses into both in turn.
+  std::vector<scarp::Vector<2>> const nodes{{-1.0, 0.0}, {0.0, 0.0}, {1.0, -0.3}};
+  scarp::FacetChain const ground({{1, 0}, {2, 1}});
+  scarp::LinearFrictional const law{.normal_stiffness = 1e6, .tangential_stiffness = 1e6, .friction = 0.5};
+  scarp::RigidFooting const base({{-0.2, -0.01}, 0.1}, {-0.3, -0.01}, {-0.1, -0.01}, {}, 1.0, 6);
+  Footed<scarp::LinearFrictional> interface(law, base, ground, nodes);
+  auto const force_at = [&](double x) {
+    Eigen::VectorXd increment = Eigen::VectorXd::Zero(9);
+    increment(6) = x;
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(9);
+    interface.add_forces(nodes, increment, forces);
+    return forces;
+  };
+  constexpr double step = 1e-5;
+  double largest = 0.0;
+  for (double x = 0.0; x < 0.35; x += step) largest = std::max(largest, (force_at(x + step) - force_at(x)).norm());
+  // Springs of 1e6 N/m3 on 0.2 m2, two directions, two sides: below 1e6 N/m of change.
+  CHECK(largest > 0.0);
+  CHECK(largest < 1e6 * step);
 }
 
 TEST_CASE("a bonded interface holds tension up to its strength and has none once it is broken") {
