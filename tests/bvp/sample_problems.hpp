@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/SparseLU>
-
 #include <array>
 #include <span>
 #include <stdexcept>
@@ -15,6 +13,7 @@
 #include "scarp/element/tet10.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/solver/sparse_lu.hpp"
 
 /// Small distorted meshes for every element, and what the tests of the finite-element side do with them.
 namespace sample {
@@ -117,8 +116,8 @@ inline Eigen::VectorXd solve_free(Eigen::SparseMatrix<double> const& matrix, sca
   }
   Eigen::SparseMatrix<double> reduced(constraints.free_count(), constraints.free_count());
   reduced.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> const factors(reduced);
-  if (factors.info() != Eigen::Success) {
+  scarp::SparseLu factors;
+  if (!factors.factorize(reduced).acceptable()) {
     throw std::runtime_error("the stiffness of a sample problem could not be factorised");
   }
   auto const free = constraints.free_dofs();

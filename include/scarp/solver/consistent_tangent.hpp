@@ -10,9 +10,10 @@ namespace scarp {
 struct ConsistentTangent {
   double floor = 0.0;  ///< share of the first tangent that is mixed in, against singular systems at a limit load
 
+  /// What the last accepted iteration ended with: the provider's tangent of the committed state with the floor in it.
   template <int Dim>
-  VoigtTangent<Dim> start(VoigtTangent<Dim> const& provider, VoigtTangent<Dim> const&) const {
-    return provider;
+  VoigtTangent<Dim> start(VoigtTangent<Dim> const&, VoigtTangent<Dim> const& learned) const {
+    return learned;
   }
 
   template <int Dim>

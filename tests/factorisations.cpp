@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+// What takes long to compile, once for all tests.
+#include "factorisations.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "scarp/solver/sparse_lu_definitions.hpp"
+
+namespace samples {
+
+Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+}  // namespace samples
