@@ -97,8 +97,7 @@ class Interface {
     double overlap = 0.0;
     double pressure = 0.0;
     double shear = 0.0;
-    Tensor<2> stiffness =
-        Tensor<2>::Zero();  ///< of the stress on the body against its motion relative to the ground [Pa/m]
+    Tensor<2> stiffness = Tensor<2>::Zero();  ///< of the stress on the body against its relative motion [Pa/m]
   };
 
   /// Out of the ground, which is on the left of its outline.
@@ -162,9 +161,11 @@ class Interface {
       derivative << force.normal - closer.normal, further.normal - force.normal,  //
           force.shear - closer.shear, further.shear - force.shear;
       derivative /= step;
-      // Along a facet that is not parallel to the base the gap changes too.
-      Vector<2> const facing = outward(ground_.along(state.foot.facet, moved));
-      derivative.col(1) += facing.dot(state.along) / facing.dot(normal) * derivative.col(0);
+      if (!state.foot.at_end) {
+        // Along a facet that is not parallel to the base the gap changes too.
+        Vector<2> const facing = outward(ground_.along(state.foot.facet, moved));
+        derivative.col(1) += facing.dot(state.along) / facing.dot(normal) * derivative.col(0);
+      }
       Tensor<2> frame;
       frame << normal, state.along;
       state.stiffness = -frame * derivative * frame.transpose();
