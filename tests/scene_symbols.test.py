@@ -4,6 +4,7 @@ observer.
 
 Environment: see compiled_symbols.py.
 """
+import concurrent.futures
 import pathlib
 import re
 import sys
@@ -59,7 +60,14 @@ def expect(truth, message):
 with tempfile.TemporaryDirectory() as scratch:
     scratch = pathlib.Path(scratch)
     soil = "scarp::LinearElastic<2, scarp::GeostaticStress<2>>"
-    elastic = object_symbols(scratch, "elastic", SCENE.format(ELASTIC, soil, NOBODY))
+    programs = {
+        "watched": SCENE.format(SAND + SERIES, "Sand", WATCHED),
+        "sand": SCENE.format(SAND, "Sand", NOBODY),
+        "elastic": SCENE.format(ELASTIC, soil, NOBODY),
+    }
+    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
+        listed = pool.map(lambda name: object_symbols(scratch, name, programs[name]), programs)
+        watched, sand, elastic = listed
     found = [line for line in elastic if DISCRETE.search(line) or OBSERVED.search(line)]
     expect(not found, "an elastic scene without observer contains:\n" + "\n".join(found[:20]))
     found = [line for line in elastic if re.search("SparseLU|Cholesky", line)]
@@ -69,14 +77,12 @@ with tempfile.TemporaryDirectory() as scratch:
         expect(header not in headers, f"an elastic scene without observer pulls in {header}")
 
     # One program serves twice: as counter-example of the test above, and to have no fabric itself.
-    sand = object_symbols(scratch, "sand", SCENE.format(SAND, "Sand", NOBODY))
     for name in ("TimeStepper", "rebuild_pairs", "nanoflann", "PairScratch", "Packing"):
         expect(any(name in line for line in sand), f"a scene of packings lacks {name}: {OUTDATED}")
     found = [line for line in sand if OBSERVED.search(line)]
     expect(not found, "a scene of packings without observer contains:\n" + "\n".join(found[:20]))
 
     # With an observer that asks for them they are there, or the check above could not fail.
-    watched = object_symbols(scratch, "watched", SCENE.format(SAND + SERIES, "Sand", WATCHED))
     for name in ("contact_fabric", "particle_fabric", "write_vtu", "PvdSeries"):
         expect(any(name in line for line in watched), f"an observed scene lacks {name}: {OUTDATED}")
 print("an elastic scene contains no discrete elements; one of packings without observer no fabric and no files")
