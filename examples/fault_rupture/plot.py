@@ -227,14 +227,14 @@ def probes(folder):
 
 
 def fabric(folder):
-    fig, axes = plt.subplots(figsize=(5.4, 3.8))
+    fig, axes = plt.subplots(figsize=(5.4, 3.8), layout="constrained")
     for name, probe in read_probes(folder).items():
         strain = 100.0 * probe["eps_q"]
         axes.plot(strain, probe["contact_fabric"], color=PROBES[name], label=f"{name}: contact normals, Fc")
         axes.plot(strain, probe["particle_fabric"], "--", color=PROBES[name], label=f"{name}: long axes, Fp")
     axes.set(xlabel="deviatoric strain [%]", ylabel="fabric anisotropy [-]", title="Fabric at the probes",
              ylim=(0.0, None))
-    axes.legend(ncol=2, loc="lower center", bbox_to_anchor=(0.5, -0.42))
+    axes.legend(ncol=2, loc="upper center", bbox_to_anchor=(0.5, -0.16))
     return fig
 
 
