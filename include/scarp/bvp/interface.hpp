@@ -10,7 +10,8 @@
 namespace scarp {
 
 /// The body that stands on a mesh's outline: how its places move. place(k): committed; place(k, nodes, increment): after an
-/// increment; along(k, ...): unit vector along its base there, body on the left; levers_at(k, ...): what moves it. Its own degrees of freedom begin where those of the mesh's nodes end.
+/// increment; along(k, ...): unit vector along its base there, body on the left; levers_at(k, ...): what moves it. Its own
+/// degrees of freedom begin where those of the mesh's nodes end.
 template <class Body>
 concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k, std::vector<Vector<2>> const& nodes,
                                 Eigen::VectorXd const& increment) {
@@ -128,8 +129,8 @@ class Interface {
     return closed.normal * normal * normal.transpose() + closed.tangential * state.along * state.along.transpose();
   }
 
-  /// Finds the place opposite to a point, asks the law, and notes the derivative by forward differences: laws of springs and sliders are
-  /// piecewise linear, and the closing side is the one that matters at a point that just touches.
+  /// Finds the place opposite to a point, asks the law, and notes the derivative by forward differences: laws of springs and
+  /// sliders are piecewise linear, and the closing side is the one that matters at a point that just touches.
   void touch(std::size_t k, std::vector<Vector<2>> const& nodes, std::vector<Vector<2>> const& moved,
              Eigen::VectorXd const& increment) {
     State const& before = committed_[k];

@@ -10,18 +10,10 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/solver/evaluation.hpp"
 #include "scarp/solver/executor.hpp"
 
 namespace scarp {
-
-/// Forces that an increment of displacement meets.
-struct Evaluation {
-  Eigen::VectorXd unbalanced;  ///< internal minus external force of all degrees of freedom [N]
-  double residual = 0.0;       ///< see EquilibriumProblem::residual
-  Verdict verdict;             ///< of the worst point
-  int worst_point = -1;        ///< that is not acceptable, -1 for none
-  long inner_steps = 0;        ///< DEM steps of all points
-};
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
@@ -159,7 +151,8 @@ class EquilibriumProblem {
     if constexpr (!is_bare) matrix.conservativeResize(dof_count(), dof_count());
   }
 
-  /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment.
+  /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment. Whether it could
+  /// answer is said by the next evaluation.
   Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) requires(!is_bare) {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
     attached_.add_forces(discretisation_.positions(), increment, forces);

@@ -42,6 +42,7 @@ class LinearisedStep {
     }
   }
 
+  FreeSystem const& system() const { return system_; }
   /// Estimate for the last matrix, in the 1-norm.
   double condition() const { return condition_estimate(matrix_, linear_); }
   /// |K x - b| / |b| of the last linear system.

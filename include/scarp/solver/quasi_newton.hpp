@@ -35,8 +35,7 @@ struct QuasiNewton {
         : settings_(settings),
           mixing_(settings.mixing),
           problem_(problem),
-          linearised_(problem, 0.1 * settings.tolerance),
-          system_(problem.constraints()) {}
+          linearised_(problem, 0.1 * settings.tolerance) {}
 
     /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
     Verdict begin(double load) {
@@ -105,8 +104,8 @@ struct QuasiNewton {
           return;
         }
         linear_residual = linearised_.linear_residual();
-        Eigen::VectorXd const correction = system_.gather(next - increment);
-        system_.scatter(mixing_.next(system_.gather(increment), correction), increment);
+        Eigen::VectorXd const correction = linearised_.system().gather(next - increment);
+        linearised_.system().scatter(mixing_.next(linearised_.system().gather(increment), correction), increment);
       }
     }
 
@@ -156,7 +155,6 @@ struct QuasiNewton {
     Mixing mixing_;
     Problem& problem_;
     LinearisedStep<Problem, Linear> linearised_;
-    FreeSystem system_;
     double condition_ = 0.0;
     int weak_dof_ = -1;
     std::vector<VoigtTangent<dim>> first_;  ///< of the state that the session began with
