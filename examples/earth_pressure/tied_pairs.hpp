@@ -36,8 +36,6 @@ class TiedPairs {
     }
   }
 
-  void add_held_stiffness(std::vector<Eigen::Triplet<double>>& entries) const { add_stiffness(entries); }
-
   void commit(std::vector<scarp::Vector<2>> const&, Eigen::VectorXd const& increment) {
     for (std::size_t k = 0; k < pairs_.size(); ++k) apart_[k] += opening(k, increment);
   }

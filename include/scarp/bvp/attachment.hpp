@@ -15,8 +15,8 @@ namespace scarp {
 /// degrees of freedom of its own, which follow those of the mesh. Committed and trial states as for materials:
 /// add_forces(nodes, increment, forces): adds the internal forces [N] at an increment from the committed state, given the
 /// committed positions of the nodes [m]; add_stiffness(entries): their derivative at the last increment asked for;
-/// add_held_stiffness(entries): the same as if nothing slid, positive where bodies touch;
-/// commit(nodes, increment): makes that state the committed one, before the nodes move.
+/// commit(nodes, increment): makes that state the committed one, before the nodes move. What can slide also has
+/// add_held_stiffness(entries): the stiffness as if nothing slid, positive where bodies touch.
 template <class Part, int Dim>
 concept Attachment = requires(Part& part, Part const& constant, std::vector<Vector<Dim>> const& nodes,
                               Eigen::VectorXd const& increment, Eigen::VectorXd& forces,
@@ -24,7 +24,6 @@ concept Attachment = requires(Part& part, Part const& constant, std::vector<Vect
   { constant.extra_dofs() } -> std::same_as<int>;
   { part.add_forces(nodes, increment, forces) } -> std::same_as<Verdict>;
   {constant.add_stiffness(entries)};
-  {constant.add_held_stiffness(entries)};
   {part.commit(nodes, increment)};
 };
 

@@ -166,7 +166,11 @@ class EquilibriumProblem {
 
   /// The same as if nothing there slid.
   Eigen::SparseMatrix<double> held_stiffness() const requires(!is_bare) {
-    return assembled([&](auto& entries) { attached_.add_held_stiffness(entries); });
+    if constexpr (requires(std::vector<Eigen::Triplet<double>> & entries) { attached_.add_held_stiffness(entries); }) {
+      return assembled([&](auto& entries) { attached_.add_held_stiffness(entries); });
+    } else {
+      return attached_stiffness();
+    }
   }
 
   /// \return |unbalanced| over free dofs / |reactions|, Euclidean norms; where that is larger, that of what stands on the mesh
