@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/element/index.hpp"
 #include "scarp/solver/evaluation.hpp"
 #include "scarp/solver/executor.hpp"
 
@@ -35,7 +37,11 @@ class EquilibriumProblem {
         attached_(std::move(attached)),
         free_dofs_(constraints_.free_dofs()),
         gradients_(points()),
-        responses_(points()) {
+        responses_(points()),
+        works_(points()) {
+    for (int point = 0; point < discretisation_.point_count(); ++point) {
+      if (owns_point(executor_, point)) owned_.push_back(point);
+    }
     if (materials_.point_count() != discretisation_.point_count()) {
       refuse("materials are given for {} points (the mesh has {}): make one field over all sites",
              materials_.point_count(), discretisation_.point_count());
@@ -72,7 +78,8 @@ class EquilibriumProblem {
 
   std::vector<VoigtStress<dim>> committed_stresses() const {
     std::vector<VoigtStress<dim>> values(points());
-    for (std::size_t k = 0; k < points(); ++k) values[k] = materials_.committed_stress(static_cast<int>(k));
+    for (int const point : owned_) values[detail::index(point)] = materials_.committed_stress(point);
+    share(values);
     return values;
   }
 
@@ -87,9 +94,7 @@ class EquilibriumProblem {
   Verdict plan(Eigen::VectorXd const& increment) {
     if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
     if (discretisation_.gradients(of_nodes(increment), gradients_)) return {Status::failed, Reason::element_inverted};
-    for (int point = 0; point < discretisation_.point_count(); ++point) {
-      materials_.plan(point, gradients_[static_cast<std::size_t>(point)]);
-    }
+    for (int const point : owned_) materials_.plan(point, gradients_[detail::index(point)]);
     return {};
   }
 
@@ -105,9 +110,7 @@ class EquilibriumProblem {
       evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
       return evaluation;
     }
-    std::vector<int> all(points());
-    std::iota(all.begin(), all.end(), 0);
-    respond(all, evaluation);
+    respond(owned_, evaluation);
     add_up(increment, evaluation);
     return evaluation;
   }
@@ -116,9 +119,8 @@ class EquilibriumProblem {
   /// of the last evaluation.
   Evaluation refine(Eigen::VectorXd const& increment) {
     std::vector<int> unconverged;
-    for (int point = 0; point < discretisation_.point_count(); ++point) {
-      if (responses_[static_cast<std::size_t>(point)].verdict.status == Status::not_converged)
-        unconverged.push_back(point);
+    for (int const point : owned_) {
+      if (responses_[detail::index(point)].verdict.status == Status::not_converged) unconverged.push_back(point);
     }
     // A point that cannot work harder would only repeat its answer.
     std::erase_if(unconverged, [&](int point) {
@@ -243,6 +245,12 @@ class EquilibriumProblem {
     return matrix;
   }
 
+  /// Completes an array over all points by what other processes know.
+  template <class Value>
+  void share(std::vector<Value>& values) const {
+    if constexpr (SharesPoints<Executor>) executor_.share(values);
+  }
+
   std::size_t points() const { return static_cast<std::size_t>(discretisation_.point_count()); }
 
   std::vector<VoigtStress<dim>> stresses() const {
@@ -251,17 +259,22 @@ class EquilibriumProblem {
     return values;
   }
 
+  /// selected: points of this process
   void respond(std::vector<int> const& selected, Evaluation& evaluation) {
+    std::fill(works_.begin(), works_.end(), 0);
     executor_.for_each(static_cast<int>(selected.size()), [&](int task) {
-      int const point = selected[static_cast<std::size_t>(task)];
-      auto const k = static_cast<std::size_t>(point);
+      int const point = selected[detail::index(task)];
+      auto const k = detail::index(point);
       responses_[k] = materials_.respond(point, gradients_[k]);
       // Prescribed nodes would hide a NaN from the residual of the free ones.
       if (!responses_[k].stress.allFinite()) responses_[k].verdict = {Status::failed, Reason::not_finite};
+      works_[k] = materials_.work(point);
     });
-    for (int const point : selected) evaluation.inner_steps += materials_.work(point);
+    share(responses_);
+    share(works_);
+    evaluation.inner_steps = std::accumulate(works_.begin(), works_.end(), 0L);
     for (int point = 0; point < discretisation_.point_count(); ++point) {
-      Verdict const verdict = responses_[static_cast<std::size_t>(point)].verdict;
+      Verdict const verdict = responses_[detail::index(point)].verdict;
       if (!verdict.acceptable() && (evaluation.worst_point < 0 || verdict.status > evaluation.verdict.status)) {
         evaluation.verdict = verdict;
         evaluation.worst_point = point;
@@ -272,8 +285,11 @@ class EquilibriumProblem {
   template <class TangentOf>
   std::vector<VoigtTangent<dim>> all_tangents(TangentOf const& tangent_of) const {
     std::vector<VoigtTangent<dim>> values(points());
-    executor_.for_each(discretisation_.point_count(),
-                       [&](int point) { values[static_cast<std::size_t>(point)] = tangent_of(point); });
+    executor_.for_each(static_cast<int>(owned_.size()), [&](int task) {
+      int const point = owned_[detail::index(task)];
+      values[detail::index(point)] = tangent_of(point);
+    });
+    share(values);
     return values;
   }
 
@@ -301,6 +317,8 @@ class EquilibriumProblem {
   std::vector<int> free_dofs_;
   std::vector<Gradient<dim>> gradients_;
   std::vector<Response<dim>> responses_;
+  std::vector<long> works_;  ///< of the points that were asked last
+  std::vector<int> owned_;   ///< points of this process
 };
 
 }  // namespace scarp
