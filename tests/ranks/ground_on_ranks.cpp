@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 // A small fault in packings whose points are shared out among MPI ranks: `mpirun -np 3 ground_on_ranks`. Prints the bits of the result
 // and what each rank holds.
+#define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
+#include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <mpi.h>
 
 #include <bit>
 #include <cstdint>
 
-#include "scene/sample_ground.hpp"
 #include "scarp/solver/rank_executor.hpp"
 #include "scarp/solver/thread_executor.hpp"
+#include "scene/sample_ground.hpp"
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
