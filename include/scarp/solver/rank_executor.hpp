@@ -5,12 +5,27 @@
 
 #include <cstddef>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "scarp/core/error.hpp"
 #include "scarp/solver/executor.hpp"
 
 namespace scarp {
+
+/// MPI for the life of a program. \throws nothing; a program that fails on one rank calls abort, since the others wait for it
+class MpiSession {
+ public:
+  MpiSession(int& argc, char**& argv) {
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  }
+  MpiSession(MpiSession const&) = delete;
+  MpiSession& operator=(MpiSession const&) = delete;
+  ~MpiSession() { MPI_Finalize(); }
+
+  static void abort(int exit_code) { MPI_Abort(MPI_COMM_WORLD, exit_code); }
+};
 
 /// An MPI rank: all ranks run the same solver, each of them answers for every so-many-th point and holds the states of no others.
 /// Gradients are known everywhere; only stresses, tangents and verdicts travel. Neighbouring points, whose packings
@@ -72,7 +87,48 @@ class RankExecutor {
     seconds_sharing_ += MPI_Wtime() - started;
   }
 
+  /// What the first rank says.
+  bool agree(bool said) const {
+    int answer = said ? 1 : 0;
+    MPI_Bcast(&answer, 1, MPI_INT, 0, communicator_);
+    return answer != 0;
+  }
+
+  /// On the first rank: what the owner of a point answers while it serves.
+  std::string ask(int point) const {
+    int const owner = point % ranks_;
+    MPI_Send(&point, 1, MPI_INT, owner, question, communicator_);
+    MPI_Status status;
+    MPI_Probe(owner, answer, communicator_, &status);
+    int length = 0;
+    MPI_Get_count(&status, MPI_BYTE, &length);
+    std::string bytes(static_cast<std::size_t>(length), '\0');
+    MPI_Recv(bytes.data(), length, MPI_BYTE, owner, answer, communicator_, MPI_STATUS_IGNORE);
+    return bytes;
+  }
+
+  /// On the first rank: nothing more to ask, the others go on.
+  void dismiss() const {
+    int const nothing = -1;
+    for (int other = 1; other < ranks_; ++other) MPI_Send(&nothing, 1, MPI_INT, other, question, communicator_);
+  }
+
+  /// On the others: answer(point) returns the bytes for each point that the first rank asks for, until it dismisses them.
+  template <std::invocable<int> Answer>
+  void serve(Answer const& answer_to) const {
+    for (;;) {
+      int point = -1;
+      MPI_Recv(&point, 1, MPI_INT, 0, question, communicator_, MPI_STATUS_IGNORE);
+      if (point < 0) return;
+      std::string const bytes = answer_to(point);
+      MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, 0, answer, communicator_);
+    }
+  }
+
  private:
+  static constexpr int question = 1;  // tags of messages
+  static constexpr int answer = 2;
+
   /// Number of points among `count` that a rank owns.
   std::size_t owned(std::size_t count, std::size_t rank) const {
     auto const ranks = static_cast<std::size_t>(ranks_);

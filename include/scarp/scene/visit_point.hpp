@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <type_traits>
+
+#include "scarp/solver/executor.hpp"
+
+namespace scarp {
+
+/// Calls visit(provider, state) with the committed state of a point. Where points are shared out among processes, this is for the first
+/// one, inside on_first_rank (scene/first_rank.hpp): it gets a copy of what another one has.
+template <class Problem, class Visit>
+void visit_point(Problem const& problem, int point, Visit const& visit) {
+  using Executor = std::remove_cvref_t<decltype(problem.executor())>;
+  problem.materials().visit(point, [&](auto const& field, int local) {
+    if constexpr (SharesPoints<Executor>) {
+      if (!problem.executor().owns(point)) {
+        visit(field.provider(), state_elsewhere(problem.executor(), field, point));
+        return;
+      }
+    }
+    visit(field.provider(), field.committed(local));
+  });
+}
+
+/// Cauchy stress [Pa] of a point's committed state.
+template <class Problem>
+VoigtStress<Problem::dim> committed_stress(Problem const& problem, int point) {
+  VoigtStress<Problem::dim> stress;
+  visit_point(problem, point, [&](auto const& provider, auto const& state) { stress = provider.stress(state); });
+  return stress;
+}
+
+}  // namespace scarp
