@@ -43,6 +43,41 @@ struct Choice {
   double probe_b_y = 12.0;
   double time_limit = 0.0;  ///< [s], 0 for none
   std::string output = "output/fault_rupture";
+  std::string checkpoint;           ///< folder; empty: nothing is saved
+  double checkpoint_every = 600.0;  ///< [s]
+  bool resume = false;
+
+  /// What the results depend on.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("case", self.scene);
+    visit("soil", self.soil);
+    visit("footing", self.base);
+    visit("quick", self.quick);
+    visit("size", self.size);
+    visit("triangles", self.triangles);
+    visit("grains", self.grains);
+    visit("seed", self.seed);
+    visit("preparation-friction", self.preparation_friction);
+    visit("throw-over-depth", self.throw_over_depth);
+    visit("dip", self.dip);
+    visit("tip", self.tip);
+    visit("tolerance", self.tolerance);
+    visit("largest-gradient", self.largest_gradient);
+    visit("most-iterations", self.most_iterations);
+    visit("strain-per-step", self.strain_per_step);
+    visit("least-dem-steps", self.least_dem_steps);
+    visit("unbalanced", self.unbalanced_tolerance);
+    visit("footing-centre", self.footing_centre);
+    visit("footing-width", self.footing_width);
+    visit("bearing-pressure", self.bearing_pressure);
+    visit("base-friction", self.base_friction);
+    visit("frames", self.frames);
+    visit("probe-a-x", self.probe_a_x);
+    visit("probe-a-y", self.probe_a_y);
+    visit("probe-b-x", self.probe_b_x);
+    visit("probe-b-y", self.probe_b_y);
+  }
 };
 
 }  // namespace fault_rupture

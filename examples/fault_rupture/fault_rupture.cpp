@@ -16,6 +16,30 @@ void make_quick(Choice& choice) {
   choice.quick = true;
 }
 
+/// A line for each choice that the results depend on.
+struct ChoiceLines {
+  std::string text;
+
+  template <class Value>
+  void operator()(std::string_view name, Value const& value) {
+    if constexpr (std::is_enum_v<Value>) {
+      text += fmt::format("{} = number {}\n", name, static_cast<int>(value));
+    } else {
+      text += fmt::format("{} = {}\n", name, value);
+    }
+  }
+  void operator()(std::string_view name, std::optional<double> const& value) {
+    text += fmt::format("{} = {}\n", name, value ? fmt::format("{}", *value) : "the soil's own");
+  }
+};
+
+/// \throws scarp::CheckpointError
+scarp::CheckpointFiles checkpoint_files(Choice const& choice) {
+  ChoiceLines lines;
+  Choice::members(choice, lines);
+  return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
+}
+
 template <class Enum>
 CLI::Validator named(std::map<std::string, Enum> names) {
   return CLI::CheckedTransformer(std::move(names)).description("");
@@ -69,6 +93,13 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
   app.add_option("--probe-b-y", choice.probe_b_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, 0 for none")
       ->check(number_from(0.0, true, 1e9));
+  app.add_option("--checkpoint", choice.checkpoint,
+                 "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")
+      ->check([](std::string const& given) { return given.empty() ? "" : examples::refused_folder(given); });
+  app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there; afresh where there is none")
+      ->configurable(false);
+  app.add_option("--checkpoint-every", choice.checkpoint_every, "seconds between two checkpoints")
+      ->check(number_from(0.0, true, 1e9));
   app.add_option("--output", choice.output, "folder for all results")->check([](std::string const& given) {
     return examples::refused_folder(given);
   });
@@ -96,8 +127,13 @@ int main(int argc, char** argv) {
   }
   try {
     auto const started = std::chrono::steady_clock::now();
+    auto files = checkpoint_files(choice);
+    if (files.resumes()) fmt::print(stderr, "going on from '{}'\n", files.newest().string());
     auto const scene = fault_rupture::make_scene(choice);
-    return std::visit([&](auto const& chosen) { return run(choice, chosen, started); }, scene);
+    return std::visit([&](auto const& chosen) { return run(choice, chosen, files, started); }, scene);
+  } catch (scarp::CheckpointError const& error) {
+    fmt::print(stderr, "fault_rupture: {}\n", error.what());
+    return 2;
   } catch (std::exception const& error) {
     fmt::print(stderr, "fault_rupture: {}\n", error.what());
     return 1;

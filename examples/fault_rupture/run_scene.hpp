@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "scarp/io/packing_tables.hpp"
+#include "scarp/scene/checkpointed_run.hpp"
 #include "scarp/scene/convergence_log.hpp"
 #include "scarp/scene/field_series.hpp"
 #include "scarp/scene/probe.hpp"
@@ -17,10 +18,16 @@
 
 namespace fault_rupture {
 
-/// An older, longer series would be mixed up with the new one, and an old summary would speak for it.
-inline void remove_older_results(std::filesystem::path const& folder) {
-  for (auto const* name : {"fields.pvd", "summary.json", "summary.txt", "footing.csv", "footing_base.csv",
-                           "packing_grains.csv", "packing_contacts.csv"})
+using Moment = std::chrono::steady_clock::time_point;
+
+/// An older, longer series would be mixed up with the new one, and an old summary would speak for it. A run that goes on keeps its
+/// series.
+inline void remove_older_results(std::filesystem::path const& folder, bool goes_on) {
+  std::filesystem::remove(folder / "summary.json");
+  std::filesystem::remove(folder / "summary.txt");
+  if (goes_on) return;
+  for (auto const* name :
+       {"fields.pvd", "footing.csv", "footing_base.csv", "packing_grains.csv", "packing_contacts.csv"})
     std::filesystem::remove(folder / name);
   for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
     std::string const name = file.path().filename().string();
@@ -34,17 +41,20 @@ struct NoFooting : scarp::NeverStops {
   void attempted(Problem const&, scarp::StepReport const&) {}
 };
 
-inline NoFooting footing_log(std::filesystem::path const&, scarp::BareGround const&, double, int, double) { return {}; }
+inline NoFooting footing_log(std::filesystem::path const&, scarp::BareGround const&, double, int, double,
+                             scarp::CsvStart) {
+  return {};
+}
 template <class Structure>
 scarp::FootingLog<Structure> footing_log(std::filesystem::path const& folder, Structure const& structure, double to,
-                                         int profiles, double load_unit) {
-  return {folder, structure, to, profiles, load_unit};
+                                         int profiles, double load_unit, scarp::CsvStart start) {
+  return {folder, structure, to, profiles, load_unit, start};
 }
 
-/// Runs a scene and writes its results.
+/// Runs a scene, or goes on with one, and writes its results.
 /// \return exit code of the program
 template <class SceneType>
-int run(Choice const& choice, SceneType const& scene, std::chrono::steady_clock::time_point started) {
+int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& files, Moment started) {
   namespace fs = std::filesystem;
   auto const elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -56,7 +66,7 @@ int run(Choice const& choice, SceneType const& scene, std::chrono::steady_clock:
 
   fs::path const folder = choice.output;
   fs::create_directories(folder / "fields");
-  remove_older_results(folder);
+  remove_older_results(folder, files.resumes());
   if constexpr (requires { scene.soil.source.packings; }) {
     auto const& packings = scene.soil.source.packings;
     scarp::write_packing_tables(folder, packings[packings.size() / 2], scene.soil.law);
@@ -64,21 +74,29 @@ int run(Choice const& choice, SceneType const& scene, std::chrono::steady_clock:
   double const depth = scene.layer.depth;
   double const to = scene.throw_to;
   constexpr int profiles = 17;
+  auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   auto const& grid = problem.discretisation();
   auto const at = [&](double x, double y) { return nearest_point(grid, scarp::Vector<2>(x, y)); };
   scarp::Observers observers(
       scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
-      scarp::SurfaceLog(folder / "surface.csv", scarp::boundary_nodes(grid.mesh(), "surface"), to, profiles, depth),
-      scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth),
-      scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth),
-      footing_log(folder, scene.structure, to, profiles, depth),
-      scarp::ConvergenceLog(folder / "convergence.csv", depth), scarp::Progress(to, depth), scarp::StopSignal(),
+      scarp::SurfaceLog(folder / "surface.csv", scarp::boundary_nodes(grid.mesh(), "surface"), to, profiles, depth,
+                        start),
+      scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
+      scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
+      footing_log(folder, scene.structure, to, profiles, depth, start),
+      scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth), scarp::StopSignal(),
       scarp::TimeLimit(choice.time_limit));
 
-  auto report = scene.settle(problem, observers);
-  auto const rest = at_rest(problem, scene);
-  if (report.verdict.acceptable()) report = scarp::joined(report, scene.place(problem, observers));
-  if (report.verdict.acceptable()) report = scarp::joined(report, scene.rupture(problem, observers));
+  AtRest rest;
+  scarp::CheckpointedRun stages(files, observers, rest);
+  stages.stage([&] {
+    auto const settled = scene.settle(problem, stages);
+    rest = at_rest(problem, scene);
+    return settled;
+  });
+  stages.stage([&] { return scene.place(problem, stages); });
+  stages.stage([&] { return scene.rupture(problem, stages); });
+  auto const& report = stages.report();
 
   auto const json = summary(choice, scene, problem, rest, report, elapsed());
   scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
@@ -97,14 +115,14 @@ int run(Choice const& choice, SceneType const& scene, std::chrono::steady_clock:
 }
 
 // Each soil's scenes are compiled in a source of their own.
-extern template int run(Choice const&, SandFreeField const&, std::chrono::steady_clock::time_point);
-extern template int run(Choice const&, SandStickingFooting const&, std::chrono::steady_clock::time_point);
-extern template int run(Choice const&, SandFrictionalFooting const&, std::chrono::steady_clock::time_point);
-extern template int run(Choice const&, MohrCoulombFreeField const&, std::chrono::steady_clock::time_point);
-extern template int run(Choice const&, MohrCoulombStickingFooting const&, std::chrono::steady_clock::time_point);
-extern template int run(Choice const&, MohrCoulombFrictionalFooting const&, std::chrono::steady_clock::time_point);
-extern template int run(Choice const&, ElasticFreeField const&, std::chrono::steady_clock::time_point);
-extern template int run(Choice const&, ElasticStickingFooting const&, std::chrono::steady_clock::time_point);
-extern template int run(Choice const&, ElasticFrictionalFooting const&, std::chrono::steady_clock::time_point);
+extern template int run(Choice const&, SandFreeField const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, SandStickingFooting const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, SandFrictionalFooting const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, MohrCoulombFreeField const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, MohrCoulombStickingFooting const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, MohrCoulombFrictionalFooting const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, ElasticFreeField const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, ElasticStickingFooting const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, ElasticFrictionalFooting const&, scarp::CheckpointFiles&, Moment);
 
 }  // namespace fault_rupture

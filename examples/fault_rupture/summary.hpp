@@ -23,6 +23,16 @@ struct AtRest {
   double void_ratio_min = 0.0;  ///< not finite where the soil has no packings
   double void_ratio_max = 0.0;
   double vertical_error = 0.0;  ///< largest |vertical stress / overburden - 1|
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("k0", self.k0);
+    visit("k0_min", self.k0_min);
+    visit("k0_max", self.k0_max);
+    visit("void_ratio_min", self.void_ratio_min);
+    visit("void_ratio_max", self.void_ratio_max);
+    visit("vertical_error", self.vertical_error);
+  }
 };
 
 template <class Problem, class SceneType>

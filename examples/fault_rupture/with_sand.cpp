@@ -2,7 +2,7 @@
 #include "run_scene.hpp"
 
 namespace fault_rupture {
-template int run(Choice const&, SandFreeField const&, std::chrono::steady_clock::time_point);
-template int run(Choice const&, SandStickingFooting const&, std::chrono::steady_clock::time_point);
-template int run(Choice const&, SandFrictionalFooting const&, std::chrono::steady_clock::time_point);
+template int run(Choice const&, SandFreeField const&, scarp::CheckpointFiles&, Moment);
+template int run(Choice const&, SandStickingFooting const&, scarp::CheckpointFiles&, Moment);
+template int run(Choice const&, SandFrictionalFooting const&, scarp::CheckpointFiles&, Moment);
 }  // namespace fault_rupture

@@ -28,6 +28,11 @@ struct Softening {
     int point = 0;
     scarp::EngineeringStrain<2> strain = scarp::EngineeringStrain<2>::Zero();
     friend bool operator==(State const& a, State const& b) { return a.point == b.point && a.strain == b.strain; }
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("strain", self.strain);
+    }
   };
 
   double reference_strain = infinity;   ///< infinite: linear

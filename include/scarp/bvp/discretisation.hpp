@@ -147,6 +147,12 @@ class Discretisation {
     positions_ = std::move(positions);
   }
 
+  /// What evolves: the committed positions.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("positions of nodes", std::span(self.positions_));
+  }
+
  private:
   using Shapes = ElementShapes<Element, material_points<Scheme, Element>>;
 

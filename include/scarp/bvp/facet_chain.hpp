@@ -26,6 +26,13 @@ class FacetChain {
     int facet = 0;
     double xi = 0.0;
     bool at_end = false;
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("facet", self.facet);
+      visit("xi", self.xi);
+      visit("at_end", self.at_end);
+    }
   };
 
   /// \throws InputError when there is no facet

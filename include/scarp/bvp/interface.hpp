@@ -89,6 +89,14 @@ class Interface {
     return all;
   }
 
+  /// What evolves: the committed state of body and points.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("body", self.body_);
+    visit("points", std::span(self.committed_));
+  }
+  void after_loading() { trial_ = committed_; }
+
  private:
   struct State {
     FacetChain::Foot foot{};
@@ -99,6 +107,18 @@ class Interface {
     double pressure = 0.0;
     double shear = 0.0;
     Tensor<2> stiffness = Tensor<2>::Zero();  ///< of the stress on the body against its relative motion [Pa/m]
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("foot", self.foot);
+      visit("memory", self.memory);
+      visit("place", self.place);
+      visit("along", self.along);
+      visit("overlap", self.overlap);
+      visit("pressure", self.pressure);
+      visit("shear", self.shear);
+      visit("stiffness", self.stiffness);
+    }
   };
 
   /// Out of the ground, which is on the left of its outline.

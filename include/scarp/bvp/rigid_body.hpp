@@ -47,6 +47,12 @@ class RigidBody {
     angle_ += increment(first + 2) / arm_;
   }
 
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("reference", self.reference_);
+    visit("rotation", self.angle_);
+  }
+
  private:
   Tensor<2> turned(double along_arm) const { return scarp::rotation(angle_ + along_arm / arm_); }
 

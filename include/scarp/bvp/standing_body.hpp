@@ -67,6 +67,11 @@ class RigidFooting {
   }
   void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const& increment) { body_.commit(increment, first_); }
 
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("body", self.body_);
+  }
+
  private:
   RigidBody body_;
   int first_;
@@ -117,6 +122,10 @@ class MeshedFooting {
              {2 * b + 1, xi * Vector<2>::UnitY()}}};
   }
   static void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const&) {}
+
+  /// Nothing: it moves with the mesh.
+  template <class Self, class Visit>
+  static void members(Self&, Visit&&) {}
 
  private:
   FacetChain base_;

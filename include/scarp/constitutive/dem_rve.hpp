@@ -42,6 +42,15 @@ struct DemRve {
     double unbalanced_ratio = 0.0;                       ///< mean net force of a grain over mean contact force
     double kinetic_share = 0.0;                          ///< of moving grains in the pressure
     Verdict verdict{};
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("packing", self.packing);
+      visit("stress", self.stress);
+      visit("unbalanced_ratio", self.unbalanced_ratio);
+      visit("kinetic_share", self.kinetic_share);
+      visit("verdict", self.verdict);
+    }
   };
 
   Law law{};

@@ -25,6 +25,12 @@ struct Dormant {
     Site<dim> site;
     bool awake = false;
     typename Provider::State own;
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("awake", self.awake);
+      visit("own", self.own);
+    }
   };
 
   Provider provider{};

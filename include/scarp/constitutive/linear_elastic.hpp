@@ -18,6 +18,11 @@ struct LinearElastic {
 
   struct State {
     VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("stress", self.stress);
+    }
   };
 
   IsotropicElasticity elasticity{};

@@ -94,6 +94,13 @@ class ProviderField {
     for (State& state : committed_) visit(state);
   }
 
+  /// What evolves: the committed states.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("states", std::span(self.committed_));
+  }
+  void after_loading() { trial_ = committed_; }
+
  private:
   static State no_state() {
     if constexpr (std::default_initializable<State>) {

@@ -23,6 +23,13 @@ struct MohrCoulomb {
     VoigtStress<3> stress = VoigtStress<3>::Zero();  ///< of all three dimensions [Pa]
     double plastic_shear = 0.0;                      ///< accumulated difference of the outer principal plastic strains
     VoigtTangent<Dim> tangent = VoigtTangent<Dim>::Zero();  ///< consistent with the increment that led here [Pa]
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("stress", self.stress);
+      visit("plastic_shear", self.plastic_shear);
+      visit("tangent", self.tangent);
+    }
   };
 
   IsotropicElasticity elasticity{};

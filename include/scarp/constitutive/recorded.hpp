@@ -26,6 +26,13 @@ struct HistoryRow {
   VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy [Pa], tension positive
   Gradient<Dim> gradient = Gradient<Dim>::Zero();  ///< since the start, of all increments: (I + G_n) ... (I + G_1) - I
   Verdict verdict;
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("stress", self.stress);
+    visit("gradient", self.gradient);
+    visit("verdict", self.verdict);
+  }
 };
 
 /// Any provider with the history of chosen points: one row for the start and one for every committed increment. Rows belong to
@@ -38,6 +45,12 @@ struct Recorded {
   struct State {
     typename Provider::State own;
     SharedHistory<HistoryRow<dim>> history;  ///< empty for a point that was not chosen
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("own", self.own);
+      visit("history", self.history);
+    }
   };
 
   Provider provider{};

@@ -26,6 +26,12 @@ struct VariedParameters {
   struct State {
     std::shared_ptr<Provider const> provider;
     typename Provider::State own;
+
+    /// Without the provider: that one follows from the site.
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("own", self.own);
+    }
   };
 
   Provider common{};

@@ -49,6 +49,13 @@ struct ContactMemory {
   Tangential<Dim, T> shear{};  ///< tangential force on the second grain [N]
   Turning<Dim, T> moment{};    ///< on the second grain [N m]
   std::array<T, most_contact_scalars> scalars{};
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("shear", self.shear);
+    visit("moment", self.moment);
+    visit("scalars", self.scalars);
+  }
 };
 
 /// Answer of a law. Whatever is not asked for by its caller costs nothing.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,17 @@ class SharedHistory {
     for (Link const* link = last_.get(); link != nullptr; link = link->before.get()) rows.push_back(link->row);
     std::reverse(rows.begin(), rows.end());
     return rows;
+  }
+
+  /// Rows that come back are in memory of their own.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    std::vector<Row> rows = self.rows();
+    visit("rows", rows);
+    if constexpr (!std::is_const_v<Self>) {
+      self = {};
+      for (Row& row : rows) self.push_back(std::move(row));
+    }
   }
 
   /// Whether both are the same rows in the same memory.

@@ -37,6 +37,13 @@ struct Verdict {
   Reason reason = Reason::none;
 
   constexpr bool acceptable() const { return status == Status::ok || status == Status::fluid; }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("status", self.status);
+    visit("reason", self.reason);
+  }
+
   friend constexpr bool operator==(Verdict const&, Verdict const&) = default;
 };
 

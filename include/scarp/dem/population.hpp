@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "scarp/core/columns.hpp"
@@ -70,6 +72,45 @@ class Population {
   Scalar const* inverse_mass() const { return inverse_mass_.column(0); }
   /// [1/(kg m2)]
   Scalar const* inverse_inertia() const { return inverse_inertia_.column(0); }
+
+  /// Calls visit(name, member) for what the rest follows from, and for the content, which tells shapes apart that have
+  /// equally many sizes.
+  template <class Visit>
+  static void members(Population const& self, Visit&& visit) {
+    visit("density", self.density_);
+    visit("thickness", self.thickness_);
+    visit("content", self.content_);
+    visit("sizes", self.size_);
+  }
+
+  /// The population whose members visit(name, member) fills in.
+  /// \throws InputError when they are another shape's
+  template <class Visit>
+  static std::shared_ptr<Population const> restored(Visit&& visit) {
+    double density = 0.0;
+    double thickness = 0.0;
+    double content = 0.0;
+    Columns<Scalar, Shape::size_count> stored;
+    visit("density", density);
+    visit("thickness", thickness);
+    visit("content", content);
+    visit("sizes", stored);
+    std::vector<Size> sizes(stored.rows());
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      for (std::size_t k = 0; k < sizes[i].size(); ++k) {
+        sizes[i][k] = static_cast<double>(stored(i, static_cast<int>(k)));
+      }
+    }
+    auto population = std::make_shared<Population const>(sizes, density, thickness);
+    constexpr double round_off = 1e-12;  // sums of the same numbers by another compiler's code
+    if (!(std::abs(content - population->content()) <= round_off * population->content())) {
+      refuse(
+          "its grains have a content of {} (of the shape asked for they would have {}): load it as the shape that was "
+          "saved",
+          content, population->content());
+    }
+    return population;
+  }
 
  private:
   double density_;

@@ -130,6 +130,7 @@ class CsvLog {
     } else {
       write_file(path_, format_.header());
     }
+    bytes_ = std::filesystem::file_size(path_);
     file_ = detail::open_file(path_, "ab");
   }
 
@@ -140,6 +141,26 @@ class CsvLog {
     if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0) {
       detail::throw_not_written(path_, std::strerror(errno));
     }
+    bytes_ += line.size();
+  }
+
+  /// What a checkpoint remembers: how long the file was.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("bytes of a table", self.bytes_);
+  }
+
+  /// Takes the rows off that came after the checkpoint.
+  /// \throws InputError when rows from before it are gone, FileError when the file cannot be cut
+  void after_loading() {
+    auto const present = std::filesystem::file_size(path_);
+    if (present < bytes_) {
+      refuse("'{}' has {} bytes (it had {} when the checkpoint was made): bring back the file of that run",
+             path_.string(), present, bytes_);
+    }
+    std::error_code trouble;
+    std::filesystem::resize_file(path_, bytes_, trouble);
+    if (trouble) detail::throw_not_written(path_, trouble.message());
   }
 
  private:
@@ -158,7 +179,8 @@ class CsvLog {
 
   detail::CsvFormat format_;
   std::filesystem::path path_;
-  detail::OpenFile file_;
+  std::uintmax_t bytes_ = 0;
+  detail::OpenFile file_;  // appends, wherever the end is
 };
 
 }  // namespace scarp

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <bit>
-
+#include "scarp/dem/packing.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/packing_bits.hpp"
+#include "scarp/io/framed_file.hpp"
 #include "scarp/io/read_file.hpp"
 
 namespace scarp {
 
 namespace detail {
 
-/// A file is: magic, order of bytes, version, length of the payload, layout, payload, hash of all before.
-inline constexpr std::string_view packing_magic = "SCARPPAK";
-inline constexpr std::uint32_t byte_order_mark = 0x01020304U;
-inline constexpr std::uint32_t packing_version = 2;
+inline constexpr FileFormat packing_format{"SCARPPAK", 3, "packing", "save_packing"};
 
 struct LayoutEntry {
   std::string_view what;
@@ -39,51 +35,8 @@ constexpr auto packing_layout() {
                                 static_cast<std::uint32_t>(Columns<typename PackingType::Scalar, 1>::padding)}};
 }
 
-/// FNV-1a of 64 bits (Fowler, Noll and Vo): finds every single wrong byte.
-inline std::uint64_t hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (char const byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  return hash;
-}
-
-/// Payload of a file, layout first.
-/// \throws InputError unless the file is a packing's, whole, unharmed and of this version and order of bytes
-inline std::string_view packing_payload(std::string_view file) {
-  if (!file.starts_with(packing_magic)) {
-    refuse("it is no packing (it does not begin with {}): give a file that save_packing wrote", packing_magic);
-  }
-  BitReader reader(file.substr(packing_magic.size()));
-  std::uint32_t mark = 0;
-  std::uint32_t version = 0;
-  std::uint64_t length = 0;
-  reader("order of bytes", mark);
-  if (mark != byte_order_mark) {
-    refuse(
-        "its order of bytes is {:#010x} (this machine writes {:#010x}): load it on a machine like the one that saved "
-        "it",
-        mark, byte_order_mark);
-  }
-  reader("version", version);
-  if (version != packing_version) {
-    refuse("it is of version {} (this library reads version {}): save it again with this library", version,
-           packing_version);
-  }
-  reader("length", length);
-  std::size_t const start = packing_magic.size() + sizeof(mark) + sizeof(version) + sizeof(length);
-  std::uint64_t hash = 0;
-  if (file.size() < start + sizeof(hash) || file.size() - start - sizeof(hash) != length) {
-    refuse("it has {} bytes (its header promises {} behind the first {}): it was cut off or added to, save it again",
-           file.size(), length, start);
-  }
-  BitReader(file.substr(file.size() - sizeof(hash)))("hash", hash);
-  if (hash != hash_of(file.substr(0, file.size() - sizeof(hash)))) {
-    refuse("its bytes have changed since it was written (hash {:#x} does not fit): save it again", hash);
-  }
-  return file.substr(start, static_cast<std::size_t>(length));
-}
-
 template <class PackingType>
-void refuse_other_layout(BitReader& reader) {
+void refuse_other_layout(StateReader& reader) {
   for (LayoutEntry const& entry : packing_layout<PackingType>()) {
     std::uint32_t saved = 0;
     reader(entry.what, saved);
@@ -115,8 +68,9 @@ void refuse_unsound(PackingType const& packing) {
   std::size_t const grains = packing.grain_count();
   auto const rows = static_cast<std::int64_t>(packing.row_count());
   auto const ghosts = static_cast<std::int64_t>(pairs.ghost_owner.size());
-  refuse_unless(packing.population->count() == grains && has_rows(packing.velocity, grains) &&
-                    has_rows(packing.spin, grains) && has_rows(packing.orientation, grains),
+  refuse_unless(packing.population != nullptr && packing.population->count() == grains &&
+                    has_rows(packing.velocity, grains) && has_rows(packing.spin, grains) &&
+                    has_rows(packing.orientation, grains),
                 "arrays of grains differ in length");
   refuse_unless(packing.cell.allFinite() && packing.cell.determinant() > 0.0, "cell has no positive content");
   refuse_unless(pairs.second.size() == pairs.count() && has_rows(pairs.normal, pairs.count()) &&
@@ -134,10 +88,10 @@ void refuse_unsound(PackingType const& packing) {
 /// The packing that stands in the bytes of a file.
 template <class PackingType>
 PackingType packing_of(std::string_view file) {
-  BitReader reader(packing_payload(file));
+  StateReader reader(payload_of(packing_format, file));
   refuse_other_layout<PackingType>(reader);
   PackingType packing;
-  packing.members(packing, reader);
+  reader("packing", packing);
   refuse_unless(reader.at_end(), "members leave bytes over");
   refuse_unsound(packing);
   return packing;
@@ -155,17 +109,11 @@ void save_packing(std::filesystem::path const& path, PackingType const& packing,
   if (packing.population == nullptr) {
     refuse("the packing for '{}' has no grains (there is nothing to save): make it first", path.string());
   }
-  detail::BitWriter payload;
-  for (auto const& entry : detail::packing_layout<PackingType>()) payload(entry.what, entry.value);
-  packing.members(packing, payload);
-  detail::BitWriter file;
-  file.put(detail::packing_magic.data(), detail::packing_magic.size());
-  file("order of bytes", detail::byte_order_mark);
-  file("version", detail::packing_version);
-  file.put_length(payload.bits().size());
-  file.put(payload.bits().data(), payload.bits().size());
-  file("hash", detail::hash_of(file.bits()));
-  write_file(path, file.bits(), durability);
+  auto const bytes = detail::framed(detail::packing_format, [&](StateWriter& file) {
+    for (auto const& entry : detail::packing_layout<PackingType>()) file(entry.what, entry.value);
+    file("packing", packing);
+  });
+  write_file(path, bytes, durability);
 }
 
 /// The packing of a file, with the bits that were saved; its population is a copy of its own.

@@ -41,6 +41,11 @@ class PvdSeries {
     write_file(path(), text + "</Collection>\n</VTKFile>\n");
   }
 
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("entries", self.entries_);
+  }
+
  private:
   std::filesystem::path folder_;
   std::string name_;

@@ -52,6 +52,14 @@ class FieldSeries : public NeverStops {
     write(problem, report.load);
   }
 
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("series", self.series_);
+    visit("next", self.next_);
+    visit("last", self.last_);
+    visit("frame", self.frame_);
+  }
+
  private:
   template <class Problem>
   void write(Problem const& problem, double load) {

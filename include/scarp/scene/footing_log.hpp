@@ -36,10 +36,13 @@ template <class Structure>
 class FootingLog : public NeverStops {
  public:
   /// profiles: of the base, at load factors that are to / profiles apart, from 0
-  FootingLog(std::filesystem::path const& folder, Structure structure, double to, int profiles, double load_unit)
-      : motion_(folder / "footing.csv", {"load", "throw_over_depth", "settlement", "sideways", "tilt", "support",
-                                         "pressure_min", "pressure_max", "pressed_share"}),
-        base_(folder / "footing_base.csv", {"throw_over_depth", "x", "y", "area", "pressure", "shear", "gap"}),
+  FootingLog(std::filesystem::path const& folder, Structure structure, double to, int profiles, double load_unit,
+             CsvStart start = CsvStart::anew)
+      : motion_(folder / "footing.csv",
+                {"load", "throw_over_depth", "settlement", "sideways", "tilt", "support", "pressure_min",
+                 "pressure_max", "pressed_share"},
+                start),
+        base_(folder / "footing_base.csv", {"throw_over_depth", "x", "y", "area", "pressure", "shear", "gap"}, start),
         structure_(std::move(structure)),
         between_(require_positive("distance between profiles", to / profiles)),
         end_(to),
@@ -57,6 +60,13 @@ class FootingLog : public NeverStops {
     while (next_ <= report.load) next_ += between_;
     for (auto const& point : motion.base)
       base_.add(fault_throw, point.place.x(), point.place.y(), point.area, point.pressure, point.shear, point.gap);
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("motion", self.motion_);
+    visit("base", self.base_);
+    visit("next", self.next_);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
 
+#include "scarp/core/described.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
@@ -24,6 +25,14 @@ struct Observers {
     bool stop = false;
     boost::hana::for_each(parts, [&](auto const& part) { stop = stop || part.wants_stop(); });
     return stop;
+  }
+
+  /// Those that remember something.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    boost::hana::for_each(self.parts, [&](auto& part) {
+      if constexpr (Described<std::remove_cvref_t<decltype(part)>>) visit("observer", part);
+    });
   }
 };
 

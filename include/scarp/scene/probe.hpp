@@ -29,9 +29,11 @@ int nearest_point(DiscretisationType const& discretisation, Vector<Discretisatio
 class RveProbe : public NeverStops {
  public:
   /// point: number of a material point, see nearest_point
-  RveProbe(std::filesystem::path const& file, int point, double load_unit)
-      : log_(file, {"throw_over_depth", "eps_q", "eps_v", "p", "q", "contact_fabric", "particle_fabric", "void_ratio",
-                    "sxx", "syy", "sxy"}),
+  RveProbe(std::filesystem::path const& file, int point, double load_unit, CsvStart start = CsvStart::anew)
+      : log_(file,
+             {"throw_over_depth", "eps_q", "eps_v", "p", "q", "contact_fabric", "particle_fabric", "void_ratio", "sxx",
+              "syy", "sxy"},
+             start),
         point_(point),
         load_unit_(load_unit) {}
 
@@ -53,6 +55,11 @@ class RveProbe : public NeverStops {
     });
     log_.add(report.load / load_unit_, strain.deviatoric, strain.volumetric, geo_stress.p, geo_stress.q,
              fabric_of_contacts, fabric_of_particles, void_ratio, -stress(0), -stress(1), -stress(2));
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("log", self.log_);
   }
 
  private:

@@ -17,10 +17,11 @@ class Progress : public NeverStops {
   Progress(double to, double load_unit) : to_(to), load_unit_(load_unit), started_(std::chrono::steady_clock::now()) {}
 
   template <class Problem>
-  void attempted(Problem const& problem, StepReport const& report) const {
+  void attempted(Problem const& problem, StepReport const& report) {
+    if (from_ < 0.0 && report.load > 0.0) from_ = report.load - report.load_increment;
     double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     if (report.verdict.acceptable()) {
-      double const remaining = report.load > 0.0 ? elapsed * (to_ - report.load) / report.load : 0.0;
+      double const remaining = report.load > 0.0 ? elapsed * (to_ - report.load) / (report.load - from_) : 0.0;
       fmt::print(stderr,
                  "step {:4}  h/H {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n",
                  report.step, report.load / load_unit_, report.residual(), report.iterations(), elapsed, remaining);
@@ -44,6 +45,7 @@ class Progress : public NeverStops {
 
   double to_;
   double load_unit_;
+  double from_ = -1.0;  ///< load of the fault's motion at the first attempt, zero unless the run continues another
   std::chrono::steady_clock::time_point started_;
 };
 

@@ -106,6 +106,11 @@ class RegionMaterials {
     boost::hana::for_each(fields_, [&](auto& field) { field.for_each_committed(visit); });
   }
 
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    boost::hana::for_each(self.fields_, [&](auto& field) { visit("region", field); });
+  }
+
  private:
   struct Place {
     int field = -1;

@@ -13,8 +13,9 @@ namespace scarp {
 /// Settlement of the ground surface at every accepted step at which the load has grown by to / profiles.
 class SurfaceLog : public NeverStops {
  public:
-  SurfaceLog(std::filesystem::path const& file, std::vector<int> nodes, double to, int profiles, double load_unit)
-      : log_(file, {"throw_over_depth", "x_initial", "x", "settlement"}),
+  SurfaceLog(std::filesystem::path const& file, std::vector<int> nodes, double to, int profiles, double load_unit,
+             CsvStart start = CsvStart::anew)
+      : log_(file, {"throw_over_depth", "x_initial", "x", "settlement"}, start),
         nodes_(std::move(nodes)),
         between_(require_positive("distance between profiles", to / profiles)),
         end_(to),
@@ -28,6 +29,12 @@ class SurfaceLog : public NeverStops {
     for (auto const& point : surface_profile(grid.mesh(), grid.positions(), nodes_)) {
       log_.add(report.load / load_unit_, point.x_initial, point.x, point.settlement);
     }
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("log", self.log_);
+    visit("next", self.next_);
   }
 
  private:

@@ -225,6 +225,14 @@ class EquilibriumProblem {
     materials_.for_each_committed(visit);
   }
 
+  /// What evolves from step to step: a problem made anew goes on from these as the one that they were taken from.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("discretisation", self.discretisation_);
+    visit("materials", self.materials_);
+    if constexpr (!is_bare) visit("attached", self.attached_);
+  }
+
  private:
   static_assert(is_bare || Attachment<Attached, dim>);
 

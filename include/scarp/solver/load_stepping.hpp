@@ -38,6 +38,44 @@ struct RunReport {
   double largest_residual = 0.0;       ///< of the accepted steps
   double material_seconds = 0.0;
   double seconds = 0.0;
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("verdict", self.verdict);
+    visit("last_failure", self.last_failure);
+    visit("worst_point", self.worst_point);
+    visit("weak_dof", self.weak_dof);
+    visit("load", self.load);
+    visit("steps", self.steps);
+    visit("refused", self.refused);
+    visit("iterations", self.iterations);
+    visit("inner_steps", self.inner_steps);
+    visit("largest_residual", self.largest_residual);
+    visit("material_seconds", self.material_seconds);
+    visit("seconds", self.seconds);
+  }
+};
+
+/// Where a run stands between two attempts: with the problem and the session it is all that the rest of the run follows from.
+struct RunState {
+  RunReport report;
+  double increment = 0.0;  ///< of the load, for the next attempt
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("report", self.report);
+    visit("increment", self.increment);
+  }
+};
+
+/// An observer that saves runs and continues saved ones: begins(problem, session, state), before the first attempt, may put back
+/// what was saved; between(...) is told before every attempt and ends(...) after the last one where the run stands.
+template <class Observer, class Problem, class Session>
+concept KeepsRuns = ObservesSteps<Observer, Problem> &&
+    requires(Observer& observer, Problem& problem, Session& session, RunState& state) {
+  observer.begins(problem, session, state);
+  observer.between(problem, session, state);
+  observer.ends(problem, session, state);
 };
 
 /// Two stages of a run as one: counts and times add up, verdict and load are the later stage's.
@@ -105,57 +143,61 @@ struct LoadStepping {
     require_finite("load factor at the end", to);
     if (to < from) refuse("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
     typename Solver::template Session<Problem> session(solver, problem);
-    RunReport run;
-    run.load = from;
-    double increment = std::min({first, largest, to - from});
-    bool fresh = true;  // the session must be readied from a new committed state
-    while (run.load < to) {
+    RunState state;
+    state.report.load = from;
+    state.increment = std::min({first, largest, to - from});
+    if constexpr (KeepsRuns<Observer, Problem, decltype(session)>) observer.begins(problem, session, state);
+    while (state.report.verdict.acceptable() && state.report.load < to) {
+      if constexpr (KeepsRuns<Observer, Problem, decltype(session)>) observer.between(problem, session, state);
       if (observer.wants_stop()) {
-        run.verdict = {Status::not_converged, Reason::interrupted};
-        return run;
-      }
-      StepReport step;
-      step.step = run.steps + 1;
-      auto const started = std::chrono::steady_clock::now();
-      Eigen::VectorXd displacement;
-      if (fresh) step.verdict = session.begin(run.load);
-      session.describe(step);
-      if (!step.verdict.acceptable()) {  // tangents or matrix, which no smaller increment mends
-        run.verdict = step.verdict;
-        run.weak_dof = step.weak_dof;
-        observer.attempted(problem, step);
-        return run;
-      }
-      fresh = false;
-      if (step.verdict.acceptable()) {
-        displacement = limited_prediction(session, problem, run.load, to, increment);
-        step.load = end_of(run.load, to, increment);
-        step.load_increment = step.load < to ? increment : to - run.load;
-        session.correct(displacement, step);
-      }
-      step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-      bool const accepted = step.verdict.acceptable();
-      if (accepted) session.accept(displacement);
-      count(run, step, accepted);
-      observer.attempted(problem, step);
-      if (accepted) {
-        fresh = true;
-        if (step.iterations() <= few) increment *= growth;
-        if (step.iterations() > many) increment *= shrinkage;
+        state.report.verdict = {Status::not_converged, Reason::interrupted};
       } else {
-        increment *= 0.5;
-        fresh = true;
-        if (increment < smallest) {
-          run.verdict = {Status::not_converged, Reason::step_too_small};
-          return run;
-        }
+        attempt(session, problem, to, state, observer);
       }
-      increment = std::min({increment, largest, std::max(to - run.load, smallest)});
     }
-    return run;
+    if constexpr (KeepsRuns<Observer, Problem, decltype(session)>) observer.ends(problem, session, state);
+    return state.report;
   }
 
  private:
+  /// One step, accepted or not; the increment of the next.
+  template <class Session, class Problem, class Observer>
+  void attempt(Session& session, Problem& problem, double to, RunState& state, Observer& observer) const {
+    RunReport& run = state.report;
+    double& increment = state.increment;
+    StepReport step;
+    step.step = run.steps + 1;
+    auto const started = std::chrono::steady_clock::now();
+    step.verdict = session.begin(run.load);
+    session.describe(step);
+    if (!step.verdict.acceptable()) {  // tangents or matrix, which no smaller increment mends
+      run.verdict = step.verdict;
+      run.weak_dof = step.weak_dof;
+      observer.attempted(problem, step);
+      return;
+    }
+    Eigen::VectorXd displacement = limited_prediction(session, problem, run.load, to, increment);
+    step.load = end_of(run.load, to, increment);
+    step.load_increment = step.load < to ? increment : to - run.load;
+    session.correct(displacement, step);
+    step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    bool const accepted = step.verdict.acceptable();
+    if (accepted) session.accept(displacement);
+    count(run, step, accepted);
+    observer.attempted(problem, step);
+    if (accepted) {
+      if (step.iterations() <= few) increment *= growth;
+      if (step.iterations() > many) increment *= shrinkage;
+    } else {
+      increment *= 0.5;
+      if (increment < smallest) {
+        run.verdict = {Status::not_converged, Reason::step_too_small};
+        return;
+      }
+    }
+    increment = std::min({increment, largest, std::max(to - run.load, smallest)});
+  }
+
   /// Cuts the increment until the prediction strains no point more than allowed; the prediction is nearly linear in it.
   template <class Session, class Problem>
   Eigen::VectorXd limited_prediction(Session& session, Problem& problem, double load, double to,

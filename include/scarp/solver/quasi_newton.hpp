@@ -115,6 +115,13 @@ struct QuasiNewton {
       learned_ = working_;
     }
 
+    /// What is remembered from step to step.
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("first tangents", self.first_);
+      visit("learned tangents", self.learned_);
+    }
+
    private:
     template <class Evaluate>
     static Evaluation recorded(StepReport& report, Evaluate&& evaluate) {

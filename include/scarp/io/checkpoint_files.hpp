@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <sstream>
+
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/io/framed_file.hpp"
+#include "scarp/io/read_file.hpp"
+
+namespace scarp {
+
+/// A run cannot be continued from what is saved; the text reads "problem (why): suggestion".
+class CheckpointError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// How a run is saved.
+struct CheckpointSettings {
+  std::filesystem::path folder{};  ///< of these checkpoints alone; empty: nothing is saved
+  bool resume = false;             ///< continue from the newest one; afresh where there is none
+  double every_seconds = 600.0;    ///< wall time between two of them
+  int every_attempts = 0;          ///< also after so many attempts at a step; 0: by time alone
+};
+
+namespace detail {
+
+inline constexpr FileFormat checkpoint_format{"SCARPCHK", 1, "checkpoint", "a checkpointed run"};
+
+/// \throws InputError naming the first line that differs
+inline void refuse_other_scene(std::string const& saved, std::string const& asked) {
+  if (saved == asked) return;
+  std::istringstream ours(asked);
+  std::istringstream theirs(saved);
+  std::string our;
+  std::string their;
+  bool more = true;
+  while (more && our == their) {
+    our.clear();
+    their.clear();
+    bool const one = static_cast<bool>(std::getline(ours, our));
+    bool const other = static_cast<bool>(std::getline(theirs, their));
+    more = one || other;
+  }
+  refuse("it is of another scene ('{}' there, '{}' here): ask for the scene that was saved, or choose another folder",
+         their, our);
+}
+
+}  // namespace detail
+
+/// The checkpoints of one run: numbered files in a folder of their own, of which the last two are kept.
+/// What is read from one is kept until release().
+class CheckpointFiles {
+ public:
+  /// Saves nothing.
+  CheckpointFiles() = default;
+
+  /// scene: all choices that make the scene, a line for each
+  /// \throws CheckpointError for a newest checkpoint that is harmed, of another scene, version or machine, and for an old one
+  /// where the run is to start afresh
+  CheckpointFiles(CheckpointSettings settings, std::string scene)
+      : settings_(std::move(settings)), scene_(std::move(scene)) {
+    if (settings_.folder.empty()) return;
+    require_not_negative("time between two checkpoints", settings_.every_seconds);
+    auto const present = numbers();
+    if (present.empty()) return;
+    number_ = present.back();
+    auto const newest = path(number_);
+    if (!settings_.resume) {
+      throw CheckpointError(fmt::format(
+          "'{}' holds checkpoints of an earlier run (one that starts afresh would replace them): continue it "
+          "with --resume, or choose another folder",
+          settings_.folder.string()));
+    }
+    try {
+      bytes_ = read_file(newest);
+      StateReader reader(detail::payload_of(detail::checkpoint_format, bytes_));
+      std::string saved;
+      reader("scene", saved);
+      detail::refuse_other_scene(saved, scene_);
+    } catch (InputError const& error) {
+      std::string const before = present.size() < 2
+                                     ? ""
+                                     : fmt::format("; the one before is '{}': to continue from that, remove the newest",
+                                                   path(present[present.size() - 2]).string());
+      throw CheckpointError(fmt::format("cannot resume from '{}': {}{}", newest.string(), error.what(), before));
+    }
+  }
+
+  bool saves() const { return !settings_.folder.empty(); }
+  bool resumes() const { return !bytes_.empty(); }
+  CheckpointSettings const& settings() const { return settings_; }
+  std::filesystem::path newest() const { return path(number_); }
+
+  /// write(StateWriter&) adds what is to be saved
+  /// \throws FileError when the file cannot be written; the earlier ones are then untouched
+  template <class Write>
+  void save(Write&& write) {
+    std::filesystem::create_directories(settings_.folder);
+    auto const bytes = detail::framed(detail::checkpoint_format, [&](StateWriter& writer) {
+      writer("scene", scene_);
+      write(writer);
+    });
+    write_file(path(number_ + 1), bytes);
+    ++number_;
+    remove_older();
+  }
+
+  /// read(StateReader&) takes off what write(...) has added; no more need be read than is wanted
+  /// \throws CheckpointError when it is of another type or size; what has been read into is then unusable
+  template <class Read>
+  void load(Read&& read) const {
+    try {
+      StateReader reader(detail::payload_of(detail::checkpoint_format, bytes_));
+      std::string saved;
+      reader("scene", saved);
+      read(reader);
+    } catch (InputError const& error) {
+      throw CheckpointError(fmt::format("cannot resume from '{}': {}", path(number_).string(), error.what()));
+    }
+  }
+
+  void release() { bytes_ = {}; }
+
+ private:
+  static constexpr std::string_view stem = "checkpoint_";
+
+  std::filesystem::path path(int number) const { return settings_.folder / fmt::format("{}{:06}", stem, number); }
+
+  /// Of the checkpoints that are there, increasing.
+  std::vector<int> numbers() const {
+    std::vector<int> found;
+    if (!std::filesystem::is_directory(settings_.folder)) return found;
+    for (auto const& file : std::filesystem::directory_iterator(settings_.folder)) {
+      std::string const name = file.path().filename().string();
+      if (!name.starts_with(stem) || name.size() > stem.size() + 9) continue;
+      std::string const digits = name.substr(stem.size());
+      if (!digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos)
+        found.push_back(std::stoi(digits));
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  /// Also what a killed process has not finished writing.
+  void remove_older() const {
+    std::error_code ignored;
+    for (int const number : numbers()) {
+      if (number < number_ - 1) std::filesystem::remove(path(number), ignored);
+    }
+    for (auto const& file : std::filesystem::directory_iterator(settings_.folder)) {
+      std::string const name = file.path().filename().string();
+      if (name.starts_with(stem) && name.find(".partial-") != std::string::npos)
+        std::filesystem::remove(file.path(), ignored);
+    }
+  }
+
+  CheckpointSettings settings_;
+  std::string scene_;
+  std::string bytes_;
+  int number_ = 0;
+};
+
+}  // namespace scarp

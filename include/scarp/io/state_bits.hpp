@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <typeindex>
+#include <utility>
+#include <vector>
+
+#include "scarp/core/columns.hpp"
+#include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/core/tensor.hpp"
+
+namespace scarp {
+
+namespace detail {
+
+template <class T>
+struct IsFlat : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
+template <class T, std::size_t Count>
+struct IsFlat<std::array<T, Count>> : IsFlat<T> {};
+template <class T, int Rows, int Columns>
+struct IsFlat<Eigen::Matrix<T, Rows, Columns>>
+    : std::bool_constant<(Rows > 0 && Columns > 0) && sizeof(Eigen::Matrix<T, Rows, Columns>) ==
+                                                          sizeof(T) * static_cast<std::size_t>(Rows* Columns)> {};
+
+/// Numbers without gaps between them: their bytes are their value.
+template <class T>
+concept Flat = IsFlat<T>::value;
+
+inline constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
+
+}  // namespace detail
+
+/// Appends the bits of all members that a described type names. In front of each stands its name with the bytes of one
+/// element, arrays follow behind their length; what several members share is stored once.
+class StateWriter {
+ public:
+  void put(void const* values, std::size_t bytes) {
+    if (bytes > 0) bits_.append(static_cast<char const*>(values), bytes);
+  }
+
+  template <detail::Flat T>
+  void operator()(std::string_view name, T const& value) {
+    label(name, sizeof(T));
+    put(&value, sizeof(T));
+  }
+  void operator()(std::string_view name, std::string const& text) { list(name, std::span<char const>(text)); }
+  template <class T, class Allocator>
+  void operator()(std::string_view name, std::vector<T, Allocator> const& values) {
+    list(name, std::span<T const>(values));
+  }
+  template <class T>
+  void operator()(std::string_view name, std::span<T> values) {
+    list(name, std::span<T const>(values));
+  }
+  template <class Scalar, int Count>
+  void operator()(std::string_view name, Columns<Scalar, Count> const& columns) {
+    if constexpr (Count > 0) {
+      label(name, sizeof(Scalar) * Count);
+      put_length(columns.rows());
+      // All values, the padding too: it takes part in comparisons.
+      put(columns.column(0), columns.padded_rows() * Count * sizeof(Scalar));
+    }
+  }
+  template <class T>
+  void operator()(std::string_view name, std::shared_ptr<T const> const& shared) {
+    auto const [known, is_new] = numbers_.try_emplace(shared.get(), static_cast<std::uint32_t>(numbers_.size()));
+    (*this)(name, shared ? known->second : detail::no_number);
+    if (shared && is_new) T::members(*shared, *this);
+  }
+  template <class First, class Second>
+  void operator()(std::string_view, std::pair<First, Second> const& both) {
+    (*this)("first", both.first);
+    (*this)("second", both.second);
+  }
+  template <Described T>
+  void operator()(std::string_view, T const& value) {
+    T::members(value, *this);
+  }
+
+  std::string const& bits() const { return bits_; }
+  std::string& bits() { return bits_; }
+
+ private:
+  void put_length(std::size_t length) {
+    auto const stored = static_cast<std::uint64_t>(length);
+    put(&stored, sizeof(stored));
+  }
+
+  void label(std::string_view name, std::size_t element) {
+    auto const letters = static_cast<std::uint8_t>(name.size());
+    auto const bytes = static_cast<std::uint32_t>(element);
+    put(&letters, sizeof(letters));
+    put(name.data(), letters);
+    put(&bytes, sizeof(bytes));
+  }
+
+  template <class T>
+  void list(std::string_view name, std::span<T const> values) {
+    constexpr bool flat = detail::Flat<T>;
+    label(name, flat ? sizeof(T) : 0);
+    put_length(values.size());
+    if constexpr (flat) {
+      put(values.data(), values.size_bytes());
+    } else {
+      for (T const& value : values) (*this)(name, value);
+    }
+  }
+
+  std::string bits_;
+  std::map<void const*, std::uint32_t> numbers_;
+};
+
+/// Takes members off bits in the order of the writer.
+/// \throws InputError naming the member where the bits end too early, are another member's or have another length
+class StateReader {
+ public:
+  explicit StateReader(std::string_view bits) : rest_(bits) {}
+
+  bool at_end() const { return rest_.empty(); }
+
+  /// count values of the given bytes each, in any memory
+  void take(std::string_view name, void* values, std::size_t bytes, std::size_t count = 1) {
+    if (count > rest_.size() / bytes) {
+      refuse("it ends inside '{}' (for {} numbers of {} bytes only {} bytes are left): save it again", name, count,
+             bytes, rest_.size());
+    }
+    if (count > 0) std::memcpy(values, rest_.data(), count * bytes);
+    rest_.remove_prefix(count * bytes);
+  }
+
+  template <detail::Flat T>
+  void operator()(std::string_view name, T& value) {
+    expect(name, sizeof(T));
+    take(name, &value, sizeof(T));
+  }
+  void operator()(std::string_view name, std::string& text) {
+    expect(name, sizeof(char));
+    text.resize(take_length(name, sizeof(char)));
+    take(name, text.data(), sizeof(char), text.size());
+  }
+  template <class T, class Allocator>
+  void operator()(std::string_view name, std::vector<T, Allocator>& values) {
+    expect_list<T>(name);
+    values.resize(take_length(name, element_bytes<T>()));
+    elements(name, std::span<T>(values));
+  }
+  /// As many as there are: they belong to a scene that knows their number.
+  template <class T>
+  void operator()(std::string_view name, std::span<T> values) {
+    expect_list<T>(name);
+    std::size_t const length = take_length(name, element_bytes<T>());
+    if (length != values.size()) {
+      refuse("it has {} '{}' (the scene has {}): load it into the scene that was saved", length, name, values.size());
+    }
+    elements(name, values);
+  }
+  template <class Scalar, int Count>
+  void operator()(std::string_view name, Columns<Scalar, Count>& columns) {
+    if constexpr (Count > 0) {
+      expect(name, sizeof(Scalar) * Count);
+      columns.resize(take_length(name, sizeof(Scalar)));
+      take(name, columns.column(0), sizeof(Scalar), columns.padded_rows() * Count);
+    }
+  }
+  /// T::restored(reader) makes the shared object from its members.
+  template <class T>
+  void operator()(std::string_view name, std::shared_ptr<T const>& shared) {
+    std::uint32_t number = 0;
+    (*this)(name, number);
+    shared.reset();
+    if (number == detail::no_number) return;
+    if (number == shared_.size()) shared_.emplace_back(typeid(T), T::restored(*this));
+    if (number >= shared_.size() || shared_[number].first != typeid(T)) {
+      refuse("'{}' is number {} of the shared parts (there is none of this kind): save it again", name, number);
+    }
+    shared = std::static_pointer_cast<T const>(shared_[number].second);
+  }
+  template <class First, class Second>
+  void operator()(std::string_view, std::pair<First, Second>& both) {
+    (*this)("first", both.first);
+    (*this)("second", both.second);
+  }
+  template <Described T>
+  void operator()(std::string_view, T& value) {
+    T::members(value, *this);
+    if constexpr (requires { value.after_loading(); }) value.after_loading();
+  }
+
+ private:
+  template <class T>
+  static constexpr std::size_t element_bytes() {
+    return detail::Flat<T> ? sizeof(T) : 1;
+  }
+
+  template <class T>
+  void expect_list(std::string_view name) {
+    expect(name, detail::Flat<T> ? sizeof(T) : 0);
+  }
+
+  template <class T>
+  void elements(std::string_view name, std::span<T> values) {
+    if constexpr (detail::Flat<T>) {
+      take(name, values.data(), sizeof(T), values.size());
+    } else {
+      for (T& value : values) (*this)(name, value);
+    }
+  }
+
+  void expect(std::string_view name, std::size_t element) {
+    std::uint8_t letters = 0;
+    std::uint32_t bytes = 0;
+    take(name, &letters, sizeof(letters));
+    std::string saved(letters, '\0');
+    take(name, saved.data(), sizeof(char), letters);
+    take(name, &bytes, sizeof(bytes));
+    if (saved != name || bytes != element) {
+      refuse("it has '{}' of {} bytes where '{}' of {} bytes should be: load it as the type that was saved", saved,
+             bytes, name, element);
+    }
+  }
+
+  /// A length that the rest has room for, so that no damage asks for endless memory.
+  std::size_t take_length(std::string_view name, std::size_t bytes) {
+    std::uint64_t length = 0;
+    take(name, &length, sizeof(length));
+    if (length > rest_.size() / bytes) {
+      refuse("'{}' has a length of {} (only {} bytes follow): save it again", name, length, rest_.size());
+    }
+    return static_cast<std::size_t>(length);
+  }
+
+  std::string_view rest_;
+  std::vector<std::pair<std::type_index, std::shared_ptr<void const>>> shared_;
+};
+
+}  // namespace scarp
