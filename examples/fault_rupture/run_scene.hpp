@@ -13,8 +13,8 @@
 #include "scarp/scene/stop_signal.hpp"
 #include "scarp/scene/surface_log.hpp"
 #include "scarp/scene/time_limit.hpp"
-#include "scarp/solver/thread_executor.hpp"
 #include "summary.hpp"
+#include "team.hpp"
 
 namespace fault_rupture {
 
@@ -59,17 +59,19 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   auto const elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
-  scarp::ThreadExecutor executor(choice.threads);
+  scarp::ThreadExecutor threads(choice.threads);
+  Team&& executor = make_team(threads);
   auto problem = scene.problem(executor);
-  fmt::print(stderr, "{} triangles, {} threads, ground made after {:.1f} s\n",
-             problem.discretisation().mesh().elements.size(), executor.threads(), elapsed());
-
   fs::path const folder = choice.output;
-  fs::create_directories(folder / "fields");
-  remove_older_results(folder, files.resumes());
-  if constexpr (requires { scene.soil.source.packings; }) {
-    auto const& packings = scene.soil.source.packings;
-    scarp::write_packing_tables(folder, packings[packings.size() / 2], scene.soil.law);
+  if (is_first_rank(executor)) {
+    fmt::print(stderr, "{} triangles, {} threads, ground made after {:.1f} s\n",
+               problem.discretisation().mesh().elements.size(), threads.threads(), elapsed());
+    fs::create_directories(folder / "fields");
+    remove_older_results(folder, files.resumes());
+    if constexpr (requires { scene.soil.source.packings; }) {
+      auto const& packings = scene.soil.source.packings;
+      scarp::write_packing_tables(folder, packings[packings.size() / 2], scene.soil.law);
+    }
   }
   double const depth = scene.layer.depth;
   double const to = scene.throw_to;
@@ -77,38 +79,42 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   auto const& grid = problem.discretisation();
   auto const at = [&](double x, double y) { return nearest_point(grid, scarp::Vector<2>(x, y)); };
-  scarp::Observers observers(
-      scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
-      scarp::SurfaceLog(folder / "surface.csv", scarp::boundary_nodes(grid.mesh(), "surface"), to, profiles, depth,
-                        start),
-      scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
-      scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
-      footing_log(folder, scene.structure, to, profiles, depth, start),
-      scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth), scarp::StopSignal(),
-      scarp::TimeLimit(choice.time_limit));
+  scarp::OnFirstRank observers(executor, [&] {
+    return scarp::Observers(
+        scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
+        scarp::SurfaceLog(folder / "surface.csv", scarp::boundary_nodes(grid.mesh(), "surface"), to, profiles, depth,
+                          start),
+        scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
+        scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
+        footing_log(folder, scene.structure, to, profiles, depth, start),
+        scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth),
+        scarp::StopSignal(), scarp::TimeLimit(choice.time_limit));
+  });
 
   AtRest rest;
   scarp::CheckpointedRun stages(files, observers, rest);
   stages.stage([&] {
     auto const settled = scene.settle(problem, stages);
-    rest = at_rest(problem, scene);
+    on_first_rank(problem, [&] { rest = at_rest(problem, scene); });
     return settled;
   });
   stages.stage([&] { return scene.place(problem, stages); });
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& report = stages.report();
 
-  auto const json = summary(choice, scene, problem, rest, report, elapsed());
-  scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
-  std::string text = table(json);
-  if (!report.verdict.acceptable()) {
-    text =
-        fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n", report.load / depth,
-                    name(report.verdict.reason), name(report.last_failure), report.worst_point) +
-        text;
-  }
-  scarp::write_file(folder / "summary.txt", text);
-  fmt::print("{}", text);
+  on_first_rank(problem, [&] {
+    auto const json = summary(choice, scene, problem, rest, report, elapsed());
+    scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
+    std::string text = table(json);
+    if (!report.verdict.acceptable()) {
+      text =
+          fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n",
+                      report.load / depth, name(report.verdict.reason), name(report.last_failure), report.worst_point) +
+          text;
+    }
+    scarp::write_file(folder / "summary.txt", text);
+    fmt::print("{}", text);
+  });
   if (report.verdict.acceptable()) return 0;
   constexpr int interrupted = 130;  // as a shell reports Ctrl-C
   return report.verdict.reason == scarp::Reason::interrupted ? interrupted : 3;

@@ -12,6 +12,7 @@
 #include "scarp/scene/footing_log.hpp"
 #include "scarp/scene/outcrop.hpp"
 #include "scenes.hpp"
+#include "team.hpp"
 
 namespace fault_rupture {
 
@@ -46,16 +47,16 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
     auto const site = grid.site(point, scene.layer.depth);
     if (site.region != soil) continue;
     ++points;
-    auto const stress = problem.materials().committed_stress(point);
+    auto const stress = committed_stress(problem, point);
     double const ratio = stress(0) / stress(1);
     rest.k0 += ratio;
     rest.k0_min = std::min(rest.k0_min, ratio);
     rest.k0_max = std::max(rest.k0_max, ratio);
     double const overburden = scene.surcharge + scene.unit_weight * site.depth;
     rest.vertical_error = std::max(rest.vertical_error, std::abs(-stress(1) / overburden - 1.0));
-    problem.materials().visit(point, [&](auto const& field, int local) {
-      if constexpr (requires { field.committed(local).packing; }) {
-        double const void_ratio = field.committed(local).packing.void_ratio();
+    visit_point(problem, point, [&](auto const&, auto const& state) {
+      if constexpr (requires { state.packing; }) {
+        double const void_ratio = state.packing.void_ratio();
         rest.void_ratio_min = std::min(rest.void_ratio_min, void_ratio);
         rest.void_ratio_max = std::max(rest.void_ratio_max, void_ratio);
       }
@@ -140,7 +141,8 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_rves"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
-  json["threads"] = problem.executor().threads();
+  json["threads"] = threads_of(problem.executor());
+  if (ranks_of(problem.executor()) > 1) json["ranks"] = ranks_of(problem.executor());
   json["cpu_seconds"] = used.cpu_seconds;
   json["wall_seconds"] = wall_seconds;
   json["peak_memory_bytes"] = used.peak_memory_bytes;

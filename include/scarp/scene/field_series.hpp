@@ -12,6 +12,7 @@
 #include "scarp/io/vtu.hpp"
 #include "scarp/scene/observers.hpp"
 #include "scarp/scene/rve_quantities.hpp"
+#include "scarp/scene/visit_point.hpp"
 
 namespace scarp {
 
@@ -79,14 +80,14 @@ class FieldSeries : public NeverStops {
     std::map<std::string, std::vector<double>> named;
     for (std::size_t e = 0; e < elements; ++e) {
       int const point = Grid::points_per_element * static_cast<int>(e);
-      auto const stress = problem.materials().committed_stress(point);
+      auto const stress = committed_stress(problem, point);
       stresses.insert(stresses.end(), stress.begin(), stress.end());
       auto const strain = geo::plane_strain(total_deformation(grid, point));
       volumetric.push_back(strain.volumetric);
       deviatoric.push_back(strain.deviatoric);
       status.push_back(static_cast<int>(problem.responses()[static_cast<std::size_t>(point)].verdict.status));
-      problem.materials().visit(point, [&](auto const& field, int local) {
-        for (auto const& [name, value] : quantities_(field.provider(), field.committed(local))) {
+      visit_point(problem, point, [&](auto const& provider, auto const& state) {
+        for (auto const& [name, value] : quantities_(provider, state)) {
           auto& column = named[std::string(name)];
           column.resize(elements, std::numeric_limits<double>::quiet_NaN());
           column[e] = value;

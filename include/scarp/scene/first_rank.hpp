@@ -76,6 +76,12 @@ class OnFirstRank {
     }
   }
 
+  /// Of the observers; nothing on other ranks.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) requires Described<Observers> {
+    if (self.observers_) Observers::members(*self.observers_, visit);
+  }
+
  private:
   Executor const& executor_;
   std::optional<Observers> observers_;

@@ -40,14 +40,14 @@ class RveProbe : public NeverStops {
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;
-    auto const stress = problem.materials().committed_stress(point_);
+    auto const stress = committed_stress(problem, point_);
     auto const geo_stress = geo::plane_stress(stress);
     auto const strain = geo::plane_strain(total_deformation(problem.discretisation(), point_));
     double fabric_of_contacts = std::numeric_limits<double>::quiet_NaN();
     double fabric_of_particles = fabric_of_contacts;
     double void_ratio = fabric_of_contacts;
-    problem.materials().visit(point_, [&](auto const& field, int local) {
-      for (auto const& [name, value] : RveQuantities{}(field.provider(), field.committed(local))) {
+    visit_point(problem, point_, [&](auto const& provider, auto const& state) {
+      for (auto const& [name, value] : RveQuantities{}(provider, state)) {
         if (name == "contact_fabric") fabric_of_contacts = value;
         if (name == "particle_fabric") fabric_of_particles = value;
         if (name == "void_ratio") void_ratio = value;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/scene/fault_scene.hpp"
 #include "scarp/scene/footing_motion.hpp"
+#include "scarp/scene/visit_point.hpp"
 
 namespace scarp {
 
@@ -74,10 +76,11 @@ struct StickingFooting {
   template <class Problem>
   Eigen::VectorXd forces_of_block(Problem const& problem) const {
     auto const& grid = problem.discretisation();
-    auto stresses = problem.committed_stresses();
+    std::vector<VoigtStress<2>> stresses(static_cast<std::size_t>(grid.point_count()), VoigtStress<2>::Zero());
     int const region = region_number(grid.mesh(), "footing");
     for (int point = 0; point < grid.point_count(); ++point) {
-      if (grid.site(point, 0.0).region != region) stresses[static_cast<std::size_t>(point)].setZero();
+      if (grid.site(point, 0.0).region == region)
+        stresses[static_cast<std::size_t>(point)] = committed_stress(problem, point);
     }
     Eigen::VectorXd forces;
     grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), stresses, forces);

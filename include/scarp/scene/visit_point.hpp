@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "scarp/core/voigt.hpp"
 #include "scarp/solver/executor.hpp"
 
 namespace scarp {

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -24,7 +25,10 @@ class MpiSession {
   MpiSession& operator=(MpiSession const&) = delete;
   ~MpiSession() { MPI_Finalize(); }
 
-  static void abort(int exit_code) { MPI_Abort(MPI_COMM_WORLD, exit_code); }
+  [[noreturn]] static void abort(int exit_code) {
+    MPI_Abort(MPI_COMM_WORLD, exit_code);
+    std::abort();
+  }
 };
 
 /// An MPI rank: all ranks run the same solver, each of them answers for every so-many-th point and holds the states of no others.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/scene/first_rank.hpp"
+#include "scarp/solver/thread_executor.hpp"
+#ifdef SCARP_WITH_RANKS
+#include "scarp/solver/rank_executor.hpp"
+#endif
+
+/// Who computes: the threads of one process or, in a build with ranks, those of several processes.
+namespace fault_rupture {
+
+#ifdef SCARP_WITH_RANKS
+using Team = scarp::RankExecutor<scarp::ThreadExecutor>;
+using Session = scarp::MpiSession;
+inline Team make_team(scarp::ThreadExecutor& threads) { return Team(threads); }
+inline int threads_of(Team const& team) { return team.local().threads(); }
+inline int ranks_of(Team const& team) { return team.ranks(); }
+[[noreturn]] inline void give_up(int exit_code) { scarp::MpiSession::abort(exit_code); }
+#else
+using Team = scarp::ThreadExecutor;
+struct Session {
+  Session(int&, char**&) {}
+};
+inline Team& make_team(scarp::ThreadExecutor& threads) { return threads; }
+inline int threads_of(Team const& team) { return team.threads(); }
+inline int ranks_of(Team const&) { return 1; }
+[[noreturn]] inline void give_up(int exit_code) { std::exit(exit_code); }
+#endif
+
+}  // namespace fault_rupture
