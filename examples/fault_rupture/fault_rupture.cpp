@@ -110,6 +110,7 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fault_rupture::Session const session(argc, argv);
   Choice choice;
   bool quick = false;
   // --quick changes defaults, which must be in place before the other options are read.
@@ -133,9 +134,9 @@ int main(int argc, char** argv) {
     return std::visit([&](auto const& chosen) { return run(choice, chosen, files, started); }, scene);
   } catch (scarp::CheckpointError const& error) {
     fmt::print(stderr, "fault_rupture: {}\n", error.what());
-    return 2;
+    fault_rupture::give_up(2);
   } catch (std::exception const& error) {
     fmt::print(stderr, "fault_rupture: {}\n", error.what());
-    return 1;
+    fault_rupture::give_up(1);
   }
 }

@@ -60,7 +60,12 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
   scarp::ThreadExecutor threads(choice.threads);
-  Team&& executor = make_team(threads);
+  decltype(auto) executor = make_team(threads);
+  if (ranks_of(executor) > 1 && files.saves()) {
+    scarp::refuse(
+        "checkpoints were asked for on {} ranks (only one process saves its points so far): leave one of them out",
+        ranks_of(executor));
+  }
   auto problem = scene.problem(executor);
   fs::path const folder = choice.output;
   if (is_first_rank(executor)) {

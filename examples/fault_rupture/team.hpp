@@ -16,7 +16,7 @@ using Session = scarp::MpiSession;
 inline Team make_team(scarp::ThreadExecutor& threads) { return Team(threads); }
 inline int threads_of(Team const& team) { return team.local().threads(); }
 inline int ranks_of(Team const& team) { return team.ranks(); }
-[[noreturn]] inline void give_up(int exit_code) { scarp::MpiSession::abort(exit_code); }
+[[noreturn]] inline void give_up(int exit_code) { scarp::MpiSession::abort(exit_code); }  // others may be waiting
 #else
 using Team = scarp::ThreadExecutor;
 struct Session {

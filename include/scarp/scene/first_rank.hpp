@@ -16,7 +16,8 @@ typename Field::State state_elsewhere(Executor const& executor, Field const& fie
   static_cast<void>(field);
   typename Field::State state;
   std::string const bytes = executor.ask(point);
-  StateReader(bytes)("state", state);
+  StateReader reader(bytes);
+  reader("state", state);
   return state;
 }
 
