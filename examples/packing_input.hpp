@@ -160,7 +160,7 @@ inline std::string shape_of(scarp::CsvColumns const& particles) {
                 particles.file());
 }
 
-/// Another code's packing as its files tell: grains, contacts where they are given, cell (columns are base vectors [m]).
+/// Another code's packing as its files tell: grains, contacts where they are given, cell (columns: base vectors [m]).
 struct PackingInput {
   scarp::CsvColumns particles;
   std::optional<scarp::CsvColumns> contacts;

@@ -13,10 +13,11 @@
 
 namespace scarp {
 
-/// A constant pressure on facets of a plane mesh's outline, body on their left. It stays normal to them and grows with them, as
-/// that of a fluid behind a membrane:
+/// A constant pressure on facets of a plane mesh's outline, body on their left. It stays normal to them and grows with
+/// them, as that of a fluid behind a membrane:
 /// \f$ f_a = -p\,t \int N_a\,(y', -x')\,d\xi = -p\,t \sum_b G_{ab}\,(y_b, -x_b),\; G_{ab} = \int N_a N_b'\,d\xi \f$
-/// Linear in the positions of the nodes and exact for facets that are parabolas. Not symmetric where a loaded part ends.
+/// Linear in the positions of the nodes and exact for facets that are parabolas. Its stiffness is not
+/// symmetric where a loaded part ends.
 template <ReferenceCell FacetType = Line2>
   requires(FacetType::dim == 1)
 class FollowingPressure {
