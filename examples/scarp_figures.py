@@ -84,7 +84,7 @@ def finite(value):
 
 class Grid(typing.NamedTuple):
     points: np.ndarray  # [m], shape (nodes, 2)
-    cells: np.ndarray   # node numbers, shape (cells, 3) or (cells, 4)
+    cells: np.ndarray   # node numbers of the corners, shape (cells, 3) or (cells, 4)
     at_nodes: dict
     at_cells: dict
 
@@ -109,10 +109,11 @@ def read_vtu(path):
         piece = root.find("UnstructuredGrid/Piece")
         arrays = {part.tag: {item.get("Name"): array(item) for item in part} for part in piece}
         offsets = arrays["Cells"]["offsets"]
-        corners = int(offsets[0]) if len(offsets) else 0
-        if corners not in (3, 4) or np.any(np.diff(offsets) != corners):
+        nodes = int(offsets[0]) if len(offsets) else 0
+        if nodes not in (3, 4, 6, 8) or np.any(np.diff(offsets) != nodes):
             raise ValueError("its cells are not all triangles or all quadrilaterals")
-        return Grid(arrays["Points"]["Points"][:, :2], arrays["Cells"]["connectivity"].reshape(-1, corners),
+        corners = nodes if nodes < 6 else nodes // 2
+        return Grid(arrays["Points"]["Points"][:, :2], arrays["Cells"]["connectivity"].reshape(-1, nodes)[:, :corners],
                     arrays["PointData"], arrays["CellData"])
     except (xml.ParseError, ValueError, KeyError, TypeError, AttributeError, IndexError) as trouble:
         raise InputError(f"'{path}' cannot be read ({trouble}): run the example anew") from None

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "../packing_input.hpp"
 #include "material.hpp"
-#include "replay_input.hpp"
+#include "paths.hpp"
 #include "scarp/dem/servo.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/io/contact_reader.hpp"
@@ -22,18 +23,11 @@ struct GivenLaw {
 
 inline void take_law_from(scarp::CsvColumns const& contacts, GivenLaw const& given, Material& material) {
   auto const take = [&](bool is_given, std::string_view column, double& parameter) {
-    if (!is_given) parameter = only_value(contacts, column).value_or(parameter);
+    if (!is_given) parameter = examples::only_value(contacts, column).value_or(parameter);
   };
   take(given.normal_stiffness, "kn", material.normal_stiffness);
   take(given.tangential_stiffness, "ks", material.tangential_stiffness);
   take(given.friction, "tan_phi", material.friction);
-}
-
-inline std::string shape_of(scarp::CsvColumns const& particles) {
-  if (particles.has("r")) return "disc";
-  if (particles.has("a") && particles.has("b")) return particles.has("eps") ? "superellipse" : "ellipse";
-  scarp::refuse("'{}' has no sizes of grains (columns r, or a, b and angle, or a, b, eps and angle): add them",
-                particles.file());
 }
 
 /// The columns of tests/reference/yade: everything is the state at the row's deformation.
@@ -112,26 +106,12 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
 }
 
 inline void replay(Replay choice, GivenLaw const& given) {
-  for (auto const& input : {choice.particles, choice.contacts}) {
-    std::error_code trouble;
-    if (!std::filesystem::equivalent(choice.out, input, trouble) || trouble) continue;
-    scarp::refuse("'{}' would be written over (it is an input): give --out another name", input);
-  }
-  if (choice.cell.empty() && choice.contacts.empty()) {
-    scarp::refuse("the cell is not known (neither --cell nor --contacts is given): give --cell a1x,a1y,a2x,a2y");
-  }
-  auto const particles = scarp::read_csv(choice.particles);
-  std::optional<scarp::CsvColumns> contacts;
-  if (!choice.contacts.empty()) {
-    contacts = scarp::read_csv(choice.contacts);
-    take_law_from(*contacts, given, choice.material);
-  }
-  choice.material.shape = shape_of(particles);
-  CellClues const clues = contacts ? cell_clues(particles, *contacts) : CellClues{};
-  Tensor const cell = choice.cell.empty() ? clues.solve(choice.contacts) : parse_cell(choice.cell);
-  if (contacts) clues.check(cell, *contacts);
+  examples::refuse_overwriting(choice.out, {choice.particles, choice.contacts});
+  auto const input = examples::read_packing_input(choice.particles, choice.contacts, choice.cell);
+  if (input.contacts) take_law_from(*input.contacts, given, choice.material);
+  choice.material.shape = examples::shape_of(input.particles);
   with_linear_law(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    run_replay<PackingType>(choice, particles, contacts, cell, law);
+    run_replay<PackingType>(choice, input.particles, input.contacts, input.cell, law);
   });
 }
 

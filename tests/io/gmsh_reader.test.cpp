@@ -6,6 +6,7 @@
 #include "io/mesh_samples.hpp"
 #include "io/scratch_folder.hpp"
 #include "scarp/io/atomic_file.hpp"
+#include "scarp/io/gmsh_element_type.hpp"
 
 namespace {
 
@@ -194,6 +195,20 @@ TEST_CASE("a mesh of other elements is refused and the right element named") {
        "have "
        "type 1)");
   says(complaint(with(square_22, "30 2 2 2 1", "30 77 2 2 1")), "line 22 of 'm.msh' has elements of type 77");
+}
+
+TEST_CASE("a file tells the type of its elements before it is read as one") {
+  ScratchFolder const folder;
+  auto const type_of = [&](std::string const& text) {
+    scarp::write_file(folder / "m.msh", text);
+    return scarp::gmsh_element_type(folder / "m.msh");
+  };
+  CHECK(type_of(square_22) == scarp::Tri3::gmsh_type);
+  CHECK(type_of(square_41) == scarp::Tri3::gmsh_type);
+  // One triangle becomes a quadrangle: of both types the lower number. Without surfaces there is none.
+  CHECK(type_of(with(square_22, "30 2 2 2 1 7 40 31", "30 3 2 2 1 7 12 40 31")) == scarp::Tri3::gmsh_type);
+  CHECK(type_of("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 15 2 0 1 1\n"
+                "$EndElements\n") == 0);
 }
 
 TEST_CASE("a bad mesh is refused with the element or node that is wrong") {

@@ -136,26 +136,34 @@ struct LoadStepping {
     requires ObservesSteps<Observer, Problem> RunReport run(Solver const& solver, Problem& problem, double from,
                                                             double to, Observer& observer)
   const {
+    typename Solver::template Session<Problem> session(solver, problem);
+    return advance(session, problem, from, to, observer);
+  }
+
+  /// The same with a solver's session on this problem, which keeps what it has learned from one call to the next.
+  template <class Session, class Problem, class Observer>
+    requires ObservesSteps<Observer, Problem> RunReport advance(Session& session, Problem& problem, double from,
+                                                                double to, Observer& observer)
+  const {
     require_positive("first load increment", first);
     require_positive("smallest load increment", smallest);
     require_positive("largest gradient of a load step", largest_gradient);
     require_finite("load factor at the start", from);
     require_finite("load factor at the end", to);
     if (to < from) refuse("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
-    typename Solver::template Session<Problem> session(solver, problem);
     RunState state;
     state.report.load = from;
     state.increment = std::min({first, largest, to - from});
-    if constexpr (KeepsRuns<Observer, Problem, decltype(session)>) observer.begins(problem, session, state);
+    if constexpr (KeepsRuns<Observer, Problem, Session>) observer.begins(problem, session, state);
     while (state.report.verdict.acceptable() && state.report.load < to) {
-      if constexpr (KeepsRuns<Observer, Problem, decltype(session)>) observer.between(problem, session, state);
+      if constexpr (KeepsRuns<Observer, Problem, Session>) observer.between(problem, session, state);
       if (observer.wants_stop()) {
         state.report.verdict = {Status::not_converged, Reason::interrupted};
       } else {
         attempt(session, problem, to, state, observer);
       }
     }
-    if constexpr (KeepsRuns<Observer, Problem, decltype(session)>) observer.ends(problem, session, state);
+    if constexpr (KeepsRuns<Observer, Problem, Session>) observer.ends(problem, session, state);
     return state.report;
   }
 

@@ -4,14 +4,19 @@
 #include <Eigen/LU>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "paths.hpp"
+#include "scarp/core/tensor.hpp"
 #include "scarp/io/csv_reader.hpp"
 
-namespace rve_lab {
+namespace examples {
+
+using Tensor = scarp::Tensor<2>;
 
 /// \throws InputError unless the text is four finite numbers of a right-handed cell
 inline Tensor parse_cell(std::string const& text) {
@@ -146,4 +151,45 @@ inline std::optional<double> only_value(scarp::CsvColumns const& contacts, std::
   return values[0];
 }
 
-}  // namespace rve_lab
+/// Name of the grains' shape, as their columns tell.
+/// \throws InputError where there are no sizes
+inline std::string shape_of(scarp::CsvColumns const& particles) {
+  if (particles.has("r")) return "disc";
+  if (particles.has("a") && particles.has("b")) return particles.has("eps") ? "superellipse" : "ellipse";
+  scarp::refuse("'{}' has no sizes of grains (columns r, or a, b and angle, or a, b, eps and angle): add them",
+                particles.file());
+}
+
+/// Another code's packing as its files tell: grains, contacts where they are given, cell (columns: base vectors [m]).
+struct PackingInput {
+  scarp::CsvColumns particles;
+  std::optional<scarp::CsvColumns> contacts;
+  Tensor cell;
+};
+
+/// particles, contacts: names of files; cell: a1x,a1y,a2x,a2y. One of contacts and cell may be empty: the contacts that
+/// cross the boundary tell the cell.
+/// \throws InputError for files that are wrong or do not fit together
+inline PackingInput read_packing_input(std::string const& particles, std::string const& contacts,
+                                       std::string const& cell) {
+  if (cell.empty() && contacts.empty()) {
+    scarp::refuse("the cell is not known (neither --cell nor --contacts is given): give --cell a1x,a1y,a2x,a2y");
+  }
+  PackingInput input{scarp::read_csv(particles), std::nullopt, Tensor::Identity()};
+  if (!contacts.empty()) input.contacts = scarp::read_csv(contacts);
+  CellClues const clues = input.contacts ? cell_clues(input.particles, *input.contacts) : CellClues{};
+  input.cell = cell.empty() ? clues.solve(contacts) : parse_cell(cell);
+  if (input.contacts) clues.check(input.cell, *input.contacts);
+  return input;
+}
+
+/// \throws InputError when a result would take the place of an input
+inline void refuse_overwriting(std::string const& out, std::initializer_list<std::string> inputs) {
+  for (auto const& input : inputs) {
+    std::error_code trouble;
+    if (!std::filesystem::equivalent(out, input, trouble) || trouble) continue;
+    scarp::refuse("'{}' would be written over (it is an input): give --out another name", input);
+  }
+}
+
+}  // namespace examples

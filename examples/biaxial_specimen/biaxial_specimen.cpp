@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSL-1.0
+// How does a body of packings fail between smooth platens? Biaxial compression of any rectangular mesh.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "../command_line.hpp"
+#include "../packing_input.hpp"
+#include "run.hpp"
+#include "scarp/io/gmsh_element_type.hpp"
+
+namespace {
+
+using biaxial_specimen::Choice;
+using biaxial_specimen::run;
+
+void declare_specimen(CLI::App& app, Choice& choice) {
+  auto const positive = examples::number_from(0.0, false, 1e300);
+  auto* const mesh =
+      app.add_option("--mesh", choice.mesh,
+                     "upright rectangle, a file of Gmsh: triangles or quadrilaterals, linear or quadratic")
+          ->check(CLI::ExistingFile);
+  for (auto* const own :
+       {app.add_option("--width", choice.width, "of a specimen without --mesh [m]")->check(positive),
+        app.add_option("--height", choice.height, "[m]")->check(positive),
+        app.add_option("--columns", choice.columns, "squares of four triangles across")->check(CLI::Range(1, 1000)),
+        app.add_option("--rows", choice.rows, "and up")->check(CLI::Range(1, 1000))})
+    own->excludes(mesh)->capture_default_str();
+}
+
+void declare_grains(CLI::App& app, biaxial_specimen::Grains& grains) {
+  auto const positive = examples::number_from(0.0, false, 1e300);
+  auto const not_negative = examples::number_from(0.0, true, 1e3);
+  auto* const particles = app.add_option("--particles", grains.particles, "table of the grains that every point has")
+                              ->check(CLI::ExistingFile);
+  for (auto* const of_files :
+       {app.add_option("--contacts", grains.contacts, "table of their contacts: cell, law, shear forces")
+            ->check(CLI::ExistingFile),
+        app.add_option("--cell", grains.cell, "a1x,a1y,a2x,a2y [m]; --contacts tell it too"),
+        app.add_option("--normal-stiffness", grains.normal_stiffness, "[N/m]; else of --contacts, else 6e6")
+            ->check(positive),
+        app.add_option("--tangential-stiffness", grains.tangential_stiffness, "[N/m]; likewise")->check(positive),
+        app.add_option("--friction", grains.friction, "likewise, else 0.55")->check(not_negative)})
+    of_files->needs(particles);
+  for (auto* const of_prepared :
+       {app.add_option("--grains", grains.prepared, "in a packing that is prepared")->check(CLI::Range(20, 100'000)),
+        app.add_option("--packings", grains.pool, "that are prepared; every point draws one")
+            ->check(CLI::Range(1, 10'000)),
+        app.add_option("--preparation-friction", grains.preparation_friction, "sets their density")
+            ->check(not_negative),
+        app.add_option("--seed", grains.seed, "of the packings and of who draws which")})
+    of_prepared->excludes(particles)->capture_default_str();
+  app.add_option("--density", grains.density, "of the grains [kg/m3]")->check(positive)->capture_default_str();
+  app.add_option("--thickness", grains.thickness, "out of plane, of grains and specimen [m]")
+      ->check(positive)
+      ->capture_default_str();
+  app.add_option("--strain-per-dem-step", grains.strain_per_dem_step)
+      ->check(examples::number_from(0.0, false, 1e-3))
+      ->capture_default_str();
+}
+
+void declare_test(CLI::App& app, Choice& choice) {
+  app.add_option("--confining", choice.confining, "lateral pressure [Pa]")
+      ->check(examples::number_from(0.0, false, 1e12))
+      ->capture_default_str();
+  app.add_option("--axial-strain-step", choice.axial_strain_step, "of one row, relative to the first height")
+      ->check(examples::number_from(0.0, false, 0.1))
+      ->capture_default_str();
+  app.add_option("--steps", choice.steps, "rows of the table after the first")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app.add_option("--residual", choice.residual, "unbalanced forces over reactions")
+      ->check(examples::number_from(0.0, false, 1.0))
+      ->capture_default_str();
+  app.add_option("--iterations", choice.iterations, "most of an attempt at a step")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  app.add_option("--halvings", choice.halvings, "of a step that fails, before the test is given up")
+      ->check(CLI::Range(0, 30))
+      ->capture_default_str();
+  app.add_option("--threads", choice.threads, "0 takes all")->check(CLI::Range(0, 1024));
+}
+
+void declare_results(CLI::App& app, Choice& choice, std::string& output) {
+  auto const folder = [](std::string const& given) { return examples::refused_folder(given); };
+  auto* const all = app.add_option("--output", output, "folder of all results")->check(folder)->capture_default_str();
+  auto* const table = app.add_option("--out", choice.table, "the table alone, instead of --output")->excludes(all);
+  app.add_option("--fields", choice.fields, "folder for VTU files beside --out")->check(folder)->needs(table);
+  app.add_option("--frames", choice.frames, "VTU files over the test")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+}
+
+int run_test(Choice choice, std::string const& output) {
+  if (choice.table.empty()) {
+    choice.table = (std::filesystem::path(output) / "table.csv").string();
+    choice.fields = output;
+    std::filesystem::create_directories(output);
+  }
+  examples::refuse_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
+  if (choice.mesh.empty()) return run<scarp::Tri3>(choice);
+  switch (scarp::gmsh_element_type(choice.mesh)) {
+    case scarp::Tri6::gmsh_type: return run<scarp::Tri6>(choice);
+    case scarp::Quad4::gmsh_type: return run<scarp::Quad4>(choice);
+    case scarp::Quad8::gmsh_type: return run<scarp::Quad8>(choice);
+    default: return run<scarp::Tri3>(choice);  // says what is wrong with other elements
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choice choice;
+  std::string output = "output/biaxial_specimen";
+  CLI::App app("Compresses a rectangular body of packings between smooth platens under constant lateral pressure.");
+  declare_specimen(app, choice);
+  declare_grains(app, choice.grains);
+  declare_test(app, choice);
+  declare_results(app, choice, output);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run_test(choice, output);
+  } catch (std::exception const& problem) {
+    fmt::print(stderr, "biaxial_specimen: {}\n", problem.what());
+    return 2;
+  }
+}

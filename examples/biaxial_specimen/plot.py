@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSL-1.0
+"""plot.py OUTPUT_DIR: how the specimen fails, and the forces on the way."""
+
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import numpy as np
+import scarp_figures as figures
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
+from scarp_figures import BLUE, GREY, VERMILION, plt
+
+SHARES = (1.0 / 3.0, 2.0 / 3.0, 1.0)  # of the test, one panel each
+
+
+def read_steps(folder):
+    """[(axial strain, grid, file)] of the steps nearest to these shares of the test so far, none twice."""
+    series = figures.read_pvd(folder / "fields.pvd")
+    last = series[-1][0]
+    steps = sorted({min(series, key=lambda step: abs(step[0] - share * last)) for share in SHARES})
+    return [(strain, figures.read_vtu(path), path) for strain, path in steps]
+
+
+def draw_cells(axes, grid, values, colours, most):
+    """In the deformed configuration [mm]."""
+    cells = PolyCollection(1e3 * grid.points[grid.cells], array=values, cmap=colours, norm=Normalize(0.0, most),
+                           edgecolor="#00000040", linewidth=0.15)
+    axes.add_collection(cells)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.grid(False)
+    axes.set_xlabel("x [mm]")
+    return cells
+
+
+def band(folder):
+    steps = read_steps(folder)
+    strains = [100.0 * figures.field(grid.at_cells, "deviatoric_strain", path) for _, grid, path in steps]
+    most = max(np.percentile(strains[-1], 99.0), 1e-9)
+    fig, panels = plt.subplots(1, len(steps), figsize=(2.3 * len(steps) + 0.6, 4.4), sharex=True, sharey=True,
+                               squeeze=False)
+    for axes, (axial, grid, _), strain in zip(panels[0], steps, strains):
+        cells = draw_cells(axes, grid, strain, "magma_r", most)
+        axes.set_title(f"axial strain {100.0 * axial:.1f} %")
+    panels[0, 0].set_ylabel("y [mm]")
+    fig.colorbar(cells, ax=panels, label="deviatoric strain [%]", shrink=0.7, extend="max")
+    return fig
+
+
+def curve(folder):
+    table = figures.read_csv(folder / "table.csv", ["axial_strain", "top_force", "mean_sxx", "mean_syy"])
+    strain = 100.0 * table["axial_strain"]
+    fig, (stress, force) = plt.subplots(1, 2, figsize=(7.0, 2.8))
+    stress.plot(strain, -1e-3 * table["mean_syy"], color=VERMILION, label="axial")
+    stress.plot(strain, -1e-3 * table["mean_sxx"], color=GREY, label="lateral")
+    stress.set(xlabel="axial strain [%]", ylabel="mean stress, compression positive [kPa]", ylim=(0.0, None))
+    stress.legend()
+    force.plot(strain, 1e-3 * table["top_force"], color=BLUE)
+    force.set(xlabel="axial strain [%]", ylabel="force of the top platen [kN]", ylim=(0.0, None))
+    return fig
+
+
+figures.draw_all({"band": band, "curve": curve})

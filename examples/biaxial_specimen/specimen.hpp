@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+
+#include "rectangle.hpp"
+#include "run.hpp"
+#include "sand.hpp"
+#include "scarp/bvp/discretisation.hpp"
+#include "scarp/bvp/following_pressure.hpp"
+#include "scarp/io/csv.hpp"
+#include "scarp/scene/field_series.hpp"
+#include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+
+namespace biaxial_specimen {
+
+/// A body between smooth platens under lateral pressure. The load factor is the axial strain relative to the first
+/// height; the middle of the bottom is held.
+template <class Element>
+class Specimen {
+ public:
+  using Grid = scarp::Discretisation<Element>;
+  using Lateral = scarp::FollowingPressure<typename Element::Facet>;
+  using Problem = scarp::EquilibriumProblem<Grid, Sand, scarp::ThreadExecutor, Lateral>;
+
+  /// \throws InputError, PreparationError
+  Specimen(Choice const& choice, scarp::Mesh<Element> mesh, scarp::ThreadExecutor& executor)
+      : sides_(find_sides(mesh)), problem_(make(choice, Grid(std::move(mesh), choice.grains.thickness), executor)) {}
+
+  Problem& problem() { return problem_; }
+  Sides<Element> const& sides() const { return sides_; }
+
+  /// Volume average of the stress [Pa], tension positive.
+  scarp::VoigtStress<2> mean_stress() const {
+    auto const& grid = problem_.discretisation();
+    auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+    scarp::VoigtStress<2> sum = scarp::VoigtStress<2>::Zero();
+    double volume = 0.0;
+    for (std::size_t k = 0; k < volumes.size(); ++k) {
+      sum += volumes[k] * problem_.materials().committed_stress(static_cast<int>(k));
+      volume += volumes[k];
+    }
+    return sum / volume;
+  }
+
+  /// Force [N] of the top platen, positive when it presses.
+  double top_force() const {
+    auto const& grid = problem_.discretisation();
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(grid.dof_count());
+    Eigen::VectorXd forces;
+    grid.internal_force(still, problem_.committed_stresses(), forces);
+    problem_.attached().add_forces(grid.positions(), still, forces);
+    double sum = 0.0;
+    for (int const node : sides_.top) sum -= forces(2 * node + 1);
+    return sum;
+  }
+
+ private:
+  Problem make(Choice const& choice, Grid grid, scarp::ThreadExecutor& executor) const {
+    scarp::Constraints constraints(grid.mesh());
+    for (int const node : sides_.bottom) constraints.fix(node, 1);
+    constraints.fix(sides_.bottom_centre, 0);
+    for (int const node : sides_.top) constraints.move(node, 1, -sides_.height);
+    std::vector<scarp::Site<2>> sites;
+    for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, sides_.top_level));
+    Sand sand(choice.grains, choice.confining, sites, executor);
+    scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
+    Lateral lateral(sides_.lateral, choice.confining, choice.grains.thickness);
+    return {std::move(grid), std::move(sand), std::move(constraints), std::move(loads), executor, std::move(lateral)};
+  }
+
+  Sides<Element> sides_;
+  Problem problem_;
+};
+
+/// Counts over the attempts that one row of the table takes; draws when it is time to.
+struct Watch : scarp::NeverStops {
+  std::optional<scarp::FieldSeries<SandQuantities>> series{};
+  int iterations = 0;
+  double residual = 0.0;  ///< of the last accepted attempt
+
+  template <class Problem>
+  void attempted(Problem const& problem, scarp::StepReport const& report) {
+    iterations += report.iterations();
+    if (report.verdict.acceptable()) residual = report.residual();
+    if (series) series->attempted(problem, report);
+  }
+};
+
+/// Columns of the table. Stresses [Pa] are tension positive, axial strain (shortening over the first height) and top
+/// force [N] positive in compression; iterations count all attempts at the row.
+inline std::vector<std::string> const& columns() {
+  static std::vector<std::string> const names{"step",     "axial_strain", "top_force",  "mean_sxx",
+                                              "mean_syy", "mean_sxy",     "iterations", "residual"};
+  return names;
+}
+
+/// \return what the run of the last row ended with
+template <class Element>
+scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen) {
+  using Solver = scarp::QuasiNewton<>;
+  auto& problem = specimen.problem();
+  Solver const solver{.tolerance = choice.residual, .most_iterations = choice.iterations};
+  double const step = choice.axial_strain_step;
+  scarp::LoadStepping const stepping{
+      .first = step, .smallest = 0.99 * std::ldexp(step, -choice.halvings), .largest_gradient = 0.05};
+  Watch watch;
+  if (!choice.fields.empty()) {
+    std::filesystem::create_directories(std::filesystem::path(choice.fields) / "fields");
+    watch.series.emplace(choice.fields, choice.steps * step, std::min(choice.frames, choice.steps), 1.0);
+  }
+  scarp::CsvLog log(choice.table, columns());
+  auto const write = [&](int row) {
+    auto const mean = specimen.mean_stress();
+    double const force = specimen.top_force();
+    log.add(row, row * step, force, mean(0), mean(1), mean(2), watch.iterations, watch.residual);
+    fmt::print(stderr, "step {:3}  axial strain {:.5f}  top force {:.6g} N  iterations {:3}  residual {:.2e}\n", row,
+               row * step, force, watch.iterations, watch.residual);
+    watch.iterations = 0;
+  };
+  auto report = stepping.settle(solver, problem, 0.0, watch);
+  if (!report.verdict.acceptable()) return report;
+  write(0);
+  typename Solver::template Session<typename Specimen<Element>::Problem> session(solver, problem);
+  for (int row = 1; row <= choice.steps; ++row) {
+    report = stepping.advance(session, problem, (row - 1) * step, row * step, watch);
+    if (!report.verdict.acceptable()) return report;
+    write(row);
+  }
+  return report;
+}
+
+template <class Element>
+scarp::Mesh<Element> make_mesh(Choice const& choice) {
+  if constexpr (std::is_same_v<Element, scarp::Tri3>) {
+    if (choice.mesh.empty()) {
+      return scarp::RectangleMesh{
+          .width = choice.width, .height = choice.height, .columns = choice.columns, .rows = choice.rows}
+          .generate();
+    }
+  }
+  return scarp::read_gmsh<Element>(choice.mesh);
+}
+
+template <class Element>
+int run(Choice const& choice) {
+  scarp::ThreadExecutor executor(choice.threads);
+  Specimen<Element> specimen(choice, make_mesh<Element>(choice), executor);
+  fmt::print(stderr, "{:.6g} m x {:.6g} m, {} elements, {} packings, {} threads\n", specimen.sides().width,
+             specimen.sides().height, specimen.problem().discretisation().mesh().elements.size(),
+             specimen.problem().materials().point_count(), executor.threads());
+  auto const report = compress(choice, specimen);
+  if (report.verdict.acceptable()) return 0;
+  fmt::print(
+      stderr,
+      "biaxial_specimen: stopped at the axial strain {} ({}; last refused attempt: {}, point {}); the rows so far "
+      "are in '{}'\n",
+      report.load, name(report.verdict.reason), name(report.last_failure), report.worst_point, choice.table);
+  return 3;
+}
+
+}  // namespace biaxial_specimen

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "specimen.hpp"
+
+template int biaxial_specimen::run<scarp::Quad8>(Choice const&);

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSL-1.0
+"""`biaxial_specimen` on the smallest meshes of every element with Yade's packing (tests/reference/yade): they all
+agree with one another and with the packing alone, whatever the number of threads; bad input gets a message and a
+non-zero exit. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
+import csv
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
+PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+YADE = pathlib.Path(__file__).resolve().parents[1] / "reference" / "yade"
+PACKING = ["--particles", str(YADE / "particles.csv"), "--contacts", str(YADE / "contacts.csv")]
+COLUMNS = ["step", "axial_strain", "top_force", "mean_sxx", "mean_syy", "mean_sxy", "iterations", "residual"]
+CONFINING = 2e5  # [Pa], the packing's own
+WIDTH, HEIGHT, THICKNESS = 0.05, 0.1, 0.2  # [m]
+RESIDUAL = 1e-3
+STEPS = 3
+
+# Places in units of width and height; elements by the numbers of their nodes, Gmsh's type first.
+CORNERS = [(0, 0), (1, 0), (1, 1), (0, 1)]
+MIDDLES = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5)]
+MESHES = {
+    "Tri3": (CORNERS, [(2, 1, 2, 3), (2, 1, 3, 4)]),
+    "Tri6": (CORNERS + MIDDLES + [(0.5, 0.5)], [(9, 1, 2, 3, 5, 6, 9), (9, 1, 3, 4, 9, 7, 8)]),
+    "Quad4": (CORNERS, [(3, 1, 2, 3, 4)]),
+    "Quad8": (CORNERS + MIDDLES, [(16, 1, 2, 3, 4, 5, 6, 7, 8)]),
+}
+
+
+def write_mesh(path, places, elements):
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(places))]
+    lines += [f"{k} {x * WIDTH} {y * HEIGHT} 0" for k, (x, y) in enumerate(places, start=1)]
+    lines += ["$EndNodes", "$Elements", str(len(elements))]
+    lines += [f"{k} {kind} 2 0 1 {' '.join(map(str, nodes))}" for k, (kind, *nodes) in enumerate(elements, start=1)]
+    path.write_text("\n".join(lines + ["$EndElements", ""]))
+
+
+def run(program, *arguments, folder):
+    done = subprocess.run([PROGRAMS / program, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
+                          timeout=300)
+    return done.returncode, done.stdout + done.stderr
+
+
+def compress(folder, name, *more):
+    return run("biaxial_specimen", "--mesh", f"{name}.msh", *PACKING, "--steps", STEPS, "--residual", RESIDUAL, "--out",
+               "out.csv", *more, folder=folder)
+
+
+def read(path):
+    with open(path, newline="") as file:
+        table = csv.DictReader(file)
+        return table.fieldnames, [{name: float(cell) for name, cell in row.items()} for row in table]
+
+
+def check_elements(folder):
+    """The packing is everywhere the same and nothing holds the platens back, so that the exact answer is uniform: all
+    meshes must find it. Forces may differ by a few residuals, which are relative to the reactions."""
+    tables = {}
+    for name, mesh in MESHES.items():
+        write_mesh(folder / f"{name}.msh", *mesh)
+        code, said = compress(folder, name)
+        expect(code == 0, f"{name}: ended with {code}\n{said}")
+        if code != 0:
+            return
+        columns, rows = read(folder / "out.csv")
+        tables[name] = rows
+        expect(columns == COLUMNS and len(rows) == STEPS + 1, f"{name}: {len(rows)} rows of {columns}")
+        for k, row in enumerate(rows):
+            where = f"{name}, step {k}"
+            expect(row["step"] == k and math.isclose(row["axial_strain"], 1e-3 * k), f"{where}: {row}")
+            expect(row["residual"] <= RESIDUAL and row["iterations"] >= 1, f"{where}: {row}")
+            expect(abs(row["mean_sxx"] + CONFINING) < 3.0 * RESIDUAL * CONFINING, f"{where}: {row}")
+            expect(abs(row["mean_sxy"]) < 3.0 * RESIDUAL * CONFINING, f"{where}: {row}")
+            expect(row["top_force"] > 0.0, f"{where}: {row}")
+            reference = tables["Tri3"][k]["top_force"]
+            difference = abs(row["top_force"] - reference)
+            expect(difference < 5.0 * RESIDUAL * reference, f"{where}: {row}, Tri3 {reference} N")
+        expect(rows[-1]["top_force"] > 1.2 * rows[0]["top_force"], f"{name}: the specimen does not harden: {rows}")
+    code, said = run("rve_lab", "replay", *PACKING, "--path", "biaxial", "--strain", -math.log(1.0 - 1e-3 * STEPS),
+                     "--strain-step", "1e-5", "--out", "rve.csv", folder=folder)
+    expect(code == 0, f"the packing alone: ended with {code}\n{said}")
+    if code == 0:
+        alone = read(folder / "rve.csv")[1][-1]
+        ours = tables["Tri3"][-1]
+        # The cell of the path keeps its right angle, the specimen shears until there is no shear stress.
+        expect(abs(ours["mean_syy"] - alone["syy"]) < 0.01 * abs(alone["syy"]), f"{ours}, alone {alone}")
+
+
+def check_threads(folder):
+    tables = []
+    for threads in (1, 2):
+        code, said = compress(folder, "Tri6", "--threads", threads)
+        expect(code == 0, f"{threads} threads: ended with {code}\n{said}")
+        tables.append((folder / "out.csv").read_bytes())
+    expect(tables[0] == tables[1], "one thread and two give different tables")
+
+
+def check_exhaustion(folder):
+    code, said = compress(folder, "Tri3", "--iterations", 1, "--halvings", 0)
+    expect(code == 3 and "iterations" in said, f"one iteration: ended with {code}\n{said}")
+    expect(len(read(folder / "out.csv")[1]) == 1, "the row at rest is not kept")
+
+
+def check_refusals(folder):
+    slanting = [(0, 0), (1, 0), (1.1, 1), (0, 1)]
+    write_mesh(folder / "slanting.msh", slanting, MESHES["Quad4"][1])
+    write_mesh(folder / "mixed.msh", [*CORNERS, (0.5, 1.5)], [*MESHES["Quad4"][1], (2, 4, 3, 5)])
+    (folder / "text.msh").write_text("no mesh\n")
+    (folder / "long.csv").write_text("x,y,a,b,eps,angle\n0,0,1,1,1,0\n")
+    tri3 = ["--mesh", "Tri3.msh"]
+    for named, *arguments in (
+            ("upright rectangle", "--mesh", "slanting.msh", *PACKING),
+            ("one kind of element", "--mesh", "mixed.msh", *PACKING),
+            ("no Gmsh mesh", "--mesh", "text.msh", *PACKING),
+            ("--cell", *tri3, *PACKING[:2]),
+            ("superellipse", *tri3, "--particles", "long.csv", "--cell", "1,0,0,1"),
+            ("--mesh", *tri3, *PACKING, "--columns", "3"),
+            ("--particles", *tri3, *PACKING[2:]),
+            ("--confining", *tri3, *PACKING, "--confining", "nan"),
+            ("--steps", *tri3, *PACKING, "--steps", "0"),
+            ("an input", *tri3, *PACKING, "--out", "Tri3.msh")):
+        before = sorted(path.name for path in folder.iterdir())
+        if "--out" not in arguments:
+            arguments += ["--out", "refused.csv"]
+        code, said = run("biaxial_specimen", *arguments, folder=folder)
+        expect(code not in (0, 3) and named in said, f"{arguments}: ended with {code}\n{said}")
+        expect(sorted(path.name for path in folder.iterdir()) == before, f"{arguments} left files behind")
+
+
+if not (PROGRAMS / "biaxial_specimen").exists():
+    print("no examples built: skipped")
+    sys.exit(77)
+with tempfile.TemporaryDirectory() as scratch:
+    scratch = pathlib.Path(scratch)
+    check_elements(scratch)
+    check_threads(scratch)
+    check_exhaustion(scratch)
+    check_refusals(scratch)
+finish()
