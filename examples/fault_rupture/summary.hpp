@@ -130,6 +130,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_rves"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
+  json["share_of_time_outside_rves"] = 1.0 - json["share_of_time_in_rves"].get<double>();
   json["threads"] = problem.executor().threads();
   json["cpu_seconds"] = used.cpu_seconds;
   json["wall_seconds"] = wall_seconds;
@@ -170,6 +171,8 @@ inline std::string table(nlohmann::ordered_json const& json) {
     row("imbalance of the footing over its weight", fmt::format("{:.1e}", number("support_error")), "0");
   }
   row("largest residual of an accepted step", fmt::format("{:.2e}", number("max_accepted_residual")), "not reported");
+  row("share of the time outside the material points",
+      fmt::format("{:.1f} %", 100.0 * number("share_of_time_outside_rves")), "not reported");
   return text;
 }
 

@@ -262,6 +262,7 @@ class EquilibriumProblem {
     for (int const point : selected) evaluation.inner_steps += materials_.work(point);
     for (int point = 0; point < discretisation_.point_count(); ++point) {
       Verdict const verdict = responses_[static_cast<std::size_t>(point)].verdict;
+      evaluation.points.add(point, verdict.status, materials_.work(point));
       if (!verdict.acceptable() && (evaluation.worst_point < 0 || verdict.status > evaluation.verdict.status)) {
         evaluation.verdict = verdict;
         evaluation.worst_point = point;
