@@ -3,8 +3,8 @@
 
 import numpy as np
 import scarp_figures as figures
-from matplotlib.ticker import NullFormatter
-from scarp_figures import BLACK, BLUE, GREEN, ORANGE, PALE, SKY, VERMILION, plt
+from matplotlib.ticker import MaxNLocator, NullFormatter
+from scarp_figures import BLACK, BLUE, GREEN, ORANGE, SKY, VERMILION, plt
 
 
 def attempts_of(table):
@@ -74,11 +74,15 @@ def effort(folder):
     accepted = values(steps, "accepted") > 0.0
     fig, (work, slow, unwell, time) = plt.subplots(4, 1, figsize=(7.6, 8.2), sharex=True)
 
-    million = 1e-6 * values(steps, "dem_steps")
-    work.plot(throw[accepted], million[accepted], ".", color=BLUE, label="accepted")
-    if not accepted.all():
-        work.plot(throw[~accepted], million[~accepted], "x", color=VERMILION, label="not accepted")
-    work.set(ylabel="DEM steps per\nload step [million]", ylim=(0.0, None))
+    def draw_steps(axes, amounts, good, label):
+        axes.plot(throw[accepted], amounts[accepted], ".", color=good, label=label)
+        if not accepted.all():
+            axes.plot(throw[~accepted], amounts[~accepted], "x", color=VERMILION, markersize=4,
+                      label=f"{label}, not accepted")
+
+    draw_steps(work, values(steps, "dem_steps"), BLUE, "load steps")
+    work.set(ylabel="DEM steps per\nload step [-]")
+    work.set_yscale("log", nonpositive="mask")
     work.legend(title="Cost of the load steps", title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
 
     at = values(iterations, "throw_over_depth")
@@ -94,13 +98,14 @@ def effort(folder):
         if count.any():
             unwell.plot(at[count > 0], count[count > 0], mark, color=colour, markersize=3, label=name.replace("_", " "))
     unwell.set(ylabel="points that are\nnot ok [-]", ylim=(0.0, None))
+    unwell.yaxis.set_major_locator(MaxNLocator(integer=True))
     if unwell.lines:
         unwell.legend(loc="upper left", ncol=3)
 
-    order = np.argsort(throw, kind="stable")
-    outside = 100.0 * values(steps, "share_outside_points")[order]
-    time.stackplot(throw[order], 100.0 - outside, outside, colors=[PALE, ORANGE],
-                   labels=["material points", "linear systems and the rest"])
-    time.set(xlabel="throw over depth of layer, h/H [-]", ylabel="wall time [%]", ylim=(0.0, 100.0))
-    time.legend(loc="lower left", ncol=2)
+    inside = values(steps, "seconds_in_points")
+    outside = values(steps, "seconds") - inside
+    draw_steps(time, inside, BLUE, "in material points")
+    draw_steps(time, outside, ORANGE, f"outside, {100.0 * outside.sum() / (inside + outside).sum():.2g} % of all")
+    time.set(xlabel="throw over depth of layer, h/H [-]", ylabel="wall time per\nload step [s]", yscale="log")
+    time.legend(loc="lower right", ncol=2)
     return fig
