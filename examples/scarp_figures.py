@@ -66,6 +66,16 @@ def read_csv(path, columns):
     return {name: np.array([number(row[k]) for row in rows]) for k, name in enumerate(header)}
 
 
+def read_json_lines(path):
+    """[object] of a file with one JSON object a line; a last line that an interruption cut off is left out."""
+    require_file(path)
+    text = path.read_text()
+    try:
+        return [json.loads(line) for line in text[: text.rfind("\n") + 1].splitlines()]
+    except ValueError as trouble:
+        raise InputError(f"'{path}' holds a line that is no JSON ({trouble}): run the example anew") from None
+
+
 def read_summary(folder):
     """What the run said about itself, empty while it has not finished."""
     path = folder / "summary.json"

@@ -6,13 +6,14 @@ import sys
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import convergence_figures
 import footing_figures
 import numpy as np
 import scarp_figures as figures
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator, NullFormatter
+from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
 
@@ -238,59 +239,11 @@ def fabric(folder):
     return fig
 
 
-def attempts_of(table):
-    """Row slices of the attempts at load steps: another step, or iterations counted anew, is another attempt."""
-    starts = np.flatnonzero((np.diff(table["step"]) != 0) | (np.diff(table["iteration"]) <= 0)) + 1
-    bounds = [0, *starts, len(table["step"])]
-    return [slice(first, end) for first, end in zip(bounds, bounds[1:])]
-
-
-def residual_tolerance(summary):
-    known = (figures.finite(summary.get(key)) for key in ("residual_tolerance", "tolerance"))
-    return next((value for value in known if value is not None and value > 0.0), None)
-
-
-def convergence(folder):
-    table = figures.read_csv(folder / "convergence.csv",
-                             ["step", "throw_over_depth", "iteration", "residual", "accepted", "dem_steps"])
-    tolerance = residual_tolerance(figures.read_summary(folder))
-    attempts = attempts_of(table)
-    accepted = np.array([table["accepted"][attempt].max() > 0.0 for attempt in attempts])
-    count = np.arange(1, len(table["step"]) + 1)
-    fig, (residual, effort, work) = plt.subplots(3, 1, figsize=(7.6, 7.0), height_ratios=(3, 2, 2))
-
-    for attempt, good in zip(attempts, accepted):
-        residual.plot(count[attempt], table["residual"][attempt], ".-", linewidth=0.6, markersize=2.5,
-                      color=figures.SKY if good else VERMILION)
-    ends = np.array([attempt.stop - 1 for attempt in attempts])
-    residual.plot(count[ends[accepted]], table["residual"][ends[accepted]], "o", color=BLUE, markersize=3,
-                  label="accepted")
-    if not accepted.all():
-        residual.plot(count[ends[~accepted]], table["residual"][ends[~accepted]], "x", color=VERMILION, markersize=5,
-                      label="not accepted")
-    if tolerance is not None:
-        residual.axhline(tolerance, color=BLACK, linestyle="--", linewidth=1.0, label=f"tolerance {tolerance:g}")
-    residual.set(yscale="log", xlabel="iterations since the start", ylabel="force residual [-]")
-    residual.yaxis.set_major_formatter("{x:g}")
-    residual.yaxis.set_minor_formatter(NullFormatter())
-    residual.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, title="Convergence of the load steps",
-                    title_fontsize=9)
-
-    throw = table["throw_over_depth"][ends]
-    iterations = np.array([attempt.stop - attempt.start for attempt in attempts])
-    effort.plot(throw[accepted], iterations[accepted], ".", color=BLUE)
-    effort.plot(throw[~accepted], iterations[~accepted], "x", color=VERMILION)
-    effort.set(ylabel="iterations per\nload step [-]", ylim=(0.0, None))
-    work.plot(table["throw_over_depth"], 1e-6 * np.cumsum(table["dem_steps"]), color=GREEN)
-    work.set(xlabel="throw over depth of layer, h/H [-]", ylabel="DEM steps so far [million]", ylim=(0.0, None))
-    work.sharex(effort)
-    return fig
-
-
 def figures_of(folder):
     """Those that the files of a run have something for: analytic soils have no packing, free fields no footing."""
     chosen = {"deformation": deformation, "strain_development": strain_development, "surface": surface,
-              "probes": probes, "convergence": convergence}
+              "probes": probes, "convergence": convergence_figures.convergence,
+              "effort": convergence_figures.effort}
     if (folder / "packing_grains.csv").exists():
         chosen |= {"packing": packing, "fabric": fabric}
     if (folder / "footing.csv").exists():

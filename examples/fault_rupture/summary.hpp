@@ -141,6 +141,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_rves"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
+  json["share_of_time_outside_rves"] = 1.0 - json["share_of_time_in_rves"].get<double>();
   json["threads"] = threads_of(problem.executor());
   if (ranks_of(problem.executor()) > 1) json["ranks"] = ranks_of(problem.executor());
   json["cpu_seconds"] = used.cpu_seconds;
@@ -182,6 +183,8 @@ inline std::string table(nlohmann::ordered_json const& json) {
     row("imbalance of the footing over its weight", fmt::format("{:.1e}", number("support_error")), "0");
   }
   row("largest residual of an accepted step", fmt::format("{:.2e}", number("max_accepted_residual")), "not reported");
+  row("share of the time outside the material points",
+      fmt::format("{:.1f} %", 100.0 * number("share_of_time_outside_rves")), "not reported");
   return text;
 }
 

@@ -35,7 +35,7 @@ def old_results(folder):
     """An output folder of an earlier run: names that a new run would write, and one of the user's own."""
     (folder / "fields").mkdir(parents=True)
     for name in ("fields/step_0000.vtu", "fields.pvd", "surface.csv", "probe_A.csv", "probe_B.csv", "convergence.csv",
-                 "packing_grains.csv", "summary.json", "summary.txt", "biaxial.csv", "notes.txt"):
+                 "convergence.jsonl", "packing_grains.csv", "summary.json", "summary.txt", "biaxial.csv", "notes.txt"):
         (folder / name).write_text(f"old {name}\n")
 
 
@@ -163,6 +163,13 @@ def check_stopped(title, code, said, folder):
     for table in ("surface.csv", "convergence.csv", "probe_A.csv"):
         lines = (folder / table).read_text().splitlines(keepends=True)
         expect(len(lines) > 1 and lines[-1].endswith("\n"), f"{title}: the last row of {table} is cut off")
+    log = [json.loads(line) for line in (folder / "convergence.jsonl").read_text().splitlines()]
+    elements = summary["elements"]
+    for line in log:
+        if line["kind"] == "iteration":
+            expect(sum(line["points"].values()) == elements, f"{title}: convergence.jsonl counts {line['points']}")
+    steps = sum(line["kind"] == "step" and line["accepted"] for line in log)
+    expect(steps == summary["steps"], f"{title}: convergence.jsonl has {steps} accepted steps")
 
 
 LONG = ["--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "1", "--frames", "100000", "--output", "out"]

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/io/atomic_file.hpp"
+#include "scarp/io/appended_file.hpp"
 
 namespace scarp {
 
@@ -123,64 +123,46 @@ class CsvLog {
  public:
   /// \throws InputError for wrong columns, also when an old file that is to be continued has other ones
   /// \throws FileError when the file cannot be opened
-  CsvLog(std::filesystem::path path, std::vector<std::string> const& columns, CsvStart start = CsvStart::anew)
-      : format_(columns), path_(std::move(path)) {
-    if (start == CsvStart::resumed && std::filesystem::exists(path_)) {
-      keep_complete_rows();
-    } else {
-      write_file(path_, format_.header());
-    }
-    bytes_ = std::filesystem::file_size(path_);
-    file_ = detail::open_file(path_, "ab");
-  }
+  CsvLog(std::filesystem::path const& path, std::vector<std::string> const& columns, CsvStart start = CsvStart::anew)
+      : format_(columns), file_(prepared(path, format_, start)) {}
 
   /// \throws InputError for a row of the wrong width, FileError when it cannot be written
   template <class... Values>
   void add(Values const&... values) {
-    std::string const line = format_.row(values...);
-    if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0) {
-      detail::throw_not_written(path_, std::strerror(errno));
-    }
-    bytes_ += line.size();
+    file_.add(format_.row(values...));
   }
 
-  /// What a checkpoint remembers: how long the file was.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
-    visit("bytes of a table", self.bytes_);
-  }
-
-  /// Takes the rows off that came after the checkpoint.
-  /// \throws InputError when rows from before it are gone, FileError when the file cannot be cut
-  void after_loading() {
-    auto const present = std::filesystem::file_size(path_);
-    if (present < bytes_) {
-      refuse("'{}' has {} bytes (it had {} when the checkpoint was made): bring back the file of that run",
-             path_.string(), present, bytes_);
-    }
-    std::error_code trouble;
-    std::filesystem::resize_file(path_, bytes_, trouble);
-    if (trouble) detail::throw_not_written(path_, trouble.message());
+    visit("table", self.file_);
   }
 
  private:
-  void keep_complete_rows() const {
-    std::ifstream stream(path_, std::ios::binary);
+  static std::filesystem::path const& prepared(std::filesystem::path const& path, detail::CsvFormat const& format,
+                                               CsvStart start) {
+    if (start == CsvStart::resumed && std::filesystem::exists(path)) {
+      keep_complete_rows(path, format);
+    } else {
+      write_file(path, format.header());
+    }
+    return path;
+  }
+
+  static void keep_complete_rows(std::filesystem::path const& path, detail::CsvFormat const& format) {
+    std::ifstream stream(path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!text.starts_with(format_.header())) {
-      refuse("'{}' cannot be continued (its columns are not '{}'): start another file", path_.string(),
-             std::string_view(format_.header()).substr(0, format_.header().size() - 1));
+    if (!text.starts_with(format.header())) {
+      refuse("'{}' cannot be continued (its columns are not '{}'): start another file", path.string(),
+             std::string_view(format.header()).substr(0, format.header().size() - 1));
     }
     std::size_t const complete = text.find_last_of('\n') + 1;
     if (complete != text.size()) {
-      write_file(path_, std::string_view(text).substr(0, complete));
+      write_file(path, std::string_view(text).substr(0, complete));
     }
   }
 
   detail::CsvFormat format_;
-  std::filesystem::path path_;
-  std::uintmax_t bytes_ = 0;
-  detail::OpenFile file_;  // appends, wherever the end is
+  AppendedFile file_;
 };
 
 }  // namespace scarp

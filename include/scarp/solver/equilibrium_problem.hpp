@@ -269,20 +269,23 @@ class EquilibriumProblem {
 
   /// selected: points of this process
   void respond(std::vector<int> const& selected, Evaluation& evaluation) {
-    std::fill(works_.begin(), works_.end(), 0);
+    std::vector<long> worked(points(), 0);
     executor_.for_each(static_cast<int>(selected.size()), [&](int task) {
       int const point = selected[detail::index(task)];
       auto const k = detail::index(point);
       responses_[k] = materials_.respond(point, gradients_[k]);
       // Prescribed nodes would hide a NaN from the residual of the free ones.
       if (!responses_[k].stress.allFinite()) responses_[k].verdict = {Status::failed, Reason::not_finite};
-      works_[k] = materials_.work(point);
+      worked[k] = materials_.work(point);
     });
     share(responses_);
-    share(works_);
-    evaluation.inner_steps = std::accumulate(works_.begin(), works_.end(), 0L);
+    share(worked);
+    evaluation.inner_steps = std::accumulate(worked.begin(), worked.end(), 0L);
     for (int point = 0; point < discretisation_.point_count(); ++point) {
       Verdict const verdict = responses_[detail::index(point)].verdict;
+      long& work = works_[detail::index(point)];
+      if (long const now = worked[detail::index(point)]; now > 0) work = now;
+      evaluation.points.add(point, verdict.status, work);
       if (!verdict.acceptable() && (evaluation.worst_point < 0 || verdict.status > evaluation.verdict.status)) {
         evaluation.verdict = verdict;
         evaluation.worst_point = point;
@@ -325,7 +328,7 @@ class EquilibriumProblem {
   std::vector<int> free_dofs_;
   std::vector<Gradient<dim>> gradients_;
   std::vector<Response<dim>> responses_;
-  std::vector<long> works_;  ///< of the points that were asked last
+  std::vector<long> works_;  ///< inner steps of the points' last answers
   std::vector<int> owned_;   ///< points of this process
 };
 

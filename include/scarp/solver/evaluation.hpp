@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "scarp/core/status.hpp"
+#include "scarp/solver/point_survey.hpp"
 
 namespace scarp {
 
@@ -14,6 +15,7 @@ struct Evaluation {
   Verdict verdict;             ///< of the worst point
   int worst_point = -1;        ///< that is not acceptable, -1 for none
   long inner_steps = 0;        ///< DEM steps of all points
+  PointSurvey points;
 };
 
 }  // namespace scarp

@@ -76,6 +76,7 @@ struct QuasiNewton {
     void correct(Eigen::VectorXd& increment, StepReport& report) {
       if (report.verdict = problem_.plan(increment); !report.verdict.acceptable()) return;
       report.largest_gradient = problem_.largest_gradient();
+      mark_ = Clock::now();
       mixing_.forget();
       last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
       last_stresses_ = problem_.committed_stresses();
@@ -123,14 +124,22 @@ struct QuasiNewton {
     }
 
    private:
+    using Clock = std::chrono::steady_clock;
+
     template <class Evaluate>
-    static Evaluation recorded(StepReport& report, Evaluate&& evaluate) {
-      auto const started = std::chrono::steady_clock::now();
+    Evaluation recorded(StepReport& report, Evaluate&& evaluate) {
+      auto const started = Clock::now();
       Evaluation evaluation = evaluate();
       auto& record = report.history.back();
+      auto const ended = Clock::now();
       record.residual = evaluation.residual;
       record.inner_steps += evaluation.inner_steps;
-      record.material_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+      record.material_seconds += std::chrono::duration<double>(ended - started).count();
+      record.seconds += std::chrono::duration<double>(ended - mark_).count();
+      mark_ = ended;
+      record.verdict = evaluation.verdict;
+      record.worst_point = evaluation.worst_point;
+      record.points = evaluation.points;
       report.verdict = evaluation.verdict;
       report.worst_point = evaluation.worst_point;
       return evaluation;
@@ -164,6 +173,7 @@ struct QuasiNewton {
     LinearisedStep<Problem, Linear> linearised_;
     double condition_ = 0.0;
     int weak_dof_ = -1;
+    Clock::time_point mark_{};              ///< end of the last evaluation of this step
     std::vector<VoigtTangent<dim>> first_;  ///< of the state that the session began with
     std::vector<VoigtTangent<dim>> provider_;
     std::vector<VoigtTangent<dim>> working_;

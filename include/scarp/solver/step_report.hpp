@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scarp/core/status.hpp"
+#include "scarp/solver/point_survey.hpp"
 
 namespace scarp {
 
@@ -11,7 +12,11 @@ struct IterationRecord {
   double residual = 0.0;
   double linear_residual = 0.0;   ///< |K x - b| / |b| of the linear system that led here
   long inner_steps = 0;           ///< DEM steps of all points
-  double material_seconds = 0.0;  ///< wall time in the material points
+  double material_seconds = 0.0;  ///< wall time in the material points, sum of their forces included
+  double seconds = 0.0;           ///< the same and of the linear system that led here
+  Verdict verdict{};              ///< of the worst point
+  int worst_point = -1;           ///< that is not acceptable, -1 for none
+  PointSurvey points{};
 };
 
 /// How one attempt at a load step went.
@@ -19,9 +24,9 @@ struct StepReport {
   int step = 0;       ///< number of the accepted step it was to become, from 1
   double load = 0.0;  ///< load factor at its end
   double load_increment = 0.0;
-  Verdict verdict;
+  Verdict verdict{};
   int worst_point = -1;  ///< material point behind a verdict that is not ok, -1 for none
-  std::vector<IterationRecord> history;
+  std::vector<IterationRecord> history{};
   double largest_gradient = 0.0;  ///< of the prediction, over all points
   double condition = 0.0;  ///< estimate of the stiffness at the start of the step, 1-norm; 0 where it was not made
   int weak_dof = -1;       ///< degree of freedom that a singular system does not hold, -1 for none
