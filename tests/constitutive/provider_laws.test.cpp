@@ -8,6 +8,7 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/recorded.hpp"
+#include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 
 namespace provider_laws {
@@ -84,6 +85,11 @@ struct Sample<scarp::Dormant<scarp::LinearElastic<2>>> : AdaptedElastic {
   }
 };
 
+template <>
+struct Sample<scarp::StiffnessFloor<scarp::LinearElastic<2>>> : AdaptedElastic {
+  static scarp::StiffnessFloor<Inner> provider() { return {inner()}; }
+};
+
 template <class PackingType>
 struct Sample<scarp::DemRve<PackingType, scarp::SamePacking<PackingType>>> {
   using Provider = scarp::DemRve<PackingType, scarp::SamePacking<PackingType>>;
@@ -110,9 +116,10 @@ using ElasticInPlane = scarp::LinearElastic<2>;
 using ElasticInSpace = scarp::LinearElastic<3>;
 using RveOfDiscs = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>;
 using RveOfEllipses = scarp::DemRve<samples::Ellipses, scarp::SamePacking<samples::Ellipses>>;
-#define EVERY_PROVIDER                                                                                     \
-  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses, \
-      scarp::Recorded<ElasticInPlane>, scarp::VariedParameters<ElasticInPlane>, scarp::Dormant<ElasticInPlane>
+#define EVERY_PROVIDER                                                                                          \
+  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses,      \
+      scarp::Recorded<ElasticInPlane>, scarp::VariedParameters<ElasticInPlane>, scarp::Dormant<ElasticInPlane>, \
+      scarp::StiffnessFloor<ElasticInPlane>
 
 TEST_CASE_TEMPLATE("every provider: committed state is never touched", Provider, EVERY_PROVIDER) {
   provider_laws::committed_state_is_never_touched<Provider>();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/averaged_stiffness.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/constitutive/material_field.hpp"
@@ -22,6 +23,7 @@ class EquilibriumProblem {
  public:
   static constexpr int dim = DiscretisationType::dim;
   static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
+  static constexpr bool averages = AveragesGradients<Materials>;
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
   /// \throws InputError for sizes that do not fit together
@@ -66,7 +68,7 @@ class EquilibriumProblem {
   Executor& executor() const { return executor_; }
   Attached const& attached() const { return attached_; }
 
-  /// Gradients and answers of the last evaluation.
+  /// Gradients that the points have seen in the last evaluation, and their answers.
   std::vector<Gradient<dim>> const& gradients() const { return gradients_; }
   std::vector<Response<dim>> const& responses() const { return responses_; }
 
@@ -87,6 +89,7 @@ class EquilibriumProblem {
   Verdict plan(Eigen::VectorXd const& increment) {
     if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
     if (discretisation_.gradients(of_nodes(increment), gradients_)) return {Status::failed, Reason::element_inverted};
+    if constexpr (averages) materials_.average(gradients_);
     for (int point = 0; point < discretisation_.point_count(); ++point) {
       materials_.plan(point, gradients_[static_cast<std::size_t>(point)]);
     }
@@ -105,6 +108,7 @@ class EquilibriumProblem {
       evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
       return evaluation;
     }
+    if constexpr (averages) materials_.average(gradients_);
     std::vector<int> all(points());
     std::iota(all.begin(), all.end(), 0);
     respond(all, evaluation);
@@ -139,6 +143,7 @@ class EquilibriumProblem {
       gradients_[k].setZero();
       responses_[k] = {committed[k], {}};
     }
+    if constexpr (averages) materials_.average(gradients_);
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
     return evaluation;
@@ -147,7 +152,11 @@ class EquilibriumProblem {
   /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
                         Eigen::SparseMatrix<double>& matrix) const {
-    discretisation_.stiffness(of_nodes(increment), stresses(), tangents, matrix);
+    if constexpr (averages) {
+      averaged_stiffness(discretisation_, of_nodes(increment), stresses(), tangents, materials_, matrix);
+    } else {
+      discretisation_.stiffness(of_nodes(increment), stresses(), tangents, matrix);
+    }
     if constexpr (!is_bare) matrix.conservativeResize(dof_count(), dof_count());
   }
 
@@ -248,6 +257,10 @@ class EquilibriumProblem {
   std::vector<VoigtStress<dim>> stresses() const {
     std::vector<VoigtStress<dim>> values(points());
     for (std::size_t k = 0; k < points(); ++k) values[k] = responses_[k].stress;
+    if constexpr (averages) {
+      if (materials_.mean().is_local()) return values;
+      for (std::size_t k = 0; k < points(); ++k) values[k] += materials_.added_stresses()[k];
+    }
     return values;
   }
 
