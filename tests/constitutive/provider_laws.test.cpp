@@ -9,6 +9,7 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/recorded.hpp"
+#include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 
 namespace provider_laws {
@@ -98,6 +99,11 @@ struct Sample<scarp::Lazy<scarp::LinearElastic<2>>> : AdaptedElastic {
   static bool same(auto const& a, auto const& b) { return a.stress == b.stress && a.skipped == b.skipped; }
 };
 
+template <>
+struct Sample<scarp::StiffnessFloor<scarp::LinearElastic<2>>> : AdaptedElastic {
+  static scarp::StiffnessFloor<Inner> provider() { return {inner()}; }
+};
+
 template <class PackingType>
 struct Sample<scarp::DemRve<PackingType, scarp::SamePacking<PackingType>>> {
   using Provider = scarp::DemRve<PackingType, scarp::SamePacking<PackingType>>;
@@ -127,7 +133,7 @@ using RveOfEllipses = scarp::DemRve<samples::Ellipses, scarp::SamePacking<sample
 #define EVERY_PROVIDER                                                                                          \
   ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses,      \
       scarp::Recorded<ElasticInPlane>, scarp::VariedParameters<ElasticInPlane>, scarp::Dormant<ElasticInPlane>, \
-      scarp::Lazy<ElasticInPlane>
+      scarp::Lazy<ElasticInPlane>, scarp::StiffnessFloor<ElasticInPlane>
 
 TEST_CASE_TEMPLATE("every provider: committed state is never touched", Provider, EVERY_PROVIDER) {
   provider_laws::committed_state_is_never_touched<Provider>();

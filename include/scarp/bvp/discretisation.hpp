@@ -119,6 +119,33 @@ class Discretisation {
     return matrix;
   }
 
+  /// Engineering strains of all points for a small further displacement from the end of the increment, as Scheme forms
+  /// them; row = voigt_size * point + component, shape (voigt_size * point_count, dof_count)
+  Eigen::SparseMatrix<double> strain_operator(Eigen::VectorXd const& increment) const {
+    require_length("displacement increment", increment.size(), dof_count());
+    std::vector<Eigen::Triplet<double>> entries;
+    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+      auto const& nodes = mesh_.elements[detail::index(element)];
+      for (int a = 0; a < Element::nodes; ++a) {
+        for (int axis = 0; axis < dim; ++axis) {
+          Corners<Element, dim> move = Corners<Element, dim>::Zero();
+          move(a, axis) = 1.0;
+          auto const gradients = Scheme::template gradients<SmallStrain>(shapes, move);
+          for (int p = 0; p < points_per_element; ++p) {
+            auto const strain = to_engineering_strain<dim, double>(gradients[detail::index(p)]);
+            int const row = voigt_size<dim> * (points_per_element * element + p);
+            for (int k = 0; k < voigt_size<dim>; ++k) {
+              entries.emplace_back(row + k, dim * nodes[detail::index(a)] + axis, strain(k));
+            }
+          }
+        }
+      }
+    });
+    Eigen::SparseMatrix<double> strains(voigt_size<dim> * point_count(), dof_count());
+    strains.setFromTriplets(entries.begin(), entries.end());
+    return strains;
+  }
+
   /// Volume [m3] of each point, thickness included, in the configuration that forces are balanced in.
   std::vector<double> volumes(Eigen::VectorXd const& increment) const {
     require_length("displacement increment", increment.size(), dof_count());

@@ -27,10 +27,26 @@ concept MaterialField = requires {
   {field.commit()};
 };
 
+/// A field whose points see means of their own and their neighbours' gradients: average(gradients) replaces them and
+/// fixes stresses [Pa] that add to the answers, with derivatives by the points' own strains and by the means; all
+/// belong to the last call. mean().is_local(): nothing of it matters.
+template <class Field>
+concept AveragesGradients = MaterialField<Field> &&
+    requires(Field& field, Field const& constant, std::vector<Gradient<Field::dim>>& gradients) {
+  {field.average(gradients)};
+  { constant.mean().is_local() } -> std::same_as<bool>;
+  { constant.added_stresses() } -> std::same_as<std::vector<VoigtStress<Field::dim>> const&>;
+  { constant.added_by_own() } -> std::same_as<std::vector<VoigtTangent<Field::dim>> const&>;
+  { constant.added_by_mean() } -> std::same_as<std::vector<VoigtTangent<Field::dim>> const&>;
+};
+
 /// Committed and trial states of one provider at a set of points.
 template <ConstitutiveProvider Provider>
 class ProviderField {
  public:
+  static_assert(
+      !requires { typename Provider::LocalProvider; },
+      "a Nonlocal provider needs its neighbours: make NonlocalMaterials around the field of its local one");
   static constexpr int dim = Provider::dim;
   using State = typename Provider::State;
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/averaged_stiffness.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/constitutive/material_field.hpp"
@@ -24,6 +25,7 @@ class EquilibriumProblem {
  public:
   static constexpr int dim = DiscretisationType::dim;
   static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
+  static constexpr bool averages = AveragesGradients<Materials>;
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
   /// \throws InputError for sizes that do not fit together
@@ -72,7 +74,7 @@ class EquilibriumProblem {
   Executor& executor() const { return executor_; }
   Attached const& attached() const { return attached_; }
 
-  /// Gradients and answers of the last evaluation.
+  /// Gradients that the points have seen in the last evaluation, and their answers.
   std::vector<Gradient<dim>> const& gradients() const { return gradients_; }
   std::vector<Response<dim>> const& responses() const { return responses_; }
 
@@ -94,6 +96,7 @@ class EquilibriumProblem {
   Verdict plan(Eigen::VectorXd const& increment) {
     if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
     if (discretisation_.gradients(of_nodes(increment), gradients_)) return {Status::failed, Reason::element_inverted};
+    if constexpr (averages) materials_.average(gradients_);
     for (int const point : owned_) materials_.plan(point, gradients_[detail::index(point)]);
     return {};
   }
@@ -110,6 +113,7 @@ class EquilibriumProblem {
       evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
       return evaluation;
     }
+    if constexpr (averages) materials_.average(gradients_);
     respond(owned_, evaluation);
     add_up(increment, evaluation);
     return evaluation;
@@ -141,6 +145,7 @@ class EquilibriumProblem {
       gradients_[k].setZero();
       responses_[k] = {committed[k], {}};
     }
+    if constexpr (averages) materials_.average(gradients_);
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
     return evaluation;
@@ -149,7 +154,11 @@ class EquilibriumProblem {
   /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
                         Eigen::SparseMatrix<double>& matrix) const {
-    discretisation_.stiffness(of_nodes(increment), stresses(), tangents, matrix);
+    if constexpr (averages) {
+      averaged_stiffness(discretisation_, of_nodes(increment), stresses(), tangents, materials_, matrix);
+    } else {
+      discretisation_.stiffness(of_nodes(increment), stresses(), tangents, matrix);
+    }
     if constexpr (!is_bare) matrix.conservativeResize(dof_count(), dof_count());
   }
 
@@ -264,6 +273,10 @@ class EquilibriumProblem {
   std::vector<VoigtStress<dim>> stresses() const {
     std::vector<VoigtStress<dim>> values(points());
     for (std::size_t k = 0; k < points(); ++k) values[k] = responses_[k].stress;
+    if constexpr (averages) {
+      if (materials_.mean().is_local()) return values;
+      for (std::size_t k = 0; k < points(); ++k) values[k] += materials_.added_stresses()[k];
+    }
     return values;
   }
 

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scarp/constitutive/material_field.hpp"
+#include "scarp/constitutive/neighbour_mean.hpp"
+#include "scarp/core/polar.hpp"
+
+namespace scarp {
+
+/// How far a point looks around itself, and what holds the strain that it then does not see.
+struct Neighbourhood {
+  double length = 0.0;     ///< radius [m]; 0: the point is a local one
+  double stiffness = 1.0;  ///< share of the point's initial tangent
+  double fading = 1e-3;    ///< strain after which the stress against unseen strain has faded
+};
+
+/// Any field whose points see weighted means of the increments around them instead of their own,
+/// \f$ \bar G_i = \sum_j w_{ij} G_j \f$, with weights of the reference configuration, and a stress that holds what they
+/// do not see:
+/// \f$ \sigma_i = \sigma_{field}(\bar G_i) + \tau_i,\;
+/// \Delta\tau = s\,C^0 (\Delta\varepsilon - \Delta\bar\varepsilon) - \tau\,|\Delta\bar\varepsilon| / \varepsilon_f \f$
+/// (implicit, turned with the mean's rotation). Without tau waves much shorter than the length cost nothing, and bands
+/// become as thin as the mesh: strain \f$ \varepsilon = W^{-1} \bar\varepsilon \f$ belongs to any
+/// \f$ \bar\varepsilon \f$. A local share of what the material sees would not help, since it softens as well. With s =
+/// 1 a uniform elastic body answers as a local one; a tau that did not fade would lock bands, whose strain is never
+/// that of its mean. `committed_stress` is the field's own, without tau.
+template <MaterialField Field>
+class NonlocalMaterials {
+ public:
+  static constexpr int dim = Field::dim;
+  using Stresses = std::vector<VoigtStress<dim>>;
+  using Tangents = std::vector<VoigtTangent<dim>>;
+
+  /// sites, volumes [m3] and neighbourhoods: of all points of the field
+  /// \throws InputError for lengths or stiffnesses that are negative or not finite, fading strains that are not
+  /// positive, and counts that differ
+  NonlocalMaterials(Field field, std::span<Site<dim> const> sites, std::span<double const> volumes,
+                    std::span<Neighbourhood const> neighbourhoods)
+      : field_(std::move(field)),
+        mean_(mean_of(field_, sites, volumes, neighbourhoods)),
+        committed_(sites.size(), VoigtStress<dim>::Zero()),
+        trial_(committed_),
+        by_own_(sites.size(), VoigtTangent<dim>::Zero()),
+        by_mean_(by_own_) {
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+      double const share = require_not_negative("stiffness against unseen strain", neighbourhoods[k].stiffness);
+      fading_.push_back(require_positive("strain after which unseen stress has faded", neighbourhoods[k].fading));
+      stiffness_.push_back(share * field_.committed_tangent(static_cast<int>(k)));
+    }
+  }
+
+  Field const& local() const { return field_; }
+  NeighbourMean<dim> const& mean() const { return mean_; }
+
+  /// Puts what the points see in the place of their own gradients; tau belongs to them from then on.
+  void average(std::vector<Gradient<dim>>& gradients) {
+    if (mean_.is_local()) return;
+    std::vector<Gradient<dim>> const own = gradients;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      int const point = static_cast<int>(k);
+      if (mean_.of(point).size() == 1) continue;
+      gradients[k] = mean_.mean(point, std::span<Gradient<dim> const>(own));
+      hold(k, gradients[k], own[k] - gradients[k]);
+    }
+  }
+
+  /// tau [Pa] of all points in the last increment that was averaged.
+  Stresses const& added_stresses() const { return trial_; }
+  /// Its derivatives [Pa] with respect to the points' own strain and to the one that they see.
+  Tangents const& added_by_own() const { return by_own_; }
+  Tangents const& added_by_mean() const { return by_mean_; }
+
+  int point_count() const { return field_.point_count(); }
+  void plan(int point, Gradient<dim> const& predicted) { field_.plan(point, predicted); }
+  void refine_plan(int point) { field_.refine_plan(point); }
+  Response<dim> respond(int point, Gradient<dim> const& increment) { return field_.respond(point, increment); }
+  long work(int point) const { return field_.work(point); }
+  VoigtStress<dim> committed_stress(int point) const { return field_.committed_stress(point); }
+  VoigtTangent<dim> committed_tangent(int point) const { return field_.committed_tangent(point); }
+  VoigtTangent<dim> trial_tangent(int point) const { return field_.trial_tangent(point); }
+  void commit() {
+    field_.commit();
+    committed_ = trial_;
+  }
+
+  template <class Visit>
+  void for_each_committed(Visit&& visit) {
+    field_.for_each_committed(visit);
+  }
+  /// The composed field's, for observers.
+  template <class Visit>
+  void visit(int point, Visit&& visit) const {
+    field_.visit(point, visit);
+  }
+
+ private:
+  static NeighbourMean<dim> mean_of(Field const& field, std::span<Site<dim> const> sites,
+                                    std::span<double const> volumes, std::span<Neighbourhood const> neighbourhoods) {
+    std::size_t const count = static_cast<std::size_t>(field.point_count());
+    if (sites.size() != count || volumes.size() != count || neighbourhoods.size() != count) {
+      refuse("{} sites, {} volumes and {} neighbourhoods are given for {} points: give one of each to every point",
+             sites.size(), volumes.size(), neighbourhoods.size(), count);
+    }
+    std::vector<double> lengths;
+    for (auto const& neighbourhood : neighbourhoods) lengths.push_back(neighbourhood.length);
+    return {sites, volumes, lengths};
+  }
+
+  /// tau of a point that sees one gradient and does not see another.
+  void hold(std::size_t k, Gradient<dim> const& seen, Gradient<dim> const& unseen) {
+    Tensor<dim> const strain = (seen + seen.transpose()) / 2.0;
+    double const size = strain.norm();
+    double const faded = 1.0 + size / fading_[k];
+    Tensor<dim> const turn = rotation_factor<dim, double>(Tensor<dim>::Identity() + seen);
+    VoigtStress<dim> const whole = committed_[k] + stiffness_[k] * to_engineering_strain<dim, double>(unseen);
+    Tensor<dim> const turned = turn * from_voigt_stress<dim, double>(whole) * turn.transpose() / faded;
+    trial_[k] = to_voigt_stress<dim, double>(turned);
+    by_own_[k] = stiffness_[k] / faded;
+    by_mean_[k] = -by_own_[k];
+    if (size > 0.0) {
+      by_mean_[k] -= trial_[k] * to_voigt_stress<dim, double>(strain).transpose() / (size * fading_[k] * faded);
+    }
+  }
+
+  Field field_;
+  NeighbourMean<dim> mean_;
+  std::vector<double> fading_;
+  Tangents stiffness_;
+  Stresses committed_;
+  Stresses trial_;
+  Tangents by_own_;
+  Tangents by_mean_;
+};
+
+}  // namespace scarp

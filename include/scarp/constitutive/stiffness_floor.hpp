@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/constitutive/linear_elastic.hpp"
+
+namespace scarp {
+
+/// Any provider whose points keep a small elastic stiffness while they are fluid: a packing that has lost its contacts
+/// answers no strain, and a node with such points all around it would be held by nothing. Strain of the fluid state
+/// meets an isotropic stiffness; its stress is added to the answer and is dropped when contacts carry again.
+/// `floor_share` tells how much of all stress is not the material's. A point that is not fluid answers as the provider
+/// does, bit for bit.
+template <ConstitutiveProvider Provider>
+struct StiffnessFloor {
+  static constexpr int dim = Provider::dim;
+  using Plan = PlanOf<Provider>;
+
+  struct State {
+    typename Provider::State own;
+    IsotropicElasticity elasticity;
+    VoigtStress<dim> floor_stress = VoigtStress<dim>::Zero();  ///< [Pa]
+    bool fluid = false;
+  };
+
+  Provider provider{};
+  double share = 1e-4;         ///< of the isotropic part of the initial tangent
+  double shear_modulus = 0.0;  ///< [Pa] instead, with Poisson's ratio zero, when positive
+
+  /// \throws InputError for a share that is not positive, and for a share of nothing where a point is fluid from the
+  /// start
+  State initial_state(Site<dim> const& site) const {
+    require_positive("share of a fluid point's stiffness", share);
+    auto own = provider.initial_state(site);
+    IsotropicElasticity elasticity{0.0, shear_modulus};
+    if (!(shear_modulus > 0.0)) {
+      auto const whole = isotropic_part(provider.tangent(own));
+      if (!(whole.shear_modulus > 0.0)) {
+        refuse("point {} has no initial stiffness (it may be fluid): give the floor's shear modulus", site.index);
+      }
+      elasticity = {share * whole.lame_lambda, share * whole.shear_modulus};
+    }
+    return {std::move(own), elasticity};
+  }
+
+  VoigtStress<dim> stress(State const& state) const {
+    return state.fluid ? VoigtStress<dim>(provider.stress(state.own) + state.floor_stress) : provider.stress(state.own);
+  }
+
+  VoigtTangent<dim> tangent(State const& state) const {
+    VoigtTangent<dim> const own = provider.tangent(state.own);
+    return state.fluid ? VoigtTangent<dim>(own + state.elasticity.template stiffness<dim>()) : own;
+  }
+
+  Plan plan(State const& committed, Gradient<dim> const& increment) const requires PlansWork<Provider> {
+    return provider.plan(committed.own, increment);
+  }
+  Plan refined(Plan const& plan) const requires PlansWork<Provider> { return provider.refined(plan); }
+
+  /// \param plan the provider's, or none
+  template <class... PlanType>
+  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial,
+                        PlanType const&... plan) const {
+    trial.elasticity = committed.elasticity;
+    trial.floor_stress.setZero();
+    Response<dim> response = provider.respond(committed.own, increment, trial.own, plan...);
+    trial.fluid = response.verdict.status == Status::fluid;
+    if (!trial.fluid) return response;
+    LinearElastic<dim> const floor{committed.elasticity};
+    typename LinearElastic<dim>::State held{committed.floor_stress};
+    Response<dim> const more = floor.respond({committed.floor_stress}, increment, held);
+    trial.floor_stress = more.stress;
+    response.stress += more.stress;
+    if (!more.verdict.acceptable()) response.verdict = more.verdict;
+    return response;
+  }
+
+ private:
+  /// The isotropic stiffness nearest to a tangent in the norm of fourth-order tensors.
+  static IsotropicElasticity isotropic_part(VoigtTangent<dim> const& tangent) {
+    auto const normal = tangent.template topLeftCorner<dim, dim>();
+    constexpr int shears = voigt_size<dim> - dim;
+    double const sum = normal.sum();
+    double const shear = (normal.trace() - sum / dim + 2.0 * tangent.diagonal().template tail<shears>().sum()) /
+                         (2.0 * (dim - 1 + shears));
+    return {sum / (dim * dim) - 2.0 * shear / dim, shear};
+  }
+};
+
+static_assert(ConstitutiveProvider<StiffnessFloor<LinearElastic<2>>>);
+
+namespace detail {
+
+/// visit(stress of the floor) where a state, or one that it keeps, has one.
+template <class State, class Visit>
+void visit_floor(State const& state, Visit&& visit) {
+  if constexpr (requires { state.floor_stress; }) {
+    visit(state.floor_stress);
+  } else if constexpr (requires { state.own; }) {
+    visit_floor(state.own, visit);
+  }
+}
+
+}  // namespace detail
+
+/// Share of the stiffness floors in all stress of a problem's committed state:
+/// \f$ \sum v |\sigma_{floor}| / \sum v |\sigma| \f$, 0 where no point is fluid.
+template <class Problem>
+double floor_share(Problem const& problem) {
+  auto const& grid = problem.discretisation();
+  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  double floors = 0.0;
+  double all = 0.0;
+  for (int point = 0; point < grid.point_count(); ++point) {
+    double const volume = volumes[static_cast<std::size_t>(point)];
+    all += volume * problem.materials().committed_stress(point).norm();
+    auto const add = [&](auto const& stress) { floors += volume * stress.norm(); };
+    if constexpr (requires { problem.materials().committed(point); }) {
+      detail::visit_floor(problem.materials().committed(point), add);
+    } else {
+      problem.materials().visit(
+          point, [&](auto const& field, int local) { detail::visit_floor(field.committed(local), add); });
+    }
+  }
+  return floors > 0.0 ? floors / all : 0.0;
+}
+
+}  // namespace scarp

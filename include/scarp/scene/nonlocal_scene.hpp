@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <boost/hana/transform.hpp>
+
+#include "scarp/constitutive/nonlocal.hpp"
+#include "scarp/constitutive/nonlocal_materials.hpp"
+#include "scarp/scene/scene.hpp"
+
+namespace scarp {
+
+namespace detail {
+
+template <class Provider>
+struct LocalPart {
+  using Type = Provider;
+  static Provider const& of(Provider const& provider) { return provider; }
+  static Neighbourhood neighbourhood(Provider const&) { return {}; }
+};
+template <AsksForMeans Provider>
+struct LocalPart<Provider> {
+  using Type = typename Provider::LocalProvider;
+  static Type const& of(Provider const& provider) { return provider.provider; }
+  static Neighbourhood neighbourhood(Provider const& provider) {
+    return {provider.length, provider.stiffness, provider.fading};
+  }
+};
+
+}  // namespace detail
+
+/// Materials of a scene in which a region is `Nonlocal`: the regions' local providers, and means within each region
+/// that asks. Weights are those of the configuration in which the scene is made.
+template <class... Providers>
+  requires(AsksForMeans<Providers> || ...)
+struct SceneMaterials<Providers...> {
+  using Regions = RegionMaterials<typename detail::LocalPart<Providers>::Type...>;
+  using Type = NonlocalMaterials<Regions>;
+
+  /// Every process has states for all points, although it asks only its own: the stiffness against unseen strain follows from
+  /// the initial ones.
+  template <class DiscretisationType, class Owned>
+  static Type make(DiscretisationType const& discretisation, double surface_level,
+                   boost::hana::tuple<Region<Providers>...> const& regions, Owned const&) {
+    constexpr int dim = DiscretisationType::dim;
+    auto const local = boost::hana::transform(regions, []<class Provider>(Region<Provider> const& region) {
+      using Part = detail::LocalPart<Provider>;
+      return Region<typename Part::Type>{region.name, Part::of(region.provider)};
+    });
+    Regions materials(discretisation, surface_level, local);
+    std::vector<Neighbourhood> of_region(discretisation.mesh().regions.size());
+    boost::hana::for_each(regions, [&]<class Provider>(Region<Provider> const& region) {
+      of_region[static_cast<std::size_t>(region_number(discretisation.mesh(), region.name))] =
+          detail::LocalPart<Provider>::neighbourhood(region.provider);
+    });
+    std::vector<Site<dim>> sites;
+    std::vector<Neighbourhood> neighbourhoods;
+    for (int point = 0; point < discretisation.point_count(); ++point) {
+      sites.push_back(discretisation.site(point, surface_level));
+      neighbourhoods.push_back(of_region[static_cast<std::size_t>(sites.back().region)]);
+    }
+    auto const volumes = discretisation.volumes(Eigen::VectorXd::Zero(discretisation.dof_count()));
+    return {std::move(materials), sites, volumes, neighbourhoods};
+  }
+};
+
+}  // namespace scarp

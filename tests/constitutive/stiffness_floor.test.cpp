@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/constitutive/stiffness_floor.hpp"
+
+#include <doctest/doctest.h>
+
+#include "approx.hpp"
+#include "scarp/bvp/discretisation.hpp"
+#include "scarp/element/quad4.hpp"
+#include "scarp/mesh/box_mesh.hpp"
+#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/equilibrium_problem.hpp"
+#include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+
+namespace {
+
+using Elastic = scarp::LinearElastic<2>;
+using Grid = scarp::Discretisation<scarp::Quad4>;
+
+Elastic ground() { return Elastic::from_young_poisson(20e6, 0.3); }
+
+/// Elastic ground that loses all contacts above a height once it is strained, as a packing does in tension.
+struct Fluidised {
+  static constexpr int dim = 2;
+  struct State {
+    bool loose = false;
+    bool fluid = false;
+    Elastic::State own;
+  };
+
+  double height = 1.0;  ///< [m]
+
+  State initial_state(scarp::Site<2> const& site) const { return {site.position.y() > height, false, {}}; }
+  scarp::VoigtStress<2> stress(State const& state) const { return state.own.stress; }
+  scarp::VoigtTangent<2> tangent(State const& state) const { return (state.fluid ? 0.0 : 1.0) * ground().tangent({}); }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    trial = committed;
+    trial.fluid = committed.loose;
+    if (trial.fluid) return {scarp::VoigtStress<2>::Zero(), {scarp::Status::fluid, scarp::Reason::no_contacts}};
+    return ground().respond(committed.own, increment, trial.own);
+  }
+};
+
+using Floor = scarp::StiffnessFloor<Fluidised>;
+using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Floor>, scarp::SerialExecutor>;
+
+/// A column of four elements between smooth walls, whose foot moves sideways against the walls' height, the upper half
+/// loose.
+Problem column(double share, scarp::SerialExecutor& executor) {
+  Grid grid(scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, 2.0}, .cells = {1, 4}}.generate());
+  scarp::Constraints constraints(grid.mesh());
+  for (auto const* wall : {"left", "right"}) {
+    for (int const node : scarp::boundary_nodes(grid.mesh(), wall)) constraints.fix(node, 0);
+  }
+  for (int const node : scarp::boundary_nodes(grid.mesh(), "bottom")) constraints.move(node, 1, 1.0);
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
+  // A pull at the middle level, so that there is stress to compare with.
+  Eigen::VectorXd loads = Eigen::VectorXd::Zero(grid.dof_count());
+  for (std::size_t n = 0; n < grid.mesh().nodes.size(); ++n) {
+    if (grid.mesh().nodes[n].y() == 1.0) loads(static_cast<Eigen::Index>(2 * n + 1)) = -10e3;
+  }
+  scarp::LoadHistory history(Eigen::VectorXd::Zero(grid.dof_count()));
+  history.add(loads, scarp::TimeFunction::ramp(0.0, 1.0));
+  return {std::move(grid), {Floor{.provider = {}, .share = share}, sites}, std::move(constraints), history, executor};
+}
+
+scarp::RunReport load(Problem& problem, double to) {
+  scarp::NoObserver nobody;
+  scarp::QuasiNewton<scarp::ConsistentTangent> const solver{.tolerance = 1e-9};
+  return scarp::LoadStepping{.first = 0.5 * to, .largest_gradient = 1.0}.run(solver, problem, 0.0, to, nobody);
+}
+
+}  // namespace
+
+TEST_CASE("nodes with nothing but fluid points around them are held by the floor, and its share of force is told") {
+  scarp::SerialExecutor executor;
+  // A floor too low for the digits of a double is none: the second step begins from fluid points.
+  auto without = column(1e-30, executor);
+  auto const singular = load(without, 1e-3);
+  CHECK_FALSE(singular.verdict.acceptable());
+  CHECK(singular.verdict.reason == scarp::Reason::singular_system);
+  auto problem = column(1e-4, executor);
+  auto const run = load(problem, 1e-3);
+  CHECK(run.verdict.acceptable());
+  CHECK(run.load == 1e-3);
+  int fluid = 0;
+  for (int point = 0; point < 16; ++point) fluid += problem.materials().committed(point).fluid ? 1 : 0;
+  CHECK(fluid == 8);
+  // The free top follows the middle: the floor has next to nothing to hold.
+  CHECK(scarp::floor_share(problem) < 1e-3);
+}
+
+TEST_CASE("a fluid point strained on its own carries the floor's stress, a solid one the provider's bits") {
+  Floor const floor{.provider = {}, .share = 1e-3};
+  scarp::Gradient<2> const increment{{1e-3, 2e-3}, {-1e-3, -5e-4}};
+  auto const loose = floor.initial_state({.position = {0.0, 2.0}});
+  auto trial = loose;
+  auto const answer = floor.respond(loose, increment, trial);
+  CHECK(answer.verdict.status == scarp::Status::fluid);
+  // Analytic: the thousandth part of isotropic elasticity is its own isotropic part.
+  auto const thousandth = Elastic::from_young_poisson(20e3, 0.3);
+  Elastic::State expected{};
+  CHECK((answer.stress - thousandth.respond({}, increment, expected).stress).norm() <= 1e-12 * answer.stress.norm());
+  CHECK((floor.tangent(trial) - thousandth.tangent({})).norm() <= 1e-12 * floor.tangent(trial).norm());
+  CHECK(floor.stress(trial) == answer.stress);
+
+  auto const solid = floor.initial_state({.position = {0.0, 0.5}});
+  auto moved = solid;
+  Elastic::State bare{};
+  CHECK(floor.respond(solid, increment, moved).stress == ground().respond({}, increment, bare).stress);
+  CHECK(floor.tangent(moved) == ground().tangent({}));
+  CHECK_THROWS_AS((Floor{.provider = {}, .share = 0.0}).initial_state({}), scarp::InputError);
+}
