@@ -27,9 +27,14 @@ void visit_point(Problem const& problem, int point, Visit const& visit) {
 /// Cauchy stress [Pa] of a point's committed state.
 template <class Problem>
 VoigtStress<Problem::dim> committed_stress(Problem const& problem, int point) {
-  VoigtStress<Problem::dim> stress;
-  visit_point(problem, point, [&](auto const& provider, auto const& state) { stress = provider.stress(state); });
-  return stress;
+  using Executor = std::remove_cvref_t<decltype(problem.executor())>;
+  if constexpr (SharesPoints<Executor>) {
+    VoigtStress<Problem::dim> stress;
+    visit_point(problem, point, [&](auto const& provider, auto const& state) { stress = provider.stress(state); });
+    return stress;
+  } else {
+    return problem.materials().committed_stress(point);
+  }
 }
 
 }  // namespace scarp
