@@ -34,7 +34,7 @@ Local softening_sand() {
           {.surcharge = 4e3, .unit_weight = 15.68e3, .k0 = 0.4}};
 }
 
-/// Work [N] that the moving bedrock does on the ground per metre of throw.
+/// Work [N] that the moving bedrock does on the ground per metre of throw; at rest the weight of the ground above it.
 template <class Problem>
 double reaction(Problem& problem) {
   auto const unbalanced = problem.evaluate_committed().unbalanced;
@@ -67,14 +67,15 @@ void print_fault(FaultChoice const& choice) {
       auto problem = scene.problem(executor);
       scarp::NoObserver nobody;
       scene.settle(problem, nobody);
+      double const at_rest = reaction(problem);
       auto const run = scene.rupture(problem, nobody);
       auto const& grid = problem.discretisation();
       auto const found = scarp::outcrop(
           scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface")),
           run.load);
       fmt::print("{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
-                 grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width, reaction(problem),
-                 run.steps, run.refused, run.iterations, watch.seconds(),
+                 grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
+                 reaction(problem) - at_rest, run.steps, run.refused, run.iterations, watch.seconds(),
                  run.verdict.acceptable() ? "" : name(run.last_failure));
       std::fflush(stdout);
     }
