@@ -34,7 +34,7 @@ struct Choice {
   Grains grains{};
   double confining = 200e3;         ///< lateral pressure [Pa]
   double axial_strain_step = 1e-3;  ///< of one row of the table, relative to the first height
-  int steps = 18;
+  int steps = 30;
   double residual = 1e-3;  ///< unbalanced forces over reactions
   int iterations = 60;     ///< most of an attempt
   int halvings = 4;        ///< of a row's step before the test is given up

@@ -12,7 +12,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from scarp_figures import BLUE, GREY, VERMILION, plt
 
-SHARES = (1.0 / 3.0, 2.0 / 3.0, 1.0)  # of the test, one panel each
+SHARES = (0.6, 0.8, 1.0)  # of the test, one panel each
 
 
 def read_steps(folder):
@@ -55,7 +55,7 @@ def curve(folder):
     fig, (stress, force) = plt.subplots(1, 2, figsize=(7.0, 2.8))
     stress.plot(strain, -1e-3 * table["mean_syy"], color=VERMILION, label="axial")
     stress.plot(strain, -1e-3 * table["mean_sxx"], color=GREY, label="lateral")
-    stress.set(xlabel="axial strain [%]", ylabel="mean stress, compression positive [kPa]", ylim=(0.0, None))
+    stress.set(xlabel="axial strain [%]", ylabel="mean compressive stress [kPa]", ylim=(0.0, None))
     stress.legend()
     force.plot(strain, 1e-3 * table["top_force"], color=BLUE)
     force.set(xlabel="axial strain [%]", ylabel="force of the top platen [kN]", ylim=(0.0, None))

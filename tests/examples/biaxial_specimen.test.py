@@ -92,6 +92,20 @@ def check_elements(folder):
         expect(abs(ours["mean_syy"] - alone["syy"]) < 0.01 * abs(alone["syy"]), f"{ours}, alone {alone}")
 
 
+def check_ellipses(folder):
+    """The laboratory's tables of ellipses, whose contacts carry shear forces already, are at rest here too."""
+    code, said = run("rve_lab", "prepare", "--shape", "ellipse", "--grains", 60, "--output", "ellipses", folder=folder)
+    expect(code == 0, f"preparation: ended with {code}\n{said}")
+    code, said = run("biaxial_specimen", "--mesh", "Quad8.msh", "--particles", "ellipses/packing_particles.csv",
+                     "--contacts", "ellipses/packing_contacts.csv", "--steps", 1, "--out", "ellipses.csv",
+                     "--fields", "fields", folder=folder)
+    expect(code == 0, f"ellipses: ended with {code}\n{said}")
+    if code == 0:
+        first = read(folder / "ellipses.csv")[1][0]
+        expect(abs(first["mean_syy"] + CONFINING) < 3.0 * RESIDUAL * CONFINING, f"ellipses at rest: {first}")
+        expect((folder / "fields" / "fields.pvd").read_text().count("<DataSet") == 2, "not two pictures of two rows")
+
+
 def check_threads(folder):
     tables = []
     for threads in (1, 2):
@@ -117,7 +131,7 @@ def check_refusals(folder):
     for named, *arguments in (
             ("upright rectangle", "--mesh", "slanting.msh", *PACKING),
             ("one kind of element", "--mesh", "mixed.msh", *PACKING),
-            ("no Gmsh mesh", "--mesh", "text.msh", *PACKING),
+            ("line 1 of 'text.msh'", "--mesh", "text.msh", *PACKING),
             ("--cell", *tri3, *PACKING[:2]),
             ("superellipse", *tri3, "--particles", "long.csv", "--cell", "1,0,0,1"),
             ("--mesh", *tri3, *PACKING, "--columns", "3"),
@@ -139,6 +153,7 @@ if not (PROGRAMS / "biaxial_specimen").exists():
 with tempfile.TemporaryDirectory() as scratch:
     scratch = pathlib.Path(scratch)
     check_elements(scratch)
+    check_ellipses(scratch)
     check_threads(scratch)
     check_exhaustion(scratch)
     check_refusals(scratch)
