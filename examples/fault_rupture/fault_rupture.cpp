@@ -93,10 +93,12 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
   app.add_option("--probe-b-y", choice.probe_b_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, 0 for none")
       ->check(number_from(0.0, true, 1e9));
-  app.add_option("--checkpoint", choice.checkpoint,
-                 "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")
-      ->check([](std::string const& given) { return given.empty() ? "" : examples::refused_folder(given); });
+  auto* const folder =
+      app.add_option("--checkpoint", choice.checkpoint,
+                     "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")
+          ->check([](std::string const& given) { return given.empty() ? "" : examples::refused_folder(given); });
   app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there; afresh where there is none")
+      ->needs(folder)
       ->configurable(false);
   app.add_option("--checkpoint-every", choice.checkpoint_every, "seconds between two checkpoints")
       ->check(number_from(0.0, true, 1e9));

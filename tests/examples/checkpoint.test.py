@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSL-1.0
 """A fault scene that is killed at random moments goes on from its checkpoints, with any number of threads, and ends with the bits
 of a run that nobody disturbed. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without);
-SCARP_KILLS, how often each scene is killed (3); SCARP_SEED, of the moments."""
+SCARP_KILLS, how often each scene is killed (3); SCARP_SEED, of the moments; SCARP_SCENES=all, every soil with every
+structure."""
 import csv
 import io
 import json
@@ -20,10 +21,16 @@ FAULT = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_ruptu
 KILLS = int(os.environ.get("SCARP_KILLS", "3"))
 SEED = int(os.environ.get("SCARP_SEED", random.randrange(10**6)))
 SCENES = {
-    "packings": ["--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "0.004"],
+    "packings": ["--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "0.01"],
     "frictional footing": ["--quick", "--soil", "mohr_coulomb", "--case", "light", "--footing", "frictional",
-                           "--throw-over-depth", "0.01"],
+                           "--throw-over-depth", "0.02"],
 }
+if os.environ.get("SCARP_SCENES") == "all":
+    for soil in ("dem", "mohr_coulomb", "elastic"):
+        for structure in ("free", "sticking", "frictional"):
+            case = ["--case", "free"] if structure == "free" else ["--case", "heavy", "--footing", structure]
+            SCENES[f"{soil}, {structure}"] = ["--quick", "--grains", "49", "--soil", soil, *case,
+                                              "--throw-over-depth", "0.005"]
 WALL_TIMES = ("threads", "cpu_seconds", "wall_seconds", "peak_memory_bytes", "share_of_time_in_rves")
 
 
@@ -134,6 +141,7 @@ def check_stops_and_refusals():
 
         check_refused("another scene", [*saving(scene, 1), "--tip", "0.5"], "'tip = 0' there, 'tip = 0.5' here")
         check_refused("no --resume", [word for word in saving(scene, 1) if word != "--resume"], "--resume")
+        check_refused("--resume alone", command(scene, "--resume"), "--checkpoint")
         whole = states[-1].read_bytes()
         for title, harmed, named in (("a damaged checkpoint", whole[:99] + bytes([whole[99] ^ 1]) + whole[100:],
                                       "have changed"), ("a cut checkpoint", whole[:-7], "cut off"),
