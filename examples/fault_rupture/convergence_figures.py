@@ -74,13 +74,12 @@ def effort(folder):
     accepted = values(steps, "accepted") > 0.0
     fig, (work, slow, unwell, time) = plt.subplots(4, 1, figsize=(7.6, 8.2), sharex=True)
 
-    def draw_steps(axes, amounts, good, label):
+    def draw_steps(axes, amounts, good, refused, label):
         axes.plot(throw[accepted], amounts[accepted], ".", color=good, label=label)
         if not accepted.all():
-            axes.plot(throw[~accepted], amounts[~accepted], "x", color=VERMILION, markersize=4,
-                      label=f"{label}, not accepted")
+            axes.plot(throw[~accepted], amounts[~accepted], "x", color=refused, markersize=4, label="not accepted")
 
-    draw_steps(work, values(steps, "dem_steps"), BLUE, "load steps")
+    draw_steps(work, values(steps, "dem_steps"), BLUE, VERMILION, "accepted")
     work.set(ylabel="DEM steps per\nload step [-]")
     work.set_yscale("log", nonpositive="mask")
     work.legend(title="Cost of the load steps", title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
@@ -90,7 +89,7 @@ def effort(folder):
     most = np.array([sum(point["dem_steps"] for point in line["slowest"]) for line in iterations])
     busy = all_steps > 0.0
     slow.plot(at[busy], 100.0 * most[busy] / all_steps[busy], ".", color=GREEN, markersize=3)
-    slow.set(ylabel="share of the five\nslowest points [%]", ylim=(0.0, None))
+    slow.set(ylabel="DEM steps of the five\nslowest points [%]", ylim=(0.0, None))
 
     marks = (("fluid", SKY, "o"), ("not_converged", ORANGE, "^"), ("failed", VERMILION, "x"))
     for name, colour, mark in marks:
@@ -104,8 +103,9 @@ def effort(folder):
 
     inside = values(steps, "seconds_in_points")
     outside = values(steps, "seconds") - inside
-    draw_steps(time, inside, BLUE, "in material points")
-    draw_steps(time, outside, ORANGE, f"outside, {100.0 * outside.sum() / (inside + outside).sum():.2g} % of all")
+    share = 100.0 * outside.sum() / (inside + outside).sum()
+    draw_steps(time, inside, BLUE, BLUE, "in material points")
+    draw_steps(time, outside, ORANGE, ORANGE, f"outside them, {share:.2g} % of all")
     time.set(xlabel="throw over depth of layer, h/H [-]", ylabel="wall time per\nload step [s]", yscale="log")
-    time.legend(loc="lower right", ncol=2)
+    time.legend(loc="upper center", bbox_to_anchor=(0.5, -0.3), ncol=4)
     return fig
