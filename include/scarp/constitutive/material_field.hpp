@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/core/error.hpp"
 
 namespace scarp {
 

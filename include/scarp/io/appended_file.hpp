@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
 
 namespace scarp {
