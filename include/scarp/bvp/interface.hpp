@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <span>
+
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/facet_chain.hpp"
 #include "scarp/bvp/interface_point.hpp"
