@@ -48,10 +48,11 @@ def run(words, folder):
 
 
 def results(folder):
-    """All files of the output folder, without what tells of wall time."""
+    """All files of the output folder, without what tells of wall time and without files under a temporary name, which a process
+    that is killed while it writes leaves behind."""
     found = {}
     for path in folder.rglob("*"):
-        if path.is_file():
+        if path.is_file() and ".partial-" not in path.name:
             found[str(path.relative_to(folder))] = path.read_bytes()
     rows = list(csv.DictReader(io.StringIO(found["convergence.csv"].decode())))
     found["convergence.csv"] = [{key: row[key] for key in row if key != "seconds"} for row in rows]
