@@ -18,7 +18,7 @@ struct Grains {
   std::optional<double> friction{};              ///< that of the contacts, else 0.55
   double density = 2650.0;                       ///< [kg/m3]
   double thickness = 0.2;                        ///< out of plane [m], also of the specimen
-  int prepared = 200;                            ///< grains of a packing that is prepared
+  int prepared = 100;                            ///< grains of a packing that is prepared
   int pool = 8;                                  ///< packings that are prepared; every point draws one
   double preparation_friction = 0.0;             ///< 0: as dense as can be
   std::uint64_t seed = 1;
@@ -29,12 +29,12 @@ struct Choice {
   std::string mesh{};  ///< a file of Gmsh; empty: crossed triangles of an own rectangle
   double width = 0.05;
   double height = 0.1;
-  int columns = 6;
-  int rows = 12;
+  int columns = 5;
+  int rows = 10;
   Grains grains{};
   double confining = 200e3;         ///< lateral pressure [Pa]
   double axial_strain_step = 1e-3;  ///< of one row of the table, relative to the first height
-  int steps = 30;
+  int steps = 35;
   double residual = 1e-3;  ///< unbalanced forces over reactions
   int iterations = 60;     ///< most of an attempt
   int halvings = 4;        ///< of a row's step before the test is given up

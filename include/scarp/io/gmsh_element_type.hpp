@@ -5,8 +5,8 @@
 
 namespace scarp {
 
-/// Gmsh's number of the type of a file's elements, to choose the element that read_gmsh reads it as (`Tri6::gmsh_type`); of
-/// several types in the highest dimension the lowest number, 0 for a file without surfaces and volumes.
+/// Gmsh's number of the type of a file's elements, to choose the element that read_gmsh reads it as
+/// (`Tri6::gmsh_type`); of several types in the highest dimension the lowest number, 0 without surfaces and volumes.
 /// \throws InputError for what is no mesh of Gmsh or is damaged
 inline int gmsh_element_type(std::filesystem::path const& path) {
   auto const content = detail::read_gmsh_content(read_file(path), path.string());
