@@ -43,7 +43,7 @@ def bands(folder):
             shades = view.tripcolor(points["x [m]"], points["y [m]"], points["shear strain"], shading="gouraud",
                                     cmap="viridis", vmin=0.0, vmax=0.15)
             view.set(aspect="equal", xticks=[], yticks=[], xlim=(0.0, 1.0), ylim=(0.0, 2.0),
-                     title=f"{title}, {cells} cells")
+                     title=f"{cells} cells")
             view.grid(False)
         fig.colorbar(shades, ax=fig.axes[-len(meshes):], shrink=0.8, label="shear strain [-]", extend="max")
         load.set(xlabel="settlement [mm]", ylabel="mean pressure on the top [kPa]", title=title)

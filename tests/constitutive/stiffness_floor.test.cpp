@@ -44,8 +44,7 @@ struct Fluidised {
 using Floor = scarp::StiffnessFloor<Fluidised>;
 using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Floor>, scarp::SerialExecutor>;
 
-/// A column of four elements between smooth walls, whose foot moves sideways against the walls' height, the upper half
-/// loose.
+/// A column of four elements between smooth walls, whose foot moves up by the load factor [m]; its upper half is loose.
 Problem column(double share, scarp::SerialExecutor& executor) {
   Grid grid(scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, 2.0}, .cells = {1, 4}}.generate());
   scarp::Constraints constraints(grid.mesh());
