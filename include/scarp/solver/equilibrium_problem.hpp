@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <cmath>
 #include <numeric>
@@ -21,6 +22,7 @@ template <class DiscretisationType, MaterialField Materials, class Executor, cla
 class EquilibriumProblem {
  public:
   static constexpr int dim = DiscretisationType::dim;
+  static constexpr bool follows_motion = DiscretisationType::follows_motion;
   static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
@@ -95,41 +97,29 @@ class EquilibriumProblem {
 
   /// Lets every point respond to an increment from its committed state and adds up the forces.
   Evaluation evaluate(Eigen::VectorXd const& increment) {
-    Evaluation evaluation;
-    if (!increment.allFinite()) {
-      evaluation.verdict = {Status::failed, Reason::not_finite};
-      return evaluation;
-    }
-    if (auto const inverted = discretisation_.gradients(of_nodes(increment), gradients_)) {
-      evaluation.verdict = {Status::failed, Reason::element_inverted};
-      evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
-      return evaluation;
-    }
-    std::vector<int> all(points());
-    std::iota(all.begin(), all.end(), 0);
-    respond(all, evaluation);
-    add_up(increment, evaluation);
-    return evaluation;
+    return evaluated(increment, [&](int point) { return materials_.respond(point, gradients_[number(point)]); });
+  }
+
+  /// The same, each point going on from its trial state at the increment of the last evaluation: it follows the path of the
+  /// iteration and works for the change only.
+  Evaluation advance(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
+    std::vector<Gradient<dim>> const last = gradients_;
+    return evaluated(increment, [&](int point) {
+      Gradient<dim> const further = further_gradient(last[number(point)], gradients_[number(point)]);
+      materials_.plan_advance(point, further);
+      return materials_.advance(point, further);
+    });
   }
 
   /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
   /// of the last evaluation.
   Evaluation refine(Eigen::VectorXd const& increment) {
-    std::vector<int> unconverged;
-    for (int point = 0; point < discretisation_.point_count(); ++point) {
-      if (responses_[static_cast<std::size_t>(point)].verdict.status == Status::not_converged)
-        unconverged.push_back(point);
-    }
-    // A point that cannot work harder would only repeat its answer.
-    std::erase_if(unconverged, [&](int point) {
-      long const before = materials_.work(point);
-      materials_.refine_plan(point);
-      return materials_.work(point) == before;
-    });
-    Evaluation evaluation;
-    respond(unconverged, evaluation);
-    add_up(increment, evaluation);
-    return evaluation;
+    return refined(increment, [&](int point) { return materials_.respond(point, gradients_[number(point)]); });
+  }
+
+  /// Lets them work on from their trial states, without further strain.
+  Evaluation rest(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
+    return refined(increment, [&](int point) { return materials_.advance(point, Gradient<dim>::Zero()); });
   }
 
   /// Forces of the committed state.
@@ -251,11 +241,61 @@ class EquilibriumProblem {
     return values;
   }
 
-  void respond(std::vector<int> const& selected, Evaluation& evaluation) {
+  static std::size_t number(int point) { return static_cast<std::size_t>(point); }
+
+  /// Gradient from one configuration of the load step to another, both given from its start.
+  static Gradient<dim> further_gradient(Gradient<dim> const& from, Gradient<dim> const& to) {
+    if constexpr (follows_motion) {
+      Gradient<dim> const unit = Gradient<dim>::Identity();
+      return (unit + to) * (unit + from).inverse() - unit;
+    } else {
+      return to - from;
+    }
+  }
+
+  template <class Answer>
+  Evaluation evaluated(Eigen::VectorXd const& increment, Answer const& answer) {
+    Evaluation evaluation;
+    if (!increment.allFinite()) {
+      evaluation.verdict = {Status::failed, Reason::not_finite};
+      return evaluation;
+    }
+    if (auto const inverted = discretisation_.gradients(of_nodes(increment), gradients_)) {
+      evaluation.verdict = {Status::failed, Reason::element_inverted};
+      evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
+      return evaluation;
+    }
+    std::vector<int> all(points());
+    std::iota(all.begin(), all.end(), 0);
+    respond(all, answer, evaluation);
+    add_up(increment, evaluation);
+    return evaluation;
+  }
+
+  template <class Answer>
+  Evaluation refined(Eigen::VectorXd const& increment, Answer const& answer) {
+    std::vector<int> unconverged;
+    for (int point = 0; point < discretisation_.point_count(); ++point) {
+      if (responses_[number(point)].verdict.status == Status::not_converged) unconverged.push_back(point);
+    }
+    // A point that cannot work harder would only repeat its answer.
+    std::erase_if(unconverged, [&](int point) {
+      long const before = materials_.work(point);
+      materials_.refine_plan(point);
+      return materials_.work(point) == before;
+    });
+    Evaluation evaluation;
+    respond(unconverged, answer, evaluation);
+    add_up(increment, evaluation);
+    return evaluation;
+  }
+
+  template <class Answer>
+  void respond(std::vector<int> const& selected, Answer const& answer, Evaluation& evaluation) {
     executor_.for_each(static_cast<int>(selected.size()), [&](int task) {
       int const point = selected[static_cast<std::size_t>(task)];
       auto const k = static_cast<std::size_t>(point);
-      responses_[k] = materials_.respond(point, gradients_[k]);
+      responses_[k] = answer(point);
       // Prescribed nodes would hide a NaN from the residual of the free ones.
       if (!responses_[k].stress.allFinite()) responses_[k].verdict = {Status::failed, Reason::not_finite};
     });
