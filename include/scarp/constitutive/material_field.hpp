@@ -42,9 +42,15 @@ class ProviderField {
   static constexpr int dim = Provider::dim;
   using State = typename Provider::State;
 
-  ProviderField(Provider provider, std::span<Site<dim> const> sites) : provider_(std::move(provider)) {
+  ProviderField(Provider provider, std::span<Site<dim> const> sites)
+      : ProviderField(std::move(provider), sites, [](int) { return true; }) {}
+
+  /// owned(number of a point in its mesh): points that are asked here; the others have no state.
+  template <std::predicate<int> Owned>
+  ProviderField(Provider provider, std::span<Site<dim> const> sites, Owned const& owned)
+      : provider_(std::move(provider)) {
     committed_.reserve(sites.size());
-    for (auto const& site : sites) committed_.push_back(provider_.initial_state(site));
+    for (auto const& site : sites) committed_.push_back(owned(site.index) ? provider_.initial_state(site) : no_state());
     trial_ = committed_;
     plans_.resize(sites.size());
   }
@@ -113,6 +119,16 @@ class ProviderField {
   }
 
  private:
+  static State no_state() {
+    if constexpr (std::default_initializable<State>) {
+      return {};
+    } else {
+      refuse(
+          "points are shared out among processes, but their state cannot be left empty (it has no default "
+          "constructor): give it one");
+    }
+  }
+
   static std::size_t number(int point) { return static_cast<std::size_t>(point); }
 
   Provider provider_;

@@ -32,13 +32,14 @@ class RegionMaterials {
   static constexpr int dim = std::common_type_t<std::integral_constant<int, Providers::dim>...>::value;
   static_assert(((Providers::dim == dim) && ...), "all regions of a scene have the same dimension");
 
-  /// surface_level [m]: height of the ground surface, from which depths are measured
+  /// surface_level [m]: height of the ground surface, from which depths are measured; owned(point): points that are asked
+  /// in this process
   /// \throws InputError for a region that the mesh does not have, one given twice, or one of the mesh without provider
-  template <class Element, class Motion, class Scheme>
+  template <class Element, class Motion, class Scheme, class Owned>
   RegionMaterials(Discretisation<Element, Motion, Scheme> const& discretisation, double surface_level,
-                  boost::hana::tuple<Region<Providers>...> const& regions)
+                  boost::hana::tuple<Region<Providers>...> const& regions, Owned const& owned)
       : where_(static_cast<std::size_t>(discretisation.point_count())),
-        fields_(make_fields(discretisation, surface_level, regions, std::index_sequence_for<Providers...>{})) {
+        fields_(make_fields(discretisation, surface_level, regions, owned, std::index_sequence_for<Providers...>{})) {
     for (std::size_t point = 0; point < where_.size(); ++point) {
       if (where_[point].field >= 0) continue;
       int const region = discretisation.site(static_cast<int>(point), surface_level).region;
@@ -46,6 +47,11 @@ class RegionMaterials {
              discretisation.mesh().regions[static_cast<std::size_t>(region)], point);
     }
   }
+
+  template <class DiscretisationType>
+  RegionMaterials(DiscretisationType const& discretisation, double surface_level,
+                  boost::hana::tuple<Region<Providers>...> const& regions)
+      : RegionMaterials(discretisation, surface_level, regions, [](int) { return true; }) {}
 
   int point_count() const { return static_cast<int>(where_.size()); }
 
@@ -115,18 +121,18 @@ class RegionMaterials {
   };
 
   /// Every field is told its number: in which order they are made is up to the compiler.
-  template <class DiscretisationType, std::size_t... Numbers>
+  template <class DiscretisationType, class Owned, std::size_t... Numbers>
   boost::hana::tuple<ProviderField<Providers>...> make_fields(DiscretisationType const& discretisation,
                                                               double surface_level,
                                                               boost::hana::tuple<Region<Providers>...> const& regions,
-                                                              std::index_sequence<Numbers...>) {
-    return boost::hana::make_tuple(
-        make_field(discretisation, surface_level, boost::hana::at_c<Numbers>(regions), static_cast<int>(Numbers))...);
+                                                              Owned const& owned, std::index_sequence<Numbers...>) {
+    return boost::hana::make_tuple(make_field(discretisation, surface_level, boost::hana::at_c<Numbers>(regions), owned,
+                                              static_cast<int>(Numbers))...);
   }
 
-  template <class DiscretisationType, class Provider>
+  template <class DiscretisationType, class Provider, class Owned>
   ProviderField<Provider> make_field(DiscretisationType const& discretisation, double surface_level,
-                                     Region<Provider> const& region, int field) {
+                                     Region<Provider> const& region, Owned const& owned, int field) {
     int const number = region_number(discretisation.mesh(), region.name);
     std::vector<Site<dim>> sites;
     for (int point = 0; point < discretisation.point_count(); ++point) {
@@ -138,7 +144,7 @@ class RegionMaterials {
       where_[static_cast<std::size_t>(point)] = {field, static_cast<int>(sites.size())};
       sites.push_back(site);
     }
-    return ProviderField<Provider>(region.provider, sites);
+    return ProviderField<Provider>(region.provider, sites, owned);
   }
 
   template <class Fields, class Visit>

@@ -17,7 +17,8 @@ template <class DiscretisationType, class Executor, class Attached = NoAttachmen
 SceneProblem<DiscretisationType, Executor, Attached, Providers...> make_problem(
     DiscretisationType discretisation, double surface_level, boost::hana::tuple<Region<Providers>...> const& regions,
     Constraints constraints, LoadHistory loads, Executor& executor, Attached attached = {}) {
-  RegionMaterials<Providers...> materials(discretisation, surface_level, regions);
+  RegionMaterials<Providers...> materials(discretisation, surface_level, regions,
+                                          [&](int point) { return owns_point(executor, point); });
   return {std::move(discretisation), std::move(materials), std::move(constraints), std::move(loads), executor,
           std::move(attached)};
 }

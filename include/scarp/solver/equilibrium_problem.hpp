@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/element/index.hpp"
 #include "scarp/solver/evaluation.hpp"
 #include "scarp/solver/executor.hpp"
 
@@ -37,7 +39,11 @@ class EquilibriumProblem {
         attached_(std::move(attached)),
         free_dofs_(constraints_.free_dofs()),
         gradients_(points()),
-        responses_(points()) {
+        responses_(points()),
+        works_(points()) {
+    for (int point = 0; point < discretisation_.point_count(); ++point) {
+      if (owns_point(executor_, point)) owned_.push_back(point);
+    }
     if (materials_.point_count() != discretisation_.point_count()) {
       refuse("materials are given for {} points (the mesh has {}): make one field over all sites",
              materials_.point_count(), discretisation_.point_count());
@@ -74,7 +80,8 @@ class EquilibriumProblem {
 
   std::vector<VoigtStress<dim>> committed_stresses() const {
     std::vector<VoigtStress<dim>> values(points());
-    for (std::size_t k = 0; k < points(); ++k) values[k] = materials_.committed_stress(static_cast<int>(k));
+    for (int const point : owned_) values[detail::index(point)] = materials_.committed_stress(point);
+    share(values);
     return values;
   }
 
@@ -89,15 +96,13 @@ class EquilibriumProblem {
   Verdict plan(Eigen::VectorXd const& increment) {
     if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
     if (discretisation_.gradients(of_nodes(increment), gradients_)) return {Status::failed, Reason::element_inverted};
-    for (int point = 0; point < discretisation_.point_count(); ++point) {
-      materials_.plan(point, gradients_[static_cast<std::size_t>(point)]);
-    }
+    for (int const point : owned_) materials_.plan(point, gradients_[detail::index(point)]);
     return {};
   }
 
   /// Lets every point respond to an increment from its committed state and adds up the forces.
   Evaluation evaluate(Eigen::VectorXd const& increment) {
-    return evaluated(increment, [&](int point) { return materials_.respond(point, gradients_[number(point)]); });
+    return evaluated(increment, [&](int point) { return materials_.respond(point, gradients_[detail::index(point)]); });
   }
 
   /// The same, each point going on from its trial state at the increment of the last evaluation: it follows the path of the
@@ -105,7 +110,7 @@ class EquilibriumProblem {
   Evaluation advance(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
     std::vector<Gradient<dim>> const last = gradients_;
     return evaluated(increment, [&](int point) {
-      Gradient<dim> const further = further_gradient(last[number(point)], gradients_[number(point)]);
+      Gradient<dim> const further = further_gradient(last[detail::index(point)], gradients_[detail::index(point)]);
       materials_.plan_advance(point, further);
       return materials_.advance(point, further);
     });
@@ -114,7 +119,7 @@ class EquilibriumProblem {
   /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
   /// of the last evaluation.
   Evaluation refine(Eigen::VectorXd const& increment) {
-    return refined(increment, [&](int point) { return materials_.respond(point, gradients_[number(point)]); });
+    return refined(increment, [&](int point) { return materials_.respond(point, gradients_[detail::index(point)]); });
   }
 
   /// Lets them work on from their trial states, without further strain.
@@ -233,6 +238,12 @@ class EquilibriumProblem {
     return matrix;
   }
 
+  /// Completes an array over all points by what other processes know.
+  template <class Value>
+  void share(std::vector<Value>& values) const {
+    if constexpr (SharesPoints<Executor>) executor_.share(values);
+  }
+
   std::size_t points() const { return static_cast<std::size_t>(discretisation_.point_count()); }
 
   std::vector<VoigtStress<dim>> stresses() const {
@@ -240,8 +251,6 @@ class EquilibriumProblem {
     for (std::size_t k = 0; k < points(); ++k) values[k] = responses_[k].stress;
     return values;
   }
-
-  static std::size_t number(int point) { return static_cast<std::size_t>(point); }
 
   /// Gradient from one configuration of the load step to another, both given from its start.
   static Gradient<dim> further_gradient(Gradient<dim> const& from, Gradient<dim> const& to) {
@@ -265,9 +274,7 @@ class EquilibriumProblem {
       evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
       return evaluation;
     }
-    std::vector<int> all(points());
-    std::iota(all.begin(), all.end(), 0);
-    respond(all, answer, evaluation);
+    respond(owned_, answer, evaluation);
     add_up(increment, evaluation);
     return evaluation;
   }
@@ -275,8 +282,8 @@ class EquilibriumProblem {
   template <class Answer>
   Evaluation refined(Eigen::VectorXd const& increment, Answer const& answer) {
     std::vector<int> unconverged;
-    for (int point = 0; point < discretisation_.point_count(); ++point) {
-      if (responses_[number(point)].verdict.status == Status::not_converged) unconverged.push_back(point);
+    for (int const point : owned_) {
+      if (responses_[detail::index(point)].verdict.status == Status::not_converged) unconverged.push_back(point);
     }
     // A point that cannot work harder would only repeat its answer.
     std::erase_if(unconverged, [&](int point) {
@@ -290,18 +297,23 @@ class EquilibriumProblem {
     return evaluation;
   }
 
+  /// selected: points of this process
   template <class Answer>
   void respond(std::vector<int> const& selected, Answer const& answer, Evaluation& evaluation) {
+    std::fill(works_.begin(), works_.end(), 0);
     executor_.for_each(static_cast<int>(selected.size()), [&](int task) {
-      int const point = selected[static_cast<std::size_t>(task)];
-      auto const k = static_cast<std::size_t>(point);
+      int const point = selected[detail::index(task)];
+      auto const k = detail::index(point);
       responses_[k] = answer(point);
       // Prescribed nodes would hide a NaN from the residual of the free ones.
       if (!responses_[k].stress.allFinite()) responses_[k].verdict = {Status::failed, Reason::not_finite};
+      works_[k] = materials_.work(point);
     });
-    for (int const point : selected) evaluation.inner_steps += materials_.work(point);
+    share(responses_);
+    share(works_);
+    evaluation.inner_steps = std::accumulate(works_.begin(), works_.end(), 0L);
     for (int point = 0; point < discretisation_.point_count(); ++point) {
-      Verdict const verdict = responses_[static_cast<std::size_t>(point)].verdict;
+      Verdict const verdict = responses_[detail::index(point)].verdict;
       if (!verdict.acceptable() && (evaluation.worst_point < 0 || verdict.status > evaluation.verdict.status)) {
         evaluation.verdict = verdict;
         evaluation.worst_point = point;
@@ -312,8 +324,11 @@ class EquilibriumProblem {
   template <class TangentOf>
   std::vector<VoigtTangent<dim>> all_tangents(TangentOf const& tangent_of) const {
     std::vector<VoigtTangent<dim>> values(points());
-    executor_.for_each(discretisation_.point_count(),
-                       [&](int point) { values[static_cast<std::size_t>(point)] = tangent_of(point); });
+    executor_.for_each(static_cast<int>(owned_.size()), [&](int task) {
+      int const point = owned_[detail::index(task)];
+      values[detail::index(point)] = tangent_of(point);
+    });
+    share(values);
     return values;
   }
 
@@ -341,6 +356,8 @@ class EquilibriumProblem {
   std::vector<int> free_dofs_;
   std::vector<Gradient<dim>> gradients_;
   std::vector<Response<dim>> responses_;
+  std::vector<long> works_;  ///< of the points that were asked last
+  std::vector<int> owned_;   ///< points of this process
 };
 
 }  // namespace scarp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <vector>
 
 namespace scarp {
 
@@ -9,6 +10,15 @@ namespace scarp {
 template <class Executor>
 concept ExecutesTasks = requires(Executor& executor, void (&task)(int)) {
   executor.for_each(0, task);
+};
+
+/// One of several processes that run the same program, each of which owns some of the material points.
+/// owns(point): whether this process answers for a point; share(values): completes an array over all points of which
+/// every process has the entries of its own. All processes must call share alike.
+template <class Executor>
+concept SharesPoints = ExecutesTasks<Executor> && requires(Executor& executor, std::vector<double>& values) {
+  { executor.owns(0) } -> std::same_as<bool>;
+  executor.share(values);
 };
 
 /// One task after the other on the calling thread.
@@ -19,6 +29,17 @@ struct SerialExecutor {
   }
 };
 
-static_assert(ExecutesTasks<SerialExecutor>);
+static_assert(ExecutesTasks<SerialExecutor> && !SharesPoints<SerialExecutor>);
+
+/// Whether this process answers for a point; always, unless the executor shares points out.
+template <ExecutesTasks Executor>
+bool owns_point(Executor const& executor, int point) {
+  if constexpr (SharesPoints<Executor>) {
+    return executor.owns(point);
+  } else {
+    static_cast<void>(executor), static_cast<void>(point);
+    return true;
+  }
+}
 
 }  // namespace scarp

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "scarp/core/error.hpp"
+#include "scarp/solver/executor.hpp"
+
+namespace scarp {
+
+/// An MPI rank: all ranks run the same solver, each of them answers for every so-many-th point and holds the states of no others.
+/// Gradients are known everywhere; only stresses, tangents and verdicts travel. Neighbouring points, whose packings
+/// cost alike, belong to different ranks, so that work is shared out evenly. `Local` runs the tasks within the rank.
+template <ExecutesTasks Local = SerialExecutor>
+class RankExecutor {
+ public:
+  /// MPI must have been initialised (by MpiSession or by the program).
+  explicit RankExecutor(Local& local, MPI_Comm communicator = MPI_COMM_WORLD)
+      : local_(local), communicator_(communicator) {
+    int initialised = 0;
+    MPI_Initialized(&initialised);
+    if (initialised == 0)
+      refuse("ranks were asked for before MPI was initialised (there is none yet): make an MpiSession");
+    MPI_Comm_rank(communicator_, &rank_);
+    MPI_Comm_size(communicator_, &ranks_);
+  }
+
+  int rank() const { return rank_; }
+  int ranks() const { return ranks_; }
+  Local& local() const { return local_; }
+  bool owns(int point) const { return point % ranks_ == rank_; }
+  /// Wall time [s] that this rank has spent in share(), mostly waiting for slower ones.
+  double seconds_sharing() const { return seconds_sharing_; }
+
+  /// All tasks, on this rank.
+  template <std::invocable<int> Task>
+  void for_each(int count, Task&& task) const {
+    local_.for_each(count, std::forward<Task>(task));
+  }
+
+  /// Values are sent as they lie in memory: ranks run the same binary on machines of one kind.
+  template <class Value>
+  void share(std::vector<Value>& values) {
+    static_assert(std::is_trivially_destructible_v<Value>, "values that own memory cannot be sent as they lie in it");
+    double const started = MPI_Wtime();
+    auto const count = values.size();
+    auto const ranks = static_cast<std::size_t>(ranks_);
+    std::vector<int> lengths(ranks);
+    std::vector<int> starts(ranks);
+    for (std::size_t r = 0, at = 0; r < ranks; at += owned(count, r++)) {
+      lengths[r] = static_cast<int>(owned(count, r) * sizeof(Value));
+      starts[r] = static_cast<int>(at * sizeof(Value));
+    }
+    std::vector<std::byte> mine(static_cast<std::size_t>(lengths[static_cast<std::size_t>(rank_)]));
+    std::byte* to = mine.data();
+    for (auto k = static_cast<std::size_t>(rank_); k < count; k += ranks, to += sizeof(Value)) {
+      std::memcpy(to, &values[k], sizeof(Value));
+    }
+    std::vector<std::byte> all(count * sizeof(Value));
+    MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_BYTE, all.data(), lengths.data(), starts.data(),
+                   MPI_BYTE, communicator_);
+    for (std::size_t r = 0; r < ranks; ++r) {
+      std::byte const* from = all.data() + starts[r];
+      for (std::size_t k = r; k < count; k += ranks, from += sizeof(Value)) {
+        std::memcpy(static_cast<void*>(&values[k]), from, sizeof(Value));
+      }
+    }
+    seconds_sharing_ += MPI_Wtime() - started;
+  }
+
+ private:
+  /// Number of points among `count` that a rank owns.
+  std::size_t owned(std::size_t count, std::size_t rank) const {
+    auto const ranks = static_cast<std::size_t>(ranks_);
+    return rank < count ? (count - rank + ranks - 1) / ranks : 0;
+  }
+
+  Local& local_;
+  MPI_Comm communicator_;
+  int rank_ = 0;
+  int ranks_ = 1;
+  double seconds_sharing_ = 0.0;
+};
+
+static_assert(SharesPoints<RankExecutor<>>);
+
+}  // namespace scarp
