@@ -6,11 +6,10 @@
 
 #include <cstdlib>
 #include <ctime>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "../examples/fault_rupture/scenes.hpp"
+#include "any_tangent.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/homogenise/sliding_aware_tangent.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
@@ -19,17 +18,7 @@
 
 namespace {
 
-using fault_rupture::Grains;
-using Law = Grains::Law;
-
-/// Any policy under one type, so that the scene is compiled once for each solver.
-struct AnyTangent {
-  std::function<scarp::VoigtTangent<2>(Grains const&, Law const&)> policy;
-
-  scarp::VoigtTangent<2> operator()(Grains const& packing, Law const& law) const { return policy(packing, law); }
-};
-
-using Soil = scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>, AnyTangent>;
+using fault_benchmarks::AnyTangent;
 
 struct Candidate {
   std::string name;
@@ -40,20 +29,10 @@ double throw_over_depth = 0.03;
 
 template <class Rule, class Mixing>
 void run(std::string const& solver, Candidate const& candidate, fault_rupture::SandFreeField const& study) {
-  scarp::FreeFieldFault<Soil, scarp::QuasiNewton<Rule, Mixing>> scene;
-  scene.soil.law = study.soil.law;
-  scene.soil.source = study.soil.source;
-  scene.soil.strain_per_step = study.soil.strain_per_step;
-  scene.soil.least_steps = study.soil.least_steps;
-  scene.soil.unbalanced_tolerance = study.soil.unbalanced_tolerance;
-  scene.soil.loose_pressure = study.soil.loose_pressure;
-  scene.soil.tangent_policy = candidate.tangent;
-  scene.layer = study.layer;
-  scene.fault = study.fault;
-  scene.throw_to = study.throw_to;
-  scene.solver.tolerance = study.solver.tolerance;
-  scene.solver.most_iterations = study.solver.most_iterations;
-  scene.stepping = study.stepping;
+  scarp::QuasiNewton<Rule, Mixing> settings;
+  settings.tolerance = study.solver.tolerance;
+  settings.most_iterations = study.solver.most_iterations;
+  auto const scene = fault_benchmarks::scene_of(study, candidate.tangent, settings);
   scarp::ThreadExecutor executor(0);
   auto problem = scene.problem(executor);
   scarp::NoObserver observer;
@@ -86,7 +65,8 @@ int main(int argc, char** argv) {
       {"condensed, share 1", {CondensedTangent{.sliding = {.shear_share = 1.0}}}},
       {"condensed, share 0.5", {CondensedTangent{.sliding = {.shear_share = 0.5}}}},
       {"condensed, share 0", {CondensedTangent{}}},
-      {"mean of eq. 6 and condensed, share 0", {[](Grains const& packing, Law const& law) -> scarp::VoigtTangent<2> {
+      {"mean of eq. 6 and condensed, share 0",
+       {[](fault_benchmarks::Grains const& packing, auto const& law) -> scarp::VoigtTangent<2> {
          return (ElasticContactTangent{}(packing, law) + CondensedTangent{}(packing, law)) / 2.0;
        }}}};
   fmt::print(

@@ -25,7 +25,7 @@ struct Choice {
   double throw_over_depth = 0.085;
   double dip = 60.0;                       ///< [degrees]
   double tip = 0.0;                        ///< [m]
-  std::optional<double> tolerance;         ///< of the force residual; 5e-3 with packings, else 1e-10
+  std::optional<double> tolerance;         ///< of the force residual; packings 1e-3, below a footing 5e-3; else 1e-10
   std::optional<double> largest_gradient;  ///< of a load step; 0.01 with packings, else 0.02
   int most_iterations = 30;
   double strain_per_step = 1e-5;

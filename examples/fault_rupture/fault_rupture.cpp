@@ -74,7 +74,8 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));
   app.add_option("--dip", choice.dip, "of the fault [degrees]")->check(number_from(0.0, false, 90.0));
   app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]")->check(number_from(-1e6, true, 1e6));
-  app.add_option("--tolerance", choice.tolerance, "force residual over reactions; 5e-3 with packings, else 1e-10")
+  app.add_option("--tolerance", choice.tolerance,
+                 "force residual over reactions; packings 1e-3, below a footing 5e-3; else 1e-10")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--largest-gradient", choice.largest_gradient,
                  "displacement gradient that limits a load step; 0.01 with packings, else 0.02")

@@ -60,7 +60,7 @@ SceneType make(Choice const& choice) {
   scene.unit_weight = unit_weight;
   scene.surcharge = surcharge;
   scene.throw_to = choice.throw_over_depth * scene.layer.depth;
-  scene.solver.tolerance = choice.tolerance.value_or(SoilType::tolerance(choice.quick));
+  scene.solver.tolerance = choice.tolerance.value_or(SoilType::tolerance(choice));
   scene.solver.most_iterations = choice.most_iterations;
   scene.stepping.largest_gradient = choice.largest_gradient.value_or(SoilType::largest_gradient(choice.quick));
   set(scene.structure, choice);

@@ -23,7 +23,10 @@ using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 /// The study's ellipses, consolidated under the overburden of every depth; the solver learns tangents from answers.
 struct Sand : scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>> {
   using Solver = scarp::QuasiNewton<>;
-  static double tolerance(bool quick) { return quick ? 1e-2 : 5e-3; }
+  static double tolerance(Choice const& choice) {
+    if (choice.quick) return 1e-2;
+    return choice.scene == Case::free ? 1e-3 : 5e-3;
+  }
   static double largest_gradient(bool quick) { return quick ? 0.02 : 0.01; }
 };
 
@@ -31,13 +34,13 @@ struct Sand : scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>> {
 /// (Geotechnique 36, 1986), after 15 % of plastic shear; cohesion of 1 kPa; stiffness near that of the packings.
 struct FrictionalSoil : scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength> {
   using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
-  static double tolerance(bool) { return 1e-10; }
+  static double tolerance(Choice const&) { return 1e-10; }
   static double largest_gradient(bool) { return 0.02; }
 };
 
 struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
   using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
-  static double tolerance(bool) { return 1e-10; }
+  static double tolerance(Choice const&) { return 1e-10; }
   static double largest_gradient(bool) { return 0.02; }
 };
 

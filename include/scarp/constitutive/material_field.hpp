@@ -41,6 +41,14 @@ concept AveragesGradients = MaterialField<Field> &&
   { constant.added_by_mean() } -> std::same_as<std::vector<VoigtTangent<Field::dim>> const&>;
 };
 
+/// A field whose points can also go on from their trial states, along the path of an iteration.
+template <class Field>
+concept AdvancesTrials = MaterialField<Field> &&
+    requires(Field& field, int point, Gradient<Field::dim> const& further) {
+  {field.plan_advance(point, further)};
+  { field.advance(point, further) } -> std::same_as<Response<Field::dim>>;
+};
+
 /// Committed and trial states of one provider at a set of points.
 template <ConstitutiveProvider Provider>
 class ProviderField {
@@ -85,6 +93,22 @@ class ProviderField {
       return provider_.respond(committed_[k], increment, trial_[k], plans_[k]);
     } else {
       return provider_.respond(committed_[k], increment, trial_[k]);
+    }
+  }
+
+  /// Fixes the work of going on from the trial state by a further gradient, which refers to the trial configuration.
+  void plan_advance(int point, Gradient<dim> const& further) {
+    if constexpr (PlansWork<Provider>) plans_[number(point)] = provider_.plan(trial_[number(point)], further);
+  }
+
+  /// Goes on from the trial state, which is replaced by that of the answer.
+  Response<dim> advance(int point, Gradient<dim> const& further) {
+    std::size_t const k = number(point);
+    State const from = trial_[k];
+    if constexpr (PlansWork<Provider>) {
+      return provider_.respond(from, further, trial_[k], plans_[k]);
+    } else {
+      return provider_.respond(from, further, trial_[k]);
     }
   }
 

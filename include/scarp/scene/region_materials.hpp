@@ -76,6 +76,14 @@ class RegionMaterials {
     visit(point, [&](auto& field, int local) { response = field.respond(local, increment); });
     return response;
   }
+  void plan_advance(int point, Gradient<dim> const& further) {
+    visit(point, [&](auto& field, int local) { field.plan_advance(local, further); });
+  }
+  Response<dim> advance(int point, Gradient<dim> const& further) {
+    Response<dim> response;
+    visit(point, [&](auto& field, int local) { response = field.advance(local, further); });
+    return response;
+  }
   long work(int point) const {
     long work = 0;
     visit(point, [&](auto const& field, int local) { work = field.work(local); });

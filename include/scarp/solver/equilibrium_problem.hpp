@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,7 @@ template <class DiscretisationType, MaterialField Materials, class Executor, cla
 class EquilibriumProblem {
  public:
   static constexpr int dim = DiscretisationType::dim;
+  static constexpr bool follows_motion = DiscretisationType::follows_motion;
   static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
   static constexpr bool averages = AveragesGradients<Materials>;
 
@@ -103,39 +105,29 @@ class EquilibriumProblem {
 
   /// Lets every point respond to an increment from its committed state and adds up the forces.
   Evaluation evaluate(Eigen::VectorXd const& increment) {
-    Evaluation evaluation;
-    if (!increment.allFinite()) {
-      evaluation.verdict = {Status::failed, Reason::not_finite};
-      return evaluation;
-    }
-    if (auto const inverted = discretisation_.gradients(of_nodes(increment), gradients_)) {
-      evaluation.verdict = {Status::failed, Reason::element_inverted};
-      evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
-      return evaluation;
-    }
-    if constexpr (averages) materials_.average(gradients_);
-    respond(owned_, evaluation);
-    add_up(increment, evaluation);
-    return evaluation;
+    return evaluated(increment, [&](int point) { return materials_.respond(point, gradients_[detail::index(point)]); });
+  }
+
+  /// The same, each point going on from its trial state at the increment of the last evaluation: it follows the path of the
+  /// iteration and works for the change only.
+  Evaluation advance(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
+    std::vector<Gradient<dim>> const last = gradients_;
+    return evaluated(increment, [&](int point) {
+      Gradient<dim> const further = further_gradient(last[detail::index(point)], gradients_[detail::index(point)]);
+      materials_.plan_advance(point, further);
+      return materials_.advance(point, further);
+    });
   }
 
   /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
   /// of the last evaluation.
   Evaluation refine(Eigen::VectorXd const& increment) {
-    std::vector<int> unconverged;
-    for (int const point : owned_) {
-      if (responses_[detail::index(point)].verdict.status == Status::not_converged) unconverged.push_back(point);
-    }
-    // A point that cannot work harder would only repeat its answer.
-    std::erase_if(unconverged, [&](int point) {
-      long const before = materials_.work(point);
-      materials_.refine_plan(point);
-      return materials_.work(point) == before;
-    });
-    Evaluation evaluation;
-    respond(unconverged, evaluation);
-    add_up(increment, evaluation);
-    return evaluation;
+    return refined(increment, [&](int point) { return materials_.respond(point, gradients_[detail::index(point)]); });
+  }
+
+  /// Lets them work on from their trial states, without further strain.
+  Evaluation rest(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
+    return refined(increment, [&](int point) { return materials_.advance(point, Gradient<dim>::Zero()); });
   }
 
   /// Forces of the committed state.
@@ -280,24 +272,74 @@ class EquilibriumProblem {
     return values;
   }
 
+  /// Gradient from one configuration of the load step to another, both given from its start.
+  static Gradient<dim> further_gradient(Gradient<dim> const& from, Gradient<dim> const& to) {
+    if constexpr (follows_motion) {
+      Gradient<dim> const unit = Gradient<dim>::Identity();
+      return (unit + to) * (unit + from).inverse() - unit;
+    } else {
+      return to - from;
+    }
+  }
+
+  template <class Answer>
+  Evaluation evaluated(Eigen::VectorXd const& increment, Answer const& answer) {
+    Evaluation evaluation;
+    if (!increment.allFinite()) {
+      evaluation.verdict = {Status::failed, Reason::not_finite};
+      return evaluation;
+    }
+    if (auto const inverted = discretisation_.gradients(of_nodes(increment), gradients_)) {
+      evaluation.verdict = {Status::failed, Reason::element_inverted};
+      evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
+      return evaluation;
+    }
+    if constexpr (averages) materials_.average(gradients_);
+    respond(owned_, answer, evaluation);
+    add_up(increment, evaluation);
+    return evaluation;
+  }
+
+  template <class Answer>
+  Evaluation refined(Eigen::VectorXd const& increment, Answer const& answer) {
+    std::vector<int> unconverged;
+    for (int const point : owned_) {
+      if (responses_[detail::index(point)].verdict.status == Status::not_converged) unconverged.push_back(point);
+    }
+    // A point that cannot work harder would only repeat its answer.
+    std::erase_if(unconverged, [&](int point) {
+      long const before = materials_.work(point);
+      materials_.refine_plan(point);
+      return materials_.work(point) == before;
+    });
+    Evaluation evaluation;
+    respond(unconverged, answer, evaluation);
+    add_up(increment, evaluation);
+    return evaluation;
+  }
+
   /// selected: points of this process
-  void respond(std::vector<int> const& selected, Evaluation& evaluation) {
-    std::vector<long> worked(points(), 0);
+  template <class Answer>
+  void respond(std::vector<int> const& selected, Answer const& answer, Evaluation& evaluation) {
+    constexpr long not_asked = -1;
+    std::vector<long> worked(points(), not_asked);
     executor_.for_each(static_cast<int>(selected.size()), [&](int task) {
       int const point = selected[detail::index(task)];
       auto const k = detail::index(point);
-      responses_[k] = materials_.respond(point, gradients_[k]);
+      responses_[k] = answer(point);
       // Prescribed nodes would hide a NaN from the residual of the free ones.
       if (!responses_[k].stress.allFinite()) responses_[k].verdict = {Status::failed, Reason::not_finite};
       worked[k] = materials_.work(point);
     });
     share(responses_);
     share(worked);
-    evaluation.inner_steps = std::accumulate(worked.begin(), worked.end(), 0L);
     for (int point = 0; point < discretisation_.point_count(); ++point) {
       Verdict const verdict = responses_[detail::index(point)].verdict;
       long& work = works_[detail::index(point)];
-      if (long const now = worked[detail::index(point)]; now > 0) work = now;
+      if (long const now = worked[detail::index(point)]; now != not_asked) {
+        work = now;
+        evaluation.inner_steps += now;
+      }
       evaluation.points.add(point, verdict.status, work);
       if (!verdict.acceptable() && (evaluation.worst_point < 0 || verdict.status > evaluation.verdict.status)) {
         evaluation.verdict = verdict;

@@ -6,17 +6,20 @@
 
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/linearised_step.hpp"
+#include "scarp/solver/mixing.hpp"
 #include "scarp/solver/plain_step.hpp"
 #include "scarp/solver/point_secant.hpp"
+#include "scarp/solver/response_path.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/solver/tangent_rule.hpp"
 
 namespace scarp {
 
-/// Newton-type iteration for one load step. Every iteration restarts the points from their committed states with the whole
-/// increment; the tangent rule says what the points' tangents become on the way, the mixing what the correction becomes.
-template <TangentRule<2> Rule = PointSecant, class Mixing = PlainStep, LinearSolver Linear = SparseLu>
+/// Newton-type iteration for one load step. The path says from which states the points answer an iterate (their committed
+/// ones), the tangent rule what their tangents become on the way, the mixing what the correction becomes.
+template <TangentRule<2> Rule = PointSecant, MixingRule Mixing = PlainStep, LinearSolver Linear = SparseLu,
+          class Path = FromCommitted>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 30;
@@ -85,10 +88,12 @@ struct QuasiNewton {
       for (;;) {
         report.history.emplace_back();
         report.history.back().linear_residual = linear_residual;
-        Evaluation evaluation = recorded(report, [&] { return problem_.evaluate(increment); });
+        Evaluation evaluation =
+            recorded(report, [&] { return Path::evaluate(problem_, increment, report.iterations() == 1); });
         // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
         for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
-          evaluation = recorded(report, [&] { return problem_.refine(increment); });
+          learn();  // before the plan changes the answer, which would pass for stiffness
+          evaluation = recorded(report, [&] { return Path::refine(problem_, increment); });
         }
         if (report.verdict.status == Status::failed) return;
         learn();
@@ -106,7 +111,9 @@ struct QuasiNewton {
         }
         linear_residual = linearised_.linear_residual();
         Eigen::VectorXd const correction = linearised_.system().gather(next - increment);
-        linearised_.system().scatter(mixing_.next(linearised_.system().gather(increment), correction), increment);
+        Eigen::VectorXd const force = -linearised_.system().gather(evaluation.unbalanced);
+        linearised_.system().scatter(mixed(mixing_, linearised_.system().gather(increment), correction, force),
+                                     increment);
       }
     }
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <functional>
+
+#include "../examples/fault_rupture/scenes.hpp"
+
+namespace fault_benchmarks {
+
+using Grains = fault_rupture::Grains;
+
+/// Any policy under one type, so that the scene is compiled once for each solver.
+struct AnyTangent {
+  std::function<scarp::VoigtTangent<2>(Grains const&, Grains::Law const&)> policy;
+
+  scarp::VoigtTangent<2> operator()(Grains const& packing, Grains::Law const& law) const {
+    return policy(packing, law);
+  }
+};
+
+using Soil = scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>, AnyTangent>;
+
+/// The study's scene with another tangent and solver.
+template <class Solver>
+scarp::FreeFieldFault<Soil, Solver> scene_of(fault_rupture::SandFreeField const& study, AnyTangent const& tangent,
+                                             Solver const& solver) {
+  scarp::FreeFieldFault<Soil, Solver> scene;
+  scene.soil.law = study.soil.law;
+  scene.soil.source = study.soil.source;
+  scene.soil.strain_per_step = study.soil.strain_per_step;
+  scene.soil.least_steps = study.soil.least_steps;
+  scene.soil.unbalanced_tolerance = study.soil.unbalanced_tolerance;
+  scene.soil.loose_pressure = study.soil.loose_pressure;
+  scene.soil.tangent_policy = tangent;
+  scene.layer = study.layer;
+  scene.fault = study.fault;
+  scene.throw_to = study.throw_to;
+  scene.stepping = study.stepping;
+  scene.solver = solver;
+  return scene;
+}
+
+}  // namespace fault_benchmarks

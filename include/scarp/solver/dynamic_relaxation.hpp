@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <chrono>
+
+#include "scarp/solver/equilibrium_problem.hpp"
+#include "scarp/solver/linearised_step.hpp"
+#include "scarp/solver/sparse_lu.hpp"
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// Explicit motion of the nodes to equilibrium. Lumped masses are scaled so that a time step of 1 is stable (half the row sums of
+/// |K| over 2, after Gershgorin); velocities fall to zero at every peak of the kinetic energy (kinetic damping; Cundall 1976,
+/// Barnes 1999). A load step begins at the linear prediction; after that every point advances once per motion from its
+/// running trial state, so that a motion costs the work of its own small strain. Iterations of the report are motions: load
+/// stepping that counts them wants `few` and `many` in the hundreds.
+template <LinearSolver Linear = SparseLu>
+struct DynamicRelaxation {
+  double tolerance = 5e-3;  ///< force residual relative to the reactions
+  int most_iterations = 1000;
+  double hopeless = 10.0;  ///< residual beyond which a step is given up
+  double mass = 1.5;       ///< relative to the least one that is stable for the tangents at the start of the step
+
+  /// The motion on one problem.
+  template <class Problem>
+  class Session {
+   public:
+    static constexpr int dim = Problem::dim;
+    static_assert(Problem::is_bare, "what is attached to the ground has no mass: take QuasiNewton");
+
+    Session(DynamicRelaxation const& settings, Problem& problem)
+        : settings_(settings), problem_(problem), linearised_(problem, settings.tolerance) {}
+
+    /// Readies a step from the committed state at a load factor: masses, and the matrix of the prediction.
+    Verdict begin(double load) {
+      problem_.aim(load);
+      auto const tangents = problem_.committed_tangents();
+      Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
+      Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, tangents);
+      condition_ = verdict.acceptable() ? linearised_.condition() : 0.0;
+      if (condition_ > linearised_.singular) verdict = {Status::failed, Reason::singular_system};
+      weak_dof_ = verdict.reason == Reason::singular_system ? linearised_.weak_dof() : -1;
+      Eigen::SparseMatrix<double> stiffness;
+      problem_.ground_stiffness(still, tangents, stiffness);
+      mass_ = settings_.mass / 4.0 * linearised_.system().gather(stiffness.cwiseAbs() * (still.array() + 1.0).matrix());
+      return verdict;
+    }
+
+    void describe(StepReport& report) const {
+      report.condition = condition_;
+      report.weak_dof = weak_dof_;
+    }
+
+    /// First guess of the displacement increment between two load factors.
+    Eigen::VectorXd predict(double from, double to) {
+      problem_.aim(to);
+      Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
+      Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
+      linearised_.solve(increment, more_load);
+      return increment;
+    }
+
+    /// Moves from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
+    void correct(Eigen::VectorXd& increment, StepReport& report) {
+      if (report.verdict = problem_.plan(increment); !report.verdict.acceptable()) return;
+      report.largest_gradient = problem_.largest_gradient();
+      Eigen::VectorXd velocity = Eigen::VectorXd::Zero(mass_.size());
+      double energy = 0.0;
+      Evaluation evaluation = recorded(report, [&] { return problem_.evaluate(increment); });
+      for (;;) {
+        if (report.verdict.status == Status::failed) return;
+        if (evaluation.residual <= settings_.tolerance && report.verdict.acceptable()) return;
+        if (report.iterations() >= settings_.most_iterations || evaluation.residual > settings_.hopeless) {
+          if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
+          return;
+        }
+        Eigen::VectorXd const push = -linearised_.system().gather(evaluation.unbalanced).cwiseQuotient(mass_);
+        velocity += push;
+        double const now = velocity.cwiseAbs2().dot(mass_);
+        bool const past_peak = now < energy;
+        if (past_peak) velocity = push / 2.0;
+        energy = past_peak ? 0.0 : now;
+        linearised_.system().scatter(linearised_.system().gather(increment) + velocity, increment);
+        evaluation = recorded(report, [&] { return problem_.advance(increment); });
+      }
+    }
+
+    void accept(Eigen::VectorXd const& increment) { problem_.commit(increment); }
+
+   private:
+    template <class Evaluate>
+    static Evaluation recorded(StepReport& report, Evaluate&& evaluate) {
+      auto const started = std::chrono::steady_clock::now();
+      Evaluation evaluation = evaluate();
+      double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+      report.history.push_back({evaluation.residual, 0.0, evaluation.inner_steps, seconds});
+      report.verdict = evaluation.verdict;
+      report.worst_point = evaluation.worst_point;
+      return evaluation;
+    }
+
+    DynamicRelaxation const& settings_;
+    Problem& problem_;
+    LinearisedStep<Problem, Linear> linearised_;
+    Eigen::VectorXd mass_;  ///< of the free degrees of freedom [kg], for a time step of 1 s
+    double condition_ = 0.0;
+    int weak_dof_ = -1;
+  };
+};
+
+}  // namespace scarp

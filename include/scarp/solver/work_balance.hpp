@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "scarp/core/voigt.hpp"
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// Observer that adds up the work of a run by the trapezoidal rule over its accepted steps: external, of loads and of reactions at
+/// prescribed displacements, and internal, of the points' stresses on their strains, which they store or dissipate. They differ
+/// by what the residual lets through and by the rule, at second order in the step.
+template <class Problem>
+class WorkBalance {
+ public:
+  static_assert(Problem::is_bare, "the work of what is attached to the mesh is not counted");
+  static constexpr int dim = Problem::dim;
+
+  /// From the problem's committed state, which belongs to the load factor.
+  WorkBalance(Problem const& problem, double load) : now_(problem, load) {}
+
+  double external() const { return external_; }  ///< [J]
+  double internal() const { return internal_; }  ///< [J]
+  /// |external - internal| over the larger of both sums of absolute parts.
+  double gap() const {
+    double const scale = std::max(turned_over_, std::abs(internal_));
+    return scale > 0.0 ? std::abs(external_ - internal_) / scale : 0.0;
+  }
+
+  void attempted(Problem const& problem, StepReport const& report) {
+    if (!report.verdict.acceptable()) return;
+    Snapshot next(problem, report.load);
+    double work = 0.0;
+    for (std::size_t node = 0; node < next.positions.size(); ++node) {
+      Vector<dim> const moved = next.positions[node] - now_.positions[node];
+      auto const row = dim * static_cast<Eigen::Index>(node);
+      work += moved.dot(now_.forces.template segment<dim>(row) + next.forces.template segment<dim>(row)) / 2.0;
+    }
+    external_ += work;
+    turned_over_ += std::abs(work);
+    for (std::size_t k = 0; k < next.stresses.size(); ++k) {
+      VoigtStress<dim> const stress = (now_.volumes[k] * now_.stresses[k] + next.volumes[k] * next.stresses[k]) / 2.0;
+      internal_ += stress.dot(to_engineering_strain<dim, double>(from_middle(problem.gradients()[k])));
+    }
+    now_ = std::move(next);
+  }
+  static bool wants_stop() { return false; }
+
+ private:
+  struct Snapshot {
+    std::vector<Vector<dim>> positions;
+    std::vector<VoigtStress<dim>> stresses;
+    std::vector<double> volumes;
+    Eigen::VectorXd forces;  ///< external: loads at free degrees of freedom, with the reactions at prescribed ones
+
+    Snapshot(Problem const& problem, double load)
+        : positions(problem.discretisation().positions()), stresses(problem.committed_stresses()) {
+      Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
+      volumes = problem.discretisation().volumes(still);
+      forces = problem.loads().at(load);
+      Eigen::VectorXd internal;
+      problem.discretisation().internal_force(still, stresses, internal);
+      for (int const dof : problem.constraints().prescribed_dofs()) forces(dof) = internal(dof);
+    }
+  };
+
+  /// An increment's gradient with respect to the middle of its motion: the strain that a mean stress works on.
+  static Gradient<dim> from_middle(Gradient<dim> const& gradient) {
+    if constexpr (Problem::follows_motion) {
+      return gradient * (Gradient<dim>::Identity() + gradient / 2.0).inverse();
+    } else {
+      return gradient;
+    }
+  }
+
+  Snapshot now_;
+  double external_ = 0.0;
+  double internal_ = 0.0;
+  double turned_over_ = 0.0;
+};
+
+}  // namespace scarp

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <doctest/doctest.h>
+
+#include "approx.hpp"
+#include "scarp/solver/bfgs_mixing.hpp"
+#include "scarp/solver/dynamic_relaxation.hpp"
+#include "scarp/solver/frozen_tangent.hpp"
+#include "scarp/solver/line_search.hpp"
+#include "scarp/solver/work_balance.hpp"
+#include "solver/sample_block.hpp"
+
+namespace {
+
+using sample::Softening;
+using scarp::Reason;
+using scarp::Status;
+using scarp::Verdict;
+using Solvers = scarp::QuasiNewton<scarp::FrozenTangent, scarp::LineSearch<scarp::BfgsMixing>, scarp::SparseLu,
+                                   scarp::AlongIterates>;
+
+enum class Illness { none, no_number, exploded, stuck };
+
+/// Softening ground. One point may fall ill when it is strained beyond a limit, in increments that are too large. Answers may jump
+/// by a stress and be `not_converged` while the plan is below 4.
+struct Ground {
+  static constexpr int dim = 2;
+  using State = Softening::State;
+  using Plan = int;
+  static constexpr int ill_point = 5;
+
+  Softening law{};
+  Illness illness = Illness::none;
+  double healthy_strain = 5e-3;
+  double healthy_increment = 0.0;
+  Plan first_plan = 4;
+  double jump = 0.0;
+
+  State initial_state(scarp::Site<2> const& site) const { return law.initial_state(site); }
+  scarp::VoigtTangent<2> tangent(State const& state) const { return law.tangent(state); }
+  scarp::VoigtStress<2> stress(State const& state) const { return law.stress(state); }
+  Plan plan(State const&, scarp::Gradient<2> const&) const { return first_plan; }
+  Plan refined(Plan plan) const { return std::min(2 * plan, 4); }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    return respond(committed, increment, trial, first_plan);
+  }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial,
+                             Plan plan) const {
+    auto response = law.respond(committed, increment, trial);
+    response.stress.array() += jump * (plan - first_plan);
+    if (plan < 4) response.verdict = {Status::not_converged, Reason::unbalanced};
+    bool const ill = committed.point == ill_point && trial.strain.norm() > healthy_strain &&
+                     (trial.strain - committed.strain).norm() > healthy_increment;
+    if (!ill) return response;
+    switch (illness) {
+      case Illness::none: break;
+      case Illness::no_number: response.stress(1) = std::nan(""); break;
+      case Illness::exploded: return {1e12 * response.stress, {Status::failed, Reason::too_deep}};
+      case Illness::stuck: response.verdict = {Status::not_converged, Reason::unbalanced};
+    }
+    return response;
+  }
+};
+
+Reason reason_of(Illness illness) {
+  switch (illness) {
+    case Illness::no_number: return Reason::not_finite;
+    case Illness::exploded: return Reason::too_deep;
+    case Illness::none: return Reason::none;
+    case Illness::stuck: break;
+  }
+  return Reason::unbalanced;
+}
+
+using Block = sample::Block<Ground>;
+
+Ground softening() { return {.law = {.reference_strain = 0.02}}; }
+
+scarp::LoadStepping stepping() { return {.first = 2e-3, .smallest = 1e-6, .largest = 2e-3, .largest_gradient = 0.1}; }
+
+}  // namespace
+
+TEST_CASE("one poisoned point among good ones is found, named, never committed, and answers again in smaller steps") {
+  scarp::SerialExecutor serial;
+  for (auto const illness : {Illness::no_number, Illness::exploded, Illness::stuck}) {
+    CAPTURE(static_cast<int>(illness));
+    for (bool const curable : {true, false}) {
+      Ground const soil{.illness = illness, .healthy_increment = curable ? 3e-4 : 0.0};
+      auto problem = Block::make(soil, serial);
+      auto witness = sample::watch(problem);
+      auto const run = stepping().run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 0.012, witness);
+      CHECK(run.refused > 0);
+      CHECK(run.last_failure == reason_of(illness));
+      CHECK(run.worst_point == soil.ill_point);
+      CHECK(witness.changed_by_refused == 0);
+      double const strain = problem.materials().committed(soil.ill_point).strain.norm();
+      if (curable) {
+        CHECK(run.verdict == Verdict{});
+        CHECK(run.load == 0.012);
+        CHECK(strain > soil.healthy_strain);
+      } else {
+        CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
+        CHECK(run.load > 0.0);
+        CHECK(strain <= soil.healthy_strain);
+      }
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("every solver policy brings a softening block past its peak to the same state", Solver, Solvers,
+                   scarp::DynamicRelaxation<>) {
+  scarp::SerialExecutor serial;
+  scarp::NoObserver nobody;
+  auto problem = Block::make(softening(), serial);
+  auto same = Block::make(softening(), serial);
+  auto steps = stepping();
+  steps.many = 1000;
+  Solver solver{.tolerance = 1e-8};
+  solver.most_iterations = 1000;
+  auto const run = steps.run(solver, problem, 0.0, 0.02, nobody);
+  REQUIRE(run.verdict == Verdict{});
+  CHECK(run.largest_residual <= solver.tolerance);
+  scarp::QuasiNewton<> const other{.tolerance = 1e-8, .most_iterations = 100};
+  REQUIRE(stepping().run(other, same, 0.0, 0.02, nobody).verdict == Verdict{});
+  // The law knows the total strain only, so that the path does not matter: a residual of 1e-8 of the reactions, magnified by the
+  // mild loss of stiffness past the peak.
+  for (std::size_t n = 0; n < same.discretisation().positions().size(); ++n) {
+    CHECK((problem.discretisation().positions()[n] - same.discretisation().positions()[n]).norm() < 1e-7);
+  }
+}
+
+TEST_CASE("a change of stress that a refined plan makes does not pass for stiffness") {
+  scarp::SerialExecutor serial;
+  scarp::NoObserver nobody;
+  auto problem = Block::make({.first_plan = 1, .jump = 1e3}, serial);
+  auto const run = stepping().run(scarp::QuasiNewton<>{.tolerance = 1e-9}, problem, 0.0, 1e-3, nobody);
+  CHECK(run.verdict == Verdict{});
+  CHECK(run.steps == 1);
+  // Analytic: the tangent is exact, so that one correction balances the jump of the first iteration.
+  CHECK(run.iterations == 2);
+}
+
+TEST_CASE("BFGS on a linear problem converges beyond the rate of its frozen matrix") {
+  // Symmetric and positive definite; K^-1 is the inverse of its diagonal. A plain iteration with that contracts by 0.6 to 0.7.
+  Eigen::MatrixXd const stiffness{
+      {4.0, 1.0, 0.5, 0.0}, {1.0, 3.0, 0.4, 0.9}, {0.5, 0.4, 2.0, 0.2}, {0.0, 0.9, 0.2, 1.5}};
+  Eigen::VectorXd const load{{1.0, -2.0, 0.5, 3.0}};
+  auto const error_after = [&](auto mixing, int times) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
+    for (int k = 0; k < times; ++k) {
+      Eigen::VectorXd const force = load - stiffness * x;
+      x = scarp::mixed(mixing, x, force.cwiseQuotient(stiffness.diagonal()), force);
+    }
+    return (load - stiffness * x).norm() / load.norm();
+  };
+  double const plain = error_after(scarp::PlainStep{}, 9);
+  CHECK(plain > 1e-4);
+  CHECK(error_after(scarp::BfgsMixing{}, 9) < 1e-3 * plain);
+}
+
+TEST_CASE("a line search goes back to the zero of the power and gives up after its tries") {
+  using Vector = Eigen::VectorXd;
+  scarp::LineSearch<> search;
+  search.worse = 1.0;
+  Vector const start = Vector::Zero(1);
+  Vector const step = Vector::Ones(1);
+  CHECK(search.next(start, step, Vector::Constant(1, 1.0))(0) == 1.0);
+  // Force 1 at 0 and -3 at 1: analytic, a linear force is zero at 1/4.
+  CHECK(search.next(step, -step, Vector::Constant(1, -3.0))(0) == samples::Approx(0.25));
+  // Still worse: once more, by at most one half; then the plain step from where the forces were met.
+  CHECK(search.next(Vector::Constant(1, 0.25), step, Vector::Constant(1, 2.0))(0) == samples::Approx(0.125));
+  CHECK(search.next(Vector::Constant(1, 0.125), step, Vector::Constant(1, 2.0))(0) == samples::Approx(1.125));
+  search.forget();
+  CHECK(search.next(start, step, Vector::Constant(1, 9.0))(0) == 1.0);
+}
+
+TEST_CASE("external work is the internal work") {
+  scarp::SerialExecutor serial;
+  auto linear = Block::make({}, serial);
+  auto yielding = Block::make(softening(), serial);
+  scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
+  scarp::WorkBalance work(linear, 0.0);
+  REQUIRE(stepping().run(solver, linear, 0.0, 0.02, work).verdict == Verdict{});
+  // Analytic: a linear law stores half of stress times strain, for which the trapezoidal rule is exact.
+  double stored = 0.0;
+  auto const volumes = linear.discretisation().volumes(Eigen::VectorXd::Zero(linear.dof_count()));
+  for (int k = 0; k < linear.materials().point_count(); ++k) {
+    auto const& state = linear.materials().committed(k);
+    stored += volumes[static_cast<std::size_t>(k)] * Softening{}.stress(state).dot(state.strain) / 2.0;
+  }
+  CHECK(work.internal() == samples::Approx(stored).epsilon(1e-12));
+  CHECK(work.external() == samples::Approx(stored).epsilon(1e-5));  // the residual
+  scarp::WorkBalance soft(yielding, 0.0);
+  REQUIRE(stepping().run(solver, yielding, 0.0, 0.03, soft).verdict == Verdict{});
+  CHECK(soft.external() > 0.0);
+  CHECK(soft.external() < 0.8 * stored * 2.25);  // (3/2)^2: what a linear block would have taken
+  CHECK(soft.gap() < 1e-3);
+}
