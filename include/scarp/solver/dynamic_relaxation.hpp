@@ -4,9 +4,9 @@
 #include <chrono>
 
 #include "scarp/solver/equilibrium_problem.hpp"
-#include "scarp/solver/linearised_step.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
+#include "scarp/solver/step_start.hpp"
 
 namespace scarp {
 
@@ -30,36 +30,23 @@ struct DynamicRelaxation {
     static_assert(Problem::is_bare, "what is attached to the ground has no mass: take QuasiNewton");
 
     Session(DynamicRelaxation const& settings, Problem& problem)
-        : settings_(settings), problem_(problem), linearised_(problem, settings.tolerance) {}
+        : settings_(settings), problem_(problem), start_(problem, settings.tolerance) {}
 
     /// Readies a step from the committed state at a load factor: masses, and the matrix of the prediction.
     Verdict begin(double load) {
       problem_.aim(load);
       auto const tangents = problem_.committed_tangents();
+      Verdict const verdict = start_.linearise(tangents);
       Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
-      Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, tangents);
-      condition_ = verdict.acceptable() ? linearised_.condition() : 0.0;
-      if (condition_ > linearised_.singular) verdict = {Status::failed, Reason::singular_system};
-      weak_dof_ = verdict.reason == Reason::singular_system ? linearised_.weak_dof() : -1;
       Eigen::SparseMatrix<double> stiffness;
       problem_.ground_stiffness(still, tangents, stiffness);
-      mass_ = settings_.mass / 4.0 * linearised_.system().gather(stiffness.cwiseAbs() * (still.array() + 1.0).matrix());
+      mass_ = settings_.mass / 4.0 *
+              start_.linearised().system().gather(stiffness.cwiseAbs() * (still.array() + 1.0).matrix());
       return verdict;
     }
 
-    void describe(StepReport& report) const {
-      report.condition = condition_;
-      report.weak_dof = weak_dof_;
-    }
-
-    /// First guess of the displacement increment between two load factors.
-    Eigen::VectorXd predict(double from, double to) {
-      problem_.aim(to);
-      Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
-      Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
-      linearised_.solve(increment, more_load);
-      return increment;
-    }
+    void describe(StepReport& report) const { start_.describe(report); }
+    Eigen::VectorXd predict(double from, double to) { return start_.predict(from, to); }
 
     /// Moves from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
     void correct(Eigen::VectorXd& increment, StepReport& report) {
@@ -75,13 +62,13 @@ struct DynamicRelaxation {
           if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
           return;
         }
-        Eigen::VectorXd const push = -linearised_.system().gather(evaluation.unbalanced).cwiseQuotient(mass_);
+        Eigen::VectorXd const push = -start_.linearised().system().gather(evaluation.unbalanced).cwiseQuotient(mass_);
         velocity += push;
         double const now = velocity.cwiseAbs2().dot(mass_);
         bool const past_peak = now < energy;
         if (past_peak) velocity = push / 2.0;
         energy = past_peak ? 0.0 : now;
-        linearised_.system().scatter(linearised_.system().gather(increment) + velocity, increment);
+        start_.linearised().system().scatter(start_.linearised().system().gather(increment) + velocity, increment);
         evaluation = recorded(report, [&] { return problem_.advance(increment); });
       }
     }
@@ -102,10 +89,8 @@ struct DynamicRelaxation {
 
     DynamicRelaxation const& settings_;
     Problem& problem_;
-    LinearisedStep<Problem, Linear> linearised_;
+    StepStart<Problem, Linear> start_;
     Eigen::VectorXd mass_;  ///< of the free degrees of freedom [kg], for a time step of 1 s
-    double condition_ = 0.0;
-    int weak_dof_ = -1;
   };
 };
 

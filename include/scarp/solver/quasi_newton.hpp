@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "scarp/solver/equilibrium_problem.hpp"
-#include "scarp/solver/linearised_step.hpp"
 #include "scarp/solver/mixing.hpp"
 #include "scarp/solver/plain_step.hpp"
 #include "scarp/solver/point_secant.hpp"
 #include "scarp/solver/response_path.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
+#include "scarp/solver/step_start.hpp"
 #include "scarp/solver/tangent_rule.hpp"
 
 namespace scarp {
@@ -35,10 +35,7 @@ struct QuasiNewton {
     static constexpr int dim = Problem::dim;
 
     Session(QuasiNewton const& settings, Problem& problem)
-        : settings_(settings),
-          mixing_(settings.mixing),
-          problem_(problem),
-          linearised_(problem, 0.1 * settings.tolerance) {}
+        : settings_(settings), mixing_(settings.mixing), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
 
     /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
     Verdict begin(double load) {
@@ -50,30 +47,11 @@ struct QuasiNewton {
       for (std::size_t k = 0; k < working_.size(); ++k) {
         working_[k] = settings_.rule.template start<dim>(provider_[k], learned_[k]);
       }
-      Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
-      Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, working_);
-      condition_ = verdict.acceptable() ? linearised_.condition() : 0.0;
-      if (condition_ > linearised_.singular) verdict = {Status::failed, Reason::singular_system};
-      weak_dof_ = verdict.reason == Reason::singular_system ? linearised_.weak_dof() : -1;
-      return verdict;
+      return start_.linearise(working_);
     }
 
-    /// Adds what begin() found out about the linear system.
-    void describe(StepReport& report) const {
-      report.condition = condition_;
-      report.weak_dof = weak_dof_;
-    }
-
-    /// First guess of the displacement increment between two load factors; from then on forces are measured against the
-    /// loads of the second one.
-    Eigen::VectorXd predict(double from, double to) {
-      problem_.aim(to);
-      Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
-      Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
-      // A prediction that fails is no more than a poor first guess.
-      linearised_.solve(increment, more_load);
-      return increment;
-    }
+    void describe(StepReport& report) const { start_.describe(report); }
+    Eigen::VectorXd predict(double from, double to) { return start_.predict(from, to); }
 
     /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
     void correct(Eigen::VectorXd& increment, StepReport& report) {
@@ -83,6 +61,7 @@ struct QuasiNewton {
       mixing_.forget();
       last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
       last_stresses_ = problem_.committed_stresses();
+      auto& linearised = start_.linearised();
       double linear_residual = 0.0;
       Eigen::VectorXd const no_more = Eigen::VectorXd::Zero(increment.size());
       for (;;) {
@@ -103,17 +82,17 @@ struct QuasiNewton {
           return;
         }
         Eigen::VectorXd next = increment;
-        report.verdict = linearised_.linearise(increment, evaluation.unbalanced, working_);
-        if (report.verdict.acceptable()) report.verdict = linearised_.solve(next, no_more);
+        report.verdict = linearised.linearise(increment, evaluation.unbalanced, working_);
+        if (report.verdict.acceptable()) report.verdict = linearised.solve(next, no_more);
         if (!report.verdict.acceptable()) {
-          report.weak_dof = linearised_.weak_dof();
+          report.weak_dof = linearised.weak_dof();
           return;
         }
-        linear_residual = linearised_.linear_residual();
-        Eigen::VectorXd const correction = linearised_.system().gather(next - increment);
-        Eigen::VectorXd const force = -linearised_.system().gather(evaluation.unbalanced);
-        linearised_.system().scatter(mixed(mixing_, linearised_.system().gather(increment), correction, force),
-                                     increment);
+        linear_residual = linearised.linear_residual();
+        Eigen::VectorXd const correction = linearised.system().gather(next - increment);
+        Eigen::VectorXd const force = -linearised.system().gather(evaluation.unbalanced);
+        linearised.system().scatter(mixed(mixing_, linearised.system().gather(increment), correction, force),
+                                    increment);
       }
     }
 
@@ -177,9 +156,7 @@ struct QuasiNewton {
     QuasiNewton const& settings_;
     Mixing mixing_;
     Problem& problem_;
-    LinearisedStep<Problem, Linear> linearised_;
-    double condition_ = 0.0;
-    int weak_dof_ = -1;
+    StepStart<Problem, Linear> start_;
     Clock::time_point mark_{};              ///< end of the last evaluation of this step
     std::vector<VoigtTangent<dim>> first_;  ///< of the state that the session began with
     std::vector<VoigtTangent<dim>> provider_;
