@@ -86,7 +86,7 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
   app.add_option("--least-dem-steps", choice.least_dem_steps, "of one response")->check(CLI::Range(1, 20'000));
   app.add_option("--unbalanced", choice.unbalanced_tolerance, "unbalanced ratio asked of every packing")
       ->check(number_from(0.0, false, 1.0));
-  app.add_option("--threads", choice.threads, "0 takes all")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", choice.threads, "of each process; 0 takes all processors")->check(CLI::Range(0, 1024));
   app.add_option("--frames", choice.frames, "VTU files over the run")->check(CLI::Range(1, 100'000));
   app.add_option("--probe-a-x", choice.probe_a_x, "probe A, in the band [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--probe-a-y", choice.probe_a_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));

@@ -59,7 +59,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   auto const elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
-  scarp::ThreadExecutor threads(choice.threads);
+  scarp::ThreadExecutor threads(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
   if (ranks_of(executor) > 1 && files.saves()) {
     scarp::refuse(

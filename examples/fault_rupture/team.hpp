@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
 #include "scarp/scene/first_rank.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #ifdef SCARP_WITH_RANKS
@@ -13,6 +17,12 @@ namespace fault_rupture {
 #ifdef SCARP_WITH_RANKS
 using Team = scarp::RankExecutor<scarp::ThreadExecutor>;
 using Session = scarp::MpiSession;
+/// Ranks share the machine's processors unless a number is asked for.
+inline int threads_of_a_process(int asked) {
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks);
+}
 inline Team make_team(scarp::ThreadExecutor& threads) { return Team(threads); }
 inline int threads_of(Team const& team) { return team.local().threads(); }
 inline int ranks_of(Team const& team) { return team.ranks(); }
@@ -22,6 +32,7 @@ using Team = scarp::ThreadExecutor;
 struct Session {
   Session(int&, char**&) {}
 };
+inline int threads_of_a_process(int asked) { return asked; }
 inline Team& make_team(scarp::ThreadExecutor& threads) { return threads; }
 inline int threads_of(Team const& team) { return team.threads(); }
 inline int ranks_of(Team const&) { return 1; }
