@@ -93,9 +93,9 @@ class RankExecutor {
 
   /// What the first rank says.
   bool agree(bool said) const {
-    int answer = said ? 1 : 0;
-    MPI_Bcast(&answer, 1, MPI_INT, 0, communicator_);
-    return answer != 0;
+    int heard = said ? 1 : 0;
+    MPI_Bcast(&heard, 1, MPI_INT, 0, communicator_);
+    return heard != 0;
   }
 
   /// On the first rank: what the owner of a point answers while it serves.
