@@ -31,7 +31,8 @@ if os.environ.get("SCARP_SCENES") == "all":
             case = ["--case", "free"] if structure == "free" else ["--case", "heavy", "--footing", structure]
             SCENES[f"{soil}, {structure}"] = ["--quick", "--grains", "49", "--soil", soil, *case,
                                               "--throw-over-depth", "0.005"]
-WALL_TIMES = ("threads", "cpu_seconds", "wall_seconds", "peak_memory_bytes", "share_of_time_in_rves")
+WALL_TIMES = ("threads", "cpu_seconds", "wall_seconds", "peak_memory_bytes", "share_of_time_in_rves",
+              "share_of_time_outside_rves", "seconds", "seconds_in_points", "share_outside_points")
 
 
 def command(scene, *more):
@@ -47,6 +48,10 @@ def run(words, folder):
     return done.returncode, done.stdout + done.stderr
 
 
+def lasting(values):
+    return {key: value for key, value in values.items() if key not in WALL_TIMES}
+
+
 def results(folder):
     """All files of the output folder, without what tells of wall time and without files under a temporary name, which a process
     that is killed while it writes leaves behind."""
@@ -55,9 +60,11 @@ def results(folder):
         if path.is_file() and ".partial-" not in path.name:
             found[str(path.relative_to(folder))] = path.read_bytes()
     rows = list(csv.DictReader(io.StringIO(found["convergence.csv"].decode())))
-    found["convergence.csv"] = [{key: row[key] for key in row if key != "seconds"} for row in rows]
-    summary = json.loads(found["summary.json"])
-    found["summary.json"] = {key: value for key, value in summary.items() if key not in WALL_TIMES}
+    found["convergence.csv"] = [lasting(row) for row in rows]
+    found["convergence.jsonl"] = [lasting(json.loads(line)) for line in found["convergence.jsonl"].splitlines()]
+    found["summary.json"] = lasting(json.loads(found["summary.json"]))
+    lines = found["summary.txt"].splitlines()
+    found["summary.txt"] = [line for line in lines if not line.startswith(b"share of the time")]
     return found
 
 
