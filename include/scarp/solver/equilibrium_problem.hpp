@@ -96,7 +96,7 @@ class EquilibriumProblem {
   Evaluation advance(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
     std::vector<Gradient<dim>> const before = gradients();
     return evaluated(increment, [&](Evaluation& evaluation) {
-      points_.advance(before, DiscretisationType::follows_motion, evaluation);
+      points_.template advance<DiscretisationType::follows_motion>(before, evaluation);
     });
   }
 

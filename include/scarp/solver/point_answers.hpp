@@ -55,16 +55,14 @@ class PointAnswers {
   void respond(Evaluation& evaluation) { ask(owned_, from_committed(), evaluation); }
 
   /// All points go on from their trial states by the change from what they saw before to what they see.
-  void advance(Gradients const& before, bool follows_motion,
-               Evaluation& evaluation) requires AdvancesTrials<Materials> {
+  template <bool FollowsMotion>
+  void advance(Gradients const& before, Evaluation& evaluation) requires AdvancesTrials<Materials> {
     ask(
         owned_,
         [&](int point) {
           auto const k = detail::index(point);
-          Gradient<dim> const unit = Gradient<dim>::Identity();
-          Gradient<dim> const further =
-              follows_motion ? Gradient<dim>((unit + gradients_[k]) * (unit + before[k]).inverse() - unit)
-                             : Gradient<dim>(gradients_[k] - before[k]);
+          Gradient<dim> further = gradients_[k] - before[k];
+          if constexpr (FollowsMotion) further *= (Gradient<dim>::Identity() + before[k]).inverse();
           materials_.plan_advance(point, further);
           return materials_.advance(point, further);
         },
