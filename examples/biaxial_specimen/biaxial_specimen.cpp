@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "../budget_report.hpp"
 #include "../command_line.hpp"
 #include "../packing_input.hpp"
 #include "run.hpp"
@@ -87,6 +88,8 @@ void declare_results(CLI::App& app, Choice& choice, std::string& output) {
   auto* const all = app.add_option("--output", output, "folder of all results")->check(folder)->capture_default_str();
   auto* const table = app.add_option("--out", choice.table, "the table alone, instead of --output")->excludes(all);
   app.add_option("--fields", choice.fields, "folder for VTU files beside --out")->check(folder)->needs(table);
+  app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
+      ->check([](std::string const& given) { return examples::refused_bound(given); });
   app.add_option("--frames", choice.frames, "VTU files over the test")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace biaxial_specimen {
 
@@ -42,6 +43,7 @@ struct Choice {
   std::string table{};
   std::string fields{};  ///< folder, empty for none
   int frames = 20;
+  std::vector<std::string> budget{};  ///< bounds of the error budget, part=bound; the others are the usual ones
 };
 
 }  // namespace biaxial_specimen

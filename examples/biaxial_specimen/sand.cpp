@@ -123,4 +123,18 @@ scarp::Quantities Sand::committed(int point) const {
                     fields_->any);
 }
 
+scarp::PointBalance point_balance(Sand const& sand, int point, scarp::Gradient<2> const& increment) {
+  return std::visit([&](auto const& field) { return scarp::point_balance(field, point, increment); },
+                    sand.fields_->any);
+}
+scarp::DoubledAnswer<2> doubled_answer(Sand const& sand, int point, scarp::Gradient<2> const& increment) {
+  return std::visit([&](auto const& field) { return scarp::doubled_answer(field, point, increment); },
+                    sand.fields_->any);
+}
+scarp::DoubledAnswer<2> followed_answer(Sand const& sand, int point, scarp::Gradient<2> const& increment,
+                                        std::string& bits) {
+  return std::visit([&](auto const& field) { return scarp::followed_answer(field, point, increment, bits); },
+                    sand.fields_->any);
+}
+
 }  // namespace biaxial_specimen

@@ -6,6 +6,7 @@
 
 #include "choice.hpp"
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/scene/point_checks.hpp"
 #include "scarp/scene/rve_quantities.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
@@ -40,6 +41,12 @@ class Sand {
   }
   Sand const& provider() const { return *this; }
   scarp::Quantities committed(int point) const;
+
+  /// What an error budget asks.
+  friend scarp::PointBalance point_balance(Sand const& sand, int point, scarp::Gradient<2> const& increment);
+  friend scarp::DoubledAnswer<2> doubled_answer(Sand const& sand, int point, scarp::Gradient<2> const& increment);
+  friend scarp::DoubledAnswer<2> followed_answer(Sand const& sand, int point, scarp::Gradient<2> const& increment,
+                                                 std::string& bits);
 
  private:
   struct Fields;

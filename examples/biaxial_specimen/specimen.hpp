@@ -3,12 +3,15 @@
 
 #include <filesystem>
 
+#include "../budget_report.hpp"
 #include "rectangle.hpp"
 #include "run.hpp"
 #include "sand.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/following_pressure.hpp"
+#include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
+#include "scarp/scene/error_budget.hpp"
 #include "scarp/scene/field_series.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
@@ -75,7 +78,9 @@ class Specimen {
 };
 
 /// Counts over the attempts that one row of the table takes; draws when it is time to.
+template <class Budget>
 struct Watch : scarp::NeverStops {
+  Budget& budget;
   std::optional<scarp::FieldSeries<SandQuantities>> series{};
   int iterations = 0;
   double residual = 0.0;  ///< of the last accepted attempt
@@ -84,6 +89,7 @@ struct Watch : scarp::NeverStops {
   void attempted(Problem const& problem, scarp::StepReport const& report) {
     iterations += report.iterations();
     if (report.verdict.acceptable()) residual = report.residual();
+    budget.attempted(problem, report);
     if (series) series->attempted(problem, report);
   }
 };
@@ -96,16 +102,24 @@ inline std::vector<std::string> const& columns() {
   return names;
 }
 
+/// Says how far the results can be trusted, and first whether a bound is exceeded.
+inline void report_budget(Choice const& choice, scarp::BudgetParts const& parts) {
+  fmt::print(stderr, "{}{}", scarp::budget_headline(parts), scarp::budget_table(parts));
+  if (choice.fields.empty()) return;
+  scarp::write_file(std::filesystem::path(choice.fields) / "error_budget.json",
+                    examples::json_of(parts).dump(2) + "\n");
+}
+
 /// \return what the run of the last row ended with
-template <class Element>
-scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen) {
+template <class Element, class Budget>
+scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Budget& budget) {
   using Solver = scarp::QuasiNewton<>;
   auto& problem = specimen.problem();
   Solver const solver{.tolerance = choice.residual, .most_iterations = choice.iterations};
   double const step = choice.axial_strain_step;
   scarp::LoadStepping const stepping{
       .first = step, .smallest = 0.99 * std::ldexp(step, -choice.halvings), .largest_gradient = 0.05};
-  Watch watch;
+  Watch<Budget> watch{{}, budget};
   if (!choice.fields.empty()) {
     std::filesystem::create_directories(std::filesystem::path(choice.fields) / "fields");
     watch.series.emplace(choice.fields, choice.steps * step, std::min(choice.frames, choice.steps), 1.0);
@@ -150,7 +164,10 @@ int run(Choice const& choice) {
   fmt::print(stderr, "{:.6g} m x {:.6g} m, {} elements, {} packings, {} threads\n", specimen.sides().width,
              specimen.sides().height, specimen.problem().discretisation().mesh().elements.size(),
              specimen.problem().materials().point_count(), executor.threads());
-  auto const report = compress(choice, specimen);
+  scarp::ErrorBudget budget(specimen.problem(), examples::error_bounds(choice.budget),
+                            {.loose_pressure = choice.confining / 100.0});
+  auto const report = compress(choice, specimen, budget);
+  report_budget(choice, budget.parts());
   if (report.verdict.acceptable()) return 0;
   fmt::print(
       stderr,

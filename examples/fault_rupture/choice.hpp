@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace fault_rupture {
 
@@ -26,7 +27,7 @@ struct Choice {
   double dip = 60.0;                       ///< [degrees]
   double tip = 0.0;                        ///< [m]
   std::optional<double> tolerance;         ///< of the force residual; packings 1e-3, below a footing 5e-3; else 1e-10
-  std::optional<double> largest_gradient;  ///< of a load step; 0.01 with packings, else 0.02
+  std::optional<double> largest_gradient;  ///< of a load step; 0.005 with packings, else 0.02
   int most_iterations = 30;
   double strain_per_step = 1e-5;
   int least_dem_steps = 20;
@@ -41,7 +42,8 @@ struct Choice {
   double probe_a_y = 6.0;
   double probe_b_x = -20.0;  ///< beside it
   double probe_b_y = 12.0;
-  double time_limit = 0.0;  ///< [s], 0 for none
+  double time_limit = 0.0;          ///< [s], 0 for none
+  std::vector<std::string> budget;  ///< bounds of the error budget, part=bound; the others are the usual ones
   std::string output = "output/fault_rupture";
   std::string checkpoint;           ///< folder; empty: nothing is saved
   double checkpoint_every = 600.0;  ///< [s]

@@ -78,7 +78,7 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
                  "force residual over reactions; packings 1e-3, below a footing 5e-3; else 1e-10")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--largest-gradient", choice.largest_gradient,
-                 "displacement gradient that limits a load step; 0.01 with packings, else 0.02")
+                 "displacement gradient that limits a load step; 0.005 with packings, else 0.02")
       ->check(number_from(0.0, false, 0.2));
   app.add_option("--most-iterations", choice.most_iterations, "of a load step")->check(CLI::Range(1, 10'000));
   app.add_option("--strain-per-step", choice.strain_per_step, "strain of one DEM step")
@@ -94,6 +94,8 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
   app.add_option("--probe-b-y", choice.probe_b_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, 0 for none")
       ->check(number_from(0.0, true, 1e9));
+  app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
+      ->check([](std::string const& given) { return examples::refused_bound(given); });
   auto* const folder =
       app.add_option("--checkpoint", choice.checkpoint,
                      "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")

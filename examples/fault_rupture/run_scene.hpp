@@ -4,9 +4,11 @@
 #include <chrono>
 #include <filesystem>
 
+#include "../budget_report.hpp"
 #include "scarp/io/packing_tables.hpp"
 #include "scarp/scene/checkpointed_run.hpp"
 #include "scarp/scene/convergence_log.hpp"
+#include "scarp/scene/error_budget.hpp"
 #include "scarp/scene/field_series.hpp"
 #include "scarp/scene/probe.hpp"
 #include "scarp/scene/progress.hpp"
@@ -51,6 +53,16 @@ scarp::FootingLog<Structure> footing_log(std::filesystem::path const& folder, St
   return {folder, structure, to, profiles, load_unit, start};
 }
 
+/// Looks at the probe in the band beside points all over the ground.
+template <class Problem, class SceneType>
+scarp::ErrorBudget<Problem> error_budget(Choice const& choice, SceneType const& scene, Problem const& problem,
+                                         int probe) {
+  scarp::ErrorSampling sampling{.followed = {probe}, .loose_pressure = 0.25 * scene.surcharge};
+  if constexpr (requires { scene.soil.provider.loose_pressure; })
+    sampling.loose_pressure = scene.soil.provider.loose_pressure;
+  return scarp::ErrorBudget<Problem>(problem, examples::error_bounds(choice.budget), sampling);
+}
+
 /// Runs a scene, or goes on with one, and writes its results.
 /// \return exit code of the program
 template <class SceneType>
@@ -73,9 +85,9 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
                problem.discretisation().mesh().elements.size(), threads.threads(), elapsed());
     fs::create_directories(folder / "fields");
     remove_older_results(folder, files.resumes());
-    if constexpr (requires { scene.soil.source.packings; }) {
-      auto const& packings = scene.soil.source.packings;
-      scarp::write_packing_tables(folder, packings[packings.size() / 2], scene.soil.law);
+    if constexpr (requires { scene.soil.provider.source.packings; }) {
+      auto const& packings = scene.soil.provider.source.packings;
+      scarp::write_packing_tables(folder, packings[packings.size() / 2], scene.soil.provider.law);
     }
   }
   double const depth = scene.layer.depth;
@@ -84,6 +96,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   auto const& grid = problem.discretisation();
   auto const at = [&](double x, double y) { return nearest_point(grid, scarp::Vector<2>(x, y)); };
+  auto budget = error_budget(choice, scene, problem, at(choice.probe_a_x, choice.probe_a_y));
   scarp::OnFirstRank observers(executor, [&] {
     return scarp::Observers(
         scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
@@ -93,7 +106,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
         footing_log(folder, scene.structure, to, profiles, depth, start),
         scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth),
-        scarp::StopSignal(), scarp::TimeLimit(choice.time_limit));
+        scarp::Borrowed(budget), scarp::StopSignal(), scarp::TimeLimit(choice.time_limit));
   });
 
   AtRest rest;
@@ -108,9 +121,11 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   auto const& report = stages.report();
 
   on_first_rank(problem, [&] {
-    auto const json = summary(choice, scene, problem, rest, report, elapsed());
+    auto json = summary(choice, scene, problem, rest, report, elapsed());
+    json["error_budget"] = examples::json_of(budget.parts());
     scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
-    std::string text = table(json);
+    std::string text =
+        scarp::budget_headline(budget.parts()) + table(json) + "\n" + scarp::budget_table(budget.parts());
     if (!report.verdict.acceptable()) {
       text =
           fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n",

@@ -40,12 +40,13 @@ Sand make_sand(Choice const& choice, scarp::FaultMesh const& layer) {
   ground.surcharge = surcharge;
   ground.preparation.preparation_friction = choice.preparation_friction;
   Sand sand;
-  sand.law = law;
-  sand.source = ground.make<Grains>(law, depths(layer));
-  sand.strain_per_step = choice.strain_per_step;
-  sand.least_steps = choice.least_dem_steps;
-  sand.unbalanced_tolerance = choice.unbalanced_tolerance;
-  sand.loose_pressure = surcharge / 2.0;
+  auto& packings = sand.provider;
+  packings.law = law;
+  packings.source = ground.make<Grains>(law, depths(layer));
+  packings.strain_per_step = choice.strain_per_step;
+  packings.least_steps = choice.least_dem_steps;
+  packings.unbalanced_tolerance = choice.unbalanced_tolerance;
+  packings.loose_pressure = surcharge / 2.0;
   return sand;
 }
 

@@ -7,6 +7,7 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/mesh/fault_mesh.hpp"
 #include "scarp/shape/ellipse.hpp"
@@ -20,14 +21,15 @@ inline constexpr double surcharge = 4e3;        ///< [Pa]
 
 using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 
-/// The study's ellipses, consolidated under the overburden of every depth; the solver learns tangents from answers.
-struct Sand : scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>> {
+/// The study's ellipses, consolidated under the overburden of every depth; the solver learns tangents from answers. Where they lose
+/// all contacts a small stiffness keeps the nodes in place.
+struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>> {
   using Solver = scarp::QuasiNewton<>;
   static double tolerance(Choice const& choice) {
     if (choice.quick) return 1e-2;
     return choice.scene == Case::free ? 1e-3 : 5e-3;
   }
-  static double largest_gradient(bool quick) { return quick ? 0.02 : 0.01; }
+  static double largest_gradient(bool quick) { return quick ? 0.02 : 0.005; }
 };
 
 /// Mohr-Coulomb with the study's angles at the peak, 30.8 and 6.6 degrees, and Bolton's angle at constant volume, phi - 0.8 psi

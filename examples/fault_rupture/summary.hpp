@@ -8,7 +8,9 @@
 #include <numbers>
 #include <string>
 
+#include "scarp/constitutive/innermost.hpp"
 #include "scarp/io/atomic_file.hpp"
+#include "scarp/scene/floor_share.hpp"
 #include "scarp/scene/footing_log.hpp"
 #include "scarp/scene/outcrop.hpp"
 #include "scenes.hpp"
@@ -54,12 +56,14 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
     rest.k0_max = std::max(rest.k0_max, ratio);
     double const overburden = scene.surcharge + scene.unit_weight * site.depth;
     rest.vertical_error = std::max(rest.vertical_error, std::abs(-stress(1) / overburden - 1.0));
-    visit_point(problem, point, [&](auto const&, auto const& state) {
-      if constexpr (requires { state.packing; }) {
-        double const void_ratio = state.packing.void_ratio();
-        rest.void_ratio_min = std::min(rest.void_ratio_min, void_ratio);
-        rest.void_ratio_max = std::max(rest.void_ratio_max, void_ratio);
-      }
+    visit_point(problem, point, [&](auto const& provider, auto const& state) {
+      scarp::visit_innermost(provider, state, [&](auto const&, auto const& own) {
+        if constexpr (requires { own.packing; }) {
+          double const void_ratio = own.packing.void_ratio();
+          rest.void_ratio_min = std::min(rest.void_ratio_min, void_ratio);
+          rest.void_ratio_max = std::max(rest.void_ratio_max, void_ratio);
+        }
+      });
     });
   }
   rest.k0 /= points;
@@ -138,6 +142,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["steps"] = run.steps;
   json["refused_steps"] = run.refused;
   json["last_refusal"] = std::string(name(run.last_failure));
+  if (choice.soil == Soil::dem) json["floor_share"] = scarp::floor_share(problem);
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_rves"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
@@ -163,6 +168,8 @@ inline std::string table(nlohmann::ordered_json const& json) {
   if (json.contains("void_ratio_min"))
     row("void ratio over the depth", fmt::format("{:.3f}-{:.3f}", number("void_ratio_min"), number("void_ratio_max")),
         "0.160-0.179");
+  if (json.contains("floor_share"))
+    row("stiffness of points without contacts, share of all stress", fmt::format("{:.1e}", number("floor_share")), "0");
   row("vertical stress against overburden, largest error",
       fmt::format("{:.2f} %", 100.0 * number("vertical_stress_error")), "0");
   row("throw / depth", fmt::format("{:.4f}", number("throw_over_depth")), "0.085");

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "../study_sand.hpp"
+#include "scarp/dem/halved_path.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
@@ -47,6 +49,8 @@ struct Result {
   scarp::Verdict sheared;
   Packing consolidated;
   std::vector<Row> rows;
+  double inertial_number = 0.0;
+  std::vector<double> halved;  ///< change of a row's stress in steps of half the strain, of sampled rows
 };
 
 using examples::study_law;
@@ -74,6 +78,13 @@ inline Row describe(Packing const& packing, double axial_strain, double volumetr
           .sliding_share = state.sliding_share};
 }
 
+/// Of compression at a constant rate.
+inline double inertial_number(Packing const& packing, Choice const& choice) {
+  auto const& grains = *packing.population;
+  double const rate = choice.strain_per_step / packing.pairs.critical_step;
+  return rate * 2.0 * grains.largest_radius() * std::sqrt(grains.density() / choice.pressure);
+}
+
 /// Drained biaxial compression: yy shortens at a constant rate, a servo keeps sigma_xx at the pressure, no shear strain.
 inline void compress(Packing packing, Choice const& choice, Result& result) {
   constexpr double strain_per_row = 2.5e-4;
@@ -84,17 +95,25 @@ inline void compress(Packing packing, Choice const& choice, Result& result) {
   result.rows.push_back(describe(packing, 0.0, 0.0, scarp::balance(packing, law).stress));
   long const steps = std::lround(choice.strain / choice.strain_per_step);
   long const steps_per_row = std::max(1L, std::lround(strain_per_row / choice.strain_per_step));
+  // One row of a hundred is gone through again in halved steps: two hundredths of the work.
+  constexpr long rows_per_sample = 100;
+  std::optional<scarp::HalvedPath<Packing>> sample;
   scarp::Tensor<2> sum = scarp::Tensor<2>::Zero();
   for (long step = 1; step <= steps; ++step) {
+    if ((step - 1) % (rows_per_sample * steps_per_row) == rows_per_sample * steps_per_row / 2) sample.emplace(packing);
     result.sheared = drive.step(stepper);
     if (!result.sheared.acceptable()) return;
     sum += drive.seen().stress;
+    if (sample) sample->add(drive.strain_step(), drive.seen().stress);
     if (step % steps_per_row != 0) continue;
     double const volumetric_strain = -std::log(packing.cell.determinant() / first_area);
     result.rows.push_back(describe(packing, static_cast<double>(step) * choice.strain_per_step, volumetric_strain,
                                    sum / static_cast<double>(steps_per_row)));
     sum.setZero();
+    if (sample) result.halved.push_back(sample->difference(law));
+    sample.reset();
   }
+  result.inertial_number = inertial_number(packing, choice);
 }
 
 inline Result run_seed(Choice const& choice, std::uint64_t seed) {
@@ -103,7 +122,9 @@ inline Result run_seed(Choice const& choice, std::uint64_t seed) {
                 .prepared = {},
                 .sheared = {},
                 .consolidated = {},
-                .rows = {}};
+                .rows = {},
+                .inertial_number = 0.0,
+                .halved = {}};
   auto prepared = consolidated_packing(choice, seed);
   result.prepared = prepared.verdict;
   result.consolidated = prepared.packing;

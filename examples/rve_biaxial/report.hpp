@@ -10,6 +10,7 @@
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/io/packing_tables.hpp"
+#include "step_budget.hpp"
 #include "void_ratio_study.hpp"
 
 namespace rve_biaxial {
@@ -95,6 +96,7 @@ inline nlohmann::json summarise(Choice const& choice, std::vector<Result> const&
   }
   summary["over_void_ratio"] = lines_over_void_ratio(results, windows);
   for (auto const& result : results) summary["packings"].push_back(summarise_packing(result, windows));
+  summary["error_budget"] = examples::json_of(error_budget(results, choice.pressure, {}));
   return summary;
 }
 

@@ -137,7 +137,10 @@ int main(int argc, char** argv) {
     auto const results = run_all(options);
     require_success(results, options);
     rve_biaxial::write_all(options.output, options.choice, results, options.smoothing);
+    auto const budget = rve_biaxial::error_budget(results, options.choice.pressure, {});
+    fmt::print("{}", scarp::budget_headline(budget));
     rve_biaxial::print_tables(results, options.smoothing);
+    fmt::print("\n{}", scarp::budget_table(budget));
   } catch (std::exception const& problem) {
     fmt::print(stderr, "rve_biaxial: {}\n", problem.what());
     return 1;

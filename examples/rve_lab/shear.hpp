@@ -6,9 +6,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "../budget_report.hpp"
 #include "choices.hpp"
 #include "material_file.hpp"
 #include "recorder.hpp"
+#include "row_budget.hpp"
 #include "scarp/io/packing_file.hpp"
 #include "states.hpp"
 
@@ -48,7 +50,9 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   std::vector<std::string> names;
   for (auto const& cell : first) names.push_back(cell.first);
   scarp::CsvLog log(folder / "path.csv", names);
+  RowBudget budget;
   auto const write = [&](Row const& row) {
+    budget.add(row);
     std::vector<double> cells;
     for (auto const& cell : row) cells.push_back(cell.second);
     log.add(std::span<double const>(cells));
@@ -84,6 +88,7 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   write_state(folder, "end", lab.packing(), law);
   scarp::save_packing(folder / "end.packing", lab.packing());
   scarp::write_file(folder / "end.json", nlohmann::json{{"material", material}}.dump(2) + "\n");
+  fmt::print("{}{}", scarp::budget_headline(budget.parts()), scarp::budget_table(budget.parts()));
   fmt::print("largest q/p {:.4f} at strain {:.5f}\n", largest_ratio(peak), value(peak, "strain"));
   nlohmann::json const summary{{"path", choice.name},
                                {"material", material},
@@ -91,6 +96,7 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
                                {"cycles", choice.cycles},
                                {"strain_step", choice.strain_step},
                                {"steps", steps},
+                               {"error_budget", examples::json_of(budget.parts())},
                                {"peak", nlohmann::json(std::map<std::string, double>(peak.begin(), peak.end()))},
                                {"output", folder.string()}};
   scarp::write_file(folder / "summary.json", summary.dump(2) + "\n");

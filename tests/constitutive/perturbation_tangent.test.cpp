@@ -73,9 +73,9 @@ TEST_CASE("a trial to one side only sees that side") {
   scarp::EngineeringStrain<2> const onward(1.0, -1.0, 0.0);
   VoigtTangent<2> const loading = wide.differentiate(packing, law, onward).tangent;
   VoigtTangent<2> const unloading = wide.differentiate(packing, law, -onward).tangent;
-  // Sliding contacts go on sliding in one direction and hold in the other: onward the packing is softer, by far more
-  // than the 1e-4 to which a trial is settled.
-  CHECK(onward.dot(loading * onward) < 0.95 * onward.dot(unloading * onward));
+  // Sliding contacts go on sliding in one direction and hold in the other: onward the packing is softer, by more
+  // than a hundred times the 1e-4 to which a trial is settled.
+  CHECK(onward.dot(loading * onward) < 0.98 * onward.dot(unloading * onward));
   // No side was given for this mode: the same central difference.
   CHECK(loading.col(2).isApprox(unloading.col(2), 1e-9));
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dem/sample_packings.hpp"
+#include "scarp/dem/halved_path.hpp"
 #include "scarp/dem/loading_paths.hpp"
 
 namespace {
@@ -80,4 +81,25 @@ TEST_CASE("looking at a packing, however often, does not change its way") {
   REQUIRE(stepper.observe(alone, samples::study_law(), again).acceptable());
   REQUIRE(stepper.observe(watched, samples::study_law(), seen).acceptable());
   CHECK((seen.stress - again.stress).norm() < 1e-7 * seen.stress.norm());
+}
+
+TEST_CASE("a path in halved steps changes the stress less the smaller its steps are") {
+  auto const law = samples::study_law();
+  auto const difference = [&](double strain_per_step) {
+    auto packing = samples::consolidated<Ellipses>(80).packing;
+    scarp::TimeStepper<Ellipses> stepper;
+    scarp::HalvedPath<Ellipses> again(packing);
+    scarp::Drive<Ellipses> drive(packing, law, scarp::drained_compression<2>(strain_per_step, samples::pressure));
+    for (double strain = 0.0; strain < 1e-3; strain += strain_per_step) {
+      REQUIRE(drive.step(stepper).acceptable());
+      again.add(drive.strain_step(), drive.seen().stress);
+    }
+    return again.difference(law);
+  };
+  double const coarse = difference(2e-5);
+  double const fine = difference(2e-6);
+  CHECK(fine > 0.0);
+  // An error of first order would fall to a tenth, before any contact slides it falls faster.
+  CHECK(fine < 0.1 * coarse);
+  CHECK(coarse < 1e-3);
 }

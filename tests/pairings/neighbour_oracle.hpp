@@ -108,6 +108,7 @@ Answer<Shape::dim> listed(Smooth<Shape> packing, scarp::Frictionless const& law)
   packing.pairs.critical_step = 1e-3;
   scarp::TimeStepper<Smooth<Shape>> stepper;
   stepper.damping = {.factor = 0.0, .drag = 0.0};
+  stepper.time_step_share = 1.0;
   scarp::StepObservation<dim> seen;
   REQUIRE(stepper.template step<scarp::Observe::balance>(packing, law, Tensor<dim>::Zero(), &seen).acceptable());
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {

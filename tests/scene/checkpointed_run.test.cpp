@@ -11,6 +11,7 @@
 #include "scarp/constitutive/recorded.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/io/csv.hpp"
+#include "scarp/scene/error_budget.hpp"
 #include "scarp/scene/observers.hpp"
 #include "solver/sample_block.hpp"
 
@@ -49,6 +50,20 @@ struct Ending {
   bool wants_stop() const { return stop_after <= 0; }
 };
 
+/// Takes a budget's place when there is none.
+struct Budget : scarp::NeverStops {
+  std::optional<scarp::ErrorBudget<Block::Problem>> own{};
+
+  template <class Problem>
+  void attempted(Problem const& problem, scarp::StepReport const& report) {
+    if (own) own->attempted(problem, report);
+  }
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    if (self.own) visit("budget", *self.own);
+  }
+};
+
 struct Notes {
   double settled_residual = -1.0;
   template <class Self, class Visit>
@@ -62,16 +77,20 @@ struct Outcome {
   std::optional<sample::Committed<Block::Problem>> state;
   Notes notes;
   std::string log;
+  std::vector<double> budget;
 };
 
 /// A softening block that is settled, pulled with refused steps on the way, and pulled on nearly to its peak, by objects that
 /// are all made anew.
-Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending ending) {
+Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending ending, bool has_budget = true) {
   scarp::SerialExecutor serial;
   auto problem = Block::make({.reference_strain = 0.02, .largest_increment = 4e-3}, serial);
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   Outcome outcome;
-  scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}, start}}, ending);
+  Budget budget;
+  if (has_budget) budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 8});
+  scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}, start}},
+                             scarp::Borrowed(budget), ending);
   scarp::CheckpointedRun run(files, observers, outcome.notes);
   scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
   scarp::LoadStepping const stepping{.first = 1e-3, .smallest = 1e-6, .largest = 4e-3, .largest_gradient = 0.1};
@@ -85,6 +104,9 @@ Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending e
   outcome.report = run.report();
   outcome.state.emplace(problem);
   outcome.log = content(folder / "log.csv");
+  if (has_budget) {
+    for (auto const& part : budget.own->parts()) outcome.budget.push_back(part.value);
+  }
   return outcome;
 }
 
@@ -112,6 +134,7 @@ void check_same(Outcome const& outcome, Outcome const& expected) {
   CHECK(outcome.notes.settled_residual == expected.notes.settled_residual);
   CHECK(*outcome.state == *expected.state);
   CHECK(outcome.log == expected.log);
+  CHECK(outcome.budget == expected.budget);
 }
 
 std::string complaint_about(ScratchFolder const& folder, std::string text = scene) {
@@ -126,6 +149,15 @@ std::string complaint_about(ScratchFolder const& folder, std::string text = scen
 bool contains(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
+
+TEST_CASE("an error budget does not change a bit of the run that it watches") {
+  ScratchFolder const folder;
+  auto unwatched = pull(folder, {}, {}, false);
+  CHECK(unwatched.budget.empty());
+  CHECK(undisturbed().budget.size() > 5);
+  unwatched.budget = undisturbed().budget;
+  check_same(unwatched, undisturbed());
+}
 
 TEST_CASE("a run that is stopped before every attempt and continued by new objects keeps its bits") {
   REQUIRE(undisturbed().report.verdict.acceptable());

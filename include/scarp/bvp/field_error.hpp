@@ -38,7 +38,8 @@ FieldError field_error(Mesh<Element> const& mesh, Eigen::VectorXd const& displac
       auto const spatial = spatial_shape<Element>(rows, point);
       Vector<dim> const place = rows.transpose() * shape;
       Vector<dim> const off = moves.transpose() * shape - Vector<dim>(exact(place));
-      Gradient<dim> const slope_off = moves.transpose() * spatial.gradients - Gradient<dim>(exact_gradient(place));
+      Gradient<dim> const slope_off =
+          moves.transpose().lazyProduct(spatial.gradients) - Gradient<dim>(exact_gradient(place));
       squares.value += spatial.volume * off.squaredNorm();
       squares.gradient += spatial.volume * slope_off.squaredNorm();
     }

@@ -31,7 +31,7 @@ struct PointByPoint {
                                                               Corners<Element, Element::dim> const& moves) {
     std::array<Gradient<Element::dim>, Points> gradients;
     for (std::size_t p = 0; p < Points; ++p) {
-      gradients[p] = moves.transpose() * shapes[p].gradients;
+      gradients[p] = moves.transpose().lazyProduct(shapes[p].gradients);
     }
     return gradients;
   }

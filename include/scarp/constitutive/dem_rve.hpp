@@ -62,7 +62,7 @@ struct DemRve {
   int most_steps = 20'000;
   double unbalanced_tolerance = 0.05;  ///< asked of every response
   double loose_pressure = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
-  double time_step_share = 1.0;        ///< of the critical step's lower bound
+  double time_step_share = usual_time_step_share;  ///< of the critical step's lower bound
   Damping damping{};
   Tangent tangent_policy{};
 
@@ -87,14 +87,17 @@ struct DemRve {
   Plan plan(State const& committed, Gradient<dim> const& increment) const {
     double const largest = ((increment + increment.transpose()) / 2.0).cwiseAbs().maxCoeff();
     if (!std::isfinite(largest)) return least_steps;
-    auto const& population = *committed.packing.population;
-    double const pressure = std::max({mean_pressure(committed.stress), loose_pressure, 1e-9});
     // n time steps of dt make the strain rate largest / (n dt).
-    double const time_step = time_step_share * committed.packing.pairs.critical_step;
-    double const slowness = 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
-    double const steps = std::max(largest / strain_per_step, largest * slowness / (time_step * inertial_number));
+    double const steps =
+        std::max(largest / strain_per_step, largest * slowness(committed) / (time_step(committed) * inertial_number));
     return static_cast<int>(
         std::clamp(std::ceil(steps), static_cast<double>(least_steps), static_cast<double>(most_steps)));
+  }
+
+  /// Inertial number of a response in so many DEM steps.
+  double inertial_number_of(State const& committed, Gradient<dim> const& increment, Plan steps) const {
+    double const largest = ((increment + increment.transpose()) / 2.0).cwiseAbs().maxCoeff();
+    return largest * slowness(committed) / (time_step(committed) * steps);
   }
 
   /// Twice the steps, hence half the rate.
@@ -142,6 +145,18 @@ struct DemRve {
 
   using Stepper = TimeStepper<PackingType, Damping>;
 
+  double time_step(State const& state) const { return time_step_share * state.packing.pairs.critical_step; }
+
+  /// \f$ d \sqrt{\rho/p} \f$ [s]: the time in which the pressure moves a grain by its size.
+  double slowness(State const& state) const {
+    auto const& population = *state.packing.population;
+    double const pressure = std::max({mean_pressure(state.stress), loose_pressure, least_pressure(state.packing)});
+    return 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
+  }
+
+  /// What passes for no pressure [Pa]: 1e-9 for the study's sand, and in any other units.
+  double least_pressure(PackingType const& packing) const { return 3e-17 * spring_modulus(packing, law); }
+
   static double mean_pressure(VoigtStress<dim> const& stress) { return -stress.template head<dim>().sum() / dim; }
 
   Stepper make_stepper() const {
@@ -157,7 +172,8 @@ struct DemRve {
     if (!seen.stress.allFinite()) return {Status::failed, Reason::not_finite};
     state.stress = to_voigt_stress<dim>(seen.stress);
     state.unbalanced_ratio = seen.unbalanced_ratio;
-    state.kinetic_share = kinetic_stress(state.packing).trace() / std::min(seen.stress.trace(), -1e-9 * dim);
+    state.kinetic_share =
+        kinetic_stress(state.packing).trace() / std::min(seen.stress.trace(), -least_pressure(state.packing) * dim);
     if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
     if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
     double const pressure = mean_pressure(state.stress);

@@ -76,6 +76,16 @@ class ProviderField {
   int point_count() const { return static_cast<int>(committed_.size()); }
   State const& committed(int point) const { return committed_[number(point)]; }
   State const& trial(int point) const { return trial_[number(point)]; }
+  /// The state that the last commit replaced, until the point is asked again.
+  State const& replaced(int point) const { return trial_[number(point)]; }
+  /// Work that is fixed for the present load step.
+  PlanOf<Provider> const& planned(int point) const { return plans_[number(point)]; }
+
+  /// visit(field, local point), as fields that are composed of several do.
+  template <class Visit>
+  void visit(int point, Visit&& visit) const {
+    visit(*this, point);
+  }
 
   /// Fixes the work of a point for the load step that begins; nothing to do for providers without plan.
   void plan(int point, Gradient<dim> const& predicted) {

@@ -52,8 +52,8 @@ class MohrCoulombReturn {
 
   /// trial: ordered, largest (most tensile) first [Pa]
   PrincipalReturn operator()(Vector<3> const& trial) const {
-    double size = trial.cwiseAbs().maxCoeff();
-    for (int k = 0; k < count_; ++k) size = std::max(size, std::abs(plane(k).limit));
+    // A cut-off beyond the trial stress does not count: c cot(phi) of hardly any friction would make the slack as large as c.
+    double const size = std::max(trial.cwiseAbs().maxCoeff(), plane(0).limit);
     double const slack = 1e-12 * size;
     if (admissible(trial, 0.0)) return {trial, Vector<3>::Zero(), stiffness_, 0, true};
     for (int a = 0; a < count_; ++a) {

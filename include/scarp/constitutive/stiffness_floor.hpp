@@ -20,6 +20,15 @@ struct StiffnessFloor {
     IsotropicElasticity elasticity;
     VoigtStress<dim> floor_stress = VoigtStress<dim>::Zero();  ///< [Pa]
     bool fluid = false;
+
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("own", self.own);
+      visit("lame_lambda", self.elasticity.lame_lambda);
+      visit("shear_modulus", self.elasticity.shear_modulus);
+      visit("floor_stress", self.floor_stress);
+      visit("fluid", self.fluid);
+    }
   };
 
   Provider provider{};
@@ -87,41 +96,5 @@ struct StiffnessFloor {
 };
 
 static_assert(ConstitutiveProvider<StiffnessFloor<LinearElastic<2>>>);
-
-namespace detail {
-
-/// visit(stress of the floor) where a state, or one that it keeps, has one.
-template <class State, class Visit>
-void visit_floor(State const& state, Visit&& visit) {
-  if constexpr (requires { state.floor_stress; }) {
-    visit(state.floor_stress);
-  } else if constexpr (requires { state.own; }) {
-    visit_floor(state.own, visit);
-  }
-}
-
-}  // namespace detail
-
-/// Share of the stiffness floors in all stress of a problem's committed state:
-/// \f$ \sum v |\sigma_{floor}| / \sum v |\sigma| \f$, 0 where no point is fluid.
-template <class Problem>
-double floor_share(Problem const& problem) {
-  auto const& grid = problem.discretisation();
-  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
-  double floors = 0.0;
-  double all = 0.0;
-  for (int point = 0; point < grid.point_count(); ++point) {
-    double const volume = volumes[static_cast<std::size_t>(point)];
-    all += volume * problem.materials().committed_stress(point).norm();
-    auto const add = [&](auto const& stress) { floors += volume * stress.norm(); };
-    if constexpr (requires { problem.materials().committed(point); }) {
-      detail::visit_floor(problem.materials().committed(point), add);
-    } else {
-      problem.materials().visit(
-          point, [&](auto const& field, int local) { detail::visit_floor(field.committed(local), add); });
-    }
-  }
-  return floors > 0.0 ? floors / all : 0.0;
-}
 
 }  // namespace scarp

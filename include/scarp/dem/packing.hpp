@@ -30,7 +30,7 @@ struct NearPairs {
   std::vector<Shift> ghost_shift;
   double drift = 0.0;          ///< bound on how far gaps have shrunk since the list was made [m]
   double skin = -1.0;          ///< gap up to which pairs are listed [m]; negative before the first list
-  double critical_step = 0.0;  ///< largest stable time step [s] when the list was made
+  double critical_step = 0.0;  ///< lower bound of the largest stable time step [s] while the list lasts
 
   std::size_t count() const { return first.size(); }
 

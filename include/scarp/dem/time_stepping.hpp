@@ -41,12 +41,15 @@ class TimeStepper {
   /// rebuilt more often.
   double skin_ratio = 0.1;
 
-  /// Share of the packing's critical step that is used as the time step. The critical step is a lower bound, 1.4 to 1.6
-  /// times below the limit where packings of ellipses were seen to blow up.
-  double time_step_share = 1.0;
+  double time_step_share = usual_time_step_share;  ///< of the lower bound of the critical step
 
   /// Makes the pair list where there is none or it has become too old, and the critical step with it.
+  /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary ones
   Verdict refresh(PackingType& packing, Law const& law) const {
+    if constexpr (Frictional<Law>) {
+      double const friction = Law(law).friction_coefficient();
+      if (!(std::isfinite(friction) && friction >= 0.0)) return {Status::failed, Reason::not_finite};
+    }
     if (packing.pairs.drift <= packing.pairs.skin) return {};  // false also when the drift is no number
     Verdict const verdict = rebuild_pairs(packing, skin_ratio * packing.population->largest_radius(), reach_of(law));
     if (verdict.acceptable()) packing.pairs.critical_step = critical_step(packing, law);

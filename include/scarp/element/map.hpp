@@ -29,7 +29,7 @@ Corners<Cell, Space> corners(std::array<int, Cell::nodes> const& numbers, std::v
 /// \f$ J_{ij} = \partial x_i / \partial \xi_j \f$ [m], shape (Space, Cell::dim).
 template <class Cell, int Space>
 Eigen::Matrix<double, Space, Cell::dim> jacobian(Corners<Cell, Space> const& corners, Vector<Cell::dim> const& xi) {
-  return corners.transpose() * Cell::shape_gradients(xi);
+  return corners.transpose().lazyProduct(Cell::shape_gradients(xi));
 }
 
 /// Volume, area or length per unit of the reference cell. A cell that fills its space keeps the sign (negative: turned
@@ -57,8 +57,8 @@ template <ReferenceElement Element>
 SpatialShape<Element> spatial_shape(Corners<Element, Element::dim> const& corners,
                                     QuadraturePoint<Element::dim> const& point) {
   ShapeGradients<Element> const local = Element::shape_gradients(point.xi);
-  Tensor<Element::dim> const map = corners.transpose() * local;
-  return {local * map.inverse(), point.weight * map.determinant()};
+  Tensor<Element::dim> const map = corners.transpose().lazyProduct(local);
+  return {local.lazyProduct(map.inverse()), point.weight * map.determinant()};
 }
 
 }  // namespace scarp

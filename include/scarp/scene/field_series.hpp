@@ -26,7 +26,7 @@ Tensor<DiscretisationType::dim> total_deformation(DiscretisationType const& disc
   auto const& nodes = discretisation.mesh().elements[static_cast<std::size_t>(point / per_element)];
   auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, discretisation.mesh().nodes),
                                             DiscretisationType::local_point(point));
-  return corners<Element, dim>(nodes, discretisation.positions()).transpose() * shape.gradients;
+  return corners<Element, dim>(nodes, discretisation.positions()).transpose().lazyProduct(shape.gradients);
 }
 
 /// Writes the fields of a plane scene as a VTU series: displacement at the nodes; at the elements (their first point) Cauchy

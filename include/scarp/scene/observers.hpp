@@ -36,6 +36,25 @@ struct Observers {
   }
 };
 
+/// An observer that lives elsewhere, for a program that asks it when the run has ended.
+template <class Observer>
+struct Borrowed {
+  Observer* observer;
+
+  explicit Borrowed(Observer& lent) : observer(&lent) {}
+
+  template <class Problem>
+  void attempted(Problem const& problem, StepReport const& report) {
+    observer->attempted(problem, report);
+  }
+  bool wants_stop() const { return observer->wants_stop(); }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) requires Described<Observer> {
+    Observer::members(*self.observer, visit);
+  }
+};
+
 /// Observer behaviour of one that never stops a run.
 struct NeverStops {
   static bool wants_stop() { return false; }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/constitutive/innermost.hpp"
 #include "scarp/homogenise/coordination.hpp"
 #include "scarp/homogenise/fabric.hpp"
 
@@ -22,10 +23,16 @@ struct NoQuantities {
   }
 };
 
-/// Void ratio, fabrics, coordination and balance of points that carry a packing; nothing of others.
+/// Void ratio, fabrics, coordination and balance of points that carry a packing, also within adaptors; nothing of others.
 struct RveQuantities {
   template <class Provider>
   Quantities operator()(Provider const& provider, typename Provider::State const& state) const {
+    return visit_innermost(provider, state, [](auto const& inner, auto const& own) { return of(inner, own); });
+  }
+
+ private:
+  template <class Provider>
+  static Quantities of(Provider const& provider, typename Provider::State const& state) {
     if constexpr (requires { state.packing.void_ratio(); }) {
       Quantities quantities{
           {"void_ratio", state.packing.void_ratio()},

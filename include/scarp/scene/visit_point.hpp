@@ -13,7 +13,7 @@ namespace scarp {
 template <class Problem, class Visit>
 void visit_point(Problem const& problem, int point, Visit const& visit) {
   using Executor = std::remove_cvref_t<decltype(problem.executor())>;
-  problem.materials().visit(point, [&](auto const& field, int local) {
+  auto const see = [&](auto const& field, int local) {
     if constexpr (SharesPoints<Executor>) {
       if (!problem.executor().owns(point)) {
         visit(field.provider(), state_elsewhere(problem.executor(), field, point));
@@ -21,7 +21,12 @@ void visit_point(Problem const& problem, int point, Visit const& visit) {
       }
     }
     visit(field.provider(), field.committed(local));
-  });
+  };
+  if constexpr (requires { problem.materials().committed(point); }) {
+    see(problem.materials(), point);
+  } else {
+    problem.materials().visit(point, see);
+  }
 }
 
 /// Cauchy stress [Pa] of a point's committed state.

@@ -50,7 +50,8 @@ struct DynamicRelaxation {
 
     /// Moves from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
     void correct(Eigen::VectorXd& increment, StepReport& report) {
-      if (report.verdict = problem_.plan(increment); !report.verdict.acceptable()) return;
+      report.verdict = problem_.plan(increment, &report.worst_point);
+      if (!report.verdict.acceptable()) return;
       report.largest_gradient = problem_.largest_gradient();
       Eigen::VectorXd velocity = Eigen::VectorXd::Zero(mass_.size());
       double energy = 0.0;

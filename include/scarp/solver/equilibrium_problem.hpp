@@ -79,9 +79,14 @@ class EquilibriumProblem {
   }
 
   /// Fixes every point's work for the load step from a predicted increment; the points' gradients are kept.
-  Verdict plan(Eigen::VectorXd const& increment) {
+  /// \param worst_point where given, a point of the element that the increment turns inside out, -1 for none
+  Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) {
+    if (worst_point) *worst_point = -1;
     if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
-    if (look(increment)) return {Status::failed, Reason::element_inverted};
+    if (auto const inverted = look(increment)) {
+      if (worst_point) *worst_point = *inverted * DiscretisationType::points_per_element;
+      return {Status::failed, Reason::element_inverted};
+    }
     points_.plan();
     return {};
   }

@@ -19,7 +19,7 @@ namespace scarp {
 /// Newton-type iteration for one load step. The path says from which states the points answer an iterate (their committed
 /// ones), the tangent rule what their tangents become on the way, the mixing what the correction becomes.
 template <TangentRule<2> Rule = PointSecant, MixingRule Mixing = PlainStep, LinearSolver Linear = SparseLu,
-          class Path = FromCommitted>
+          ResponsePath Path = FromCommitted>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 30;
@@ -55,7 +55,8 @@ struct QuasiNewton {
 
     /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
     void correct(Eigen::VectorXd& increment, StepReport& report) {
-      if (report.verdict = problem_.plan(increment); !report.verdict.acceptable()) return;
+      report.verdict = problem_.plan(increment, &report.worst_point);
+      if (!report.verdict.acceptable()) return;
       report.largest_gradient = problem_.largest_gradient();
       mark_ = Clock::now();
       mixing_.forget();

@@ -1,9 +1,31 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <concepts>
+
 #include "scarp/solver/evaluation.hpp"
 
 namespace scarp {
+
+namespace detail {
+
+/// A problem as a path sees it, for the concept alone.
+struct AnsweringProblem {
+  Evaluation evaluate(Eigen::VectorXd const& increment);
+  Evaluation refine(Eigen::VectorXd const& increment);
+  Evaluation advance(Eigen::VectorXd const& increment);
+  Evaluation rest(Eigen::VectorXd const& increment);
+};
+
+}  // namespace detail
+
+/// From which state points answer an iterate: evaluate(problem, increment, first iterate of the step), and refine(problem,
+/// increment) after those that are not balanced have got more work.
+template <class Path>
+concept ResponsePath = requires(detail::AnsweringProblem& problem, Eigen::VectorXd const& increment, bool first) {
+  { Path::evaluate(problem, increment, first) } -> std::same_as<Evaluation>;
+  { Path::refine(problem, increment) } -> std::same_as<Evaluation>;
+};
 
 /// Every iteration takes the points along the straight path from their committed states to the iterate: the answer is a function of
 /// the iterate alone.
@@ -31,5 +53,7 @@ struct AlongIterates {
     return problem.rest(increment);
   }
 };
+
+static_assert(ResponsePath<FromCommitted> && ResponsePath<AlongIterates>);
 
 }  // namespace scarp

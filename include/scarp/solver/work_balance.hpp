@@ -20,6 +20,8 @@ class WorkBalance {
   static_assert(Problem::is_bare, "the work of what is attached to the mesh is not counted");
   static constexpr int dim = Problem::dim;
 
+  /// From the first accepted step on.
+  WorkBalance() = default;
   /// From the problem's committed state, which belongs to the load factor.
   WorkBalance(Problem const& problem, double load) : now_(problem, load) {}
 
@@ -34,11 +36,48 @@ class WorkBalance {
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;
     Snapshot next(problem, report.load);
+    if (!now_.positions.empty()) add(problem, next);
+    now_ = std::move(next);
+  }
+  static bool wants_stop() { return false; }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("positions", self.now_.positions);
+    visit("stresses", self.now_.stresses);
+    visit("volumes", self.now_.volumes);
+    visit("forces", self.now_.forces);
+    visit("external", self.external_);
+    visit("internal", self.internal_);
+    visit("turned_over", self.turned_over_);
+  }
+
+ private:
+  struct Snapshot {
+    std::vector<Vector<dim>> positions;
+    std::vector<VoigtStress<dim>> stresses;
+    std::vector<double> volumes;
+    std::vector<Vector<dim>>
+        forces;  ///< external: loads at free degrees of freedom, with the reactions at prescribed ones
+
+    Snapshot() = default;
+    Snapshot(Problem const& problem, double load)
+        : positions(problem.discretisation().positions()), stresses(problem.committed_stresses()) {
+      Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
+      volumes = problem.discretisation().volumes(still);
+      Eigen::VectorXd all = problem.loads().at(load);
+      Eigen::VectorXd internal;
+      problem.discretisation().internal_force(still, stresses, internal);
+      for (int const dof : problem.constraints().prescribed_dofs()) all(dof) = internal(dof);
+      for (Eigen::Index row = 0; row < all.size(); row += dim) forces.push_back(all.template segment<dim>(row));
+    }
+  };
+
+  void add(Problem const& problem, Snapshot const& next) {
     double work = 0.0;
     for (std::size_t node = 0; node < next.positions.size(); ++node) {
       Vector<dim> const moved = next.positions[node] - now_.positions[node];
-      auto const row = dim * static_cast<Eigen::Index>(node);
-      work += moved.dot(now_.forces.template segment<dim>(row) + next.forces.template segment<dim>(row)) / 2.0;
+      work += moved.dot(now_.forces[node] + next.forces[node]) / 2.0;
     }
     external_ += work;
     turned_over_ += std::abs(work);
@@ -46,27 +85,7 @@ class WorkBalance {
       VoigtStress<dim> const stress = (now_.volumes[k] * now_.stresses[k] + next.volumes[k] * next.stresses[k]) / 2.0;
       internal_ += stress.dot(to_engineering_strain<dim, double>(from_middle(problem.gradients()[k])));
     }
-    now_ = std::move(next);
   }
-  static bool wants_stop() { return false; }
-
- private:
-  struct Snapshot {
-    std::vector<Vector<dim>> positions;
-    std::vector<VoigtStress<dim>> stresses;
-    std::vector<double> volumes;
-    Eigen::VectorXd forces;  ///< external: loads at free degrees of freedom, with the reactions at prescribed ones
-
-    Snapshot(Problem const& problem, double load)
-        : positions(problem.discretisation().positions()), stresses(problem.committed_stresses()) {
-      Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
-      volumes = problem.discretisation().volumes(still);
-      forces = problem.loads().at(load);
-      Eigen::VectorXd internal;
-      problem.discretisation().internal_force(still, stresses, internal);
-      for (int const dof : problem.constraints().prescribed_dofs()) forces(dof) = internal(dof);
-    }
-  };
 
   /// An increment's gradient with respect to the middle of its motion: the strain that a mean stress works on.
   static Gradient<dim> from_middle(Gradient<dim> const& gradient) {

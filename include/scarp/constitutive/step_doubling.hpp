@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+
+namespace scarp {
+
+/// Displacement gradient H of half an increment at constant velocity gradient, \f$ (I + H)^2 = I + G \f$; for increments below
+/// one half, to round-off.
+template <int Dim>
+Gradient<Dim> half_increment(Gradient<Dim> const& gradient) {
+  Gradient<Dim> half = gradient / 2.0;
+  for (int k = 0; k < 60; ++k) half = ((gradient - half * half) / 2.0).eval();
+  return half;
+}
+
+/// An answer that was found with twice the work, and that work in a provider's own steps (one for each response of a
+/// provider that counts none).
+template <int Dim>
+struct DoubledAnswer {
+  Response<Dim> response;
+  long work = 0;
+};
+
+/// Answers an increment again by twice the work: with the refined plan where that is more work, else in two halves.
+/// trial: overwritten with the state that belongs to the answer
+template <ConstitutiveProvider Provider>
+DoubledAnswer<Provider::dim> answer_with_double_work(Provider const& provider, typename Provider::State const& from,
+                                                     Gradient<Provider::dim> const& increment,
+                                                     PlanOf<Provider> const& plan, typename Provider::State& trial) {
+  auto const in_halves = [&](auto const&... work) {
+    Gradient<Provider::dim> const half = half_increment<Provider::dim>(increment);
+    typename Provider::State middle = from;
+    if (auto const first = provider.respond(from, half, middle, work...); first.verdict.status == Status::failed)
+      return first;
+    return provider.respond(middle, half, trial, work...);
+  };
+  if constexpr (PlansWork<Provider>) {
+    auto const refined = provider.refined(plan);
+    if (static_cast<long>(refined) > static_cast<long>(plan))
+      return {provider.respond(from, increment, trial, refined), static_cast<long>(refined)};
+    return {in_halves(plan), 2 * static_cast<long>(plan)};
+  } else {
+    return {in_halves(), 2};
+  }
+}
+
+/// Difference of two stresses over the size of the one that counts, Frobenius norms; stresses below that of a loose pressure
+/// [Pa] count as large as it. Infinite for an answer that failed.
+template <int Dim>
+double stress_difference(VoigtStress<Dim> const& stress, Response<Dim> const& other, double loose_pressure) {
+  Tensor<Dim> const first = from_voigt_stress<Dim, double>(stress);
+  double const apart = (from_voigt_stress<Dim, double>(other.stress) - first).norm();
+  if (other.verdict.status == Status::failed || !std::isfinite(apart)) return std::numeric_limits<double>::infinity();
+  return apart == 0.0 ? 0.0 : apart / std::max(first.norm(), loose_pressure * std::sqrt(static_cast<double>(Dim)));
+}
+
+}  // namespace scarp

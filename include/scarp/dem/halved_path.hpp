@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "scarp/dem/time_stepping.hpp"
+
+namespace scarp {
+
+/// A stretch of a packing's path, to be gone once more in steps of half the strain, hence at half the rate: what the mean stress
+/// over it then changes by estimates the error of the steps.
+template <class PackingType, class Damping = LocalDamping>
+class HalvedPath {
+ public:
+  static constexpr int dim = PackingType::dim;
+
+  /// From a copy of the packing as it is.
+  explicit HalvedPath(PackingType packing) : packing_(std::move(packing)) {}
+
+  /// A step that was made, with the stress [Pa] before it.
+  void add(Tensor<dim> const& strain_step, Tensor<dim> const& stress) {
+    steps_.push_back(strain_step);
+    sum_ += stress;
+  }
+
+  /// Relative difference of the mean stresses, Frobenius norms; infinite where the second path fails. Consumes the packing.
+  double difference(typename PackingType::Law const& law, TimeStepper<PackingType, Damping> stepper = {}) {
+    Tensor<dim> other = Tensor<dim>::Zero();
+    StepObservation<dim> seen;
+    for (auto const& whole : steps_) {
+      Tensor<dim> const half = whole / 2.0;
+      Verdict verdict = stepper.template step<Observe::balance>(packing_, law, half, &seen);
+      if (verdict.acceptable()) verdict = stepper.step(packing_, law, half);
+      if (!verdict.acceptable()) return std::numeric_limits<double>::infinity();
+      other += seen.stress;
+    }
+    double const apart = (other - sum_).norm();
+    return apart == 0.0 ? 0.0 : apart / sum_.norm();
+  }
+
+ private:
+  PackingType packing_;
+  std::vector<Tensor<dim>> steps_;
+  Tensor<dim> sum_ = Tensor<dim>::Zero();
+};
+
+}  // namespace scarp
