@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSL-1.0
+// Elements that lock or not, slivers, and elements that turn inside out.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "../../examples/cook_membrane/membrane.hpp"
+#include "scarp/bvp/mean_dilatation.hpp"
+#include "scarp/element/quad4.hpp"
+#include "scarp/element/quad8.hpp"
+#include "scarp/element/tri3.hpp"
+#include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/solver/conditioning.hpp"
+#include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/sparse_lu.hpp"
+#include "stability/groups.hpp"
+#include "stability/measures.hpp"
+
+namespace stability {
+
+namespace {
+
+using scarp::Vector;
+using Soil = scarp::LinearElastic<2>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Deflection of Cook's panel with one element over that with reduced Quad8, which does not lock, on as many cells.
+template <class Element, class Scheme>
+Outcome cook(double poisson, bool should_lock, Size size) {
+  int const cells = size == Size::quick ? 8 : 32;
+  cook_membrane::Panel const panel{.poisson = poisson};
+  double const reference = cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(2 * cells, panel).deflection;
+  double const share = cook_membrane::solve<Element, Scheme>(cells, panel).deflection / reference;
+  bool const locks = share < 0.7;
+  return {std::isfinite(share) && locks == should_lock && share < 1.05, share, "deflection over the reference",
+          locks ? "locks" : "does not lock"};
+}
+
+/// Puts the middle node of every crossed cell where its diagonals meet.
+void straighten_diagonals(scarp::Mesh<scarp::Tri3>& mesh) {
+  for (std::size_t first = 0; first < mesh.elements.size(); first += 4) {
+    std::map<int, int> uses;
+    for (std::size_t k = first; k < first + 4; ++k) {
+      for (int const node : mesh.elements[k]) ++uses[node];
+    }
+    int middle = -1;
+    for (auto const& [node, times] : uses) middle = times == 4 ? node : middle;
+    // Opposite corners never share a triangle; a corner and a neighbour always do.
+    std::vector<int> corners;
+    for (auto const& [node, times] : uses) {
+      if (times == 2) corners.push_back(node);
+    }
+    int opposite = 1;
+    for (int candidate = 1; candidate < 4; ++candidate) {
+      bool together = false;
+      for (std::size_t k = first; k < first + 4; ++k) {
+        auto const& nodes = mesh.elements[k];
+        together |= std::count(nodes.begin(), nodes.end(), corners[0]) &&
+                    std::count(nodes.begin(), nodes.end(), corners[static_cast<std::size_t>(candidate)]);
+      }
+      if (!together) opposite = candidate;
+    }
+    auto const place = [&](int k) -> Vector<2> {
+      return mesh.nodes[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])];
+    };
+    int const left = opposite == 1 ? 2 : 1;
+    int const right = opposite == 3 ? 2 : 3;
+    Vector<2> const along = place(opposite) - place(0);
+    Vector<2> const across = place(right) - place(left);
+    auto const cross = [](Vector<2> const& a, Vector<2> const& b) { return a.x() * b.y() - a.y() * b.x(); };
+    mesh.nodes[static_cast<std::size_t>(middle)] =
+        place(0) + cross(place(left) - place(0), across) / cross(along, across) * along;
+  }
+}
+
+/// The same with crossed triangles, and how far the pressures of a cell's four differ. In the fault scene's rectangles
+/// the diagonals are straight; a mapped mesh bends them.
+Outcome crossed(double poisson, bool straight, bool should_lock, Size size) {
+  // Bent diagonals straighten as the cells of a smooth map get smaller.
+  int const cells = size == Size::quick || !straight ? 8 : 32;
+  auto mesh = scarp::RectangleMesh{.columns = cells, .rows = cells}.generate();
+  int corner = 0;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    if (mesh.nodes[n] == Vector<2>(1.0, 1.0)) corner = static_cast<int>(n);
+    mesh.nodes[n] = cook_membrane::taper(mesh.nodes[n]);
+  }
+  if (straight) straighten_diagonals(mesh);
+  cook_membrane::Panel const panel{.poisson = poisson};
+  auto const solid = Soil::from_young_poisson(panel.young, poisson);
+  scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> const grid(mesh);
+  scarp::Constraints constraints(mesh);
+  for (int const node : boundary_nodes(mesh, "left")) constraints.fix(node);
+  Eigen::VectorXd const moved =
+      examples::elastic_solve(grid, solid, constraints, Eigen::VectorXd::Zero(grid.dof_count()),
+                              traction(grid, "right", Vector<2>(0.0, panel.force / 16.0)));
+  std::vector<scarp::Gradient<2>> gradients(static_cast<std::size_t>(grid.point_count()));
+  grid.gradients(moved, gradients);
+  // Four triangles of a cell follow each other: what alternates among them is the checkerboard.
+  double alternating = 0.0;
+  double all = 0.0;
+  double const lambda = solid.elasticity.lame_lambda;
+  for (std::size_t k = 0; k + 3 < gradients.size(); k += 4) {
+    double mean = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) mean += lambda * gradients[k + i].trace() / 4.0;
+    for (std::size_t i = 0; i < 4; ++i) alternating += std::pow(lambda * gradients[k + i].trace() - mean, 2) / 4.0;
+    all += mean * mean;
+  }
+  double const reference = cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(2 * cells, panel).deflection;
+  double const share = moved(2 * corner + 1) / reference;
+  bool const locks = share < 0.7;
+  return {std::isfinite(share) && locks == should_lock && share < 1.05, share, "deflection over the reference",
+          fmt::format("{}; pressure within the cells: {:.2g} of their means (root mean squares)",
+                      locks ? "locks" : "does not lock", std::sqrt(alternating / all))};
+}
+
+/// Interior nodes of a patch whose outline moves affinely, solved for on elements as bad as they get.
+template <class Element>
+Outcome patch(scarp::Mesh<Element> mesh) {
+  scarp::Discretisation<Element, scarp::SmallStrain> const grid(mesh);
+  auto const solid = Soil::from_young_poisson(25e6, 0.25);
+  scarp::Constraints constraints(mesh);
+  Eigen::VectorXd exact(grid.dof_count());
+  for (int n = 0; n < grid.node_count(); ++n) {
+    auto const& place = mesh.nodes[static_cast<std::size_t>(n)];
+    exact.segment<2>(2 * n) = 1e-3 * Vector<2>(place.x() + 0.3 * place.y(), 0.2 * place.x() - 0.5 * place.y());
+  }
+  for (auto const* side : {"left", "right", "bottom", "top"}) {
+    for (int const node : boundary_nodes(mesh, side)) {
+      if (!constraints.is_prescribed(2 * node)) constraints.fix(node);
+    }
+  }
+  std::vector<scarp::VoigtStress<2>> const unstressed(static_cast<std::size_t>(grid.point_count()),
+                                                      scarp::VoigtStress<2>::Zero());
+  std::vector<scarp::VoigtTangent<2>> const tangents(unstressed.size(), solid.tangent({}));
+  Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(grid.dof_count());
+  Eigen::SparseMatrix<double> const stiffness = grid.stiffness(nothing, unstressed, tangents);
+  scarp::FreeSystem const free(constraints);
+  auto const matrix = free.matrix(stiffness);
+  scarp::SparseLu solver;
+  if (!solver.factorize(matrix).acceptable()) return {false, infinity, "no factorisation", ""};
+  Eigen::VectorXd held = exact;
+  free.scatter(Eigen::VectorXd::Zero(constraints.free_count()), held);
+  Eigen::VectorXd found = held;
+  free.scatter(solver.solve(free.gather(-(stiffness * held))), found);
+  double const condition = scarp::condition_estimate(matrix, solver);
+  double const error = (found - exact).norm() / exact.norm();
+  return at_most(1e-15 * condition + 1e-14, error, "error of the displacement, up to 1e-15 of the condition",
+                 fmt::format("condition {:.1e}", condition));
+}
+
+/// Sides at an angle to the base, so that all elements are slanted.
+template <class Element>
+scarp::Mesh<Element> slanted(double degrees, double aspect) {
+  double const slope = 1.0 / std::tan(degrees * std::numbers::pi / 180.0);
+  return scarp::BoxMesh<Element>{
+      .cells = {4, 4},
+      .map = [=](Vector<2> const& box) { return Vector<2>(aspect * box.x() + slope * box.y(), box.y()); }}
+      .generate();
+}
+
+/// A block of crossed triangles that is pressed to nothing and beyond.
+struct Pressed {
+  using Grid = scarp::Discretisation<scarp::Tri3>;
+  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor>;
+
+  static Problem make(scarp::SerialExecutor& executor) {
+    Grid grid(scarp::RectangleMesh{.columns = 2, .rows = 2}.generate());
+    scarp::Constraints constraints(grid.mesh());
+    for (int const node : boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node);
+    for (int const node : boundary_nodes(grid.mesh(), "top")) {
+      constraints.fix(node, 0);
+      constraints.move(node, 1, -1.0);
+    }
+    std::vector<scarp::Site<2>> sites;
+    for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+    Eigen::VectorXd const loads = Eigen::VectorXd::Zero(grid.dof_count());
+    return {std::move(grid), {Soil::from_young_poisson(25e6, 0.3), sites}, std::move(constraints), loads, executor};
+  }
+};
+
+/// Keeps why attempts were refused.
+struct Refusals {
+  int attempts = 0;
+  int inverted = 0;
+  int named = 0;  ///< with the point of the element
+
+  template <class Problem>
+  void attempted(Problem const& problem, scarp::StepReport const& report) {
+    ++attempts;
+    if (report.verdict.reason != scarp::Reason::element_inverted) return;
+    ++inverted;
+    named += report.worst_point >= 0 && report.worst_point < problem.materials().point_count() ? 1 : 0;
+  }
+  bool wants_stop() const { return attempts > 2000; }
+};
+
+/// Pressed by 120 % of its height, at once or by steps: ends before it is flat, with the reason and a whole block.
+Outcome pressed_flat(double first) {
+  scarp::SerialExecutor executor;
+  auto problem = Pressed::make(executor);
+  scarp::LoadStepping const stepping{.first = first, .smallest = 1e-4, .largest_gradient = 10.0};
+  Refusals refusals;
+  auto const run = stepping.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 1.2, refusals);
+  double smallest = infinity;
+  auto const volumes = problem.discretisation().volumes(Eigen::VectorXd::Zero(problem.dof_count()));
+  for (double const volume : volumes) smallest = std::min(smallest, volume);
+  double height = 0.0;
+  for (auto const& place : problem.discretisation().positions()) height = std::max(height, place.y());
+  Worst worst;
+  worst.see(height - (1.0 - run.load));
+  bool const named = run.verdict == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::step_too_small} &&
+                     refusals.inverted > 0 && run.load < 1.0 && smallest > 0.0 && refusals.named == refusals.inverted &&
+                     refusals.attempts <= 2000;
+  return {named && worst.value < 1e-12, worst.value, "height of the committed block less what the load says",
+          fmt::format("{} ({}) at {:.4f}, element {}, {} attempts, {} inverted of which {} name the element",
+                      name(run.verdict.reason), name(run.last_failure), run.load, run.worst_point, refusals.attempts,
+                      refusals.inverted, refusals.named)};
+}
+
+Outcome impossible_meshes() {
+  int missed = 0;
+  auto const wants = [&](char const* words, auto const& change) {
+    auto mesh = scarp::RectangleMesh{.columns = 2, .rows = 2}.generate();
+    change(mesh);
+    missed += refuses([&] { scarp::Discretisation<scarp::Tri3> const grid(mesh); }, words) ? 0 : 1;
+  };
+  wants("it is empty", [](auto& mesh) { mesh = {}; });
+  wants("it is empty", [](auto& mesh) { mesh.elements.clear(); });
+  wants("the wrong way round", [](auto& mesh) { std::swap(mesh.elements[3][0], mesh.elements[3][1]); });
+  wants("flat", [](auto& mesh) { mesh.elements[0][1] = mesh.elements[0][0]; });
+  wants("flat", [](auto& mesh) {
+    for (auto& node : mesh.nodes) node.y() *= 1e-11;
+  });
+  wants("not a finite position", [](auto& mesh) { mesh.nodes[2].x() = std::nan(""); });
+  wants("not a finite position", [](auto& mesh) { mesh.nodes[2].x() = infinity; });
+  wants("check the numbering", [](auto& mesh) { mesh.elements[1][2] = 1000; });
+  wants("belongs to no element", [](auto& mesh) { mesh.nodes.emplace_back(5.0, 5.0); });
+  wants("region number", [](auto& mesh) { mesh.element_region[0] = 7; });
+  wants("no element has this side", [](auto& mesh) {
+    mesh.boundaries["top"][0] = {0, 1};
+    mesh.boundaries["top"][0][1] = 8;
+  });
+  missed += refuses([] { static_cast<void>(boundary(scarp::RectangleMesh{}.generate(), "roof")); }, "roof") ? 0 : 1;
+  missed +=
+      refuses([] { static_cast<void>(region_number(scarp::RectangleMesh{}.generate(), "rock")); }, "rock") ? 0 : 1;
+  return at_most(0.0, missed, "wrong meshes that were taken");
+}
+
+}  // namespace
+
+Cases mesh_cases() {
+  Cases cases;
+  auto const add = [&](std::string name, std::string expected, auto run) {
+    cases.push_back({"meshes and elements", std::move(name), std::move(expected), std::move(run)});
+  };
+  using scarp::FullIntegration;
+  for (double const poisson : {0.49, 0.499, 0.4999, 0.49999, 0.499999}) {
+    bool const nearly = poisson > 0.4995;
+    if (nearly) {
+      add(fmt::format("Cook's panel, Quad4, nu = {}", poisson), "locks",
+          [=](Size size) { return cook<scarp::Quad4, FullIntegration>(poisson, true, size); });
+      add(fmt::format("Cook's panel, Tri3, nu = {}", poisson), "locks",
+          [=](Size size) { return cook<scarp::Tri3, FullIntegration>(poisson, true, size); });
+    }
+    add(fmt::format("Cook's panel, Quad4 B-bar, nu = {}", poisson), "does not lock",
+        [=](Size size) { return cook<scarp::Quad4, scarp::BBar>(poisson, false, size); });
+    add(fmt::format("Cook's panel, crossed Tri3, nu = {}", poisson), "does not lock",
+        [=](Size size) { return crossed(poisson, true, false, size); });
+    if (poisson > 0.49995) {
+      add(fmt::format("Cook's panel, 8 x 8 cells of crossed Tri3 with bent diagonals, nu = {}", poisson), "locks",
+          [=](Size size) { return crossed(poisson, false, true, size); });
+    }
+  }
+  for (double const degrees : {5.0, 1.0}) {
+    add(fmt::format("patch of Tri3 with angles of {:g} degrees", degrees), "exact to round-off",
+        [=](Size) { return patch(slanted<scarp::Tri3>(degrees, 1.0)); });
+    add(fmt::format("patch of Quad4 with angles of {:g} degrees", degrees), "exact to round-off",
+        [=](Size) { return patch(slanted<scarp::Quad4>(degrees, 1.0)); });
+  }
+  add("patch of Tri3, aspect 100", "exact to round-off", [](Size) { return patch(slanted<scarp::Tri3>(90.0, 100.0)); });
+  add("patch of Quad4, aspect 100", "exact to round-off",
+      [](Size) { return patch(slanted<scarp::Quad4>(90.0, 100.0)); });
+  add("patch of Tri3, aspect 1e6", "exact to round-off", [](Size) { return patch(slanted<scarp::Tri3>(90.0, 1e6)); });
+  std::string const stops = "step_too_small, the element named, the last state whole";
+  add("pressed flat and beyond, first step 1.2", stops, [](Size) { return pressed_flat(1.2); });
+  add("pressed flat and beyond, first step 0.1", stops, [](Size) { return pressed_flat(0.1); });
+  add("empty, inverted, flat, NaN, unknown names", "refused", [](Size) { return impossible_meshes(); });
+  return cases;
+}
+
+}  // namespace stability

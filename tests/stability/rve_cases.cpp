@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSL-1.0
+// A packing as constitutive law where it is loose, pulled, barely confined, sheared far, driven in leaps or shaken,
+// and in other units.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "dem/sample_packings.hpp"
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/homogenise/energy_ledger.hpp"
+#include "stability/groups.hpp"
+#include "stability/shearing.hpp"
+
+namespace stability {
+
+namespace {
+
+using samples::Ellipses;
+using scarp::Gradient;
+using scarp::Status;
+using scarp::Tensor;
+using scarp::Verdict;
+using scarp::VoigtStress;
+using Rve = scarp::DemRve<Ellipses, scarp::SamePacking<Ellipses>>;
+
+constexpr char const* group = "Packings as constitutive law";
+
+std::string words(Verdict const& verdict) {
+  return verdict.acceptable() ? fmt::format("{}", name(verdict.status))
+                              : fmt::format("{} / {}", name(verdict.status), name(verdict.reason));
+}
+
+Rve rve(Ellipses const& packing) { return {.law = samples::study_law(), .source = {packing}}; }
+Rve rve(Size size) { return rve(samples::consolidated<Ellipses>(size == Size::quick ? 40 : 200).packing); }
+
+double mean_pressure(VoigtStress<2> const& stress) { return -0.5 * (stress(0) + stress(1)); }
+double deviator(VoigtStress<2> const& stress) { return std::hypot(0.5 * (stress(0) - stress(1)), stress(2)); }
+
+/// Largest principal stress [Pa], positive where it pulls.
+double pull(VoigtStress<2> const& stress) { return deviator(stress) - mean_pressure(stress); }
+
+/// Answers increments one after the other. A response that is not balanced is asked again with twice the steps, as a
+/// solver does, up to the provider's most steps; then it is taken as it is and counted.
+struct Path {
+  Rve provider;
+  Rve::State state{};
+  Verdict verdict{};
+  int unbalanced = 0;
+  double tension = 0.0;  ///< largest of balanced answers, over the pressure at the start
+
+  explicit Path(Rve const& asked)
+      : provider(asked), state(asked.initial_state({})), start_(mean_pressure(state.stress)) {}
+
+  bool go(Gradient<2> const& increment) {
+    Rve::State trial;
+    int plan = provider.plan(state, increment);
+    verdict = provider.respond(state, increment, trial, plan).verdict;
+    while (verdict.status == Status::not_converged && plan < provider.most_steps) {
+      plan = provider.refined(plan);
+      verdict = provider.respond(state, increment, trial, plan).verdict;
+    }
+    if (verdict.status == Status::failed) return false;
+    state = trial;
+    if (!verdict.acceptable()) {
+      ++unbalanced;
+    } else {
+      tension = std::max(tension, pull(state.stress) / start_);
+    }
+    return true;
+  }
+
+ private:
+  double start_;
+};
+
+Gradient<2> isotropic(double strain) { return strain * Gradient<2>::Identity(); }
+Gradient<2> simple_shear(double strain) {
+  Gradient<2> gradient = Gradient<2>::Zero();
+  gradient(0, 1) = strain;
+  return gradient;
+}
+
+Outcome duplicates(Size) {
+  Rve const provider = rve(samples::place<Ellipses>(0.05 * Tensor<2>::Identity(), {3, {5e-3, 4e-3}},
+                                                    {{0.01, 0.01}, {0.01, 0.01}, {0.03, 0.03}}, {0.1, 0.1, 0.1}));
+  Verdict const verdict = provider.initial_state({}).verdict;
+  return {.as_expected = verdict.status == Status::failed, .measure = "nothing", .remark = words(verdict)};
+}
+
+Outcome loose_and_back(Size size) {
+  Path path(rve(size));
+  double const before = mean_pressure(path.state.stress);
+  Outcome outcome{.measure = "pressure after loosening by 5 % and back, over the one before"};
+  for (int k = 0; k < 10; ++k) {
+    if (!path.go(isotropic(5e-3))) return {.measure = "nothing", .remark = words(path.verdict)};
+  }
+  bool const empty = path.state.stress.isZero(0.0) && path.verdict.status == Status::fluid &&
+                     path.provider.tangent(path.state).isZero(0.0);
+  for (int k = 0; k < 10; ++k) {
+    if (!path.go(isotropic(1.0 / 1.005 - 1.0))) return {.measure = "nothing", .remark = words(path.verdict)};
+  }
+  outcome.worst = mean_pressure(path.state.stress) / before;
+  outcome.remark =
+      fmt::format("{} while loose, then {}, {} unbalanced answers",
+                  empty ? "stress and tangent exactly zero, fluid" : "not empty", words(path.verdict), path.unbalanced);
+  outcome.as_expected = empty && path.verdict.status == Status::ok && outcome.worst > 0.5 && outcome.worst < 2.0;
+  return outcome;
+}
+
+Outcome pulled(Size size) {
+  Path path(rve(size));
+  Gradient<2> along = Gradient<2>::Zero();
+  along(1, 1) = 1e-3;
+  for (int k = 0; k < 40; ++k) {
+    if (!path.go(along)) return {.measure = "nothing", .remark = words(path.verdict)};
+  }
+  return {.as_expected = path.tension < 1e-3,
+          .worst = path.tension,
+          .measure = "largest tension on the way over the pressure at the start",
+          .remark = fmt::format("{} at the end, {} unbalanced answers", words(path.verdict), path.unbalanced)};
+}
+
+/// Pressure [Pa] below which the round-off of places, 1e-18 m times the stiffness, is a thousandth of the forces: a
+/// packing may then say that it does not balance.
+constexpr double nameable = 1e-5;
+
+/// Packings that were brought to little pressure, then sheared a little.
+Outcome barely_confined(double pressure, Size size) {
+  auto packing = samples::consolidated<Ellipses>(size == Size::quick ? 40 : 200).packing;
+  // More grains take longer to come to rest.
+  long const most_steps = size == Size::quick ? 50'000 : 400'000;
+  Verdict const reached = relieve(packing, samples::study_law(), samples::pressure, pressure, most_steps);
+  Outcome outcome{.measure = "largest tension over the pressure",
+                  .remark = fmt::format("brought there: {}", words(reached))};
+  if (!reached.acceptable()) {
+    outcome.as_expected = pressure < nameable;
+    return outcome;
+  }
+  Path path(rve(packing));
+  for (int k = 0; k < 10; ++k) {
+    if (!path.go(simple_shear(1e-5))) return {.measure = "nothing", .remark = words(path.verdict)};
+  }
+  outcome.worst = path.tension;
+  outcome.remark += fmt::format(", sheared: {}, {} of 10 answers unbalanced", words(path.verdict), path.unbalanced);
+  // A single contact at Coulomb's limit pulls by this share of its pressure.
+  double const friction = samples::study_law().friction;
+  outcome.as_expected = path.tension < std::sqrt(1.0 + friction * friction) - 1.0;
+  return outcome;
+}
+
+/// The cell's lattice is reduced again and again; a copy that is taken half-way goes on with the same bits.
+Outcome sheared_far(double strain, Size size) {
+  Path path(rve(size));
+  int const increments = static_cast<int>(std::lround(strain / 0.005));
+  Outcome outcome{.measure = "largest stress ratio q/p"};
+  Rve::State half_way;
+  for (int k = 0; k < increments; ++k) {
+    if (k == increments / 2) half_way = path.state;
+    if (!path.go(simple_shear(0.005))) return {.measure = "nothing", .remark = words(path.verdict)};
+    outcome.worst = std::max(outcome.worst, deviator(path.state.stress) / mean_pressure(path.state.stress));
+  }
+  Path again(path.provider);
+  again.state = half_way;
+  for (int k = increments / 2; k < increments; ++k) {
+    if (!again.go(simple_shear(0.005))) return {.measure = "nothing", .remark = words(again.verdict)};
+  }
+  bool const same = again.state.packing == path.state.packing;
+  outcome.remark = fmt::format("{} unbalanced answers, {} bits when taken up half-way", path.unbalanced,
+                               same ? "the same" : "other");
+  outcome.as_expected = same && path.tension < 1e-3 && outcome.worst < 0.8;
+  return outcome;
+}
+
+/// One increment against the same motion in many. The packing's own plan spreads it over DEM steps.
+Outcome leap(double strain, double within, Size size) {
+  Gradient<2> gradient = Gradient<2>::Zero();
+  gradient(0, 0) = strain;
+  gradient(1, 1) = 1.0 / (1.0 + strain) - 1.0;
+  Path at_once(rve(size));
+  bool const answered = at_once.go(gradient);
+  Outcome outcome{.measure = "difference of the stress ratio q/p from that of 50 increments",
+                  .remark = words(at_once.verdict)};
+  if (!answered) return outcome;
+  Path slowly(rve(size));
+  // 50 equal stretches of the same constant rate.
+  Gradient<2> small = Gradient<2>::Zero();
+  small(0, 0) = std::pow(1.0 + strain, 0.02) - 1.0;
+  small(1, 1) = std::pow(1.0 + strain, -0.02) - 1.0;
+  for (int k = 0; k < 50; ++k) {
+    if (!slowly.go(small)) return {.measure = "nothing", .remark = words(slowly.verdict)};
+  }
+  auto const ratio = [](Path const& path) { return deviator(path.state.stress) / mean_pressure(path.state.stress); };
+  outcome.worst = std::abs(ratio(at_once) - ratio(slowly));
+  // An answer that is not balanced tells the solver to cut: that is an answer too.
+  outcome.as_expected = !at_once.verdict.acceptable() || outcome.worst <= within;
+  return outcome;
+}
+
+/// Strains so small that hardly any contact slides.
+Outcome cycles(Size size) {
+  Path path(rve(size));
+  auto const start = path.state.stress;
+  constexpr int count = 1000;
+  constexpr double amplitude = 1e-7;
+  int const shown = count / 10;
+  double drift_of_first = 0.0;
+  for (int k = 0; k < count; ++k) {
+    for (double const strain : {amplitude, -2.0 * amplitude, amplitude}) {
+      if (!path.go(simple_shear(strain))) return {.measure = "nothing", .remark = words(path.verdict)};
+    }
+    if (k + 1 == shown) drift_of_first = (path.state.stress - start).norm() / mean_pressure(start);
+  }
+  double const drift = (path.state.stress - start).norm() / mean_pressure(start);
+  return {.as_expected = drift <= 1e-3,
+          .worst = drift,
+          .measure = "change of stress over the pressure after 1000 cycles of 1e-7",
+          .remark = fmt::format("{:.2g} after 100, {} unbalanced answers", drift_of_first, path.unbalanced)};
+}
+
+/// Larger cycles that do slide: where the work goes must add up.
+Outcome ledger_of_cycles(Size size) {
+  auto packing = samples::consolidated<Ellipses>(size == Size::quick ? 40 : 200).packing;
+  auto const law = samples::study_law();
+  scarp::TimeStepper<Ellipses> stepper;
+  scarp::EnergyLedger<2> ledger;
+  double work = 0.0;
+  for (int cycle = 0; cycle < (size == Size::quick ? 10 : 1000); ++cycle) {
+    for (int step = 0; step < 2000; ++step) {
+      double const sign = step < 500 || step >= 1500 ? 1.0 : -1.0;
+      Tensor<2> const strain = simple_shear(sign * 1e-5);
+      double const volume = packing.volume();
+      scarp::StepObservation<2> seen;
+      if (Verdict const verdict = stepper.step<scarp::Observe::energy>(packing, law, strain, &seen);
+          !verdict.acceptable()) {
+        return {.measure = "nothing", .remark = words(verdict)};
+      }
+      ledger.enter(seen, volume, strain);
+      work += std::abs(seen.stress.cwiseProduct(strain).sum()) * volume;
+    }
+  }
+  double const gap = std::abs(ledger.gap()) / work;
+  return {.as_expected = gap < 1e-4 && ledger.contact_loss > 0.0,
+          .worst = gap,
+          .measure = "gap of the energy ledger over the sum of all work's sizes",
+          .remark = fmt::format("loss in contacts {:.2g} of it", ledger.contact_loss / work)};
+}
+
+/// Preparation and shear where lengths, forces and times are counted in other units. Powers of two leave all digits
+/// alone.
+struct Dimensionless {
+  double pressure = 0.0;  ///< over that of the preparation
+  double ratio = 0.0;
+  double void_ratio = 0.0;
+  int plan = 0;  ///< DEM steps of a response that is limited by its inertial number
+};
+
+Dimensionless in_units(double length, double force, double time, int grains) {
+  double const stress = force / (length * length);
+  scarp::LinearFrictional law = samples::study_law();
+  law.normal_stiffness *= force / length;
+  law.tangential_stiffness *= force / length;
+  auto const cloud = scarp::Cloud<scarp::EllipseGrading>{
+      .grading = {.smallest = 4e-3 * length, .largest = 6e-3 * length, .aspect = 0.75},
+      .grains = grains,
+      .density = samples::density * force * time * time / (length * length * length * length),
+      .thickness = samples::thickness * length,
+      .seed = 9};
+  double const pressure = samples::pressure * stress;
+  auto const [packing, verdict] =
+      scarp::IsotropicPreparation{.pressure = pressure}.prepare(cloud.make<Ellipses>(), law);
+  Rve provider = rve(packing);
+  provider.law = law;
+  Dimensionless end;
+  Path path(provider);
+  auto careful = provider;
+  careful.inertial_number = 1e-6;
+  end.plan = careful.plan(path.state, simple_shear(1e-4));
+  if (!verdict.acceptable() || !path.go(simple_shear(1e-3))) return end;
+  end.pressure = mean_pressure(path.state.stress) / pressure;
+  end.ratio = deviator(path.state.stress) / mean_pressure(path.state.stress);
+  end.void_ratio = path.state.packing.void_ratio();
+  return end;
+}
+
+Outcome units(double length, double force, double time) {
+  auto const here = in_units(1.0, 1.0, 1.0, 30);
+  auto const there = in_units(length, force, time, 30);
+  Outcome outcome{.measure = "largest relative difference of pressure, stress ratio and void ratio"};
+  outcome.worst = std::max({std::abs(there.pressure / here.pressure - 1.0), std::abs(there.ratio / here.ratio - 1.0),
+                            std::abs(there.void_ratio / here.void_ratio - 1.0)});
+  outcome.remark = fmt::format("{} and {} DEM steps", here.plan, there.plan);
+  outcome.as_expected = outcome.worst <= 1e-9 && here.pressure > 0.0 && here.plan == there.plan;
+  return outcome;
+}
+
+}  // namespace
+
+Cases rve_cases() {
+  Cases all;
+  auto const add = [&](std::string name, std::string expected, std::function<Outcome(Size)> run) {
+    all.push_back({.group = group, .name = std::move(name), .expected = std::move(expected), .run = std::move(run)});
+  };
+  add("two grains in one place", "failed, by name", duplicates);
+  add("loosened until nothing touches, then compressed", "exactly zero and fluid; then a pressure again",
+      loose_and_back);
+  add("pulled along one axis by 4 %", "no tension", pulled);
+  for (double const pressure : {1.0, 1e-2, 1e-4, 1e-6}) {
+    add(fmt::format("confined by {} Pa", pressure),
+        pressure < nameable ? "no tension, or named as unbalanced"
+                            : "gets there; no more tension than of one sliding contact, 0.14",
+        [pressure](Size size) { return barely_confined(pressure, size); });
+  }
+  for (double const strain : {0.25, 0.5, 1.0}) {
+    add(fmt::format("simple shear of {} %", 100.0 * strain),
+        "a sand's stress ratio; the same bits when taken up half-way",
+        [strain](Size size) { return sheared_far(strain, size); });
+  }
+  for (double const strain : {0.01, 0.05, 0.2}) {
+    add(fmt::format("{} % in one increment", 100.0 * strain), "within 0.1 of the path in 50 increments, or unbalanced",
+        [strain](Size size) { return leap(strain, 0.1, size); });
+  }
+  add("1000 tiny cycles", "stress within 1e-3 of the pressure", cycles);
+  add("cycles of 5e-3", "the energy ledger closes to 1e-4", ledger_of_cycles);
+  double const large = std::ldexp(1.0, 40);  // 1.1e12
+  for (double const factor : {1.0 / large, large}) {
+    add(fmt::format("lengths times {:.1e}", factor), "the same to 1e-9", [=](Size) { return units(factor, 1.0, 1.0); });
+    add(fmt::format("forces times {:.1e}", factor), "the same to 1e-9", [=](Size) { return units(1.0, factor, 1.0); });
+    add(fmt::format("times times {:.1e}", factor), "the same to 1e-9", [=](Size) { return units(1.0, 1.0, factor); });
+  }
+  return all;
+}
+
+}  // namespace stability
