@@ -25,12 +25,13 @@ template <class Solver>
 scarp::FreeFieldFault<Soil, Solver> scene_of(fault_rupture::SandFreeField const& study, AnyTangent const& tangent,
                                              Solver const& solver) {
   scarp::FreeFieldFault<Soil, Solver> scene;
-  scene.soil.law = study.soil.law;
-  scene.soil.source = study.soil.source;
-  scene.soil.strain_per_step = study.soil.strain_per_step;
-  scene.soil.least_steps = study.soil.least_steps;
-  scene.soil.unbalanced_tolerance = study.soil.unbalanced_tolerance;
-  scene.soil.loose_pressure = study.soil.loose_pressure;
+  auto const& packings = study.soil.provider;
+  scene.soil.law = packings.law;
+  scene.soil.source = packings.source;
+  scene.soil.strain_per_step = packings.strain_per_step;
+  scene.soil.least_steps = packings.least_steps;
+  scene.soil.unbalanced_tolerance = packings.unbalanced_tolerance;
+  scene.soil.loose_pressure = packings.loose_pressure;
   scene.soil.tangent_policy = tangent;
   scene.layer = study.layer;
   scene.fault = study.fault;

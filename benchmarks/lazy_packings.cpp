@@ -78,15 +78,15 @@ LazyFreeField scene_of(Setting const& setting, Candidate const& candidate) {
   auto const& study = setting.study;
   LazyFreeField scene;
   Packings& packings = scene.soil.provider;
-  packings.law = study.soil.law;
-  packings.source = study.soil.source;
-  packings.strain_per_step = study.soil.strain_per_step;
+  packings.law = study.soil.provider.law;
+  packings.source = study.soil.provider.source;
+  packings.strain_per_step = study.soil.provider.strain_per_step;
   packings.least_steps = candidate.least_steps;
-  packings.unbalanced_tolerance = study.soil.unbalanced_tolerance;
-  packings.loose_pressure = study.soil.loose_pressure;
+  packings.unbalanced_tolerance = study.soil.provider.unbalanced_tolerance;
+  packings.loose_pressure = study.soil.provider.loose_pressure;
   packings.tangent_policy = candidate.tangent;
   scene.soil.tolerance = candidate.tolerance;
-  scene.soil.loose_pressure = study.soil.loose_pressure;
+  scene.soil.loose_pressure = study.soil.provider.loose_pressure;
   if (!candidate.learns) scene.soil.learning_strain = 1e6;  // no answer reaches it
   scene.layer = study.layer;
   scene.fault = study.fault;

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cpu_time_limit.hpp"
+#include "scarp/measure/measured.hpp"
+#include "scarp/scene/fault_scene.hpp"
+#include "scarp/scene/observers.hpp"
+#include "scarp/scene/outcrop.hpp"
+
+namespace error_vs_time {
+
+/// Settlement over throw at fixed places of the initial surface, between the sides, which are prescribed.
+inline Eigen::VectorXd settlements(std::vector<scarp::SurfacePoint> const& profile, scarp::FaultMesh const& layer,
+                                   double fault_throw) {
+  constexpr int places = 29;
+  Eigen::VectorXd found(places);
+  for (int k = 0; k < places; ++k) {
+    double const x = layer.left + (layer.right - layer.left) * (k + 1) / (places + 1);
+    found(k) = scarp::settlement_at(profile, x) / fault_throw;
+  }
+  return found;
+}
+
+/// Forces [N] that hold the ground, along x and y: left side, foot wall, hanging wall, right side.
+template <class Problem>
+Eigen::VectorXd held_forces(Problem& problem, double tip) {
+  auto const& mesh = problem.discretisation().mesh();
+  Eigen::VectorXd const unbalanced = problem.evaluate_committed().unbalanced;
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(8);
+  std::vector<bool> counted(mesh.nodes.size(), false);
+  auto const add = [&](int node, int part) {
+    auto const n = static_cast<std::size_t>(node);
+    if (!counted[n]) sums.segment<2>(2 * part) += unbalanced.segment<2>(2 * node);
+    counted[n] = true;
+  };
+  for (int const node : boundary_nodes(mesh, "left")) add(node, 0);
+  for (int const node : boundary_nodes(mesh, "right")) add(node, 3);
+  for (int const node : boundary_nodes(mesh, "bottom"))
+    add(node, mesh.nodes[static_cast<std::size_t>(node)].x() > tip * (1.0 + 1e-12) + 1e-9 ? 2 : 1);
+  return sums;
+}
+
+/// What a fault scene answers at the end of its run, and what the run took.
+/// most_seconds: of the processor, after which the run ends as `interrupted`
+template <class SceneType, class Executor>
+scarp::Measured run_fault(SceneType const& scene, Executor& executor, double most_seconds) {
+  auto problem = scene.problem(executor);
+  CpuTimeLimit limit(most_seconds);
+  scarp::CpuTime const time;
+  auto report = scene.settle(problem, limit);
+  if (report.verdict.acceptable()) report = scarp::joined(report, scene.place(problem, limit));
+  if (report.verdict.acceptable()) report = scarp::joined(report, scene.rupture(problem, limit));
+  scarp::Measured measured;
+  measured.seconds = time.seconds();
+  measured.inner_steps = report.inner_steps;
+  measured.verdict = report.verdict;
+  if (!report.verdict.acceptable()) return measured;
+  auto const& grid = problem.discretisation();
+  auto nodes = scarp::boundary_nodes(grid.mesh(), "surface");
+  if (grid.mesh().boundaries.contains("footing_base")) {
+    auto const below = scarp::boundary_nodes(grid.mesh(), "footing_base");
+    nodes.insert(nodes.end(), below.begin(), below.end());
+  }
+  auto const profile = scarp::surface_profile(grid.mesh(), grid.positions(), nodes);
+  auto const outcrop = scarp::outcrop(profile, report.load);
+  measured.answer("surface profile", settlements(profile, scene.layer, report.load));
+  measured.answer("outcrop", outcrop.outcrop_x);
+  measured.answer("band width", outcrop.width);
+  measured.answer("reactions", held_forces(problem, scene.fault.tip));
+  if constexpr (requires { scene.structure.motion(problem); }) {
+    auto const motion = scene.structure.motion(problem);
+    measured.answer("tilt", motion.tilt);
+    measured.answer("footing settlement", motion.settlement);
+  }
+  return measured;
+}
+
+}  // namespace error_vs_time

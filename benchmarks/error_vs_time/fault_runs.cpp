@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "fault_runs.hpp"
+
+#include <map>
+#include <tuple>
+
+#include "../any_tangent.hpp"
+#include "fault_answers.hpp"
+#include "scarp/constitutive/lazy.hpp"
+#include "scarp/homogenise/condensed_tangent.hpp"
+#include "scarp/solver/bfgs_mixing.hpp"
+#include "scarp/solver/dynamic_relaxation.hpp"
+#include "scarp/solver/frozen_tangent.hpp"
+
+namespace error_vs_time {
+
+namespace {
+
+using fault_benchmarks::AnyTangent;
+
+struct LazySand : scarp::Lazy<fault_benchmarks::Soil> {};
+
+/// Packings are the same for all runs of one seed, so that they are prepared once.
+fault_rupture::SandFreeField const& prepared(FaultSettings const& settings, std::uint64_t seed) {
+  static std::map<std::tuple<double, int, std::uint64_t>, fault_rupture::SandFreeField> made;
+  std::tuple const key{settings.size, settings.grains, seed};
+  auto const found = made.find(key);
+  if (found != made.end()) return found->second;
+  fault_rupture::Choice choice;
+  choice.size = settings.size;
+  choice.grains = settings.grains;
+  choice.seed = seed;
+  return made.emplace(key, fault_rupture::make<fault_rupture::SandFreeField>(choice)).first->second;
+}
+
+template <class Solver>
+scarp::Measured run_with(Solver solver, scarp::LoadStepping stepping, FaultSettings const& settings,
+                         std::uint64_t seed) {
+  auto const& study = prepared(settings, seed);
+  scarp::FreeFieldFault<LazySand, Solver> scene;
+  auto& sand = scene.soil.provider;
+  sand.law = study.soil.provider.law;
+  sand.source = study.soil.provider.source;
+  sand.strain_per_step = settings.strain_per_step;
+  sand.least_steps = settings.least_steps;
+  sand.unbalanced_tolerance = settings.unbalanced;
+  sand.loose_pressure = study.soil.provider.loose_pressure;
+  sand.tangent_policy =
+      settings.condensed ? AnyTangent{scarp::CondensedTangent{}} : AnyTangent{scarp::ElasticContactTangent{}};
+  scene.soil.tolerance = settings.lazy;
+  scene.soil.loose_pressure = study.soil.provider.loose_pressure;
+  scene.layer = study.layer;
+  scene.fault = study.fault;
+  scene.throw_to = settings.throw_over_depth * scene.layer.depth;
+  solver.tolerance = settings.tolerance;
+  scene.solver = solver;
+  scene.stepping = stepping;
+  scene.stepping.largest_gradient = settings.largest_gradient;
+  static scarp::SerialExecutor executor;
+  return run_fault(scene, executor, settings.most_seconds);
+}
+
+}  // namespace
+
+FaultSettings fault_rupture_defaults() {
+  fault_rupture::Choice const choice;
+  return {.tolerance = fault_rupture::Sand::tolerance(choice),
+          .largest_gradient = fault_rupture::Sand::largest_gradient(choice.quick),
+          .strain_per_step = choice.strain_per_step,
+          .least_steps = choice.least_dem_steps,
+          .unbalanced = choice.unbalanced_tolerance};
+}
+
+scarp::Measured sand_fault(FaultSettings const& settings, int repetition) {
+  using scarp::PlainStep;
+  using scarp::PointSecant;
+  using scarp::QuasiNewton;
+  auto const seed = settings.seed + static_cast<std::uint64_t>(repetition);
+  switch (settings.solver) {
+    case FaultSolver::point_secant: return run_with(QuasiNewton<>{}, {}, settings, seed);
+    case FaultSolver::along_iterates: {
+      using Solver = QuasiNewton<PointSecant, PlainStep, scarp::SparseLu, scarp::AlongIterates>;
+      return run_with(Solver{.most_iterations = 60}, {.few = 12, .many = 20}, settings, seed);
+    }
+    case FaultSolver::frozen_bfgs:
+      return run_with(QuasiNewton<scarp::FrozenTangent, scarp::BfgsMixing>{}, {}, settings, seed);
+    case FaultSolver::relaxation: {
+      FaultSettings own = settings;
+      own.least_steps = std::min(settings.least_steps, 4);  // as docs/solvers.md has it
+      return run_with(scarp::DynamicRelaxation<>{}, {.few = 150, .many = 300}, own, seed);
+    }
+  }
+  scarp::refuse("there is no such solver of the fault scene: choose one of FaultSolver");
+}
+
+}  // namespace error_vs_time

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cstdint>
+
+#include "scarp/measure/measured.hpp"
+
+namespace error_vs_time {
+
+/// Who brings the fault scene of packings into balance.
+enum class FaultSolver { point_secant, along_iterates, frozen_bfgs, relaxation };
+
+/// What a run of the free-field fault may be made with.
+struct FaultSettings {
+  double size = 5.0;  ///< of a cell in the band [m]
+  double throw_over_depth = 0.02;
+  int grains = 100;
+  std::uint64_t seed = 1;
+  double tolerance = 1e-3;
+  double largest_gradient = 0.005;
+  double strain_per_step = 1e-5;
+  int least_steps = 20;
+  double unbalanced = 0.05;
+  double lazy = 0.0;       ///< tolerance of predicted answers; 0 asks always
+  bool condensed = false;  ///< condensed tangents instead of eq. 6
+  FaultSolver solver = FaultSolver::point_secant;
+  double most_seconds = 150.0;  ///< of the processor
+};
+
+/// The example's defaults on a coarser mesh with smaller packings, 220 triangles with 100 grains each, to a smaller throw.
+FaultSettings fault_rupture_defaults();
+
+/// The free field with a packing in every triangle. Packings are prepared once for each mesh, number of grains and seed, outside of
+/// the time that is measured.
+/// repetition: moves the seed on
+scarp::Measured sand_fault(FaultSettings const& settings, int repetition);
+
+}  // namespace error_vs_time

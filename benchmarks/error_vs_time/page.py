@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSL-1.0
+"""page.py OUTPUT_DIR: puts the tables and figures of error_vs_time that are there into docs/error-against-time.md,
+between the lines <!-- SUBJECT --> and <!-- end of SUBJECT -->; a subject for which the page has none gets a section.
+The example of a scene of one's own comes from own_scene.cpp."""
+
+import pathlib
+import re
+import shutil
+import sys
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+PAGE = REPOSITORY / "docs" / "error-against-time.md"
+
+
+def section(folder, subject):
+    """Tables, how they were made, and the figure, which is copied beside the page."""
+    text = (folder / f"{subject}.md").read_text().strip()
+    figure = folder / f"{subject}.png"
+    if figure.is_file():
+        name = f"error_vs_time_{subject}.png"
+        shutil.copyfile(figure, PAGE.parent / "figures" / name)
+        text += f"\n\n![Error against CPU time: {subject}](figures/{name})"
+    return text
+
+
+def example():
+    """The lines of own_scene.cpp between its two marks."""
+    text = (REPOSITORY / "benchmarks" / "error_vs_time" / "own_scene.cpp").read_text()
+    _, _, rest = text.partition("// [the example of docs/error-against-time.md\n")
+    shown, mark, _ = rest.partition("// the example ends]")
+    if not mark:
+        sys.exit("own_scene.cpp has lost the marks of its example: mend it")
+    return f"```cpp\n{shown.strip()}\n```"
+
+
+def filled(page, subject, text):
+    first, last = f"<!-- {subject} -->", f"<!-- end of {subject} -->"
+    block = f"{first}\n{text}\n{last}"
+    if page.count(first) != page.count(last) or page.count(first) > 1:
+        sys.exit(f"'{PAGE}' has no pair of lines '{first}', '{last}' (one was lost): mend the page")
+    if first not in page:
+        return f"{page.rstrip()}\n\n## {subject}\n\n{block}\n"
+    return re.sub(re.escape(first) + ".*?" + re.escape(last), lambda _: block, page, flags=re.DOTALL)
+
+
+def main():
+    if len(sys.argv) != 2 or not pathlib.Path(sys.argv[1]).is_dir():
+        print(f"usage: {sys.argv[0]} OUTPUT_DIR   (which ./benchmarks/run error_vs_time wrote)", file=sys.stderr)
+        return 2
+    folder = pathlib.Path(sys.argv[1])
+    page = filled(PAGE.read_text(), "own_scene.cpp", example())
+    for path in sorted(folder.glob("*.md")):
+        page = filled(page, path.stem, section(folder, path.stem))
+        print(path.stem)
+    partial = PAGE.with_suffix(".partial")
+    partial.write_text(page)
+    partial.replace(PAGE)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
