@@ -148,17 +148,13 @@ void check_no_number_is_swallowed(Specimen<Dim>& specimen) {
   grains.position[7](1) = nan;
   specimen.place(grains);
   CHECK(specimen.step(still) == broken);
-  // In the middle of a run every stress shows it, until the list has to be made anew and refuses it.
+  // In the middle of a run the stress shows it, and no step follows.
   specimen.place(sound);
   specimen.bond();
   REQUIRE(specimen.step(still).acceptable());
   specimen.displace(7, 1, nan);
-  Verdict verdict = specimen.step(still);
-  for (int step = 0; step < 50 && verdict.acceptable(); ++step) {
-    CHECK(!specimen.seen.stress.allFinite());
-    verdict = specimen.step(still);
-  }
-  CHECK(verdict == broken);
+  if (specimen.step(still).acceptable()) CHECK(!specimen.seen.stress.allFinite());
+  CHECK(specimen.step(still) == broken);
 }
 
 }  // namespace pairings

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "scarp/dem/critical_step.hpp"
 #include "scarp/dem/local_damping.hpp"
@@ -150,6 +151,7 @@ class TimeStepper {
     Lanes const dt = constant<Lanes>(time_step);
     Lanes fastest(Scalar(0));
     Lanes fastest_spin(Scalar(0));
+    Lanes everything(Scalar(0));  // a sum keeps what is no number, a maximum may pass over it
     Lanes damped(Scalar(0));
     Lanes kinetic(Scalar(0));
     std::array<Lanes, static_cast<std::size_t>(dim * dim)> cell;
@@ -181,6 +183,7 @@ class TimeStepper {
         for (std::size_t b = 0; b < static_cast<std::size_t>(dim); ++b)
           moved += cell[a * static_cast<std::size_t>(dim) + b] * place[b];
         store(moved, packing.position.column(column) + start);
+        everything += moved;
       }
       Lanes turning(Scalar(0));
       for (int k = 0; k < spin_size<dim>; ++k) {
@@ -193,10 +196,13 @@ class TimeStepper {
       using std::experimental::max;
       fastest = max(fastest, speed);
       fastest_spin = max(fastest_spin, turning);
+      everything += speed + turning;
     }
     double const speed = std::sqrt(static_cast<double>(hmax(fastest)));
     double const spin = std::sqrt(static_cast<double>(hmax(fastest_spin)));
     packing.pairs.drift += 2.0 * time_step * (speed + spin * population.largest_eccentricity());
+    double const sum = static_cast<double>(detail::lane_sum(everything));
+    if (!std::isfinite(sum)) packing.pairs.drift = std::numeric_limits<double>::quiet_NaN();
     return {detail::lane_sum(damped), detail::lane_sum(kinetic)};
   }
 
