@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -10,9 +11,12 @@
 
 namespace scarp {
 
-/// As many scalars as one vector register of the target holds; laws and shapes accept it in place of a scalar.
+/// As many scalars as one vector register of the target holds, at most eight: rows of more lanes cannot be read as quads.
+/// Laws and shapes accept it in place of a scalar.
 template <class Scalar>
-using Pack = std::experimental::native_simd<Scalar>;
+using Pack = std::experimental::simd<
+    Scalar, std::experimental::simd_abi::deduce_t<
+                Scalar, std::min<std::size_t>(std::experimental::native_simd<Scalar>::size(), 8)>>;
 
 template <class Scalar>
 Pack<Scalar> load(Scalar const* from) {
