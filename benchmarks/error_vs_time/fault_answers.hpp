@@ -7,7 +7,9 @@
 
 #include "cpu_time_limit.hpp"
 #include "scarp/measure/measured.hpp"
+#include "scarp/scene/band_angle.hpp"
 #include "scarp/scene/fault_scene.hpp"
+#include "scarp/scene/field_series.hpp"
 #include "scarp/scene/observers.hpp"
 #include "scarp/scene/outcrop.hpp"
 
@@ -44,6 +46,19 @@ Eigen::VectorXd held_forces(Problem& problem, double tip) {
   return sums;
 }
 
+/// Inclination [rad] of the band in which the ground has sheared.
+template <class Problem>
+double band_angle(Problem const& problem) {
+  auto const& grid = problem.discretisation();
+  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  std::vector<scarp::StrainedPlace> places;
+  for (int point = 0; point < grid.point_count(); ++point) {
+    double const strain = scarp::geo::plane_strain(total_deformation(grid, point)).deviatoric;
+    places.push_back({grid.site(point, 0.0).position, strain, volumes[static_cast<std::size_t>(point)]});
+  }
+  return scarp::band_angle(places);
+}
+
 /// What a fault scene answers at the end of its run, and what the run took.
 /// most_seconds: of the processor, after which the run ends as `interrupted`
 template <class SceneType, class Executor>
@@ -70,6 +85,7 @@ scarp::Measured run_fault(SceneType const& scene, Executor& executor, double mos
   measured.answer("surface profile", settlements(profile, scene.layer, report.load));
   measured.answer("outcrop", outcrop.outcrop_x);
   measured.answer("band width", outcrop.width);
+  measured.answer("band angle", band_angle(problem));
   measured.answer("reactions", held_forces(problem, scene.fault.tip));
   if constexpr (requires { scene.structure.motion(problem); }) {
     auto const motion = scene.structure.motion(problem);

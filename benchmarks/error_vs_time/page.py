@@ -4,9 +4,12 @@ between the lines <!-- SUBJECT --> and <!-- end of SUBJECT -->; a subject for wh
 The example of a scene of one's own comes from own_scene.cpp."""
 
 import pathlib
-import re
 import shutil
 import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from generated_sections import rewrite, with_section
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PAGE = REPOSITORY / "docs" / "error-against-time.md"
@@ -33,28 +36,16 @@ def example():
     return f"```cpp\n{shown.strip()}\n```"
 
 
-def filled(page, subject, text):
-    first, last = f"<!-- {subject} -->", f"<!-- end of {subject} -->"
-    block = f"{first}\n{text}\n{last}"
-    if page.count(first) != page.count(last) or page.count(first) > 1:
-        sys.exit(f"'{PAGE}' has no pair of lines '{first}', '{last}' (one was lost): mend the page")
-    if first not in page:
-        return f"{page.rstrip()}\n\n## {subject}\n\n{block}\n"
-    return re.sub(re.escape(first) + ".*?" + re.escape(last), lambda _: block, page, flags=re.DOTALL)
-
-
 def main():
     if len(sys.argv) != 2 or not pathlib.Path(sys.argv[1]).is_dir():
         print(f"usage: {sys.argv[0]} OUTPUT_DIR   (which ./benchmarks/run error_vs_time wrote)", file=sys.stderr)
         return 2
     folder = pathlib.Path(sys.argv[1])
-    page = filled(PAGE.read_text(), "own_scene.cpp", example())
+    page = with_section(PAGE.read_text(), "own_scene.cpp", example())
     for path in sorted(folder.glob("*.md")):
-        page = filled(page, path.stem, section(folder, path.stem))
+        page = with_section(page, path.stem, section(folder, path.stem))
         print(path.stem)
-    partial = PAGE.with_suffix(".partial")
-    partial.write_text(page)
-    partial.replace(PAGE)
+    rewrite(PAGE, page)
     return 0
 
 

@@ -72,9 +72,10 @@ Case same_strength(std::string name, double friction, double other_friction, dou
 
 /// kappa = k_n / (pressure x thickness): overlaps are about 1/kappa of a grain. One packing, prepared at 1e3 or less
 /// and relieved. Springs give way by about 1/kappa, so that strains are counted in that.
+template <class Grains = samples::Discs>
 Sheared at_stiffness_number(double kappa, int grains) {
   auto const pressure = [](double number) { return study_stiffness / (number * samples::thickness); };
-  return prepared_and_sheared(
+  return prepared_and_sheared<Grains>(
       {.law = {.normal_stiffness = study_stiffness, .tangential_stiffness = study_stiffness, .friction = 0.55},
        .grains = grains,
        .prepared_at = pressure(std::min(kappa, 1e3)),
@@ -106,6 +107,28 @@ Case stiffness_number(double kappa, double reference, double within) {
           .run = run};
 }
 
+/// Places of single precision are good to 1e-7 of the cell: forces in stiff contacts are round-off then.
+Case in_single_precision(double kappa) {
+  bool const resolved = kappa < 1e3;
+  auto const run = [=](Size size) {
+    using FloatDiscs = scarp::Packing<scarp::Disc, scarp::LinearFrictional, float>;
+    int const grains = size == Size::quick ? 60 : 200;
+    Sheared const end = at_stiffness_number<FloatDiscs>(kappa, grains);
+    double const exact = at_stiffness_number(kappa, grains).strength;
+    constexpr scarp::Verdict refused{scarp::Status::not_converged, scarp::Reason::unbalanced};
+    Outcome outcome{.worst = std::abs(end.strength - exact),
+                    .measure = "change of the sin of the friction angle against double precision",
+                    .remark = end.words()};
+    outcome.as_expected = resolved ? end.verdict.acceptable() && outcome.worst < 0.05 : end.verdict == refused;
+    return outcome;
+  };
+  return {.group = group,
+          .name = fmt::format("single precision, stiffness number {:.0e}", kappa),
+          .expected = resolved ? "the strength of double precision within 0.05 (another packing)"
+                               : "not_converged / unbalanced",
+          .run = run};
+}
+
 }  // namespace
 
 Cases contact_cases() {
@@ -124,6 +147,7 @@ Cases contact_cases() {
   for (double const kappa : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8}) {
     all.push_back(stiffness_number(kappa, 10.0 * kappa, 0.05));
   }
+  for (double const kappa : {1e2, 1e3, 1e5}) all.push_back(in_single_precision(kappa));
   return all;
 }
 

@@ -61,16 +61,16 @@ scarp::Verdict relieve(PackingType& packing, typename PackingType::Law const& la
   return {};
 }
 
-inline Sheared prepared_and_sheared(Shearing const& asked) {
+template <class Grains = samples::Discs>
+Sheared prepared_and_sheared(Shearing const& asked) {
   using scarp::Tensor;
   auto [packing, verdict] = scarp::IsotropicPreparation{.pressure = asked.prepared_at}.prepare(
-      samples::loose_cloud<samples::Discs>(asked.grains, 3), asked.law);
+      samples::loose_cloud<Grains>(asked.grains, 3), asked.law);
   Sheared end{.verdict = verdict, .time_step = scarp::usual_time_step_share * packing.pairs.critical_step};
   if (verdict.acceptable()) end.verdict = relieve(packing, asked.law, asked.prepared_at, asked.pressure);
   if (!end.verdict.acceptable()) return end;
-  scarp::TimeStepper<samples::Discs> stepper;
-  scarp::Drive<samples::Discs> drive(packing, asked.law,
-                                     scarp::drained_compression<2>(asked.strain_per_step, asked.pressure));
+  scarp::TimeStepper<Grains> stepper;
+  scarp::Drive<Grains> drive(packing, asked.law, scarp::drained_compression<2>(asked.strain_per_step, asked.pressure));
   long const steps = std::lround(asked.strain / asked.strain_per_step);
   Tensor<2> mean = Tensor<2>::Zero();
   for (long step = 0; step < steps; ++step) {

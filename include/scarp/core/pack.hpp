@@ -12,11 +12,12 @@
 namespace scarp {
 
 /// As many scalars as one vector register of the target holds, at most eight: rows of more lanes cannot be read as quads.
-/// Laws and shapes accept it in place of a scalar.
 template <class Scalar>
-using Pack = std::experimental::simd<
-    Scalar, std::experimental::simd_abi::deduce_t<
-                Scalar, std::min<std::size_t>(std::experimental::native_simd<Scalar>::size(), 8)>>;
+inline constexpr std::size_t lane_count = std::min<std::size_t>(std::experimental::native_simd<Scalar>::size(), 8);
+
+/// That many scalars; laws and shapes accept it in place of one.
+template <class Scalar>
+using Pack = std::experimental::simd<Scalar, std::experimental::simd_abi::deduce_t<Scalar, lane_count<Scalar>>>;
 
 template <class Scalar>
 Pack<Scalar> load(Scalar const* from) {

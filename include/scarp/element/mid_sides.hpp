@@ -64,7 +64,7 @@ ShapeValues<Element> serendipity(Vector<Element::dim> const& xi) {
   constexpr auto mid_sides = Element::mid_sides();
   auto const linear = Element::Linear::shape(xi);
   ShapeValues<Element> shape;
-  shape.head(linear.size()) = linear;
+  shape.template head<Element::Linear::nodes>() = linear;
   for (int m = 0; m < count(mid_sides); ++m) {
     auto const [a, b] = mid_sides[index(m)];
     double const along = xi(Element::mid_side_axes()[index(m)]);
@@ -82,7 +82,7 @@ ShapeGradients<Element> serendipity_gradients(Vector<Element::dim> const& xi) {
   auto const linear = Element::Linear::shape(xi);
   auto const slopes = Element::Linear::shape_gradients(xi);
   ShapeGradients<Element> gradients;
-  gradients.topRows(linear.size()) = slopes;
+  gradients.template topRows<Element::Linear::nodes>() = slopes;
   for (int m = 0; m < count(mid_sides); ++m) {
     auto const [a, b] = mid_sides[index(m)];
     int const axis = Element::mid_side_axes()[index(m)];
