@@ -79,9 +79,9 @@ inline Row describe(Packing const& packing, double axial_strain, double volumetr
 }
 
 /// Of compression at a constant rate.
-inline double inertial_number(Packing const& packing, Choice const& choice) {
+inline double inertial_number(Packing const& packing, Choice const& choice, double time_step_share) {
   auto const& grains = *packing.population;
-  double const rate = choice.strain_per_step / packing.pairs.critical_step;
+  double const rate = choice.strain_per_step / (time_step_share * packing.pairs.critical_step);
   return rate * 2.0 * grains.largest_radius() * std::sqrt(grains.density() / choice.pressure);
 }
 
@@ -110,10 +110,11 @@ inline void compress(Packing packing, Choice const& choice, Result& result) {
     result.rows.push_back(describe(packing, static_cast<double>(step) * choice.strain_per_step, volumetric_strain,
                                    sum / static_cast<double>(steps_per_row)));
     sum.setZero();
-    if (sample) result.halved.push_back(sample->difference(law));
+    result.inertial_number =
+        std::max(result.inertial_number, inertial_number(packing, choice, stepper.time_step_share));
+    if (sample) result.halved.push_back(sample->difference(law, stepper));
     sample.reset();
   }
-  result.inertial_number = inertial_number(packing, choice);
 }
 
 inline Result run_seed(Choice const& choice, std::uint64_t seed) {

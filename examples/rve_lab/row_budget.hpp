@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "recorder.hpp"
+#include "scarp/core/worse_of.hpp"
 #include "scarp/scene/budget_part.hpp"
 #include "scarp/scene/error_bounds.hpp"
 
@@ -24,10 +24,10 @@ struct RowBudget {
   void add(Row const& row) {
     ++rows;
     unbalanced_sum += value(row, "unbalanced_ratio");
-    unbalanced = std::max(unbalanced, value(row, "unbalanced_ratio"));
-    kinetic_share = std::max(kinetic_share, std::abs(value(row, "kinetic_share")));
+    unbalanced = scarp::worse_of(unbalanced, value(row, "unbalanced_ratio"));
+    kinetic_share = scarp::worse_of(kinetic_share, std::abs(value(row, "kinetic_share")));
     double const turned_over = std::abs(value(row, "stored")) + value(row, "contact_loss") + value(row, "damping_loss");
-    energy_gap = turned_over > 0.0 ? std::abs(value(row, "energy_gap")) / turned_over : 0.0;
+    energy_gap = turned_over == 0.0 ? 0.0 : std::abs(value(row, "energy_gap")) / turned_over;
   }
 
   scarp::BudgetParts parts() const {

@@ -31,3 +31,11 @@ TEST_CASE("few different eigenvalues use up the search, and a zero matrix has no
   CHECK(scarp::largest_eigenvalue(
             9, [](auto const&, auto&) {}, 1e-3) == 0.0);
 }
+
+TEST_CASE("a matrix with an entry that is no number has no largest eigenvalue") {
+  auto const broken = [](std::vector<double> const& x, std::vector<double>& y) {
+    y = x;
+    y[3] *= std::nan("");
+  };
+  CHECK(std::isnan(scarp::largest_eigenvalue(9, broken, 1e-3)));
+}

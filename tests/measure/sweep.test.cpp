@@ -172,3 +172,20 @@ TEST_CASE("answers that cannot be compared are refused before any time is lost o
   sweep.exact(longer);
   CHECK_THROWS_WITH_AS(sweep.run(), doctest::Contains("other names or lengths"), scarp::InputError);
 }
+
+TEST_CASE("references of different samples have to be alike, and the base setting has to work") {
+  auto const answers = [](Settings const& settings, int repetition) {
+    Measured measured;
+    measured.answer("values", Eigen::VectorXd::Ones(1 + (settings.sides == 5 ? repetition : 0)));
+    if (settings.sides == 6) measured.verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced};
+    return measured;
+  };
+  scarp::Sweep uneven("uneven", Settings{}, answers);
+  uneven.reference({.sides = 5});
+  CHECK_THROWS_WITH_AS(uneven.run(2), doctest::Contains("the reference of sweep 'uneven' gives answers"),
+                       scarp::InputError);
+  scarp::Sweep broken("broken", Settings{.sides = 6}, answers);
+  broken.reference({});
+  CHECK_THROWS_WITH_AS(broken.run(), doctest::Contains("the base setting of sweep 'broken' ended with"),
+                       scarp::InputError);
+}

@@ -147,3 +147,47 @@ TEST_CASE("a run outside its budget says by which part, with NaN counted as outs
   CHECK(!scarp::BudgetPart{.value = std::nan(""), .bound = 1.0}.is_within());
   CHECK_THROWS_AS(scarp::ErrorBudget(points, {}, {.followed = {50}}), scarp::InputError);
 }
+
+TEST_CASE("a quantile is not exceeded by its share of the samples, however few they are") {
+  auto const first = [](int count) {
+    scarp::DoubledSamples samples;
+    for (int k = count; k > 0; --k) samples.differences.push_back(k);
+    return samples;
+  };
+  CHECK(first(1).quantile(0.95) == 1.0);
+  CHECK(first(2).quantile(0.95) == 2.0);
+  CHECK(first(2).quantile(0.5) == 1.0);
+  CHECK(first(10).quantile(0.95) == 10.0);
+  CHECK(first(20).quantile(0.95) == 19.0);
+  CHECK(first(3).quantile(0.0) == 1.0);
+}
+
+TEST_CASE("a step has as many samples as it may, none twice, and the most strained point in every other one") {
+  Points points(Relaxing{}, 50);
+  scarp::ErrorBudget budget(points, {}, {.share = 10.0, .most_samples = 5});
+  points.strain(increment, budget);
+  points.strain(increment, budget);
+  CHECK(budget.samples().differences.size() == 10);
+  Points few(Relaxing{}, 3);
+  scarp::ErrorBudget small(few, {}, {.share = 10.0, .most_samples = 5});
+  few.strain(increment, small);
+  CHECK(small.samples().differences.size() == 3);
+}
+
+TEST_CASE("a number that is none puts a run outside its budget for good") {
+  Points points(Relaxing{}, 50);
+  scarp::ErrorBudget budget(points);
+  scarp::StepReport report;
+  report.history.emplace_back().linear_residual = std::nan("");
+  budget.attempted(points, report);
+  points.strain(increment, budget);
+  CHECK(std::isnan(part(budget.parts(), "linear_residual")));
+  CHECK(scarp::budget_headline(budget.parts()).find("linear_residual") != std::string::npos);
+}
+
+TEST_CASE("sampling that cannot be done is refused") {
+  Points points(Relaxing{}, 50);
+  for (auto const& sampling : {scarp::ErrorSampling{.most_samples = -1}, scarp::ErrorSampling{.points_per_followed = 0},
+                               scarp::ErrorSampling{.most_followed = -1}, scarp::ErrorSampling{.share = std::nan("")}})
+    CHECK_THROWS_AS(scarp::ErrorBudget(points, {}, sampling), scarp::InputError);
+}

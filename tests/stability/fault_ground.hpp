@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/core/worse_of.hpp"
 #include "scarp/scene/free_field_fault.hpp"
 #include "scarp/solver/consistent_tangent.hpp"
 
@@ -96,7 +97,7 @@ FaultAnswer answer(FaultGround const& ground, Problem& problem) {
   found.imbalance = std::abs(up + down) / std::max(std::abs(down), reactions);
   for (auto const& stress : stresses) {
     double const mean = (stress(0) + stress(1)) / 2.0;
-    found.tension = std::max(found.tension, mean + std::hypot((stress(0) - stress(1)) / 2.0, stress(2)));
+    found.tension = scarp::worse_of(found.tension, mean + std::hypot((stress(0) - stress(1)) / 2.0, stress(2)));
   }
   return found;
 }
@@ -121,13 +122,14 @@ inline FaultAnswer answer(FaultGround const& ground) {
   return answer(ground, problem);
 }
 
-/// Largest difference of the surfaces' displacements over the larger of them.
+/// Largest difference of the surfaces' displacements over the larger of them; infinite unless both runs arrived.
 inline double difference(FaultAnswer const& a, FaultAnswer const& b) {
-  double apart = a.surface.size() == b.surface.size() ? 0.0 : std::numeric_limits<double>::infinity();
+  bool const arrived = a.run.verdict.acceptable() && b.run.verdict.acceptable();
+  double apart = arrived && a.surface.size() == b.surface.size() ? 0.0 : std::numeric_limits<double>::infinity();
   double most = 0.0;
   for (std::size_t k = 0; k < std::min(a.surface.size(), b.surface.size()); ++k) {
-    apart = std::max(apart, (a.surface[k] - b.surface[k]).norm());
-    most = std::max(most, b.surface[k].norm());
+    apart = scarp::worse_of(apart, (a.surface[k] - b.surface[k]).norm());
+    most = scarp::worse_of(most, b.surface[k].norm());
   }
   return apart / most;
 }

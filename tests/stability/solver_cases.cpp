@@ -186,8 +186,8 @@ Outcome wrong_input() {
   auto const& mesh = problem.discretisation().mesh();
   wants("check the numbers", [&] { scarp::Constraints(mesh).fix(100000); });
   wants("check the numbers", [&] { scarp::Constraints(mesh).fix(0, 2); });
-  wants("", [&] { scarp::Constraints(mesh).move(0, 0, nan); });
-  wants("", [&] {
+  wants("rate of a prescribed displacement", [&] { scarp::Constraints(mesh).move(0, 0, nan); });
+  wants("prescribed twice", [&] {
     scarp::Constraints twice(mesh);
     twice.move(0, 0, 1.0);
     twice.move(0, 0, 2.0);
@@ -195,11 +195,11 @@ Outcome wrong_input() {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(problem.dof_count());
   load(3) = nan;
   wants("a load is not finite", [&] { scarp::LoadHistory const loads(load); });
-  wants("", [&] { scarp::TimeFunction const course({{0.0, 1.0}, {0.0, 2.0}}); });
-  wants("", [&] { scarp::TimeFunction const course({{nan, 1.0}}); });
+  wants("must increase", [&] { scarp::TimeFunction const course({{0.0, 1.0}, {0.0, 2.0}}); });
+  wants("load factor of a knot", [&] { scarp::TimeFunction const course({{nan, 1.0}}); });
   wants("Young's modulus", [&] { scarp::IsotropicElasticity::from_young_poisson(nan, 0.3); });
   wants("Poisson's ratio", [&] { scarp::IsotropicElasticity::from_young_poisson(1.0, 0.5); });
-  wants("", [&] { scarp::IsotropicElasticity::from_young_poisson(1e300, 0.49999999999999994); });
+  wants("Lame's lambda", [&] { scarp::IsotropicElasticity::from_young_poisson(1e300, 0.49999999999999994); });
   return at_most(0.0, missed, "wrong inputs that were taken");
 }
 

@@ -178,7 +178,7 @@ struct DemRve {
     if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
     double const pressure = mean_pressure(state.stress);
     double const weight = pressure < loose_pressure ? std::max(pressure, 0.0) / loose_pressure : 1.0;
-    if (weight * seen.unbalanced_ratio > unbalanced_tolerance) return {Status::not_converged, Reason::unbalanced};
+    if (!(weight * seen.unbalanced_ratio <= unbalanced_tolerance)) return {Status::not_converged, Reason::unbalanced};
     return {};
   }
 };

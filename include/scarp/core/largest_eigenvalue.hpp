@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "scarp/core/random.hpp"
@@ -40,6 +41,7 @@ inline double largest_of_tridiagonal(std::vector<double> const& diagonal, std::v
 
 /// Largest eigenvalue of a symmetric positive semidefinite matrix of a size, by Lanczos's method from a random start that is
 /// always the same. apply(x, y): y = matrix times x. From below, relative error about `tolerance`; zero for a zero matrix.
+/// \return NaN for entries that are no numbers, and where 300 products do not suffice
 template <class Apply>
 double largest_eigenvalue(std::size_t size, Apply&& apply, double tolerance) {
   constexpr int most_steps = 300;
@@ -67,10 +69,11 @@ double largest_eigenvalue(std::size_t size, Apply&& apply, double tolerance) {
       rest += next[i] * next[i];
     }
     coupling = std::sqrt(rest);
+    if (!std::isfinite(coupling + along)) break;
     diagonal.push_back(along);
     scale = std::max(scale, along);
     bool const used_up = coupling <= invariant * scale;
-    if (used_up || step % look_every == 0 || step == most_steps) {
+    if (used_up || step % look_every == 0) {
       double const found = detail::largest_of_tridiagonal(diagonal, beside);
       if (used_up || found - known <= 0.1 * tolerance * found) return found;
       known = found;
@@ -81,7 +84,7 @@ double largest_eigenvalue(std::size_t size, Apply&& apply, double tolerance) {
       now[i] = next[i] / coupling;
     }
   }
-  return known;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace scarp

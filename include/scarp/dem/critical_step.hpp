@@ -112,7 +112,7 @@ double critical_step(PackingType const& packing, typename PackingType::Law const
       double const damping = 0.25 * step * stiffest(detail::dashpots_of(springs, ratio, reduced_mass));
       step *= std::sqrt(1.0 + damping * damping) - damping;
     }
-    shortest = std::min(shortest, step);
+    if (!std::isnan(shortest) && !(step >= shortest)) shortest = step;  // one that is no number stays
   }
   if (!contacts.empty()) return shortest;
   double lightest = 0.0;

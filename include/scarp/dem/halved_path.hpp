@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -24,7 +25,7 @@ class HalvedPath {
     sum_ += stress;
   }
 
-  /// Relative difference of the mean stresses, Frobenius norms; infinite where the second path fails. Consumes the packing.
+  /// Relative difference of the mean stresses, Frobenius norms; infinite where the second path fails or has no number. Consumes the packing.
   double difference(typename PackingType::Law const& law, TimeStepper<PackingType, Damping> stepper = {}) {
     Tensor<dim> other = Tensor<dim>::Zero();
     StepObservation<dim> seen;
@@ -36,6 +37,7 @@ class HalvedPath {
       other += seen.stress;
     }
     double const apart = (other - sum_).norm();
+    if (!std::isfinite(apart)) return std::numeric_limits<double>::infinity();
     return apart == 0.0 ? 0.0 : apart / sum_.norm();
   }
 

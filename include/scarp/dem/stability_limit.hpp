@@ -96,7 +96,7 @@ void append_springs(std::vector<GrainSpring<PackingType::dim>>& springs, Packing
 /// the largest eigenvalue of all its springs together: from above, to about the tolerance.
 /// With dashpots the step solves \f$ \lambda_{max}(M^{-1}(\Delta t^2 K + 2 \Delta t\, C)) = 4 \f$, what the scheme asks of dashpots
 /// that see the velocity of the half step before. Sliding and the turning of forces are not regarded.
-/// \return infinity without springs
+/// \return infinity without springs, NaN where it is not found (positions that are no numbers)
 template <class PackingType>
 double stability_limit(PackingType const& packing, typename PackingType::Law const& law, double tolerance = 1e-3) {
   constexpr int dim = PackingType::dim;
@@ -123,13 +123,13 @@ double stability_limit(PackingType const& packing, typename PackingType::Law con
   double former_excess = 0.0;  // logarithm
   for (int iteration = 0; iteration < 20; ++iteration) {
     double const excess = std::log(step * step * stiffest(step) / 4.0);
-    if (std::abs(excess) < tolerance) break;
+    if (std::abs(excess) < tolerance) return step;
     if (iteration > 0) power = std::clamp((excess - former_excess) / std::log(step / former_step), 1.0, 2.0);
     former_step = step;
     former_excess = excess;
     step *= std::exp(-excess / power);
   }
-  return step;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace scarp

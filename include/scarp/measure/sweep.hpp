@@ -126,8 +126,8 @@ class Sweep {
         if (r % runs_per_baseline == 0) evaluation.baseline(timed(runs_.front().measure, k, least_seconds));
         evaluation.add(r, timed(runs_[r].measure, k, least_seconds));
       }
+      if (runs_.size() > 1) evaluation.baseline(timed(runs_.front().measure, k, least_seconds));
     }
-    if (runs_.size() > 1) evaluation.baseline(timed(runs_.front().measure, repetitions - 1, least_seconds));
     return evaluation.table();
   }
 

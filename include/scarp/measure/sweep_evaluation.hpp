@@ -60,7 +60,7 @@ class SweepEvaluation {
   SweepEvaluation(std::string name, std::vector<SweepRun> const& runs, bool samples, bool exact)
       : name_(std::move(name)), runs_(runs), results_(runs.size()), samples_(samples), exact_(exact) {}
 
-  /// \throws InputError for a reference that failed or is zero
+  /// \throws InputError for a reference that failed, is zero, or has other answers than the one before
   void reference(TimedRun run) {
     auto const& verdict = run.measured.verdict;
     if (!verdict.acceptable()) {
@@ -72,15 +72,25 @@ class SweepEvaluation {
       refuse("answer '{}' of the reference of sweep '{}' is zero (errors are relative to it): leave it out", name,
              name_);
     }
+    if (!references_.empty()) require_comparable("the reference", run.measured);
     references_.push_back(std::move(run));
   }
 
   /// The base setting again, before and after some runs: what their costs are relative to.
-  void baseline(TimedRun const& run) { baselines_.push_back(run.seconds); }
+  /// \throws InputError for a base setting that failed
+  void baseline(TimedRun const& run) {
+    auto const& verdict = run.measured.verdict;
+    if (!verdict.acceptable()) {
+      refuse("the base setting of sweep '{}' ended with {} ({}; costs are relative to its time): choose one that works",
+             name_, scarp::name(verdict.status), scarp::name(verdict.reason));
+    }
+    baselines_.push_back(run.seconds);
+  }
 
   /// \throws InputError for answers other than the reference's
   void add(std::size_t run, TimedRun result) {
-    if (result.measured.verdict.acceptable()) require_comparable(runs_[run], result.measured);
+    if (result.measured.verdict.acceptable())
+      require_comparable(fmt::format("'{}' {}", runs_[run].knob, runs_[run].setting), result.measured);
     result.baselines = baselines_.size();
     results_[run].push_back(std::move(result));
   }
@@ -124,7 +134,7 @@ class SweepEvaluation {
     return 0.5 * (baselines_[run.baselines - 1] + baselines_[std::min(run.baselines, baselines_.size() - 1)]);
   }
 
-  void require_comparable(SweepRun const& run, Measured const& measured) const {
+  void require_comparable(std::string const& run, Measured const& measured) const {
     auto const& wanted = references_.front().measured.answers;
     bool fits = measured.answers.size() == wanted.size();
     for (std::size_t a = 0; fits && a < wanted.size(); ++a) {
@@ -133,9 +143,9 @@ class SweepEvaluation {
     }
     if (fits) return;
     refuse(
-        "'{}' {} of sweep '{}' gives answers of other names or lengths than the reference (they cannot be compared): "
+        "{} of sweep '{}' gives answers of other names or lengths than the reference (they cannot be compared): "
         "answer at the same places in all runs",
-        run.knob, run.setting, name_);
+        run, name_);
   }
 
   /// Mean of the references' answers, over all samples.

@@ -12,7 +12,7 @@
 namespace scarp {
 
 /// Step doubling at sampled points: an accepted increment is answered again with twice the work from the same state. Every other
-/// sample is the most strained point of its step, the others spread over all points.
+/// sample is the most strained point of its step, unless that was taken; the others are spread over all points.
 struct DoubledSamples {
   std::vector<double> differences{};  ///< of the stress, relative, in the order of the samples
   long work = 0;                      ///< that they took
@@ -40,7 +40,8 @@ struct DoubledSamples {
     if (differences.empty()) return 0.0;
     std::vector<double> sorted = differences;
     std::sort(sorted.begin(), sorted.end());
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    double const rank = std::ceil(share * static_cast<double>(sorted.size()));
+    return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
   }
 
   template <class Self, class Visit>
@@ -54,13 +55,13 @@ struct DoubledSamples {
   std::vector<int> choose(Problem const& problem, std::vector<int> const& points, ErrorSampling const& sampling,
                           long afforded) const {
     std::vector<int> chosen;
-    if (points.empty()) return chosen;
-    for (long planned = work; static_cast<int>(chosen.size()) < sampling.most_samples;) {
-      auto const number = differences.size() + chosen.size();
-      int const point = number % 2 == 0 ? most_strained(problem, points) : spread(points, number);
+    auto const room = std::min(detail::index(sampling.most_samples), points.size());
+    for (long planned = work; chosen.size() < room;) {
+      std::size_t turn = differences.size() + chosen.size();
+      int point = turn % 2 == 0 ? most_strained(problem, points) : spread(points, turn);
+      while (std::find(chosen.begin(), chosen.end(), point) != chosen.end()) point = spread(points, ++turn);
       planned += 2 * std::max(1L, problem.materials().work(point));
-      bool const again = std::find(chosen.begin(), chosen.end(), point) != chosen.end();
-      if (again || planned > afforded) break;
+      if (planned > afforded) break;
       chosen.push_back(point);
     }
     return chosen;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <limits>
 #include <vector>
 
+#include "scarp/core/worse_of.hpp"
 #include "scarp/scene/budget_part.hpp"
 #include "scarp/scene/doubled_samples.hpp"
 #include "scarp/scene/error_bounds.hpp"
@@ -56,11 +56,14 @@ class ErrorBudget : public NeverStops {
  public:
   static constexpr int dim = Problem::dim;
 
-  /// \throws InputError for points that the problem does not have, shares and pressures that are negative or not finite
+  /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
   explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
       : bounds_(bounds), sampling_(sampling) {
     require_not_negative("share of work for samples", sampling.share);
     require_not_negative("loose pressure", sampling.loose_pressure);
+    require_not_negative("number of samples of a step", sampling.most_samples);
+    require_not_negative("number of followed points", sampling.most_followed);
+    require_positive("number of points for a followed one", sampling.points_per_followed);
     int const points = problem.materials().point_count();
     for (int point = 0; point < points; ++point) {
       if (owns_point(problem.executor(), point)) seen_.push_back(point);
@@ -71,12 +74,12 @@ class ErrorBudget : public NeverStops {
   void attempted(Problem const& problem, StepReport const& report) {
     for (auto const& record : report.history) {
       work_ += record.inner_steps;
-      linear_residual_ = std::max(linear_residual_, record.linear_residual);
+      linear_residual_ = worse_of(linear_residual_, record.linear_residual);
     }
     if (work_ == 0) answers_ += static_cast<long>(report.history.size()) * problem.materials().point_count();
-    condition_ = std::max(condition_, report.condition);
+    condition_ = worse_of(condition_, report.condition);
     if (!report.verdict.acceptable()) return;
-    residual_ = std::max(residual_, report.residual());
+    residual_ = worse_of(residual_, report.residual());
     balance_.attempted(problem, report);
     packings_.look(problem, seen_);
     followed_.follow(problem, sampling_.loose_pressure);

@@ -8,7 +8,7 @@ namespace scarp {
 /// Where an error budget looks.
 struct ErrorSampling {
   double share = 0.02;            ///< of the run's work that all checks may take; followed points come first
-  int most_samples = 4;           ///< of one step
+  int most_samples = 2;           ///< of one step
   int points_per_followed = 200;  ///< one of so many points is followed through the run,
   int most_followed = 8;          ///< at most so many,
   std::vector<int> followed{};    ///< and these

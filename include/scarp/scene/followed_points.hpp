@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/core/worse_of.hpp"
 #include "scarp/element/index.hpp"
 #include "scarp/scene/error_sampling.hpp"
 #include "scarp/scene/point_checks.hpp"
@@ -67,7 +68,7 @@ struct FollowedPoints {
       problem.materials().visit(one.point, [&](auto const& field, int local) {
         auto const answer = followed_answer(field, local, problem.gradients()[detail::index(one.point)], one.bits);
         one.apart = stress_difference(field.committed_stress(local), answer.response, loose_pressure);
-        one.farthest = std::max(one.farthest, one.apart);
+        one.farthest = worse_of(one.farthest, one.apart);
         one.square_sum += one.apart * one.apart;
         works[detail::index(task)] = answer.work;
       });
@@ -94,7 +95,7 @@ struct FollowedPoints {
 
   double farthest() const {
     double farthest = 0.0;
-    for (auto const& one : points) farthest = std::max(farthest, one.farthest);
+    for (auto const& one : points) farthest = worse_of(farthest, one.farthest);
     return farthest;
   }
 

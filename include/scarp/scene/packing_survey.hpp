@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
+#include "scarp/core/worse_of.hpp"
 #include "scarp/element/index.hpp"
 #include "scarp/scene/point_checks.hpp"
 
@@ -28,9 +28,9 @@ struct PackingSurvey {
         if (!found.has_packing) return;
         looked_at += 1.0;
         unbalanced_sum += found.unbalanced_ratio;
-        unbalanced = std::max(unbalanced, found.unbalanced_ratio);
-        kinetic_share = std::max(kinetic_share, found.kinetic_share);
-        inertial_number = std::max(inertial_number, found.inertial_number);
+        unbalanced = worse_of(unbalanced, found.unbalanced_ratio);
+        kinetic_share = worse_of(kinetic_share, found.kinetic_share);
+        inertial_number = worse_of(inertial_number, found.inertial_number);
       });
     }
   }
