@@ -76,7 +76,7 @@ def of_the_run(summary, steps):
         ["DEM steps", f"{summary['dem_steps']:.4g}"],
         ["largest residual of an accepted step", f"{summary['max_accepted_residual']:.2e}"],
         ["time in load steps, wall [s]", f"{sum(step['seconds'] for step in steps):.0f}"],
-        ["CPU time [s]", f"{summary['cpu_seconds']:.0f}"],
+        ["CPU time of the last session [s]", f"{summary['cpu_seconds']:.0f}"],
         ["outside the points, share of the time", f"{summary['share_of_time_outside_rves']:.1%}"],
         ["peak memory [GiB]", f"{gigabytes:.2f}"],
         ["outcrop, steepest place of the surface [m]", f"{summary['outcrop_x']:.2f}, {summary['steepest_x']:.2f}"],
