@@ -27,7 +27,8 @@ struct FaultSettings {
   double most_seconds = 150.0;  ///< of the processor
 };
 
-/// The example's defaults on a coarser mesh with smaller packings, 220 triangles with 100 grains each, to a smaller throw.
+/// The example's defaults on a coarser mesh with smaller packings, 220 triangles with 100 grains each, to a smaller throw, and
+/// without the stiffness floor for packings that lose all contacts.
 FaultSettings fault_rupture_defaults();
 
 /// The free field with a packing in every triangle. Packings are prepared once for each mesh, number of grains and seed, outside of
