@@ -7,13 +7,13 @@
 #include <string>
 #include <tuple>
 
-#include "fault_runs.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
 #include "scarp/solver/bfgs_mixing.hpp"
 #include "scarp/solver/dynamic_relaxation.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
 #include "scarp/solver/line_search.hpp"
+#include "timed_solver.hpp"
 
 namespace {
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 #include "../examples/fault_rupture/scenes.hpp"
 #include "scarp/constitutive/lazy.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
+#include "scarp/measure/cpu_time.hpp"
 #include "scarp/scene/observers.hpp"
 #include "scarp/scene/outcrop.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -130,10 +130,10 @@ void run(Setting& setting, Candidate const& candidate) {
   scarp::ThreadExecutor executor(0);
   auto problem = scene.problem(executor);
   PredictionCount count;
-  std::clock_t const started = std::clock();
+  scarp::CpuTime const time;
   auto const settled = scene.settle(problem, count);
   auto const report = scarp::joined(settled, scene.rupture(problem, count));
-  double const cpu = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;
+  double const cpu = time.seconds();
 
   auto const& grid = problem.discretisation();
   auto const profile =

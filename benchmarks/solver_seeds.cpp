@@ -7,8 +7,8 @@
 #include <string>
 #include <tuple>
 
-#include "fault_runs.hpp"
 #include "scarp/solver/dynamic_relaxation.hpp"
+#include "timed_solver.hpp"
 
 namespace {
 

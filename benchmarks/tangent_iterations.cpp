@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <string>
 #include <vector>
 
 #include "any_tangent.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/homogenise/sliding_aware_tangent.hpp"
+#include "scarp/measure/cpu_time.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -36,10 +36,10 @@ void run(std::string const& solver, Candidate const& candidate, fault_rupture::S
   scarp::ThreadExecutor executor(0);
   auto problem = scene.problem(executor);
   scarp::NoObserver observer;
-  std::clock_t const started = std::clock();
+  scarp::CpuTime const time;
   auto const settled = scene.settle(problem, observer);
   auto const report = scarp::joined(settled, scene.rupture(problem, observer));
-  double const cpu = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;
+  double const cpu = time.seconds();
   fmt::print("| {} | {} | {:.4f} | {} | {} | {} | {:.2f} | {:.1f} |\n", solver, candidate.name,
              report.load / scene.layer.depth, report.steps, report.refused, report.iterations,
              static_cast<double>(report.inner_steps) / 1e6, cpu);

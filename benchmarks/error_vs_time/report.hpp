@@ -2,21 +2,13 @@
 #pragma once
 
 #include <cstdlib>
-#include <fstream>
 #include <string>
 #include <thread>
 
+#include "scarp/measure/processor.hpp"
 #include "subjects.hpp"
 
 namespace error_vs_time {
-
-inline std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown processor";
-}
 
 inline std::string cheapest(scarp::SweepTable const& table, std::string const& answer, double error) {
   auto const best = table.recommended(answer, error);
@@ -51,8 +43,8 @@ inline std::string provenance(Subject const& subject, Options const& options, sc
                   options.repetitions > 0 ? fmt::format(" --repetitions {}", options.repetitions) : "",
                   options.quick ? " --quick" : "");
   std::string const machine =
-      fmt::format("{} hardware threads, {}, compiler {}, commit {}", std::thread::hardware_concurrency(), processor(),
-                  __VERSION__, commit != nullptr ? commit : "unknown");
+      fmt::format("{} hardware threads, {}, compiler {}, commit {}", std::thread::hardware_concurrency(),
+                  scarp::processor(), __VERSION__, commit != nullptr ? commit : "unknown");
   std::string const reference = std::isfinite(table.reference_cost)
                                     ? fmt::format("of the reference {:.3g} times that", table.reference_cost)
                                     : "exact reference";

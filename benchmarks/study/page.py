@@ -48,6 +48,8 @@ def wall_until(steps):
 def projections(steps, coarser):
     """[(how, seconds for the whole throw)]"""
     throw, seconds = wall_until(steps)
+    if len(throw) < 2 or not throw[-1] > 0.0:
+        return []
     reached = throw[-1]
     if reached >= WHOLE * (1 - 1e-9):
         return [("measured", seconds[-1])]
@@ -56,6 +58,9 @@ def projections(steps, coarser):
     found = [("pace of the second half of what was reached", seconds[-1] + pace * (WHOLE - reached))]
     if coarser is not None:
         coarse_throw, coarse_seconds = wall_until(load_steps(coarser))
+        if coarse_throw[-1] < WHOLE * (1 - 1e-9):
+            raise figures.InputError(f"'{coarser}' ends at h/H = {coarse_throw[-1]:.4f} (a finished run is compared): "
+                                     "let it run on")
         ratio = coarse_seconds[-1] / np.interp(reached, coarse_throw, coarse_seconds)
         found.append(("as the time of the coarser mesh grew from there", seconds[-1] * ratio))
     return found
@@ -116,6 +121,7 @@ def main():
     coarser = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else None
     try:
         steps = load_steps(folder)
+        projected = projections(steps, coarser)
         summary = figures.read_summary(folder)
     except figures.InputError as trouble:
         print(f"{sys.argv[0]}: {trouble}", file=sys.stderr)
@@ -133,7 +139,7 @@ def main():
     parts = [f"`{os.environ.get('SCARP_COMMAND', 'fault_rupture')}`; {processor()}; "
              f"commit {os.environ.get('SCARP_COMMIT', 'unknown')}.", of_the_run(summary, steps),
              "Time until h/H = 0.085: " + "; ".join(f"{seconds / 3600:.2f} h ({how})"
-                                                     for how, seconds in projections(steps, coarser)) + ".",
+                                                     for how, seconds in projected) + ".",
              along_the_way(steps), budget(summary)]
     for name, title in FIGURES.items():
         if (folder / "figures" / f"{name}.png").is_file():

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <string>
 #include <thread>
 
+#include "scarp/measure/processor.hpp"
 #include "stability/in_a_process.hpp"
 
 namespace stability {
@@ -21,16 +21,7 @@ struct Origin {
 namespace detail {
 
 inline std::string machine() {
-  std::ifstream info("/proc/cpuinfo");
-  std::string model = "unknown processor";
-  for (std::string line; std::getline(info, line);) {
-    auto const colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) {
-      model = line.substr(colon + 2);
-      break;
-    }
-  }
-  return fmt::format("{} ({} threads)", model, std::thread::hardware_concurrency());
+  return fmt::format("{} ({} threads)", scarp::processor(), std::thread::hardware_concurrency());
 }
 
 /// What stands above the table of a group.

@@ -94,6 +94,12 @@ struct DemRve {
         std::clamp(std::ceil(steps), static_cast<double>(least_steps), static_cast<double>(most_steps)));
   }
 
+  /// How much the balance of a packing counts: all, below the loose pressure by its share of that.
+  double weight_of(State const& state) const {
+    double const pressure = mean_pressure(state.stress);
+    return pressure < loose_pressure ? std::max(pressure, 0.0) / loose_pressure : 1.0;
+  }
+
   /// Inertial number of a response in so many DEM steps.
   double inertial_number_of(State const& committed, Gradient<dim> const& increment, Plan steps) const {
     double const largest = ((increment + increment.transpose()) / 2.0).cwiseAbs().maxCoeff();
@@ -176,9 +182,8 @@ struct DemRve {
         kinetic_stress(state.packing).trace() / std::min(seen.stress.trace(), -least_pressure(state.packing) * dim);
     if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
     if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
-    double const pressure = mean_pressure(state.stress);
-    double const weight = pressure < loose_pressure ? std::max(pressure, 0.0) / loose_pressure : 1.0;
-    if (!(weight * seen.unbalanced_ratio <= unbalanced_tolerance)) return {Status::not_converged, Reason::unbalanced};
+    if (!(weight_of(state) * seen.unbalanced_ratio <= unbalanced_tolerance))
+      return {Status::not_converged, Reason::unbalanced};
     return {};
   }
 };

@@ -38,18 +38,15 @@ void visit_packing(Provider const& provider, State const& before, State const& a
 template <class Provider>
 PointBalance point_balance(ProviderField<Provider> const& field, int local, Gradient<Provider::dim> const& increment) {
   PointBalance balance;
-  detail::visit_packing(
-      field.provider(), field.replaced(local), field.committed(local), field.planned(local),
-      [&](auto const& provider, auto const& before, auto const& after, auto const& plan) {
-        if (after.verdict.status == Status::fluid) return;
-        double const pressure = -provider.stress(after).template head<Provider::dim>().sum() / Provider::dim;
-        double const weight =
-            pressure < provider.loose_pressure ? std::max(pressure, 0.0) / provider.loose_pressure : 1.0;
-        balance = {.has_packing = true,
-                   .unbalanced_ratio = weight * after.unbalanced_ratio,
-                   .kinetic_share = weight * after.kinetic_share,
-                   .inertial_number = provider.inertial_number_of(before, increment, plan)};
-      });
+  detail::visit_packing(field.provider(), field.replaced(local), field.committed(local), field.planned(local),
+                        [&](auto const& provider, auto const& before, auto const& after, auto const& plan) {
+                          if (after.verdict.status == Status::fluid) return;
+                          double const weight = provider.weight_of(after);
+                          balance = {.has_packing = true,
+                                     .unbalanced_ratio = weight * after.unbalanced_ratio,
+                                     .kinetic_share = weight * after.kinetic_share,
+                                     .inertial_number = provider.inertial_number_of(before, increment, plan)};
+                        });
   return balance;
 }
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <string>
 #include <vector>
 
 #include "any_tangent.hpp"
+#include "scarp/measure/cpu_time.hpp"
 #include "scarp/scene/outcrop.hpp"
 #include "scarp/scene/time_limit.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -68,11 +68,11 @@ End run(SettingType const& setting, fault_rupture::SandFreeField const& study, d
   scarp::ThreadExecutor executor(1);
   auto problem = scene.problem(executor);
   scarp::TimeLimit limit(seconds);
-  std::clock_t const started = std::clock();
+  scarp::CpuTime const time;
   auto const settled = scene.settle(problem, limit);
   End end;
   end.report = scarp::joined(settled, scene.rupture(problem, limit));
-  end.cpu_seconds = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;
+  end.cpu_seconds = time.seconds();
   auto const& grid = problem.discretisation();
   end.surface = scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface"));
   Eigen::VectorXd const forces = problem.evaluate_committed().unbalanced;
