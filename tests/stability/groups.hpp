@@ -7,6 +7,7 @@ namespace stability {
 
 // One source for each: <name>.cpp.
 Cases contact_cases();
+Cases dashpot_cases();
 Cases fault_cases();
 Cases floor_cases();
 Cases footing_cases();
@@ -20,8 +21,8 @@ Cases time_step_cases();
 /// All cases in the order of the page.
 inline Cases all_cases() {
   Cases all;
-  for (auto* const group : {contact_cases, packing_cases, rve_cases, time_step_cases, strength_cases, mesh_cases,
-                            solver_cases, fault_cases, floor_cases, footing_cases}) {
+  for (auto* const group : {contact_cases, packing_cases, rve_cases, time_step_cases, dashpot_cases, strength_cases,
+                            mesh_cases, solver_cases, fault_cases, floor_cases, footing_cases}) {
     for (Case& one : group()) all.push_back(std::move(one));
   }
   return all;

@@ -9,6 +9,11 @@
 #include <cstring>
 #include <experimental/simd>
 
+#if defined(__clang__) && defined(__AVX512F__)
+#error \
+    "scarp: clang for AVX-512 makes masked assignments of libstdc++'s packs set all lanes or none: add -mno-avx512f or use g++"
+#endif
+
 namespace scarp {
 
 /// As many scalars as one vector register of the target holds, at most eight: rows of more lanes cannot be read as quads.

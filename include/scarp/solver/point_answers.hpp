@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "scarp/constitutive/material_field.hpp"
@@ -143,8 +144,11 @@ class PointAnswers {
   void ask(std::vector<int> const& selected, Answer const& answer, Evaluation& evaluation) {
     constexpr long not_asked = -1;
     std::vector<long> worked(count(), not_asked);
-    executor_.for_each(static_cast<int>(selected.size()), [&](int task) {
-      int const point = selected[detail::index(task)];
+    // The longest answers first: one that begins last would keep the other threads waiting.
+    std::vector<int> order = selected;
+    std::ranges::stable_sort(order, std::ranges::greater{}, [&](int point) { return works_[detail::index(point)]; });
+    executor_.for_each(static_cast<int>(order.size()), [&](int task) {
+      int const point = order[detail::index(task)];
       auto const k = detail::index(point);
       responses_[k] = answer(point);
       // Prescribed nodes would hide a NaN from the residual of the free ones.
