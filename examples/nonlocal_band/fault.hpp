@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace nonlocal_band {
 
-/// Fault rupture through level ground of softening soil.
+/// Fault rupture through level ground that softens.
 struct FaultChoice {
   std::vector<double> sizes{5.0, 3.5, 2.5};  ///< of a mesh cell in the band [m]
   std::vector<double> lengths{0.0, 8.0};     ///< intrinsic [m]
@@ -15,7 +16,9 @@ struct FaultChoice {
   double tolerance = 1e-6;
 };
 
-/// Prints a row for each length and mesh.
+/// Mohr-Coulomb soil: prints a row for each length and mesh.
 void print_fault(FaultChoice const& choice);
+/// The study's sand, a packing of so many grains in each triangle.
+void print_sand(FaultChoice const& choice, int grains, std::uint64_t seed);
 
 }  // namespace nonlocal_band

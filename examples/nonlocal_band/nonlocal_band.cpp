@@ -123,18 +123,32 @@ int main(int argc, char** argv) {
   app.add_option("--most-iterations", choice.most_iterations, "of a load step");
   app.add_option("--gate", choice.gate, "largest difference between meshes with a length, as a part; 0 for none");
   app.add_option("--output", choice.output, "folder for load curves and shear strains");
+  auto const fault_options = [](CLI::App& command, FaultChoice& fault) {
+    command.add_option("--sizes", fault.sizes, "of a mesh cell in the band [m]")->delimiter(',');
+    command.add_option("--lengths", fault.lengths, "intrinsic lengths [m]")->delimiter(',');
+    command.add_option("--stiffness", fault.stiffness, "as above");
+    command.add_option("--fading", fault.fading, "as above");
+    command.add_option("--throw-over-depth", fault.throw_over_depth, "at the end");
+    command.add_option("--tolerance", fault.tolerance, "of the force residual");
+  };
   FaultChoice fault;
-  auto* const rupture = app.add_subcommand("fault", "fault rupture through level ground instead");
-  rupture->add_option("--sizes", fault.sizes, "of a mesh cell in the band [m]")->delimiter(',');
-  rupture->add_option("--lengths", fault.lengths, "intrinsic lengths [m]")->delimiter(',');
-  rupture->add_option("--stiffness", fault.stiffness, "as above");
-  rupture->add_option("--fading", fault.fading, "as above");
-  rupture->add_option("--throw-over-depth", fault.throw_over_depth, "at the end");
-  rupture->add_option("--tolerance", fault.tolerance, "of the force residual");
+  auto* const rupture = app.add_subcommand("fault", "fault rupture through level ground of Mohr-Coulomb soil instead");
+  fault_options(*rupture, fault);
+  FaultChoice sand{.tolerance = 3e-3};
+  int grains = 100;
+  std::uint64_t seed = 1;
+  auto* const packings = app.add_subcommand("sand", "fault rupture through level ground of packings instead");
+  fault_options(*packings, sand);
+  packings->add_option("--grains", grains, "in each packing")->check(CLI::Range(1, 100'000));
+  packings->add_option("--seed", seed, "of the packing");
   CLI11_PARSE(app, argc, argv);
   try {
     if (rupture->parsed()) {
       print_fault(fault);
+      return 0;
+    }
+    if (packings->parsed()) {
+      print_sand(sand, grains, seed);
       return 0;
     }
     if (print_specimens(choice)) return 0;

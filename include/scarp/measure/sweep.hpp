@@ -65,7 +65,7 @@ class Sweep {
     for (auto const& value : values) {
       double number = not_a_number;
       if constexpr (std::is_arithmetic_v<Member>) number = static_cast<double>(value);
-      choices.push_back({fmt::format("{}", value), number, [=](Settings& settings) { settings.*member = value; }});
+      choices.push_back({in_words(value), number, [=](Settings& settings) { settings.*member = value; }});
     }
     add(knob, std::move(choices), false);
   }
@@ -153,11 +153,20 @@ class Sweep {
     return [measure = measure_, settings](int repetition) { return measure(settings, repetition); };
   }
 
+  /// Without the last digits, which round-off makes.
+  template <class Value>
+  static std::string in_words(Value const& value) {
+    if constexpr (std::is_floating_point_v<Value>)
+      return fmt::format("{:.8g}", value);
+    else
+      return fmt::format("{}", value);
+  }
+
   template <class Change>
   static std::vector<Choice> numbered(Change change, std::vector<double> const& values) {
     std::vector<Choice> choices;
     for (double const value : values) {
-      choices.push_back({fmt::format("{}", value), value, [=](Settings& settings) { change(settings, value); }});
+      choices.push_back({in_words(value), value, [=](Settings& settings) { change(settings, value); }});
     }
     return choices;
   }

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "../convergence_table.hpp"
+#include "fault.hpp"
+#include "scarp/scene/free_field_fault.hpp"
+#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/scene/outcrop.hpp"
+
+namespace nonlocal_band {
+
+/// Work [N] that the moving bedrock does on the ground per metre of throw; at rest the weight of the ground above it.
+template <class Problem>
+double reaction(Problem& problem) {
+  auto const unbalanced = problem.evaluate_committed().unbalanced;
+  auto const& moved = problem.constraints();
+  double work = 0.0;
+  for (std::size_t k = 0; k < moved.rates().size(); ++k)
+    work += moved.rates()[k] * unbalanced(moved.prescribed_dofs()[k]);
+  return work;
+}
+
+/// A row for each length and mesh. scene_on(size) is the scene on a mesh of that size, whose soil is `Nonlocal`; a length of zero
+/// makes it local, bit for bit.
+template <class SceneOn>
+void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
+  fmt::print("{:>6} {:>9} {:>6} {:>8} {:>10} {:>9} {:>12} {:>6} {:>8} {:>6} {:>7}\n", "size", "triangles", "l", "throw",
+             "outcrop", "width", "reaction", "steps", "refused", "iter", "s");
+  scarp::SerialExecutor executor;
+  for (double const length : choice.lengths) {
+    for (double const size : choice.sizes) {
+      examples::Stopwatch const watch;
+      auto scene = scene_on(size);
+      scene.soil.length = length;
+      scene.soil.stiffness = choice.stiffness;
+      scene.soil.fading = choice.fading;
+      scene.throw_to = choice.throw_over_depth * scene.layer.depth;
+      scene.solver.tolerance = choice.tolerance;
+      auto problem = scene.problem(executor);
+      scarp::NoObserver nobody;
+      auto const settled = scene.settle(problem, nobody);
+      double const at_rest = reaction(problem);
+      auto const run = settled.verdict.acceptable() ? scene.rupture(problem, nobody) : settled;
+      auto const& grid = problem.discretisation();
+      auto const found = scarp::outcrop(
+          scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface")),
+          run.load);
+      fmt::print("{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
+                 grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
+                 reaction(problem) - at_rest, run.steps, run.refused, run.iterations, watch.seconds(),
+                 run.verdict.acceptable() ? "" : name(run.last_failure));
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace nonlocal_band
