@@ -17,6 +17,7 @@ from scarp_figures import plt
 COLOURS = [figures.BLUE, figures.VERMILION, figures.GREEN, figures.ORANGE, figures.PURPLE, figures.SKY, "#7F6000",
            "#444444"]
 MARKERS = "osD^vP*X<>"
+MOST_COLUMNS = 4  # of panels, the legend's included
 
 
 def style(number):
@@ -72,6 +73,10 @@ def draw_knobs(axes, rows, styles):
         ordered = all(math.isfinite(row["value"]) for row in group)
         axes.plot(*points(group), marker + ("-" if ordered else ""), color=colour, markersize=4, linewidth=1.0,
                   label=knob)
+        if not ordered and len(grouped) == 2:  # beside the base: there is room for names
+            for row in group:
+                axes.annotate(row["setting"], (row["cost"], row["error"]), xytext=(6, 3), textcoords="offset points",
+                              fontsize="small")
 
 
 def draw_base(axes, rows):
@@ -87,10 +92,12 @@ def draw_base(axes, rows):
 
 def draw(path):
     table = read(path)
-    fig, panels = plt.subplots(1, len(table) + 1, figsize=(3.3 * len(table) + 2.2, 3.9), squeeze=False,
-                               width_ratios=[3.3] * len(table) + [2.2])
+    lines = math.ceil((len(table) + 1) / MOST_COLUMNS)
+    columns = math.ceil((len(table) + 1) / lines)
+    fig, panels = plt.subplots(lines, columns, figsize=(3.3 * columns, 3.9 * lines), squeeze=False)
+    panels = panels.flatten()
     styles = {}
-    for axes, (answer, rows) in zip(panels[0], table.items()):
+    for axes, (answer, rows) in zip(panels, table.items()):
         draw_front(axes, rows)
         draw_knobs(axes, rows, styles)
         draw_base(axes, rows)
@@ -99,13 +106,15 @@ def draw(path):
         axes.xaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,)))
         axes.xaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
         axes.xaxis.set_minor_locator(ticker.NullLocator())
-    panels[0][0].set_ylabel("error relative to the reference [-]")
+    for axes in panels[::columns]:
+        axes.set_ylabel("error relative to the reference [-]")
     handles = {}
-    for axes in panels[0][:-1]:
+    for axes in panels[:len(table)]:
         for handle, label in zip(*axes.get_legend_handles_labels()):
             handles.setdefault(label, handle)
-    panels[0][-1].axis("off")
-    panels[0][-1].legend(handles.values(), handles.keys(), loc="center left", borderaxespad=0.0)
+    for axes in panels[len(table):]:
+        axes.axis("off")
+    panels[len(table)].legend(handles.values(), handles.keys(), loc="center left", borderaxespad=0.0)
     return fig
 
 

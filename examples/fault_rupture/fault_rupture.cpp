@@ -37,6 +37,8 @@ struct ChoiceLines {
 scarp::CheckpointFiles checkpoint_files(Choice const& choice) {
   ChoiceLines lines;
   Choice::members(choice, lines);
+  // The error budget follows points of the first rank.
+  if (int const ranks = fault_rupture::ranks(); ranks > 1) lines("ranks", ranks);
   return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
 }
 

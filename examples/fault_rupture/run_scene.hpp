@@ -73,11 +73,6 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   };
   scarp::ThreadExecutor threads(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
-  if (ranks_of(executor) > 1 && files.saves()) {
-    scarp::refuse(
-        "checkpoints were asked for on {} ranks (only one process saves its points so far): leave one of them out",
-        ranks_of(executor));
-  }
   auto problem = scene.problem(executor);
   fs::path const folder = choice.output;
   if (is_first_rank(executor)) {

@@ -148,7 +148,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["share_of_time_in_rves"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
   json["share_of_time_outside_rves"] = 1.0 - json["share_of_time_in_rves"].get<double>();
   json["threads"] = threads_of(problem.executor());
-  if (ranks_of(problem.executor()) > 1) json["ranks"] = ranks_of(problem.executor());
+  if (ranks() > 1) json["ranks"] = ranks();
   json["cpu_seconds"] = used.cpu_seconds;
   json["wall_seconds"] = wall_seconds;
   json["peak_memory_bytes"] = used.peak_memory_bytes;

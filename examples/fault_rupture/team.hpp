@@ -17,25 +17,27 @@ namespace fault_rupture {
 #ifdef SCARP_WITH_RANKS
 using Team = scarp::RankExecutor<scarp::ThreadExecutor>;
 using Session = scarp::MpiSession;
+inline int ranks() {
+  int count = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  return count;
+}
 /// Ranks share the machine's processors unless a number is asked for.
 inline int threads_of_a_process(int asked) {
-  int ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks);
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks());
 }
 inline Team make_team(scarp::ThreadExecutor& threads) { return Team(threads); }
 inline int threads_of(Team const& team) { return team.local().threads(); }
-inline int ranks_of(Team const& team) { return team.ranks(); }
 [[noreturn]] inline void give_up(int exit_code) { scarp::MpiSession::abort(exit_code); }  // others may be waiting
 #else
 using Team = scarp::ThreadExecutor;
 struct Session {
   Session(int&, char**&) {}
 };
+inline int ranks() { return 1; }
 inline int threads_of_a_process(int asked) { return asked; }
 inline Team& make_team(scarp::ThreadExecutor& threads) { return threads; }
 inline int threads_of(Team const& team) { return team.threads(); }
-inline int ranks_of(Team const&) { return 1; }
 [[noreturn]] inline void give_up(int exit_code) { std::exit(exit_code); }
 #endif
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "scarp/constitutive/nonlocal_materials.hpp"
+#include "scarp/io/state_bits.hpp"
 #include "solver/sample_block.hpp"
 
 namespace {
@@ -95,6 +96,28 @@ TEST_CASE("a length of zero, or one that reaches no neighbour, gives the local a
   auto other = block({.length = 0.5}, soil, executor);
   CHECK(scarp::LoadStepping{.first = 0.005}.run(solver, other, 0.0, 0.01, nobody).verdict.acceptable());
   CHECK(other.discretisation().positions() != local.discretisation().positions());
+}
+
+TEST_CASE("a field that was saved and loaded goes on with the same bits") {
+  scarp::SerialExecutor executor;
+  sample::Softening const soil{.reference_strain = 0.02};
+  Problem first = block({.length = 0.6}, soil, executor);
+  Eigen::VectorXd const moves = uneven(first.dof_count(), 0.01);
+  first.plan(moves);
+  first.evaluate(moves);
+  first.commit(moves);
+  scarp::StateWriter writer;
+  writer("problem", std::as_const(first));
+  Problem second = block({.length = 0.6}, soil, executor);
+  scarp::StateReader reader(writer.bits());
+  reader("problem", second);
+  CHECK(reader.at_end());
+  for (Problem* problem : {&first, &second}) problem->plan(-0.5 * moves);
+  auto const one = first.evaluate(-0.5 * moves);
+  auto const other = second.evaluate(-0.5 * moves);
+  CHECK(first.materials().added_stresses() == second.materials().added_stresses());
+  CHECK(first.materials().added_stresses()[0].norm() > 0.0);
+  CHECK(one.unbalanced == other.unbalanced);
 }
 
 TEST_CASE("the wide stiffness is the derivative of the forces, fading included") {

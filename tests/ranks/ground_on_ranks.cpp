@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// A small fault in packings whose points are shared out among MPI ranks: `mpirun -np 3 ground_on_ranks`. Prints the bits of the result
-// and what each rank holds.
+// A small fault in packings whose points are shared out among MPI ranks: `mpirun -np 3 ground_on_ranks THREADS LENGTH [FOLDER [ATTEMPTS]]`.
+// Prints the bits of the result and what each rank holds. Points look LENGTH [m] around themselves, 0: they are local. With a folder it
+// saves checkpoints there and goes on from them; with a number of attempts it stops after so many.
 #define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -9,41 +10,82 @@
 #include <bit>
 #include <cstdint>
 
+#include "scarp/scene/checkpointed_run.hpp"
+#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/scene/observers.hpp"
 #include "scarp/solver/rank_executor.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "scene/sample_ground.hpp"
 
+namespace {
+
+struct Stop {
+  int attempts;
+
+  template <class Problem>
+  void attempted(Problem const&, scarp::StepReport const&) {
+    --attempts;
+  }
+  bool wants_stop() const { return attempts <= 0; }
+
+  template <class Self, class Visit>
+  static void members(Self&, Visit&&) {}
+};
+
+template <class Scene>
+void rupture(Scene const& scene, int threads_of_a_rank, scarp::CheckpointFiles files, int attempts) {
+  scarp::ThreadExecutor threads(threads_of_a_rank);
+  scarp::RankExecutor executor(threads);
+  auto problem = scene.problem(executor);
+  scarp::OnFirstRank observer(executor, [&] { return Stop{attempts}; });
+  scarp::RunState nothing;
+  scarp::CheckpointedRun stages(files, observer, nothing);
+  stages.stage([&] { return scene.settle(problem, stages); });
+  stages.stage([&] { return scene.rupture(problem, stages); });
+  auto const& run = stages.report();
+  auto const tangents = problem.committed_tangents();
+  auto const stresses = problem.committed_stresses();
+  std::uint64_t hash = 0;
+  auto const take = [&hash](auto const& values) {
+    for (double const value : values.reshaped()) hash = std::rotl(hash, 5) ^ std::bit_cast<std::uint64_t>(value);
+  };
+  for (auto const& position : problem.discretisation().positions()) take(position);
+  for (auto const& stress : stresses) take(stress);
+  for (auto const& tangent : tangents) take(tangent);
+  int packings = 0;
+  for (int point = 0; point < problem.materials().point_count(); ++point) {
+    problem.materials().visit(point, [&](auto const& field, int local) {
+      if (field.committed(local).packing.population != nullptr) ++packings;
+    });
+  }
+  if (executor.rank() == 0) {
+    fmt::print("{} hash {:016x} iterations {} DEM steps {}\n", scarp::name(run.verdict.status), hash, run.iterations,
+               run.inner_steps);
+  }
+  fmt::print(stderr, "rank {} of {} holds {} of {} packings, waited {:.3f} s\n", executor.rank(), executor.ranks(),
+             packings, problem.materials().point_count(), executor.seconds_sharing());
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  {
-    auto scene = sample::sandy_ground();
-    scarp::ThreadExecutor threads(argc > 1 ? std::atoi(argv[1]) : 1);
-    scarp::RankExecutor executor(threads);
-    auto problem = scene.problem(executor);
-    scarp::NoObserver observer;
-    auto run = scene.settle(problem, observer);
-    if (run.verdict.acceptable()) run = scarp::joined(run, scene.rupture(problem, observer));
-    auto const tangents = problem.committed_tangents();
-    auto const stresses = problem.committed_stresses();
-    std::uint64_t hash = 0;
-    auto const take = [&hash](auto const& values) {
-      for (double const value : values.reshaped()) hash = std::rotl(hash, 5) ^ std::bit_cast<std::uint64_t>(value);
-    };
-    for (auto const& position : problem.discretisation().positions()) take(position);
-    for (auto const& stress : stresses) take(stress);
-    for (auto const& tangent : tangents) take(tangent);
-    int packings = 0;
-    for (int point = 0; point < problem.materials().point_count(); ++point) {
-      problem.materials().visit(point, [&](auto const& field, int local) {
-        if (field.committed(local).packing.population != nullptr) ++packings;
-      });
-    }
-    if (executor.rank() == 0) {
-      fmt::print("{} hash {:016x} iterations {} DEM steps {}\n", scarp::name(run.verdict.status), hash, run.iterations,
-                 run.inner_steps);
-    }
-    fmt::print(stderr, "rank {} of {} holds {} of {} packings, waited {:.3f} s\n", executor.rank(), executor.ranks(),
-               packings, problem.materials().point_count(), executor.seconds_sharing());
+  if (argc < 3) return 2;
+  int const threads = std::atoi(argv[1]);
+  double const length = std::atof(argv[2]);
+  scarp::CheckpointFiles files;
+  if (argc > 3) files = {{.folder = argv[3], .resume = true}, fmt::format("length = {}\n", length)};
+  int const attempts = argc > 4 ? std::atoi(argv[4]) : 1000;
+  auto const& ground = sample::sandy_ground();
+  if (length == 0.0) {
+    rupture(ground, threads, files, attempts);
+  } else {
+    scarp::FreeFieldFault<scarp::Nonlocal<sample::Sand>> scene;
+    scene.soil = {.provider = ground.soil, .length = length};
+    scene.layer = ground.layer;
+    scene.throw_to = ground.throw_to;
+    scene.solver = ground.solver;
+    rupture(scene, threads, files, attempts);
   }
   MPI_Finalize();
 }

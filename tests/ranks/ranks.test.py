@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSL-1.0
 """A small fault in packings has the same bits on one, two and three MPI ranks of one or two threads, and no rank holds a packing of
-another. Environment: SCARP_TEST_PROGRAMS, the folder of ground_on_ranks (skipped, exit 77, without it or mpirun)."""
+another; stopped and gone on from checkpoints by other numbers of ranks it ends with these bits too. Environment: SCARP_TEST_PROGRAMS, the folder of ground_on_ranks (skipped, exit 77, without it or mpirun)."""
 import os
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 PROGRAM = pathlib.Path(os.environ.get("SCARP_TEST_PROGRAMS", "nowhere")) / "ground_on_ranks"
 if not PROGRAM.exists() or shutil.which("mpirun") is None:
@@ -16,18 +17,33 @@ if not PROGRAM.exists() or shutil.which("mpirun") is None:
 # Open MPI otherwise refuses more ranks than cores, and the root user of a container.
 environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_rmaps_base_oversubscribe": "1"}
-answers = {}
-for ranks, threads in ((1, 1), (2, 1), (3, 1), (2, 2)):
-    done = subprocess.run(["mpirun", "-np", str(ranks), PROGRAM, str(threads)], env=environment, capture_output=True,
-                          text=True, timeout=300)
+
+
+def run(ranks, *arguments):
+    """What the first rank prints. Every packing is held once, and evenly."""
+    done = subprocess.run(["mpirun", "-np", str(ranks), PROGRAM, *map(str, arguments)], env=environment,
+                          capture_output=True, text=True, timeout=300)
     print(done.stdout, done.stderr, sep="")
     if done.returncode != 0:
         sys.exit(f"{ranks} ranks: exit code {done.returncode}")
-    answers[ranks, threads] = done.stdout
     held = [tuple(map(int, found)) for found in re.findall(r"holds (\d+) of (\d+) packings", done.stderr)]
     if len(held) != ranks or sum(own for own, _ in held) != held[0][1]:
         sys.exit(f"{ranks} ranks hold {held} packings: together they should hold each one once")
     if max(own for own, _ in held) - min(own for own, _ in held) > 1:
         sys.exit(f"packings are shared out unevenly: {held}")
-if len(set(answers.values())) != 1 or not answers[1, 1].startswith("ok hash"):
-    sys.exit(f"the answers differ or fail: {answers}")
+    return done.stdout
+
+
+for length in (0, 40):  # [m], of points that look around themselves
+    answers = {(ranks, threads): run(ranks, threads, length) for ranks, threads in ((1, 1), (2, 1), (3, 1), (2, 2))}
+    whole = answers[1, 1]
+    if len(set(answers.values())) != 1 or not whole.startswith("ok hash"):
+        sys.exit(f"length {length}: the answers differ or fail: {answers}")
+    with tempfile.TemporaryDirectory() as folder:
+        for ranks, attempts in ((2, 3), (3, 2), (1, 1)):
+            stopped = run(ranks, 1, length, folder, attempts)
+            if not stopped.startswith("not_converged"):
+                sys.exit(f"length {length}: {ranks} ranks did not stop after {attempts} attempts: {stopped}")
+        resumed = run(2, 1, length, folder)
+    if resumed != whole:
+        sys.exit(f"length {length}: gone on from checkpoints of 2, 3 and 1 ranks: '{resumed}', in one go: '{whole}'")

@@ -86,6 +86,10 @@ class ProviderField {
   void visit(int point, Visit&& visit) const {
     visit(*this, point);
   }
+  template <class Visit>
+  void visit(int point, Visit&& visit) {
+    visit(*this, point);
+  }
 
   /// Fixes the work of a point for the load step that begins; nothing to do for providers without plan.
   void plan(int point, Gradient<dim> const& predicted) {
@@ -144,6 +148,11 @@ class ProviderField {
   void for_each_committed(Visit&& visit) {
     for (State& state : committed_) visit(state);
   }
+
+  /// Another committed state for a point, between load steps.
+  void put(int point, State state) { committed_[number(point)] = std::move(state); }
+  /// Leaves a point without state, since another process answers for it.
+  void forget(int point) { committed_[number(point)] = trial_[number(point)] = no_state(); }
 
   /// What evolves: the committed states.
   template <class Self, class Visit>

@@ -95,6 +95,17 @@ class NonlocalMaterials {
   void visit(int point, Visit&& visit) const {
     field_.visit(point, visit);
   }
+  template <class Visit>
+  void visit(int point, Visit&& visit) {
+    field_.visit(point, visit);
+  }
+
+  /// What evolves: the field and tau.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("field", self.field_);
+    visit("tau", self.committed_);
+  }
 
  private:
   static NeighbourMean<dim> mean_of(Field const& field, std::span<Site<dim> const> sites,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scarp/io/checkpoint_files.hpp"
+#include "scarp/scene/gathered_states.hpp"
 #include "scarp/solver/load_stepping.hpp"
 
 namespace scarp {
@@ -20,7 +21,8 @@ namespace scarp {
 /// \endcode
 /// Stages before that of the checkpoint are left out; the problem that it is loaded into is a new one of the same scene. A
 /// checkpoint is made before an attempt when its time has come, where a stage ends, and where it stops, for whatever reason:
-/// with the last accepted state then.
+/// with the last accepted state then. Where points are shared out among processes, the first one writes for all and each reads all:
+/// another number of processes may go on.
 template <class Watched, Described Notes>
 class CheckpointedRun {
  public:
@@ -59,23 +61,25 @@ class CheckpointedRun {
     files_.load([&](StateReader& reader) {
       read_place(reader);
       members(*this, problem, session, state, reader);
-      if (!reader.at_end()) refuse("it holds more than the scene has: load it into the scene that was saved");
+      if (is_first_rank(problem.executor()) && !reader.at_end())
+        refuse("it holds more than the scene has: load it into the scene that was saved");
     });
     files_.release();
+    keep_own_states(problem);
     if (state.report.verdict.reason == Reason::interrupted) state.report.verdict = {};
   }
 
   template <class Problem, class Session>
-  void between(Problem const& problem, Session const& session, RunState const& state) {
+  void between(Problem& problem, Session const& session, RunState const& state) {
     auto const& settings = files_.settings();
     double const seconds = std::chrono::duration<double>(Clock::now() - saved_).count();
     bool const due =
         seconds >= settings.every_seconds || (settings.every_attempts > 0 && attempts_ >= settings.every_attempts);
-    if (due && attempts_ > 0) save(problem, session, state);
+    if (agreed(problem.executor(), due) && attempts_ > 0) save(problem, session, state);
   }
 
   template <class Problem, class Session>
-  void ends(Problem const& problem, Session const& session, RunState const& state) {
+  void ends(Problem& problem, Session const& session, RunState const& state) {
     if (attempts_ > 0) save(problem, session, state);
   }
 
@@ -83,12 +87,14 @@ class CheckpointedRun {
   using Clock = std::chrono::steady_clock;
 
   template <class Problem, class Session>
-  void save(Problem const& problem, Session const& session, RunState const& state) {
+  void save(Problem& problem, Session const& session, RunState const& state) {
     if (!files_.saves()) return;
-    files_.save([&](StateWriter& writer) {
-      writer("stage", stage_);
-      writer("earlier stages", report_);
-      members(std::as_const(*this), problem, session, state, writer);
+    with_all_states(problem, [&] {
+      files_.save([&](StateWriter& writer) {
+        writer("stage", stage_);
+        writer("earlier stages", report_);
+        members(std::as_const(*this), std::as_const(problem), session, state, writer);
+      });
     });
     attempts_ = 0;
     saved_ = Clock::now();

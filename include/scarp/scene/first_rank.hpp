@@ -31,6 +31,17 @@ bool is_first_rank(Executor const& executor) {
   }
 }
 
+/// What the first rank says.
+template <ExecutesTasks Executor>
+bool agreed(Executor const& executor, bool said) {
+  if constexpr (SharesPoints<Executor>) {
+    return executor.agree(said);
+  } else {
+    static_cast<void>(executor);
+    return said;
+  }
+}
+
 /// Runs a task on the first rank only, which may look at the points of all ranks by visit_point; the others answer meanwhile.
 template <class Problem, class Task>
 void on_first_rank(Problem const& problem, Task const& task) {
@@ -67,14 +78,7 @@ class OnFirstRank {
     on_first_rank(problem, [&] { observers_->attempted(problem, report); });
   }
 
-  bool wants_stop() const {
-    bool const wanted = observers_ && observers_->wants_stop();
-    if constexpr (SharesPoints<Executor>) {
-      return executor_.agree(wanted);
-    } else {
-      return wanted;
-    }
-  }
+  bool wants_stop() const { return agreed(executor_, observers_ && observers_->wants_stop()); }
 
   /// Of the observers; nothing on other ranks.
   template <class Self, class Visit>

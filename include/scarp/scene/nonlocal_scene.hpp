@@ -36,11 +36,10 @@ struct SceneMaterials<Providers...> {
   using Regions = RegionMaterials<typename detail::LocalPart<Providers>::Type...>;
   using Type = NonlocalMaterials<Regions>;
 
-  /// Every process has states for all points, although it asks only its own: the stiffness against unseen strain follows from
-  /// the initial ones.
+  /// Every process makes states for all points, since the stiffness against unseen strain follows from them, and keeps its own.
   template <class DiscretisationType, class Owned>
   static Type make(DiscretisationType const& discretisation, double surface_level,
-                   boost::hana::tuple<Region<Providers>...> const& regions, Owned const&) {
+                   boost::hana::tuple<Region<Providers>...> const& regions, Owned const& owned) {
     constexpr int dim = DiscretisationType::dim;
     auto const local = boost::hana::transform(regions, []<class Provider>(Region<Provider> const& region) {
       using Part = detail::LocalPart<Provider>;
@@ -59,7 +58,11 @@ struct SceneMaterials<Providers...> {
       neighbourhoods.push_back(of_region[static_cast<std::size_t>(sites.back().region)]);
     }
     auto const volumes = discretisation.volumes(Eigen::VectorXd::Zero(discretisation.dof_count()));
-    return {std::move(materials), sites, volumes, neighbourhoods};
+    Type means(std::move(materials), sites, volumes, neighbourhoods);
+    for (int point = 0; point < means.point_count(); ++point) {
+      if (!owned(point)) means.visit(point, [](auto& field, int local) { field.forget(local); });
+    }
+    return means;
   }
 };
 

@@ -209,6 +209,12 @@ class EquilibriumProblem {
     points_.materials().for_each_committed(visit);
   }
 
+  /// visit(field, local point) with the field that a point belongs to, which may get or forget its state; between load steps.
+  template <class Visit>
+  void visit_field(int point, Visit&& visit) {
+    points_.materials().visit(point, visit);
+  }
+
   /// What evolves from step to step: a problem made anew goes on from these as the one that they were taken from.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
