@@ -136,7 +136,6 @@ int main(int argc, char** argv) {
   try {
     auto const started = std::chrono::steady_clock::now();
     auto files = checkpoint_files(choice);
-    if (files.resumes()) fmt::print(stderr, "going on from '{}'\n", files.newest().string());
     auto const scene = fault_rupture::make_scene(choice);
     return std::visit([&](auto const& chosen) { return run(choice, chosen, files, started); }, scene);
   } catch (scarp::CheckpointError const& error) {

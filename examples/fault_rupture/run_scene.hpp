@@ -73,9 +73,17 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   };
   scarp::ThreadExecutor threads(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
+  if (agreed(executor, files.resumes()) != files.resumes()) {
+    scarp::refuse(
+        "checkpoints in '{}' are not the same for all ranks (each of them must see them to go on): use a folder that "
+        "all "
+        "machines share",
+        choice.checkpoint);
+  }
   auto problem = scene.problem(executor);
   fs::path const folder = choice.output;
   if (is_first_rank(executor)) {
+    if (files.resumes()) fmt::print(stderr, "going on from '{}'\n", files.newest().string());
     fmt::print(stderr, "{} triangles, {} threads, ground made after {:.1f} s\n",
                problem.discretisation().mesh().elements.size(), threads.threads(), elapsed());
     fs::create_directories(folder / "fields");
@@ -92,6 +100,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   auto const& grid = problem.discretisation();
   auto const at = [&](double x, double y) { return nearest_point(grid, scarp::Vector<2>(x, y)); };
   auto budget = error_budget(choice, scene, problem, at(choice.probe_a_x, choice.probe_a_y));
+  scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnFirstRank observers(executor, [&] {
     return scarp::Observers(
         scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
@@ -101,7 +110,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
         footing_log(folder, scene.structure, to, profiles, depth, start),
         scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth),
-        scarp::Borrowed(budget), scarp::StopSignal(), scarp::TimeLimit(choice.time_limit));
+        scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit));
   });
 
   AtRest rest;

@@ -29,8 +29,8 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
   scarp::SerialExecutor executor;
   for (double const length : choice.lengths) {
     for (double const size : choice.sizes) {
-      examples::Stopwatch const watch;
       auto scene = scene_on(size);
+      examples::Stopwatch const watch;
       scene.soil.length = length;
       scene.soil.stiffness = choice.stiffness;
       scene.soil.fading = choice.fading;

@@ -127,7 +127,7 @@ TEST_CASE("samples have references of their own, their scatter is told, and fail
   sweep.least_seconds = 0.0;
   sweep.reference({.size = 0.0});
   sweep.vary("size", [](Settings& settings, double value) { settings.size = value; }, {0.1, 0.5, 2.0});
-  sweep.vary_sample("sides", [](Settings& settings, double) { settings.size = 0.0; }, {5.0});
+  sweep.vary_sample("sides", [](Settings& settings, double) { settings.size = 0.0; }, {0.7 * 7.0});
   auto const table = sweep.run(3);
   CHECK(table.rows[1].errors[0] == doctest::Approx(0.1));
   CHECK(table.rows[2].verdict.reason == scarp::Reason::not_finite);
@@ -135,6 +135,7 @@ TEST_CASE("samples have references of their own, their scatter is told, and fail
   CHECK(std::isnan(table.rows[3].errors[0]));
   CHECK(table.scatter[0] == doctest::Approx(1.0 / 11.0));                          // of 10, 11, 12
   CHECK(table.rows[4].errors[0] == doctest::Approx(std::sqrt(2.0 / 3.0) / 11.0));  // about the mean of the samples
+  CHECK(table.rows[4].setting == "4.9");
   for (auto const& row : table.front("load")) CHECK_FALSE(row.new_sample);
   CHECK(table.markdown().find("not_converged (unbalanced)") != std::string::npos);
   CHECK(table.csv().find("size,2,load,2,") != std::string::npos);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A small fault in packings whose points are shared out among MPI ranks: `mpirun -np 3 ground_on_ranks THREADS LENGTH [FOLDER [ATTEMPTS]]`.
 // Prints the bits of the result and what each rank holds. Points look LENGTH [m] around themselves, 0: they are local. With a folder it
-// saves checkpoints there and goes on from them; with a number of attempts it stops after so many.
+// saves checkpoints there after every attempt and goes on from them; with a number of attempts it stops after so many.
 #define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -32,14 +32,20 @@ struct Stop {
   static void members(Self&, Visit&&) {}
 };
 
+struct NoNotes {
+  template <class Self, class Visit>
+  static void members(Self&, Visit&&) {}
+};
+
 template <class Scene>
 void rupture(Scene const& scene, int threads_of_a_rank, scarp::CheckpointFiles files, int attempts) {
   scarp::ThreadExecutor threads(threads_of_a_rank);
   scarp::RankExecutor executor(threads);
   auto problem = scene.problem(executor);
   scarp::OnFirstRank observer(executor, [&] { return Stop{attempts}; });
-  scarp::RunState nothing;
-  scarp::CheckpointedRun stages(files, observer, nothing);
+  NoNotes notes;
+  bool const resumes = files.resumes();
+  scarp::CheckpointedRun stages(files, observer, notes);
   stages.stage([&] { return scene.settle(problem, stages); });
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& run = stages.report();
@@ -64,17 +70,23 @@ void rupture(Scene const& scene, int threads_of_a_rank, scarp::CheckpointFiles f
   }
   fmt::print(stderr, "rank {} of {} holds {} of {} packings, waited {:.3f} s\n", executor.rank(), executor.ranks(),
              packings, problem.materials().point_count(), executor.seconds_sharing());
+  if (resumes) fmt::print(stderr, "rank {} went on from a checkpoint\n", executor.rank());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  if (argc < 3) return 2;
+  if (argc < 3) {
+    fmt::print(stderr, "usage: ground_on_ranks THREADS LENGTH [FOLDER [ATTEMPTS]]\n");
+    MPI_Finalize();
+    return 2;
+  }
   int const threads = std::atoi(argv[1]);
   double const length = std::atof(argv[2]);
   scarp::CheckpointFiles files;
-  if (argc > 3) files = {{.folder = argv[3], .resume = true}, fmt::format("length = {}\n", length)};
+  if (argc > 3)
+    files = {{.folder = argv[3], .resume = true, .every_attempts = 1}, fmt::format("length = {}\n", length)};
   int const attempts = argc > 4 ? std::atoi(argv[4]) : 1000;
   auto const& ground = sample::sandy_ground();
   if (length == 0.0) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
-"""A small fault in packings has the same bits on one, two and three MPI ranks of one or two threads, and no rank holds a packing of
-another; stopped and gone on from checkpoints by other numbers of ranks it ends with these bits too. Environment: SCARP_TEST_PROGRAMS, the folder of ground_on_ranks (skipped, exit 77, without it or mpirun)."""
+"""A small fault in packings has the same bits on one, two and three MPI ranks of one or two threads, and no rank keeps a packing of
+another; stopped and gone on from checkpoints by other numbers of ranks it ends with these bits too. Environment:
+SCARP_TEST_PROGRAMS, the folder of ground_on_ranks (skipped, exit 77, without it or mpirun)."""
 import os
 import pathlib
 import re
@@ -19,8 +20,8 @@ environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
                "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
 
-def run(ranks, *arguments):
-    """What the first rank prints. Every packing is held once, and evenly."""
+def run(ranks, *arguments, resumes=0):
+    """What the first rank prints. Every packing is held once, and evenly; `resumes` ranks go on from a checkpoint."""
     done = subprocess.run(["mpirun", "-np", str(ranks), PROGRAM, *map(str, arguments)], env=environment,
                           capture_output=True, text=True, timeout=300)
     print(done.stdout, done.stderr, sep="")
@@ -31,6 +32,8 @@ def run(ranks, *arguments):
         sys.exit(f"{ranks} ranks hold {held} packings: together they should hold each one once")
     if max(own for own, _ in held) - min(own for own, _ in held) > 1:
         sys.exit(f"packings are shared out unevenly: {held}")
+    if done.stderr.count("went on from a checkpoint") != resumes:
+        sys.exit(f"{resumes} ranks should have gone on from a checkpoint")
     return done.stdout
 
 
@@ -40,10 +43,10 @@ for length in (0, 40):  # [m], of points that look around themselves
     if len(set(answers.values())) != 1 or not whole.startswith("ok hash"):
         sys.exit(f"length {length}: the answers differ or fail: {answers}")
     with tempfile.TemporaryDirectory() as folder:
-        for ranks, attempts in ((2, 3), (3, 2), (1, 1)):
-            stopped = run(ranks, 1, length, folder, attempts)
+        for ranks, attempts, resumes in ((2, 3, 0), (3, 2, 3), (1, 1, 1)):
+            stopped = run(ranks, 1, length, folder, attempts, resumes=resumes)
             if not stopped.startswith("not_converged"):
                 sys.exit(f"length {length}: {ranks} ranks did not stop after {attempts} attempts: {stopped}")
-        resumed = run(2, 1, length, folder)
+        resumed = run(2, 1, length, folder, resumes=2)
     if resumed != whole:
         sys.exit(f"length {length}: gone on from checkpoints of 2, 3 and 1 ranks: '{resumed}', in one go: '{whole}'")

@@ -3,7 +3,9 @@
 // plausible curve of too little strength. Is that ever taken for an answer?
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dem/sample_packings.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
@@ -24,15 +26,14 @@ using Rve = scarp::DemRve<Discs, scarp::SamePacking<Discs>>;
 Law law(double restitution) { return Law::of(7e9, 0.2, 0.55, {.restitution = restitution}); }
 
 /// At rest under 200 kPa. It is prepared without dashpots, which take a third of the time step.
-Discs at_rest(double restitution, int grains) {
-  auto packing = scarp::IsotropicPreparation{.pressure = samples::pressure}
-                     .prepare(samples::loose_cloud<Discs>(grains, 3), law(1.0))
-                     .packing;
+scarp::Prepared<Discs> at_rest(double restitution, int grains) {
+  auto prepared = scarp::IsotropicPreparation{.pressure = samples::pressure}.prepare(
+      samples::loose_cloud<Discs>(grains, 3), law(1.0));
   scarp::TimeStepper<Discs> stepper;
-  for (int step = 0; step < 5000; ++step) {
-    if (!stepper.step(packing, law(restitution), scarp::Tensor<2>::Zero()).acceptable()) break;
+  for (int step = 0; step < 5000 && prepared.verdict.acceptable(); ++step) {
+    prepared.verdict = stepper.step(prepared.packing, law(restitution), scarp::Tensor<2>::Zero());
   }
-  return packing;
+  return prepared;
 }
 
 /// Pure shear to 4 %. Means over the second half: the sin of the mobilised friction angle, of all and of good answers.
@@ -42,9 +43,10 @@ struct Sheared {
   int good = 0;     ///< of these
   double all = 0.0;
   double of_good = 0.0;
-  scarp::Verdict last{};
+  scarp::Verdict last_named{};
 };
 
+/// Goes on from answers that are refused too, as one who did not look at the verdict would.
 Sheared shear(Rve const& rve) {
   constexpr int increments = 40;
   scarp::Gradient<2> const increment{{1e-3, 0.0}, {0.0, -1e-3}};
@@ -52,16 +54,19 @@ Sheared shear(Rve const& rve) {
   auto state = rve.initial_state({});
   auto trial = state;
   for (int k = 0; k < increments; ++k) {
-    sheared.last = rve.respond(state, increment, trial).verdict;
-    sheared.named += sheared.last.acceptable() ? 0 : 1;
-    if (sheared.last.status == scarp::Status::failed) break;
+    scarp::Verdict const verdict = rve.respond(state, increment, trial).verdict;
+    if (!verdict.acceptable()) {
+      ++sheared.named;
+      sheared.last_named = verdict;
+    }
+    if (verdict.status == scarp::Status::failed) break;
     std::swap(state, trial);
     if (2 * k < increments) continue;
     auto const& stress = state.stress;
     double const sine = std::hypot(0.5 * (stress(0) - stress(1)), stress(2)) / (-0.5 * (stress(0) + stress(1)));
     ++sheared.answers;
     sheared.all += sine;
-    if (!sheared.last.acceptable()) continue;
+    if (!verdict.acceptable()) continue;
     ++sheared.good;
     sheared.of_good += sine;
   }
@@ -72,7 +77,8 @@ Sheared shear(Rve const& rve) {
 
 /// times_limit: time step over the packing's own limit
 Outcome beyond(double restitution, double times_limit, Size size) {
-  auto const packing = at_rest(restitution, size == Size::quick ? 60 : 200);
+  auto const [packing, prepared] = at_rest(restitution, size == Size::quick ? 60 : 200);
+  if (!prepared.acceptable()) return {.measure = "nothing", .remark = "no rest"};
   Rve rve{.law = law(restitution), .source = {packing}};
   double const own_limit = scarp::stability_limit(packing, rve.law) / packing.pairs.critical_step;
   rve.time_step_share = 0.25 * own_limit;
@@ -83,7 +89,7 @@ Outcome beyond(double restitution, double times_limit, Size size) {
   Outcome outcome{.measure = "strength of the answers that were taken over that at a quarter of the limit, less one"};
   outcome.worst = sheared.good > 0 ? relative(sheared.of_good, reference.of_good) : 0.0;
   outcome.remark = fmt::format("{} answers named{}{}", sheared.named, sheared.named > 0 ? ", the last one " : "",
-                               sheared.named > 0 ? name(sheared.last.reason) : "");
+                               sheared.named > 0 ? name(sheared.last_named.reason) : "");
   if (sheared.answers > 0) {
     outcome.remark +=
         fmt::format("; all answers together would give {:+.1f} %", 100.0 * (sheared.all / reference.all - 1.0));

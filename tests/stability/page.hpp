@@ -26,6 +26,11 @@ inline std::string machine() {
 
 /// What stands above the table of a group.
 inline std::string introduction(std::string const& group) {
+  if (group == "Dashpots beyond the limit") {
+    return "Discs with Hertz's law and dashpots in pure shear to 4 %, at time steps over the packing's own limit "
+           "(`stability_limit`). Beyond it grains jitter at their contacts, and all answers together make a plausible "
+           "curve of too little strength; named: what `DemRve` does not take for an answer.\n\n";
+  }
   if (group != "Time step limits") return {};
   return "Grains in balance are nudged by 1e-9 m/s and left alone without damping; the step at which their energy "
          "grows is "

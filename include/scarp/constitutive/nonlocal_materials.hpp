@@ -104,8 +104,9 @@ class NonlocalMaterials {
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     visit("field", self.field_);
-    visit("tau", self.committed_);
+    visit("tau", std::span(self.committed_));
   }
+  void after_loading() { trial_ = committed_; }
 
  private:
   static NeighbourMean<dim> mean_of(Field const& field, std::span<Site<dim> const> sites,

@@ -61,6 +61,7 @@ class CheckpointedRun {
     files_.load([&](StateReader& reader) {
       read_place(reader);
       members(*this, problem, session, state, reader);
+      // The observers' memory is for the first rank alone.
       if (is_first_rank(problem.executor()) && !reader.at_end())
         refuse("it holds more than the scene has: load it into the scene that was saved");
     });

@@ -60,7 +60,7 @@ struct SceneMaterials<Providers...> {
     auto const volumes = discretisation.volumes(Eigen::VectorXd::Zero(discretisation.dof_count()));
     Type means(std::move(materials), sites, volumes, neighbourhoods);
     for (int point = 0; point < means.point_count(); ++point) {
-      if (!owned(point)) means.visit(point, [](auto& field, int local) { field.forget(local); });
+      if (!owned(point)) means.visit(point, [](auto& field, int number) { field.forget(number); });
     }
     return means;
   }

@@ -146,7 +146,7 @@ class PointAnswers {
     std::vector<long> worked(count(), not_asked);
     // The longest answers first: one that begins last would keep the other threads waiting.
     std::vector<int> order = selected;
-    std::ranges::stable_sort(order, std::ranges::greater{}, [&](int point) { return works_[detail::index(point)]; });
+    std::ranges::stable_sort(order, std::ranges::greater{}, [&](int point) { return materials_.work(point); });
     executor_.for_each(static_cast<int>(order.size()), [&](int task) {
       int const point = order[detail::index(task)];
       auto const k = detail::index(point);
