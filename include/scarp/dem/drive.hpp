@@ -42,13 +42,37 @@ struct StressFeedback {
   }
 };
 
+namespace detail {
+
+/// Length [m] over which a contact's springs act as a stiffness scale of the packing: in the plane its thickness.
+template <class PackingType>
+double depth_of_contacts(PackingType const& packing) {
+  return PackingType::dim == 2 ? packing.population->thickness() : 2.0 * packing.population->largest_radius();
+}
+
+/// A law's springs at an overlap of a thousandth of the radius; which one matters only where the stiffness depends on it.
+template <class PackingType>
+ContactStiffness slight_springs(PackingType const& packing, typename PackingType::Law const& law) {
+  double const radius = packing.population->largest_radius();
+  return law.stiffness(1e-3 * radius, radius / 2.0);
+}
+
+}  // namespace detail
+
 /// Stiffness scale [Pa] that a law's springs give a packing at a small overlap.
 template <class PackingType>
 double spring_modulus(PackingType const& packing, typename PackingType::Law const& law) {
-  constexpr double small = 1e-3;  // overlap over radius; matters only where the stiffness depends on it
-  double const radius = packing.population->largest_radius();
-  double const length = PackingType::dim == 2 ? packing.population->thickness() : 2.0 * radius;
-  return law.stiffness(small * radius, radius / 2.0).normal / length;
+  return detail::slight_springs(packing, law).normal / detail::depth_of_contacts(packing);
+}
+
+/// The same of its dashpots [Pa s]: over the time step it is the stiffness with which they meet a strain in one step.
+template <class PackingType>
+double dashpot_modulus(PackingType const& packing, typename PackingType::Law const& law) {
+  auto const* const lightness = packing.population->inverse_mass();
+  double const heaviest = 1.0 / static_cast<double>(*std::min_element(lightness, lightness + packing.grain_count()));
+  auto const springs = detail::slight_springs(packing, law);
+  return detail::dashpots_of(springs, damping_ratio_of(law), heaviest / 2.0).normal /
+         detail::depth_of_contacts(packing);
 }
 
 /// Moves a packing step by step under a loading, whatever it says. Looks before its first step.
@@ -63,7 +87,8 @@ class Drive {
         law_(law),
         loading_(loading),
         feedback_(feedback),
-        modulus_(spring_modulus(packing, law)),
+        springs_(spring_modulus(packing, law)),
+        dashpots_(dashpot_modulus(packing, law)),
         // Frictional grains are isostatic at dim + 1 contacts per grain, each shared by two.
         fewest_contacts_(0.5 * (dim + 1) * static_cast<double>(packing.grain_count())) {}
 
@@ -76,7 +101,7 @@ class Drive {
     }
     looked_ = true;
     strain_step_ =
-        feedback_.strain_step<dim>(loading_, seen_.stress, modulus_, seen_.contacts > fewest_contacts_, steady_);
+        feedback_.strain_step<dim>(loading_, seen_.stress, modulus(), seen_.contacts > fewest_contacts_, steady_);
     if (Verdict const verdict = stepper.template step<what>(packing_, law_, strain_step_, &seen_);
         !verdict.acceptable())
       return verdict;
@@ -92,11 +117,14 @@ class Drive {
   Tensor<dim> const& strain_step() const { return strain_step_; }
 
  private:
+  double modulus() const { return dashpots_ > 0.0 ? springs_ + dashpots_ / packing_.pairs.critical_step : springs_; }
+
   PackingType& packing_;
   Law law_;
   Loading<dim> loading_;
   StressFeedback feedback_;
-  double modulus_;
+  double springs_;   ///< [Pa]
+  double dashpots_;  ///< [Pa s]
   double fewest_contacts_;
   bool looked_ = false;
   std::vector<double> steady_;
