@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <utility>
 #include <vector>
 
 #include "scarp/solver/equilibrium_problem.hpp"
@@ -40,7 +41,7 @@ struct QuasiNewton {
     /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
     Verdict begin(double load) {
       problem_.aim(load);
-      provider_ = problem_.committed_tangents();
+      provider_ = timed([&] { return problem_.committed_tangents(); });
       if (first_.empty()) first_ = provider_;
       if (learned_.empty()) learned_ = provider_;
       working_.resize(provider_.size());
@@ -68,6 +69,7 @@ struct QuasiNewton {
       for (;;) {
         report.history.emplace_back();
         report.history.back().linear_residual = linear_residual;
+        report.history.back().material_seconds = report.history.back().seconds = std::exchange(tangent_seconds_, 0.0);
         Evaluation evaluation =
             recorded(report, [&] { return Path::evaluate(problem_, increment, report.iterations() == 1); });
         // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
@@ -113,6 +115,15 @@ struct QuasiNewton {
    private:
     using Clock = std::chrono::steady_clock;
 
+    /// The points' tangents; their time belongs to the evaluation that follows.
+    template <class AskTangents>
+    auto timed(AskTangents&& ask) {
+      auto const started = Clock::now();
+      auto tangents = ask();
+      tangent_seconds_ += std::chrono::duration<double>(Clock::now() - started).count();
+      return tangents;
+    }
+
     template <class Evaluate>
     Evaluation recorded(StepReport& report, Evaluate&& evaluate) {
       auto const started = Clock::now();
@@ -134,7 +145,8 @@ struct QuasiNewton {
 
     void learn() {
       if constexpr (FollowsTrialTangent<Rule, dim>) {
-        auto const trial = problem_.trial_tangents();
+        auto const trial = timed([&] { return problem_.trial_tangents(); });
+        mark_ = Clock::now();
         for (std::size_t k = 0; k < working_.size(); ++k)
           working_[k] = settings_.rule.template at_trial<dim>(trial[k], first_[k]);
       } else {
@@ -158,7 +170,8 @@ struct QuasiNewton {
     Mixing mixing_;
     Problem& problem_;
     StepStart<Problem, Linear> start_;
-    Clock::time_point mark_{};              ///< end of the last evaluation of this step
+    Clock::time_point mark_{};              ///< end of the last answer of the points in this step
+    double tangent_seconds_ = 0.0;          ///< that no evaluation has been told yet
     std::vector<VoigtTangent<dim>> first_;  ///< of the state that the session began with
     std::vector<VoigtTangent<dim>> provider_;
     std::vector<VoigtTangent<dim>> working_;
