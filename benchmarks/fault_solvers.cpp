@@ -7,7 +7,9 @@
 #include <string>
 #include <tuple>
 
+#include "scarp/constitutive/perturbation_tangent.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
+#include "scarp/homogenise/sliding_aware_tangent.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
 #include "scarp/solver/bfgs_mixing.hpp"
 #include "scarp/solver/dynamic_relaxation.hpp"
@@ -60,9 +62,12 @@ int main(int argc, char** argv) {
   double const seconds = argument(4, 120.0);
   auto const study = fault_rupture::make<fault_rupture::SandFreeField>(choice);
   AnyTangent const condensed{scarp::CondensedTangent{}};
+  AnyTangent const sliding{scarp::SlidingAwareTangent{}};
+  AnyTangent const perturbed{scarp::PerturbationTangent{.complain = nullptr}};
   Setting<QuasiNewton<PointSecant>> const first{"point secant"};
   auto const settings = std::make_tuple(
       first, Setting<QuasiNewton<PointSecant>>{"point secant from condensed tangents", condensed},
+      Setting<QuasiNewton<PointSecant>>{"point secant from sliding-aware tangents", sliding},
       Setting<QuasiNewton<PointSecant, AndersonMixing>>{"point secant, Anderson"},
       Setting<QuasiNewton<PointSecant, LineSearch<>>>{"point secant, line search"},
       Setting<QuasiNewton<PointSecant, PlainStep, SparseLu, AlongIterates>>{
@@ -72,7 +77,9 @@ int main(int argc, char** argv) {
       Setting<QuasiNewton<FrozenTangent, BfgsMixing>>{"frozen eq. 6, BFGS"},
       Setting<QuasiNewton<FrozenTangent, BfgsMixing>>{"frozen condensed, BFGS", condensed},
       Setting<QuasiNewton<ConsistentTangent>>{"Newton, eq. 6"},
+      Setting<QuasiNewton<ConsistentTangent>>{"Newton, sliding-aware", sliding},
       Setting<QuasiNewton<ConsistentTangent>>{"Newton, condensed", condensed},
+      Setting<QuasiNewton<ConsistentTangent>>{"Newton, by trial", perturbed},
       Setting<DynamicRelaxation<>>{
           .name = "dynamic relaxation", .least_steps = 4, .few = 150, .many = 300, .most_iterations = 1000});
   fmt::print(
