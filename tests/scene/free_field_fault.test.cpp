@@ -166,7 +166,7 @@ TEST_CASE("ground of packings ruptures to the asked throw") {
 }
 
 TEST_CASE("any number of threads gives the same bits") {
-  for (int const threads : {1, 2, 4}) {
+  for (int const threads : {1, 2, 4, 7}) {
     scarp::ThreadExecutor executor(threads);
     scarp::NoObserver nobody;
     check_same_bits(run_sand(executor, nobody), serial_sand());
