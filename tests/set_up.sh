@@ -21,7 +21,7 @@ install_missing() {
     return 0
   fi
   for package in "$@"; do
-    if ! dpkg -s "$package" 2> /dev/null | grep -q '^Status: install ok installed'; then
+    if ! dpkg -s "$package" 2> /dev/null | grep '^Status: install ok installed' > /dev/null; then
       missing+=("$package")
     fi
   done
