@@ -75,9 +75,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   decltype(auto) executor = make_team(threads);
   if (agreed(executor, files.resumes()) != files.resumes()) {
     scarp::refuse(
-        "checkpoints in '{}' are not the same for all ranks (each of them must see them to go on): use a folder that "
-        "all "
-        "machines share",
+        "checkpoints in '{}' are not the same for all ranks (each must see them to go on): use a folder that all share",
         choice.checkpoint);
   }
   auto problem = scene.problem(executor);

@@ -65,14 +65,15 @@ double spring_modulus(PackingType const& packing, typename PackingType::Law cons
   return detail::slight_springs(packing, law).normal / detail::depth_of_contacts(packing);
 }
 
-/// The same of its dashpots [Pa s]: over the time step it is the stiffness with which they meet a strain in one step.
+/// The same of its dashpots [Pa s], 0 without: over the time step it is the stiffness with which they meet a strain in one step.
 template <class PackingType>
 double dashpot_modulus(PackingType const& packing, typename PackingType::Law const& law) {
+  double const ratio = damping_ratio_of(law);
+  if (ratio == 0.0) return 0.0;
   auto const* const lightness = packing.population->inverse_mass();
   double const heaviest = 1.0 / static_cast<double>(*std::min_element(lightness, lightness + packing.grain_count()));
   auto const springs = detail::slight_springs(packing, law);
-  return detail::dashpots_of(springs, damping_ratio_of(law), heaviest / 2.0).normal /
-         detail::depth_of_contacts(packing);
+  return detail::dashpots_of(springs, ratio, heaviest / 2.0).normal / detail::depth_of_contacts(packing);
 }
 
 /// Moves a packing step by step under a loading, whatever it says. Looks before its first step.
