@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "../examples/fault_rupture/scenes.hpp"
+#include "../examples/shared/study/scenes.hpp"
 
 namespace fault_benchmarks {
 

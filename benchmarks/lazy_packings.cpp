@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "../examples/fault_rupture/scenes.hpp"
+#include "../examples/shared/study/scenes.hpp"
 #include "scarp/constitutive/lazy.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/measure/cpu_time.hpp"
-#include "scarp/scene/observers.hpp"
-#include "scarp/scene/outcrop.hpp"
+#include "scarp/observe/observers.hpp"
+#include "scarp/observe/outcrop.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "../examples/study_sand.hpp"
+#include "../examples/shared/study/study_sand.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/perturbation_tangent.hpp"
 #include "scarp/dem/preparation.hpp"

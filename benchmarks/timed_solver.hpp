@@ -8,8 +8,8 @@
 
 #include "any_tangent.hpp"
 #include "scarp/measure/cpu_time.hpp"
-#include "scarp/scene/outcrop.hpp"
-#include "scarp/scene/time_limit.hpp"
+#include "scarp/observe/outcrop.hpp"
+#include "scarp/run/time_limit.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace fault_benchmarks {

@@ -21,7 +21,7 @@ OBSERVED = re.compile(r"fabric|Vtu|vtu|Pvd|CsvLog|FieldSeries")
 # {0}: further headers, {1}: the soil's type, {2}: the observer. Sparse factorisation is left to another unit: it takes
 # longest to compile and says nothing here.
 SCENE = """
-#include "scarp/scene/free_field_fault.hpp"
+#include "scarp/fault/free_field_fault.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
 {0}
 struct Elsewhere {{
@@ -47,7 +47,7 @@ SAND = """
 using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 using Sand = scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>;
 """
-SERIES = '#include "scarp/scene/field_series.hpp"\n'
+SERIES = '#include "scarp/observe/field_series.hpp"\n'
 NOBODY = "scarp::NoObserver observer"
 WATCHED = 'scarp::FieldSeries<scarp::RveQuantities> observer("folder", 1.0, 4, 25.0)'
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "../../examples/elastic_solve.hpp"
+#include "../../examples/shared/elastic_solve.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "cpu_time_limit.hpp"
+#include "scarp/fault/fault_scene.hpp"
 #include "scarp/measure/measured.hpp"
-#include "scarp/scene/band_angle.hpp"
-#include "scarp/scene/fault_scene.hpp"
-#include "scarp/scene/field_series.hpp"
-#include "scarp/scene/observers.hpp"
-#include "scarp/scene/outcrop.hpp"
+#include "scarp/observe/band_angle.hpp"
+#include "scarp/observe/field_series.hpp"
+#include "scarp/observe/observers.hpp"
+#include "scarp/observe/outcrop.hpp"
 
 namespace error_vs_time {
 

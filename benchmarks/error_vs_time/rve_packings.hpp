@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "../../examples/study_sand.hpp"
+#include "../../examples/shared/study/study_sand.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "../../examples/study_sand.hpp"
+#include "../../examples/shared/study/study_sand.hpp"
 #include "cpu_time_limit.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/following_pressure.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/measure/sweep_table.hpp"
+#include "scarp/measure/detail/sweep_table.hpp"
 
 namespace error_vs_time {
 

@@ -13,7 +13,7 @@ import sys
 
 sys.dont_write_bytecode = True
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(REPOSITORY / "benchmarks"), str(REPOSITORY / "examples")]
+sys.path[:0] = [str(REPOSITORY / "benchmarks"), str(REPOSITORY / "examples" / "shared")]
 import numpy as np
 import scarp_figures as figures
 from generated_sections import rewrite, with_section

@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "../budget_report.hpp"
-#include "../command_line.hpp"
-#include "../packing_input.hpp"
+#include "../shared/budget_report.hpp"
+#include "../shared/command_line.hpp"
+#include "../shared/packing_input.hpp"
 #include "run.hpp"
-#include "scarp/io/gmsh_element_type.hpp"
+#include "scarp/io/gmsh/gmsh_element_type.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "scarp/io/gmsh_reader.hpp"
+#include "scarp/io/gmsh/gmsh_reader.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 
 namespace biaxial_specimen {

@@ -4,11 +4,11 @@
 #include <type_traits>
 #include <variant>
 
-#include "../packing_input.hpp"
-#include "../study_sand.hpp"
+#include "../shared/packing_input.hpp"
+#include "../shared/study/study_sand.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/random_packings.hpp"
-#include "scarp/io/contact_reader.hpp"
+#include "scarp/io/packings/contact_reader.hpp"
 #include "scarp/shape/disc.hpp"
 
 namespace biaxial_specimen {

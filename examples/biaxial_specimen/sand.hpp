@@ -5,9 +5,9 @@
 #include <span>
 
 #include "choice.hpp"
+#include "scarp/budget/detail/point_checks.hpp"
 #include "scarp/constitutive/material_field.hpp"
-#include "scarp/scene/point_checks.hpp"
-#include "scarp/scene/rve_quantities.hpp"
+#include "scarp/observe/rve_quantities.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace biaxial_specimen {

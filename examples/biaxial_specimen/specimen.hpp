@@ -3,16 +3,16 @@
 
 #include <filesystem>
 
-#include "../budget_report.hpp"
+#include "../shared/budget_report.hpp"
 #include "rectangle.hpp"
 #include "run.hpp"
 #include "sand.hpp"
+#include "scarp/budget/error_budget.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/following_pressure.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
-#include "scarp/scene/error_budget.hpp"
-#include "scarp/scene/field_series.hpp"
+#include "scarp/observe/field_series.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 

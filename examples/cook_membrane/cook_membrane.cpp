@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "../command_line.hpp"
+#include "../shared/command_line.hpp"
 #include "membrane.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/quad8.hpp"

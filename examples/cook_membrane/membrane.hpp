@@ -4,7 +4,7 @@
 #include <chrono>
 #include <limits>
 
-#include "../elastic_solve.hpp"
+#include "../shared/elastic_solve.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 

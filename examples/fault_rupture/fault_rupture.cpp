@@ -2,7 +2,7 @@
 // Where does a normal fault reach the surface of sand, and what does a footing do to it? The study's scenes.
 #include <map>
 
-#include "../command_line.hpp"
+#include "../shared/command_line.hpp"
 #include "run_scene.hpp"
 
 namespace {

@@ -4,17 +4,17 @@
 #include <chrono>
 #include <filesystem>
 
-#include "../budget_report.hpp"
-#include "scarp/io/packing_tables.hpp"
-#include "scarp/scene/checkpointed_run.hpp"
-#include "scarp/scene/convergence_log.hpp"
-#include "scarp/scene/error_budget.hpp"
-#include "scarp/scene/field_series.hpp"
-#include "scarp/scene/probe.hpp"
-#include "scarp/scene/progress.hpp"
-#include "scarp/scene/stop_signal.hpp"
-#include "scarp/scene/surface_log.hpp"
-#include "scarp/scene/time_limit.hpp"
+#include "../shared/budget_report.hpp"
+#include "scarp/budget/error_budget.hpp"
+#include "scarp/io/packings/packing_tables.hpp"
+#include "scarp/observe/convergence_log.hpp"
+#include "scarp/observe/field_series.hpp"
+#include "scarp/observe/probe.hpp"
+#include "scarp/observe/progress.hpp"
+#include "scarp/observe/surface_log.hpp"
+#include "scarp/run/checkpointed_run.hpp"
+#include "scarp/run/stop_signal.hpp"
+#include "scarp/run/time_limit.hpp"
 #include "summary.hpp"
 #include "team.hpp"
 

@@ -8,12 +8,12 @@
 #include <numbers>
 #include <string>
 
+#include "../shared/study/scenes.hpp"
 #include "scarp/constitutive/innermost.hpp"
+#include "scarp/fault/footing_log.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/scene/floor_share.hpp"
-#include "scarp/scene/footing_log.hpp"
-#include "scarp/scene/outcrop.hpp"
-#include "scenes.hpp"
+#include "scarp/observe/floor_share.hpp"
+#include "scarp/observe/outcrop.hpp"
 #include "team.hpp"
 
 namespace fault_rupture {

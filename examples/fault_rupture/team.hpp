@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "scarp/scene/first_rank.hpp"
+#include "scarp/run/first_rank.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #ifdef SCARP_WITH_RANKS
 #include "scarp/solver/rank_executor.hpp"

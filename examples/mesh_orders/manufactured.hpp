@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../elastic_solve.hpp"
+#include "../shared/elastic_solve.hpp"
 #include "scarp/bvp/field_error.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/mesh/box_mesh.hpp"

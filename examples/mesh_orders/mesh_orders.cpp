@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "../command_line.hpp"
+#include "../shared/command_line.hpp"
 #include "manufactured.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/hex20.hpp"

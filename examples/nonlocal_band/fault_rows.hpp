@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "../convergence_table.hpp"
+#include "../shared/convergence_table.hpp"
 #include "fault.hpp"
-#include "scarp/scene/free_field_fault.hpp"
+#include "scarp/fault/free_field_fault.hpp"
+#include "scarp/observe/outcrop.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
-#include "scarp/scene/outcrop.hpp"
 
 namespace nonlocal_band {
 

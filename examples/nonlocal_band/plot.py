@@ -6,7 +6,7 @@ import sys
 
 import matplotlib.pyplot as plt
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "shared"))
 import scarp_figures as figures  # noqa: E402
 
 COLOURS = [figures.SKY, figures.ORANGE, figures.BLACK]

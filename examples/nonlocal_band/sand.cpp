@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "../fault_rupture/soils.hpp"
+#include "../shared/study/soils.hpp"
 #include "fault_rows.hpp"
 
 namespace nonlocal_band {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "../convergence_table.hpp"
-#include "../plane_strain.hpp"
+#include "../shared/convergence_table.hpp"
+#include "../shared/plane_strain.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/constitutive/softening_strength.hpp"

@@ -5,9 +5,9 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/disc_grading.hpp"
 #include "scarp/dem/ellipse_grading.hpp"
-#include "scarp/scene/free_field_fault.hpp"
-#include "scarp/scene/level_ground.hpp"
-#include "scarp/scene/outcrop.hpp"
+#include "scarp/fault/free_field_fault.hpp"
+#include "scarp/fault/level_ground.hpp"
+#include "scarp/observe/outcrop.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 using Elastic = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;

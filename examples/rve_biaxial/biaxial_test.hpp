@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "../study_sand.hpp"
+#include "../shared/study/study_sand.hpp"
 #include "scarp/dem/halved_path.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/preparation.hpp"

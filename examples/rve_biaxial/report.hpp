@@ -9,7 +9,7 @@
 
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
-#include "scarp/io/packing_tables.hpp"
+#include "scarp/io/packings/packing_tables.hpp"
 #include "step_budget.hpp"
 #include "void_ratio_study.hpp"
 

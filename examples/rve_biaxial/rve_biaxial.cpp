@@ -8,7 +8,7 @@
 #include <iostream>
 #include <thread>
 
-#include "../command_line.hpp"
+#include "../shared/command_line.hpp"
 #include "report.hpp"
 #include "tables.hpp"
 

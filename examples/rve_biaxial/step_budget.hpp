@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "../budget_report.hpp"
+#include "../shared/budget_report.hpp"
 #include "biaxial_test.hpp"
+#include "scarp/budget/error_bounds.hpp"
 #include "scarp/core/worse_of.hpp"
-#include "scarp/scene/error_bounds.hpp"
 
 namespace rve_biaxial {
 

@@ -9,7 +9,7 @@ import sys
 
 sys.dont_write_bytecode = True
 here = pathlib.Path(__file__).resolve()
-sys.path.insert(0, str(here.parents[1]))
+sys.path.insert(0, str(here.parents[1] / "shared"))
 import numpy as np
 import scarp_figures as figures
 from scarp_figures import BLACK, BLUE, PALE, VERMILION, plt

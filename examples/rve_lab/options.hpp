@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "../command_line.hpp"
+#include "../shared/command_line.hpp"
 #include "choices.hpp"
 #include "material_file.hpp"
 #include "paths.hpp"

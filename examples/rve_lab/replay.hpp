@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "../packing_input.hpp"
+#include "../shared/packing_input.hpp"
 #include "material.hpp"
 #include "paths.hpp"
 #include "scarp/dem/servo.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/io/contact_reader.hpp"
 #include "scarp/io/csv.hpp"
+#include "scarp/io/packings/contact_reader.hpp"
 #include "specimen.hpp"
 
 namespace rve_lab {

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "recorder.hpp"
+#include "scarp/budget/budget_part.hpp"
+#include "scarp/budget/error_bounds.hpp"
 #include "scarp/core/worse_of.hpp"
-#include "scarp/scene/budget_part.hpp"
-#include "scarp/scene/error_bounds.hpp"
 
 namespace rve_lab {
 

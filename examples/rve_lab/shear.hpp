@@ -6,12 +6,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "../budget_report.hpp"
+#include "../shared/budget_report.hpp"
 #include "choices.hpp"
 #include "material_file.hpp"
 #include "recorder.hpp"
 #include "row_budget.hpp"
-#include "scarp/io/packing_file.hpp"
+#include "scarp/io/packings/packing_file.hpp"
 #include "states.hpp"
 
 namespace rve_lab {

@@ -7,7 +7,7 @@
 
 #include "scarp/dem/contacts.hpp"
 #include "scarp/io/csv.hpp"
-#include "scarp/io/grain_columns.hpp"
+#include "scarp/io/packings/detail/grain_columns.hpp"
 
 namespace rve_lab {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "../convergence_table.hpp"
-#include "../plane_strain.hpp"
+#include "../shared/convergence_table.hpp"
+#include "../shared/plane_strain.hpp"
 
 namespace thick_cylinder {
 

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "../command_line.hpp"
+#include "../shared/command_line.hpp"
 #include "column_test.hpp"
 #include "rve_test.hpp"
 #include "scarp/element/hex8.hpp"

@@ -5,7 +5,7 @@
 
 #include "approx.hpp"
 #include "bvp/sample_problems.hpp"
-#include "scarp/mesh/fault_mesh.hpp"
+#include "scarp/fault/fault_mesh.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <exception>
 #include <span>
 
-#include "scarp/io/gmsh_reader.hpp"
-#include "scarp/io/gmsh_writer.hpp"
+#include "scarp/io/gmsh/gmsh_reader.hpp"
+#include "scarp/io/gmsh/gmsh_writer.hpp"
 #include "scarp/io/mesh_tables.hpp"
 #include "scarp/io/vtu.hpp"
 

@@ -10,9 +10,9 @@
 #include <bit>
 #include <cstdint>
 
-#include "scarp/scene/checkpointed_run.hpp"
+#include "scarp/observe/observers.hpp"
+#include "scarp/run/checkpointed_run.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
-#include "scarp/scene/observers.hpp"
 #include "scarp/solver/rank_executor.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "scene/sample_ground.hpp"

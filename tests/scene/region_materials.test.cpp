@@ -6,8 +6,8 @@
 #include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad8.hpp"
+#include "scarp/fault/fault_mesh.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/mesh/fault_mesh.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/disc_grading.hpp"
 #include "scarp/dem/ellipse_grading.hpp"
-#include "scarp/scene/free_field_fault.hpp"
-#include "scarp/scene/level_ground.hpp"
+#include "scarp/fault/free_field_fault.hpp"
+#include "scarp/fault/level_ground.hpp"
 
 /// The free-field scene at a size that runs in a blink.
 namespace sample {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/bvp/detail/sparsity.hpp"
 #include "scarp/bvp/kinematics.hpp"
 #include "scarp/bvp/point_by_point.hpp"
-#include "scarp/bvp/sparsity.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 
 namespace scarp {

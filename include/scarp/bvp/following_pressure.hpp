@@ -8,7 +8,7 @@
 
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/element/index.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/element/line2.hpp"
 
 namespace scarp {

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/detail/lever.hpp"
 #include "scarp/bvp/facet_chain.hpp"
 #include "scarp/bvp/interface_point.hpp"
-#include "scarp/bvp/lever.hpp"
 #include "scarp/contact/contact_law.hpp"
 
 namespace scarp {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "scarp/bvp/lever.hpp"
+#include "scarp/bvp/detail/lever.hpp"
 #include "scarp/core/error.hpp"
 
 namespace scarp {

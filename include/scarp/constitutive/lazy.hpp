@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "scarp/constitutive/constitutive_provider.hpp"
-#include "scarp/constitutive/rotated_increment.hpp"
+#include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/core/error.hpp"
 
 namespace scarp {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/isotropic_elasticity.hpp"
-#include "scarp/constitutive/rotated_increment.hpp"
 
 namespace scarp {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "scarp/constitutive/detail/neighbour_mean.hpp"
 #include "scarp/constitutive/material_field.hpp"
-#include "scarp/constitutive/neighbour_mean.hpp"
 #include "scarp/core/polar.hpp"
 
 namespace scarp {

@@ -5,7 +5,7 @@
 
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/coulomb.hpp"
-#include "scarp/contact/hertz_damping.hpp"
+#include "scarp/contact/detail/hertz_damping.hpp"
 #include "scarp/core/select.hpp"
 
 namespace scarp {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/dem/contact_frame.hpp"
+#include "scarp/dem/detail/contact_frame.hpp"
 #include "scarp/dem/grain_view.hpp"
 
 namespace scarp {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "scarp/core/status.hpp"
+#include "scarp/dem/detail/periodic_images.hpp"
 #include "scarp/dem/grain_view.hpp"
-#include "scarp/dem/periodic_images.hpp"
 
 namespace scarp {
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "scarp/dem/critical_step.hpp"
+#include "scarp/dem/detail/pair_loop.hpp"
 #include "scarp/dem/local_damping.hpp"
 #include "scarp/dem/neighbour_list.hpp"
-#include "scarp/dem/pair_loop.hpp"
 
 namespace scarp {
 

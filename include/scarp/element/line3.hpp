@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/element/detail/simplex_rule.hpp"
 #include "scarp/element/line2.hpp"
 #include "scarp/element/mid_sides.hpp"
-#include "scarp/element/simplex_rule.hpp"
 
 namespace scarp {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/element/index.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/element/reference_element.hpp"
 
 namespace scarp {

@@ -5,7 +5,7 @@
 #include <concepts>
 #include <cstddef>
 
-#include "scarp/element/index.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/element/reference_element.hpp"
 
 namespace scarp {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/element/gauss_rule.hpp"
+#include "scarp/element/detail/gauss_rule.hpp"
 #include "scarp/element/line2.hpp"
 
 namespace scarp {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scarp/dem/contacts.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
+#include "scarp/homogenise/detail/sliding_contacts.hpp"
 
 namespace scarp {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/homogenise/initial_stress.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
+#include "scarp/homogenise/detail/initial_stress.hpp"
+#include "scarp/homogenise/detail/sliding_contacts.hpp"
 #include "scarp/homogenise/tangent_answer.hpp"
 
 namespace scarp {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scarp/homogenise/contact_tangent.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
+#include "scarp/homogenise/detail/sliding_contacts.hpp"
 
 namespace scarp {
 

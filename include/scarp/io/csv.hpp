@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/io/appended_file.hpp"
+#include "scarp/io/detail/appended_file.hpp"
 
 namespace scarp {
 

@@ -8,7 +8,7 @@
 #include <concepts>
 #include <optional>
 
-#include "scarp/io/csv_lines.hpp"
+#include "scarp/io/detail/csv_lines.hpp"
 #include "scarp/io/read_file.hpp"
 
 namespace scarp {

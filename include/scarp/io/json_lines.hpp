@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "scarp/io/appended_file.hpp"
+#include "scarp/io/detail/appended_file.hpp"
 
 namespace scarp {
 

@@ -7,7 +7,7 @@
 
 #include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/xml_text.hpp"
+#include "scarp/io/detail/xml_text.hpp"
 
 namespace scarp {
 

@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/base64.hpp"
-#include "scarp/io/xml_text.hpp"
+#include "scarp/io/detail/base64.hpp"
+#include "scarp/io/detail/xml_text.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {

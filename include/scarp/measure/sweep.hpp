@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "scarp/measure/cpu_time.hpp"
+#include "scarp/measure/detail/sweep_evaluation.hpp"
 #include "scarp/measure/measured.hpp"
-#include "scarp/measure/sweep_evaluation.hpp"
 
 namespace scarp {
 

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "scarp/core/random.hpp"
-#include "scarp/mesh/cell_division.hpp"
+#include "scarp/mesh/detail/cell_division.hpp"
 #include "scarp/mesh/mid_side_nodes.hpp"
 
 namespace scarp {

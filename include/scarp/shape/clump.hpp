@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "scarp/core/constant.hpp"
+#include "scarp/shape/detail/disc_union.hpp"
 #include "scarp/shape/disc.hpp"
-#include "scarp/shape/disc_union.hpp"
 
 namespace scarp {
 

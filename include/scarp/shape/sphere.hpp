@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "scarp/shape/round_grain.hpp"
+#include "scarp/shape/detail/round_grain.hpp"
 
 namespace scarp {
 

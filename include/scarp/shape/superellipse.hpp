@@ -7,7 +7,7 @@
 
 #include "scarp/core/constant.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/shape/superellipse_touch.hpp"
+#include "scarp/shape/detail/superellipse_touch.hpp"
 
 namespace scarp {
 

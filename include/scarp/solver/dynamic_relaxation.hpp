@@ -3,10 +3,10 @@
 
 #include <chrono>
 
+#include "scarp/solver/detail/step_start.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
-#include "scarp/solver/step_start.hpp"
 
 namespace scarp {
 

@@ -11,7 +11,7 @@
 #include "scarp/bvp/averaged_stiffness.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
-#include "scarp/solver/point_answers.hpp"
+#include "scarp/solver/detail/point_answers.hpp"
 
 namespace scarp {
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/solver/detail/step_start.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/mixing.hpp"
 #include "scarp/solver/plain_step.hpp"
@@ -12,7 +13,6 @@
 #include "scarp/solver/response_path.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
-#include "scarp/solver/step_start.hpp"
 #include "scarp/solver/tangent_rule.hpp"
 
 namespace scarp {

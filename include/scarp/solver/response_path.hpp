@@ -3,7 +3,7 @@
 
 #include <concepts>
 
-#include "scarp/solver/evaluation.hpp"
+#include "scarp/solver/detail/evaluation.hpp"
 
 namespace scarp {
 

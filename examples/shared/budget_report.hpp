@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/budget/budget_part.hpp"
+#include "scarp/budget/error_bounds.hpp"
+#include "scarp/core/error.hpp"
+
+namespace examples {
+
+/// Bounds that are not the usual ones, each as "part=bound".
+/// \throws InputError for a part that has no bound, a bound that is not a number or negative
+inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given) {
+  scarp::ErrorBounds bounds;
+  for (auto const& item : given) {
+    auto const equals = std::min(item.find('='), item.size());
+    std::string const name = item.substr(0, equals);
+    std::string const number = item.substr(std::min(equals + 1, item.size()));
+    char* end = nullptr;
+    double const bound = std::strtod(number.c_str(), &end);
+    if (number.empty() || *end != '\0' || !(bound >= 0.0))
+      scarp::refuse("'{}' is no bound of an error budget (a part, '=' and a number are expected): write residual=1e-3",
+                    item);
+    bool known = false;
+    std::string names;
+    scarp::ErrorBounds::members(bounds, [&](std::string_view part, double& value) {
+      names += names.empty() ? "" : ", ";
+      names += part;
+      if (part != name) return;
+      value = bound;
+      known = true;
+    });
+    if (!known) scarp::refuse("an error budget has no bound for '{}' (it has {}): name one of these", name, names);
+  }
+  return bounds;
+}
+
+/// \return what is wrong with such a bound; empty if nothing is
+inline std::string refused_bound(std::string const& given) {
+  try {
+    error_bounds({given});
+  } catch (scarp::InputError const& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+inline nlohmann::ordered_json json_of(scarp::BudgetParts const& parts) {
+  nlohmann::ordered_json json;
+  json["within"] = scarp::budget_headline(parts).empty();
+  for (auto const& part : parts) {
+    auto& entry = json["parts"][part.name];
+    entry = {{"value", part.value}, {"within", part.is_within()}, {"meaning", part.meaning}};
+    if (std::isfinite(part.bound)) entry["bound"] = part.bound;
+  }
+  return json;
+}
+
+}  // namespace examples

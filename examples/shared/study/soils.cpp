@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "soils.hpp"
+
+#include <numbers>
+#include <vector>
+
+#include "scarp/bvp/discretisation.hpp"
+#include "scarp/element/tri3.hpp"
+#include "scarp/fault/level_ground.hpp"
+#include "study_sand.hpp"
+
+namespace fault_rupture {
+
+namespace {
+
+/// Level ground at the study's K0 of about 0.4.
+scarp::GeostaticStress<2> ground_at_rest() { return {.surcharge = surcharge, .unit_weight = unit_weight, .k0 = 0.4}; }
+
+scarp::IsotropicElasticity soil_elasticity() { return scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25); }
+
+/// Depths of all points of the soil [m].
+std::vector<double> depths(scarp::FaultMesh const& layer) {
+  scarp::Discretisation<scarp::Tri3> const grid(layer.generate());
+  int const soil = scarp::region_number(grid.mesh(), "soil");
+  std::vector<double> found;
+  for (int point = 0; point < grid.point_count(); ++point) {
+    auto const site = grid.site(point, layer.depth);
+    if (site.region == soil) found.push_back(site.depth);
+  }
+  return found;
+}
+
+}  // namespace
+
+Sand make_sand(Choice const& choice, scarp::FaultMesh const& layer) {
+  auto const law = examples::study_law();
+  scarp::LevelGround<scarp::EllipseGrading> ground;
+  ground.cloud = examples::study_cloud(choice.grains, choice.seed);
+  ground.unit_weight = unit_weight;
+  ground.surcharge = surcharge;
+  ground.preparation.preparation_friction = choice.preparation_friction;
+  Sand sand;
+  auto& packings = sand.provider;
+  packings.law = law;
+  packings.source = ground.make<Grains>(law, depths(layer));
+  packings.strain_per_step = choice.strain_per_step;
+  packings.least_steps = choice.least_dem_steps;
+  packings.unbalanced_tolerance = choice.unbalanced_tolerance;
+  packings.loose_pressure = surcharge / 2.0;
+  return sand;
+}
+
+FrictionalSoil make_frictional_soil() {
+  constexpr double degree = std::numbers::pi / 180.0;
+  scarp::Strength const peak{.cohesion = 1e3, .friction = 30.8 * degree, .dilation = 6.6 * degree};
+  scarp::Strength const residual{.cohesion = 1e3, .friction = (30.8 - 0.8 * 6.6) * degree, .dilation = 0.0};
+  return {{soil_elasticity(), {.peak = peak, .residual = residual, .strain_to_residual = 0.15}, ground_at_rest()}};
+}
+
+ElasticSoil make_elastic_soil() { return {{soil_elasticity(), ground_at_rest()}}; }
+
+}  // namespace fault_rupture

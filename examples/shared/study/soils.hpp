@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "choice.hpp"
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/constitutive/stiffness_floor.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/fault/fault_mesh.hpp"
+#include "scarp/shape/ellipse.hpp"
+#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+
+namespace fault_rupture {
+
+inline constexpr double unit_weight = 15.68e3;  ///< [N/m3]
+inline constexpr double surcharge = 4e3;        ///< [Pa]
+
+using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
+
+/// The study's ellipses, consolidated under the overburden of every depth; the solver learns tangents from answers. Where they lose
+/// all contacts a small stiffness keeps the nodes in place.
+struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>> {
+  using Solver = scarp::QuasiNewton<>;
+  static double tolerance(Choice const& choice) {
+    if (choice.quick) return 1e-2;
+    return choice.scene == Case::free ? 1e-3 : 5e-3;
+  }
+  static double largest_gradient(bool quick) { return quick ? 0.02 : 0.005; }
+};
+
+/// Mohr-Coulomb with the study's angles at the peak, 30.8 and 6.6 degrees, and Bolton's angle at constant volume, phi - 0.8 psi
+/// (Geotechnique 36, 1986), after 15 % of plastic shear; cohesion of 1 kPa; stiffness near that of the packings.
+struct FrictionalSoil : scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength> {
+  using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
+  static double tolerance(Choice const&) { return 1e-10; }
+  static double largest_gradient(bool) { return 0.02; }
+};
+
+struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
+  using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
+  static double tolerance(Choice const&) { return 1e-10; }
+  static double largest_gradient(bool) { return 0.02; }
+};
+
+/// layer: the mesh that the scene will have
+/// \throws scarp::PreparationError
+Sand make_sand(Choice const& choice, scarp::FaultMesh const& layer);
+FrictionalSoil make_frictional_soil();
+ElasticSoil make_elastic_soil();
+
+}  // namespace fault_rupture

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <vector>
+
+#include "scarp/budget/detail/point_checks.hpp"
+#include "scarp/core/index.hpp"
+#include "scarp/core/worse_of.hpp"
+
+namespace scarp {
+
+/// How well all packings of a problem were balanced, and how fast they were strained, over its accepted steps.
+struct PackingSurvey {
+  double looked_at = 0.0;  ///< packings of all steps
+  double unbalanced_sum = 0.0;
+  double unbalanced = 0.0;  ///< largest, as the next two
+  double kinetic_share = 0.0;
+  double inertial_number = 0.0;
+
+  double mean_unbalanced() const { return looked_at > 0.0 ? unbalanced_sum / looked_at : 0.0; }
+
+  /// After an accepted step.
+  template <class Problem>
+  void look(Problem const& problem, std::vector<int> const& points) {
+    for (int const point : points) {
+      problem.materials().visit(point, [&](auto const& field, int local) {
+        PointBalance const found = point_balance(field, local, problem.gradients()[detail::index(point)]);
+        if (!found.has_packing) return;
+        looked_at += 1.0;
+        unbalanced_sum += found.unbalanced_ratio;
+        unbalanced = worse_of(unbalanced, found.unbalanced_ratio);
+        kinetic_share = worse_of(kinetic_share, found.kinetic_share);
+        inertial_number = worse_of(inertial_number, found.inertial_number);
+      });
+    }
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("looked_at", self.looked_at);
+    visit("unbalanced_sum", self.unbalanced_sum);
+    visit("unbalanced", self.unbalanced);
+    visit("kinetic_share", self.kinetic_share);
+    visit("inertial_number", self.inertial_number);
+  }
+};
+
+}  // namespace scarp

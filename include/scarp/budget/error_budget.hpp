@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "scarp/budget/budget_part.hpp"
+#include "scarp/budget/detail/doubled_samples.hpp"
+#include "scarp/budget/detail/followed_points.hpp"
+#include "scarp/budget/detail/packing_survey.hpp"
+#include "scarp/budget/error_bounds.hpp"
+#include "scarp/core/worse_of.hpp"
+#include "scarp/observe/observers.hpp"
+#include "scarp/solver/executor.hpp"
+#include "scarp/solver/work_balance.hpp"
+
+namespace scarp {
+
+namespace detail {
+
+/// For problems whose work is not added up: what is attached, means over neighbours, points of other processes.
+struct NoWorkBalance {
+  template <class Problem>
+  void attempted(Problem const&, StepReport const&) {}
+  template <class Self, class Visit>
+  static void members(Self&, Visit&&) {}
+};
+
+template <class Problem>
+inline constexpr bool adds_up_work =
+    Problem::is_bare && !Problem::averages &&
+    !SharesPoints<std::remove_cvref_t<decltype(std::declval<Problem const&>().executor())>>;
+
+template <class Problem>
+struct WorkBalanceOf {
+  using Type = NoWorkBalance;
+};
+template <class Problem>
+  requires adds_up_work<Problem>
+struct WorkBalanceOf<Problem> {
+  using Type = WorkBalance<Problem>;
+};
+
+}  // namespace detail
+
+/// Observer that estimates the errors of a run from cheap checks on the way: balance of the packings, residuals, work, answers
+/// with twice the work to single increments (samples) and along the whole paths of a few points. It changes nothing.
+/// Where points are shared out among processes it looks at those of the first.
+/// \code
+/// ErrorBudget budget(problem, {.residual = 1e-3}, {.loose_pressure = 2e3});
+/// ... run ...
+/// fmt::print("{}{}", budget_headline(budget.parts()), budget_table(budget.parts()));
+/// \endcode
+template <class Problem>
+class ErrorBudget : public NeverStops {
+ public:
+  static constexpr int dim = Problem::dim;
+
+  /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
+  explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
+      : bounds_(bounds), sampling_(sampling) {
+    require_not_negative("share of work for samples", sampling.share);
+    require_not_negative("loose pressure", sampling.loose_pressure);
+    require_not_negative("number of samples of a step", sampling.most_samples);
+    require_not_negative("number of followed points", sampling.most_followed);
+    require_positive("number of points for a followed one", sampling.points_per_followed);
+    int const points = problem.materials().point_count();
+    for (int point = 0; point < points; ++point) {
+      if (owns_point(problem.executor(), point)) seen_.push_back(point);
+    }
+    followed_ = FollowedPoints::choose(problem, seen_, sampling);
+  }
+
+  void attempted(Problem const& problem, StepReport const& report) {
+    for (auto const& record : report.history) {
+      work_ += record.inner_steps;
+      linear_residual_ = worse_of(linear_residual_, record.linear_residual);
+    }
+    if (work_ == 0) answers_ += static_cast<long>(report.history.size()) * problem.materials().point_count();
+    condition_ = worse_of(condition_, report.condition);
+    if (!report.verdict.acceptable()) return;
+    residual_ = worse_of(residual_, report.residual());
+    balance_.attempted(problem, report);
+    packings_.look(problem, seen_);
+    followed_.follow(problem, sampling_.loose_pressure);
+    auto const affordable = static_cast<long>(sampling_.share * static_cast<double>(all_work()));
+    samples_.sample(problem, seen_, sampling_, affordable - followed_.work);
+  }
+
+  /// What came out so far; parts without anything to look at are left out.
+  BudgetParts parts() const {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    BudgetParts parts;
+    auto const add = [&](char const* name, double value, double bound, char const* meaning) {
+      parts.push_back({name, value, bound, meaning});
+    };
+    add("residual", residual_, bounds_.residual, "largest force residual of an accepted step, over the reactions");
+    if constexpr (detail::adds_up_work<Problem>)
+      add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
+    add("linear_residual", linear_residual_, bounds_.linear_residual, "largest of a linear system");
+    add("condition", condition_, bounds_.condition, "largest estimate for a stiffness");
+    if (packings_.looked_at > 0.0) {
+      add("unbalanced_mean", packings_.mean_unbalanced(), bounds_.unbalanced_mean,
+          "net force of a grain over contact force, mean of all packings and steps");
+      add("unbalanced_largest", packings_.unbalanced, bounds_.unbalanced_largest, "of one packing");
+      add("kinetic_share", packings_.kinetic_share, bounds_.kinetic_share, "of moving grains in the pressure, largest");
+      add("inertial_number", packings_.inertial_number, bounds_.inertial_number, "largest of a response");
+    }
+    if (!samples_.differences.empty()) {
+      add("doubling_median", samples_.quantile(0.5), bounds_.doubling_median,
+          "change of a point's stress when one increment takes twice the work, relative");
+      add("doubling_95", samples_.quantile(0.95), bounds_.doubling_95, "of nineteen samples in twenty");
+      add("doubling_largest", samples_.quantile(1.0), none, "of one sample");
+    }
+    if (followed_.any()) {
+      add("accumulated", followed_.apart(), bounds_.accumulated,
+          "the same when all increments of a point take it, root mean square");
+      add("accumulated_largest", followed_.farthest(), none, "of one followed point at any time");
+    }
+    add("work_of_checks", share_of_checks(), none, "what the last ones took, over the points' work of the run");
+    return parts;
+  }
+
+  DoubledSamples const& samples() const { return samples_; }
+  FollowedPoints const& followed() const { return followed_; }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("work balance", self.balance_);
+    visit("packings", self.packings_);
+    visit("samples", self.samples_);
+    visit("followed", self.followed_);
+    visit("residual", self.residual_);
+    visit("linear_residual", self.linear_residual_);
+    visit("condition", self.condition_);
+    visit("work", self.work_);
+    visit("answers", self.answers_);
+  }
+
+ private:
+  long all_work() const { return work_ > 0 ? work_ : answers_; }
+
+  double share_of_checks() const {
+    long const checks = samples_.work + followed_.work;
+    return checks == 0 ? 0.0 : static_cast<double>(checks) / static_cast<double>(all_work());
+  }
+
+  ErrorBounds bounds_;
+  ErrorSampling sampling_;
+  std::vector<int> seen_;  ///< points of this process
+  typename detail::WorkBalanceOf<Problem>::Type balance_;
+  PackingSurvey packings_;
+  DoubledSamples samples_;
+  FollowedPoints followed_;
+  double residual_ = 0.0;
+  double linear_residual_ = 0.0;
+  double condition_ = 0.0;
+  long work_ = 0;     ///< of all attempts
+  long answers_ = 0;  ///< of points that count no work
+};
+
+template <class Problem>
+ErrorBudget(Problem const&, ErrorBounds const&, ErrorSampling const&) -> ErrorBudget<Problem>;
+
+}  // namespace scarp

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/dem/detail/contact_frame.hpp"
+#include "scarp/dem/detail/grain_rows.hpp"
+
+namespace scarp::detail {
+
+/// Rows of columns as lanes, one number or several.
+template <class Scalar, int Count, std::size_t Size>
+void load_rows(Columns<Scalar, Count> const& columns, std::size_t start, std::array<Pack<Scalar>, Size>& to) {
+  for (int k = 0; k < Count; ++k) to[static_cast<std::size_t>(k)] = load(columns.column(k) + start);
+}
+template <class Scalar>
+void load_rows(Columns<Scalar, 1> const& columns, std::size_t start, Pack<Scalar>& to) {
+  to = load(columns.column(0) + start);
+}
+template <class Scalar, int Count, std::size_t Size>
+void store_rows(std::array<Pack<Scalar>, Size> const& from, std::size_t start, Columns<Scalar, Count>& columns) {
+  for (int k = 0; k < Count; ++k) store(from[static_cast<std::size_t>(k)], columns.column(k) + start);
+}
+template <class Scalar>
+void store_rows(Pack<Scalar> const& from, std::size_t start, Columns<Scalar, 1>& columns) {
+  store(from, columns.column(0) + start);
+}
+
+/// Affine spin of a displacement gradient: half its curl.
+template <int Dim, class Lanes>
+Turning<Dim, Lanes> affine_turn(Tensor<Dim> const& gradient) {
+  auto const half_curl = [&](int a, int b) { return constant<Lanes>((gradient(a, b) - gradient(b, a)) / 2.0); };
+  if constexpr (Dim == 2) {
+    return half_curl(1, 0);
+  } else {
+    return {half_curl(2, 1), half_curl(0, 2), half_curl(1, 0)};
+  }
+}
+
+/// One side of a pair: its rows of data as lanes.
+template <class Layout, class Lanes>
+struct PairSide {
+  std::array<std::array<Lanes, 4>, Layout::size / 4> row;
+
+  template <class Scalar>
+  PairSide(Scalar const* rows, std::int32_t const* numbers) {
+    for (std::size_t quad = 0; quad < row.size(); ++quad) {
+      row[quad] = load_quads<Scalar>(
+          [=](std::size_t lane) { return rows + static_cast<std::size_t>(numbers[lane]) * Layout::size + 4 * quad; });
+    }
+  }
+  Lanes const& operator[](std::size_t k) const { return row[k / 4][k % 4]; }
+};
+
+template <class Lanes>
+Lanes difference(Lanes const& a, Lanes const& b) {
+  return a - b;
+}
+template <class Lanes>
+std::array<Lanes, 3> difference(std::array<Lanes, 3> const& a, std::array<Lanes, 3> const& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Lanes>
+Lanes sum(Lanes const& a, Lanes const& b) {
+  return a + b;
+}
+template <class Lanes>
+std::array<Lanes, 3> sum(std::array<Lanes, 3> const& a, std::array<Lanes, 3> const& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class Lanes>
+Lanes mean(Lanes const& a, Lanes const& b) {
+  return (a + b) * constant<Lanes>(0.5);
+}
+template <class Lanes>
+std::array<Lanes, 3> mean(std::array<Lanes, 3> const& a, std::array<Lanes, 3> const& b) {
+  return {mean(a[0], b[0]), mean(a[1], b[1]), mean(a[2], b[2])};
+}
+
+/// Adds a force on the second grains, and torques on both, to the rows of forces of a pack of pairs.
+template <class Layout, class Scalar, class Lanes>
+void scatter_plane(Point<2, Lanes> const& force, Lanes const& torque_first, Lanes const& torque_second,
+                   std::int32_t const* first, std::int32_t const* second, Scalar* forces) {
+  // Rows of (force, torque on the first, torque on the second); the fourth entry of a force row is scratch.
+  auto const quads = to_quads<Scalar>({force[0], force[1], torque_first, torque_second});
+  for (std::size_t k = 0; k < Lanes::size(); ++k) {
+    Scalar* const on_first = forces + static_cast<std::size_t>(first[k]) * Layout::force_size;
+    Scalar* const on_second = forces + static_cast<std::size_t>(second[k]) * Layout::force_size;
+    auto sum = Quad<Scalar>::read(on_first);
+    sum.value -= quads[k].value;
+    sum.write(on_first);
+    sum = Quad<Scalar>::read(on_second);
+    sum.value += __builtin_shufflevector(quads[k].value, quads[k].value, 0, 1, 3, 2);
+    sum.write(on_second);
+  }
+}
+template <class Layout, class Scalar, class Lanes>
+void scatter_space(Point<3, Lanes> const& force, std::array<Lanes, 3> const& torque_first,
+                   std::array<Lanes, 3> const& torque_second, std::int32_t const* first, std::int32_t const* second,
+                   Scalar* forces) {
+  static_assert(Layout::force_size == 8);
+  Lanes const none(Scalar(0));
+  auto const start = to_quads<Scalar>({force[0], force[1], force[2], none});
+  auto const turn_first = to_quads<Scalar>({torque_first[0], torque_first[1], torque_first[2], none});
+  auto const turn_second = to_quads<Scalar>({torque_second[0], torque_second[1], torque_second[2], none});
+  auto const add = [](Scalar* to, auto const& values, Scalar sign) {
+    auto sum = Quad<Scalar>::read(to);
+    sum.value += sign * values;
+    sum.write(to);
+  };
+  for (std::size_t k = 0; k < Lanes::size(); ++k) {
+    Scalar* const on_first = forces + static_cast<std::size_t>(first[k]) * Layout::force_size;
+    Scalar* const on_second = forces + static_cast<std::size_t>(second[k]) * Layout::force_size;
+    add(on_first, start[k].value, Scalar(-1));
+    add(on_first + 4, turn_first[k].value, Scalar(-1));
+    add(on_second, start[k].value, Scalar(1));
+    add(on_second + 4, turn_second[k].value, Scalar(1));
+  }
+}
+
+}  // namespace scarp::detail

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/dem/detail/pair_block.hpp"
+
+namespace scarp {
+
+namespace detail {
+
+/// How a block of near pairs answers: where the grains touch, what the law says, what the contacts remember.
+template <Observe what, class PackingType, class Law>
+class PairResponse {
+ public:
+  using Shape = typename PackingType::Shape;
+  using Scalar = typename PackingType::Scalar;
+  using Lanes = Pack<Scalar>;
+  using Block = PairBlock<Shape, Law, Scalar>;
+  static constexpr int dim = Shape::dim;
+  static constexpr auto axes = static_cast<std::size_t>(dim);
+
+  PairResponse(PackingType& packing, Law const& law) : pairs_(packing.pairs), law_(law) {
+    // Dashpots look at the last move however often they are asked, springs only once.
+    bool const answered = packing.last_move.answered;
+    LastMove<dim> const move = answered && !Law::needs.motion ? LastMove<dim>{} : packing.last_move;
+    unanswered_ = constant<Lanes>(answered ? 0.0 : 1.0);
+    step_ = constant<Lanes>(move.duration);
+    affine_turn_ = affine_turn<dim, Lanes>(move.gradient);
+    for (int a = 0; a < dim; ++a) {
+      for (int b = 0; b < dim; ++b)
+        affine_[static_cast<std::size_t>(a * dim + b)] = constant<Lanes>(move.gradient(a, b));
+    }
+  }
+
+  /// The pairs `at` and following of the block, which are the pairs `start` and following of the list.
+  void answer(Block& block, std::size_t at, std::size_t start) {
+    auto const branch = block.template read<axes>(Block::branch, at);
+    auto const pose_first = block.template read<Block::pose_size>(Block::pose_first, at);
+    auto const pose_second = block.template read<Block::pose_size>(Block::pose_second, at);
+    Point<dim, Lanes> start_normal{};
+    if constexpr (Shape::remembers_normal) load_rows(pairs_.normal, start, start_normal);
+    auto const touch = Shape::touch(pose_first, pose_second, branch, start_normal);
+    auto const& n = touch.normal;
+    if constexpr (Shape::remembers_normal) store_rows(n, start, pairs_.normal);
+
+    Approach<dim, Lanes> approach{.overlap = touch.overlap, .slip = {}};
+    ContactMemory<dim, Lanes> memory;
+    auto const turn_first = turn(block, Block::spin_first, at);
+    auto const turn_second = turn(block, Block::spin_second, at);
+    auto const twist = scaled(mean(turn_first, turn_second), unanswered_);
+    if constexpr (Law::needs.shear || Law::needs.motion) {
+      auto const velocity = block.template read<axes>(Block::velocity, at);
+      auto const swing_first = turned_motion(turn_first, touch.arm_first);
+      auto const swing_second = turned_motion(turn_second, touch.arm_second);
+      Point<dim, Lanes> meeting;  // relative motion at the contact point
+      for (std::size_t a = 0; a < axes; ++a) {
+        meeting[a] = velocity[a] * step_ + swing_second[a] - swing_first[a];
+        for (std::size_t b = 0; b < axes; ++b) meeting[a] += affine_[a * axes + b] * branch[b];
+      }
+      if constexpr (Law::needs.shear) {
+        approach.slip = tangential_part(meeting, n);
+        load_rows(pairs_.shear, start, memory.shear);
+        if constexpr (dim == 3) carry_to_frame(memory.shear, twist, n);
+      }
+      if constexpr (Law::needs.motion) {
+        approach.closing = -dot(meeting, n);
+        approach.sweep = approach.slip;
+        if constexpr (Law::needs.shear) approach.slip = scaled(approach.slip, unanswered_);
+        approach.reduced_mass = constant<Lanes>(1.0) / block.template read<1>(Block::inverse_mass, at)[0];
+        approach.time_step = step_;
+      }
+    }
+    if constexpr (Law::needs.moment) {
+      approach.roll = rolling_part(difference(turn_second, turn_first), n);
+      if constexpr (Law::needs.motion) approach.roll = scaled(approach.roll, unanswered_);
+      load_rows(pairs_.moment, start, memory.moment);
+      if constexpr (dim == 3) carry_to_frame(memory.moment, twist, n);
+    }
+    if constexpr (Law::needs.radius || what != Observe::nothing) {
+      Lanes const radius_first = Shape::contact_radius(pose_first);
+      Lanes const radius_second = Shape::contact_radius(pose_second);
+      approach.reduced_radius = radius_first * radius_second / (radius_first + radius_second);
+    }
+    if constexpr (Law::needs.scalars > 0) load_rows(pairs_.scalars, start, memory.scalars);
+    auto const answer = law_.respond(approach, memory);
+    if constexpr (Law::needs.shear) store_rows(memory.shear, start, pairs_.shear);
+    if constexpr (Law::needs.moment) store_rows(memory.moment, start, pairs_.moment);
+    if constexpr (Law::needs.scalars > 0) store_rows(memory.scalars, start, pairs_.scalars);
+
+    Point<dim, Lanes> force;  // on the second grain
+    for (std::size_t a = 0; a < axes; ++a) force[a] = answer.normal * n[a];
+    if constexpr (Law::needs.shear) {
+      auto const shear = as_vector(answer.shear, n);
+      for (std::size_t a = 0; a < axes; ++a) force[a] += shear[a];
+    }
+    auto torque_first = cross(touch.arm_first, force);  // reversed, as the force is
+    auto torque_second = cross(touch.arm_second, force);
+    if constexpr (Law::needs.moment) {
+      torque_first = sum(torque_first, answer.moment);
+      torque_second = sum(torque_second, answer.moment);
+    }
+    block.write(Block::force, at, force);
+    block.write(Block::torque_first, at, torque_first);
+    block.write(Block::torque_second, at, torque_second);
+
+    if constexpr (what != Observe::nothing) {
+      sums_.force += sqrt(dot(force, force));
+      sums_.contacts += static_cast<double>(popcount(answer.normal != Lanes(Scalar(0))));
+      sums_.deepest = std::experimental::max(sums_.deepest, touch.overlap / approach.reduced_radius);
+      for (std::size_t a = 0; a < axes; ++a) {
+        for (std::size_t b = 0; b < axes; ++b) sums_.moment[a * axes + b] += force[a] * branch[b];
+      }
+    }
+    if constexpr (what == Observe::energy) {
+      sums_.stored += law_.stored_energy(approach, memory);
+      sums_.dissipated += answer.dissipated;
+    }
+  }
+
+  ContactSums<dim> total() const { return sums_.total(); }
+
+ private:
+  /// Rotation during the last move; grains turn with the cell, their spin is a fluctuation about the affine one.
+  Turning<dim, Lanes> turn(Block const& block, std::size_t field, std::size_t at) const {
+    auto const spin = block.template read<Block::turns>(field, at);
+    if constexpr (dim == 2) {
+      return spin[0] * step_ + affine_turn_;
+    } else {
+      Turning<3, Lanes> values;
+      for (std::size_t k = 0; k < 3; ++k) values[k] = spin[k] * step_ + affine_turn_[k];
+      return values;
+    }
+  }
+
+  NearPairs<Shape, Law, Scalar>& pairs_;
+  Law law_;
+  Lanes unanswered_;
+  Lanes step_;
+  std::array<Lanes, axes * axes> affine_;
+  Turning<dim, Lanes> affine_turn_;
+  LaneSums<dim, Lanes> sums_;
+};
+
+}  // namespace detail
+
+/// Forces of all near pairs at the present positions, and the update of what contacts remember by the packing's last move,
+/// unless that has been answered before. Afterwards `scratch.forces` begins with a row (force, torque) for each grain.
+/// Pairs go through in blocks: gather the grains' data, answer, scatter the forces. Each of the three loops is free of the
+/// others' latencies. Flattened, since shape and law must melt into the loop.
+template <Observe what, class PackingType, class Law>
+[[gnu::flatten]] ContactSums<PackingType::dim> pair_forces(PackingType& packing, Law const& law,
+                                                           PairScratch<typename PackingType::Scalar>& scratch) {
+  using Shape = typename PackingType::Shape;
+  using Scalar = typename PackingType::Scalar;
+  using Layout = RowLayout<Shape, Law>;
+  using Block = detail::PairBlock<Shape, Law, Scalar>;
+  constexpr std::size_t width = Pack<Scalar>::size();
+
+  auto const& pairs = packing.pairs;
+  constexpr auto parts = static_cast<std::size_t>(part_count<Shape>());
+  std::size_t const row_limit = packing.row_count() + pairs.ghost_owner.size() + 1;
+  scratch.rows.resize(std::max(row_limit, packing.position.padded_rows() * parts) * Layout::size);
+  scratch.forces.assign(row_limit * Layout::force_size, Scalar(0));
+  Scalar* const rows = scratch.rows.data();
+  Scalar* const forces = scratch.forces.data();
+  fill_grain_rows(packing, rows);
+  auto const nobody = static_cast<std::int32_t>(fill_ghost_rows(packing, rows));
+
+  detail::PairResponse<what, PackingType, Law> response(packing, law);
+  Block block;
+  for (std::size_t start = 0; start < pairs.count(); start += Block::size) {
+    std::size_t const present = std::min(Block::size, pairs.count() - start);
+    block.name_pairs(pairs.first.data() + start, pairs.second.data() + start, present, nobody);
+    std::size_t const used = (present + width - 1) / width * width;
+    for (std::size_t at = 0; at < used; at += width) block.gather(rows, at);
+    for (std::size_t at = 0; at < used; at += width) response.answer(block, at, start + at);
+    for (std::size_t at = 0; at < used; at += width) block.scatter(forces, at);
+  }
+  packing.last_move.answered = true;
+  gather_forces(packing, forces);
+  return response.total();
+}
+
+}  // namespace scarp

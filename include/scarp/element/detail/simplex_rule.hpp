@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+
+#include "scarp/element/detail/gauss_rule.hpp"
+
+namespace scarp {
+
+namespace detail {
+
+/// Conical product: Gauss points of the cube drawn together towards a corner of the simplex, \f$ x_1 = t_1,\;
+/// x_2 = (1 - t_1) t_2,\; x_3 = (1 - t_1)(1 - t_2) t_3 \f$. The Jacobian \f$ (1 - t_1)^2 (1 - t_2) \f$ (in space)
+/// raises the degree by Dim - 1. Stroud, Approximate Calculation of Multiple Integrals (1971)
+template <int Dim, int Degree>
+auto conical_rule() {
+  auto rule = cube_rule<Dim, Degree + Dim - 1>();
+  for (auto& point : rule) {
+    double left = 1.0;  // of the sum of all coordinates
+    for (int axis = 0; axis < Dim; ++axis) {
+      double const part = (1.0 + point.xi(axis)) / 2.0;
+      point.weight *= left / 2.0;
+      point.xi(axis) = left * part;
+      left *= 1.0 - part;
+    }
+  }
+  return rule;
+}
+
+}  // namespace detail
+
+/// Points in the simplex with corners at the origin and the unit points, exact up to the total degree `Degree`.
+/// Degree 1: centroid. Degree 2: three or four inner points, Hammer and Stroud, Math. Tables Aids Comp. 10 (1956) 137.
+/// Degree 4 of the triangle: six points, Cowper, Int. J. Numer. Meth. Engng 7 (1973) 405. Degree 5 of the tetrahedron:
+/// fourteen points, Walkington, Quadrature on simplices of arbitrary dimension (2000). Others: conical product.
+template <int Dim, int Degree>
+auto simplex_rule() {
+  using Point = QuadraturePoint<Dim>;
+  if constexpr (Dim == 2 && Degree == 1) {
+    return std::array<Point, 1>{{{Vector<2>(1.0 / 3.0, 1.0 / 3.0), 0.5}}};
+  } else if constexpr (Dim == 2 && Degree == 2) {
+    double const a = 1.0 / 6.0;
+    double const b = 2.0 / 3.0;
+    return std::array<Point, 3>{{{{a, a}, a}, {{b, a}, a}, {{a, b}, a}}};
+  } else if constexpr (Dim == 2 && (Degree == 3 || Degree == 4)) {
+    double const a = 0.44594849091596489;
+    double const b = 0.091576213509770743;
+    double const u = 0.11169079483900573;
+    double const v = 0.054975871827660933;
+    double const far_a = 1.0 - 2.0 * a;
+    double const far_b = 1.0 - 2.0 * b;
+    return std::array<Point, 6>{
+        {{{a, a}, u}, {{far_a, a}, u}, {{a, far_a}, u}, {{b, b}, v}, {{far_b, b}, v}, {{b, far_b}, v}}};
+  } else if constexpr (Dim == 3 && Degree == 1) {
+    return std::array<Point, 1>{{{Vector<3>::Constant(0.25), 1.0 / 6.0}}};
+  } else if constexpr (Dim == 3 && Degree == 2) {
+    double const a = 0.13819660112501051;  // (5 - sqrt 5)/20
+    double const b = 0.58541019662496852;  // (5 + 3 sqrt 5)/20
+    double const weight = 1.0 / 24.0;
+    return std::array<Point, 4>{{{{a, a, a}, weight}, {{b, a, a}, weight}, {{a, b, a}, weight}, {{a, a, b}, weight}}};
+  } else if constexpr (Dim == 3 && (Degree >= 3 && Degree <= 5)) {
+    double const a = 0.31088591926330061;
+    double const b = 0.092735250310891226;
+    double const c = 0.045503704125649649;
+    double const u = 0.018781320953002642;
+    double const v = 0.012248840519393658;
+    double const w = 0.0070910034628469110;
+    double const far_a = 1.0 - 3.0 * a;
+    double const far_b = 1.0 - 3.0 * b;
+    double const far_c = 0.5 - c;
+    return std::array<Point, 14>{{{{a, a, a}, u},
+                                  {{far_a, a, a}, u},
+                                  {{a, far_a, a}, u},
+                                  {{a, a, far_a}, u},
+                                  {{b, b, b}, v},
+                                  {{far_b, b, b}, v},
+                                  {{b, far_b, b}, v},
+                                  {{b, b, far_b}, v},
+                                  {{far_c, c, c}, w},
+                                  {{c, far_c, c}, w},
+                                  {{c, c, far_c}, w},
+                                  {{c, far_c, far_c}, w},
+                                  {{far_c, c, far_c}, w},
+                                  {{far_c, far_c, c}, w}}};
+  } else {
+    return detail::conical_rule<Dim, Degree>();
+  }
+}
+
+}  // namespace scarp

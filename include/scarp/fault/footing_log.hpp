@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "scarp/fault/footing_motion.hpp"
+#include "scarp/io/csv.hpp"
+#include "scarp/observe/observers.hpp"
+
+namespace scarp {
+
+/// Extremes of the pressure on a footing's base and the share of it that is pressed.
+struct BasePressure {
+  double least = std::numeric_limits<double>::infinity();     ///< [Pa]
+  double largest = -std::numeric_limits<double>::infinity();  ///< [Pa]
+  double pressed = 0.0;                                       ///< area with pressure over the whole area
+};
+
+inline BasePressure base_pressure(FootingMotion const& motion) {
+  BasePressure found;
+  double area = 0.0;
+  for (auto const& point : motion.base) {
+    found.least = std::min(found.least, point.pressure);
+    found.largest = std::max(found.largest, point.pressure);
+    area += point.area;
+    if (point.pressure > 0.0) found.pressed += point.area;
+  }
+  found.pressed /= area;
+  return found;
+}
+
+/// How a scene's footing moves, a row for each accepted step, and the pressures on its base at every so many of them.
+template <class Structure>
+class FootingLog : public NeverStops {
+ public:
+  /// profiles: of the base, at load factors that are to / profiles apart, from 0
+  FootingLog(std::filesystem::path const& folder, Structure structure, double to, int profiles, double load_unit,
+             CsvStart start = CsvStart::anew)
+      : motion_(folder / "footing.csv",
+                {"load", "throw_over_depth", "settlement", "sideways", "tilt", "support", "pressure_min",
+                 "pressure_max", "pressed_share"},
+                start),
+        base_(folder / "footing_base.csv", {"throw_over_depth", "x", "y", "area", "pressure", "shear", "gap"}, start),
+        structure_(std::move(structure)),
+        between_(require_positive("distance between profiles", to / profiles)),
+        end_(to),
+        load_unit_(load_unit) {}
+
+  template <class Problem>
+  void attempted(Problem const& problem, StepReport const& report) {
+    if (!report.verdict.acceptable()) return;
+    FootingMotion const motion = structure_.motion(problem);
+    auto const pressure = base_pressure(motion);
+    double const fault_throw = std::max(report.load, 0.0) / load_unit_;
+    motion_.add(report.load, fault_throw, motion.settlement, motion.sideways, motion.tilt, support(motion),
+                pressure.least, pressure.largest, pressure.pressed);
+    if (report.load < next_ && report.load < end_) return;
+    while (next_ <= report.load) next_ += between_;
+    for (auto const& point : motion.base)
+      base_.add(fault_throw, point.place.x(), point.place.y(), point.area, point.pressure, point.shear, point.gap);
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("motion", self.motion_);
+    visit("base", self.base_);
+    visit("next", self.next_);
+  }
+
+ private:
+  CsvLog motion_;
+  CsvLog base_;
+  Structure structure_;
+  double between_;
+  double end_;
+  double load_unit_;
+  double next_ = 0.0;
+};
+
+}  // namespace scarp

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/bvp/interface.hpp"
+#include "scarp/bvp/standing_body.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/fault/fault_scene.hpp"
+#include "scarp/fault/footing_motion.hpp"
+
+namespace scarp {
+
+/// A rigid strip footing on an interface. With the default law, Coulomb friction and no tension, it may slide, tilt and lift.
+template <ContactLaw Law = LinearFrictional>
+struct FrictionalFooting {
+  StripFooting footing{};
+  Law interface {};  ///< [Pa/m] where grains have [N/m]
+
+  FaultMesh on(FaultMesh layer) const {
+    layer.footing = Footing{.centre = footing.centre, .width = footing.width, .meshed = false};
+    return layer;
+  }
+  static constexpr int extra_dofs() { return RigidBody::extra_dofs; }
+  static constexpr double start() { return -1.0; }
+
+  template <class Grid>
+  void add_loads(Grid const& grid, double surcharge, LoadHistory& loads) const {
+    add_uncovered_surcharge(grid, surcharge, start(), loads);
+    Eigen::VectorXd weight = Eigen::VectorXd::Zero(loads.size());
+    weight(grid.dof_count() + 1) = -footing.bearing * footing.width * grid.thickness();
+    loads.add(std::move(weight), TimeFunction::ramp(start(), 0.0));
+  }
+
+  template <class Grid>
+  Interface<Law, RigidFooting> attached(Grid const& grid) const {
+    auto const& mesh = grid.mesh();
+    auto ground = boundary(mesh, "footing_base");
+    double const level = mesh.nodes[static_cast<std::size_t>(ground.front().front())].y();
+    std::vector<double> breaks;
+    for (int const node : boundary_nodes(mesh, "footing_base"))
+      breaks.push_back(mesh.nodes[static_cast<std::size_t>(node)].x());
+    auto const& beside = boundary(mesh, "surface");
+    ground.insert(ground.end(), beside.begin(), beside.end());
+    double const half = footing.width / 2.0;
+    RigidFooting const body({{footing.centre, level}, half}, {footing.centre - half, level},
+                            {footing.centre + half, level}, breaks, grid.thickness(), grid.dof_count());
+    return {interface, body, FacetChain(std::move(ground)), mesh.nodes};
+  }
+
+  template <class Soil>
+  static auto regions(Region<Soil> const& soil) {
+    return boost::hana::make_tuple(soil);
+  }
+
+  template <class Problem>
+  FootingMotion motion(Problem const& problem) const {
+    auto const& body = problem.attached().body().body();
+    auto const& mesh = problem.discretisation().mesh();
+    int const node = boundary(mesh, "footing_base").front().front();
+    Vector<2> const start(footing.centre, mesh.nodes[static_cast<std::size_t>(node)].y());
+    return {start.y() - body.reference().y(), body.reference().x() - start.x(), -body.rotation(),
+            problem.attached().points()};
+  }
+};
+
+}  // namespace scarp

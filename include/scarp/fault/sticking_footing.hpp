@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/fault/fault_scene.hpp"
+#include "scarp/fault/footing_motion.hpp"
+#include "scarp/run/visit_point.hpp"
+
+namespace scarp {
+
+/// A strip footing as an elastic block that shares the ground's nodes: neither slip nor gap, tension passes. The study's way.
+struct StickingFooting {
+  StripFooting footing{};
+  double height = 1.0;                                               ///< [m]
+  LinearElastic<2> block = LinearElastic<2>::from_lame(20e9, 12e9);  ///< the study's
+
+  FaultMesh on(FaultMesh layer) const {
+    layer.footing = Footing{.centre = footing.centre, .width = footing.width, .height = height};
+    return layer;
+  }
+  static constexpr int extra_dofs() { return 0; }
+  static constexpr double start() { return -1.0; }
+
+  template <class Grid>
+  void add_loads(Grid const& grid, double surcharge, LoadHistory& loads) const {
+    add_uncovered_surcharge(grid, surcharge, start(), loads);
+    loads.add(weight(grid), TimeFunction::ramp(start(), 0.0));
+  }
+
+  template <class Grid>
+  static NoAttachment attached(Grid const&) {
+    return {};
+  }
+
+  template <class Soil>
+  auto regions(Region<Soil> const& soil) const {
+    return boost::hana::make_tuple(soil, Region<LinearElastic<2>>{"footing", block});
+  }
+
+  /// Stresses on the base are nodal forces between block and ground over each node's share of the base.
+  template <class Problem>
+  FootingMotion motion(Problem const& problem) const {
+    auto const& grid = problem.discretisation();
+    auto const& mesh = grid.mesh();
+    auto nodes = boundary_nodes(mesh, "footing_base");
+    auto const index = [](int node) { return static_cast<std::size_t>(node); };
+    std::sort(nodes.begin(), nodes.end(),
+              [&](int a, int b) { return mesh.nodes[index(a)].x() < mesh.nodes[index(b)].x(); });
+    Vector<2> const left = grid.positions()[index(nodes.front())];
+    Vector<2> const right = grid.positions()[index(nodes.back())];
+    Vector<2> const moved =
+        (left + right) / 2.0 - (mesh.nodes[index(nodes.front())] + mesh.nodes[index(nodes.back())]) / 2.0;
+    FootingMotion motion{-moved.y(), moved.x(), std::atan2(left.y() - right.y(), right.x() - left.x()), {}};
+    Eigen::VectorXd const forces = forces_of_block(problem);
+    Eigen::VectorXd const shares = traction(grid, "footing_base", Vector<2>(1.0, 0.0));
+    for (int const node : nodes) {
+      double const area = shares(2 * node);
+      Vector<2> const stress = forces.segment<2>(2 * node) / area;
+      motion.base.push_back({grid.positions()[index(node)], area, stress, stress.y(), stress.x(), 0.0});
+    }
+    return motion;
+  }
+
+ private:
+  template <class Grid>
+  Eigen::VectorXd weight(Grid const& grid) const {
+    int const region = region_number(grid.mesh(), "footing");
+    return body_force(grid,
+                      [&](int number) { return Vector<2>(0.0, number == region ? -footing.bearing / height : 0.0); });
+  }
+
+  /// Forces that the block alone needs at its nodes, its weight included, once it has been placed.
+  template <class Problem>
+  Eigen::VectorXd forces_of_block(Problem const& problem) const {
+    auto const& grid = problem.discretisation();
+    std::vector<VoigtStress<2>> stresses(static_cast<std::size_t>(grid.point_count()), VoigtStress<2>::Zero());
+    int const region = region_number(grid.mesh(), "footing");
+    for (int point = 0; point < grid.point_count(); ++point) {
+      if (grid.site(point, 0.0).region == region)
+        stresses[static_cast<std::size_t>(point)] = committed_stress(problem, point);
+    }
+    Eigen::VectorXd forces;
+    grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), stresses, forces);
+    return forces - weight(grid);
+  }
+};
+
+}  // namespace scarp

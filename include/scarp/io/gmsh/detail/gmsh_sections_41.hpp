@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <optional>
+
+#include "scarp/io/gmsh/detail/gmsh_content.hpp"
+
+namespace scarp::detail {
+
+/// $Entities, $Nodes and $Elements of MSH 4.1. Gmsh 4.8 Reference Manual, section 9.1
+class GmshSections41 {
+ public:
+  void read_entities(GmshStream& stream) {
+    entities_.emplace();
+    std::array<std::size_t, 4> counts{};
+    for (auto& entities : counts) entities = stream.count("the number of entities", 5);
+    for (int dim = 0; dim < 4; ++dim) {
+      for (std::size_t k = 0; k < counts[static_cast<std::size_t>(dim)]; ++k) read_entity(stream, dim);
+    }
+  }
+
+  void read_nodes(GmshStream& stream, GmshContent& content) const {
+    auto const [blocks, nodes] = read_totals(stream, "nodes");
+    std::size_t const before = content.nodes.size();
+    for (std::size_t k = 0; k < blocks; ++k) {
+      auto const dim = stream.value<std::int32_t>("the dimension of an entity");
+      stream.value<std::int32_t>("the tag of an entity");
+      bool const parametric = stream.value<std::int32_t>("whether nodes have parameters") != 0;
+      int const parameters = parametric ? dim : 0;
+      auto const in_block = stream.count("the number of nodes of an entity", 4);
+      std::size_t const first = content.nodes.size();
+      for (std::size_t n = 0; n < in_block; ++n) {
+        content.nodes.push_back({stream.value<std::int64_t>("the tag of a node"), {}});
+      }
+      for (std::size_t n = first; n < first + in_block; ++n) {
+        content.nodes[n].position = read_gmsh_position(stream, content.nodes[n].tag);
+        for (int p = 0; p < parameters; ++p) stream.value<double>("a parameter of a node");
+      }
+    }
+    require_total(stream, "nodes", nodes, content.nodes.size() - before);
+  }
+
+  void read_elements(GmshStream& stream, GmshContent& content) const {
+    auto const [blocks, elements] = read_totals(stream, "elements");
+    std::size_t read = 0;
+    for (std::size_t k = 0; k < blocks; ++k) {
+      auto const dim = stream.value<std::int32_t>("the dimension of an entity");
+      auto const tag = stream.value<std::int32_t>("the tag of an entity");
+      auto entity = entity_of(stream, {dim, tag});
+      auto const type = known_gmsh_type(stream, stream.value<std::int32_t>("the type of elements"));
+      if (type.dim != dim) {
+        refuse("{} has elements of type {} ({}) on an entity of dimension {} (they have dimension {}): write it again",
+               stream.place(), type.type, type.name, dim, type.dim);
+      }
+      auto const in_block =
+          stream.count("the number of elements of an entity", static_cast<std::size_t>(type.nodes) + 1);
+      content.blocks.push_back({type, std::move(entity.groups), entity.turned});
+      auto& block = content.blocks.back();
+      for (std::size_t e = 0; e < in_block; ++e) {
+        block.tags.push_back(stream.value<std::int64_t>("the tag of an element"));
+        for (int a = 0; a < type.nodes; ++a) {
+          block.nodes.push_back(stream.value<std::int64_t>("a node of an element"));
+        }
+      }
+      read += in_block;
+    }
+    require_total(stream, "elements", elements, read);
+  }
+
+ private:
+  struct Entity {
+    std::vector<int> groups{};
+    bool turned = false;
+  };
+  struct Totals {
+    std::size_t blocks;
+    std::size_t entries;
+  };
+
+  static Totals read_totals(GmshStream& stream, std::string_view what) {
+    Totals totals{};
+    totals.blocks = stream.count(fmt::format("the number of blocks of {}", what), 4);
+    totals.entries = stream.count(fmt::format("the number of {}", what), 2);
+    stream.value<std::uint64_t>("the smallest tag");
+    stream.value<std::uint64_t>("the largest tag");
+    return totals;
+  }
+
+  static void require_total(GmshStream const& stream, std::string_view what, std::size_t announced, std::size_t read) {
+    if (announced == read) return;
+    refuse("the section that ends at {} holds {} {} (it announces {}): the file is damaged, write it again",
+           stream.place(), read, what, announced);
+  }
+
+  void read_entity(GmshStream& stream, int dim) {
+    int const tag = stream.value<std::int32_t>("the tag of an entity");
+    int const extents = dim == 0 ? 3 : 6;  // a point, or the corners of a box
+    for (int k = 0; k < extents; ++k) stream.value<double>("a coordinate of an entity");
+    auto& entity = (*entities_)[{dim, tag}];
+    auto const in_groups = stream.count("the number of physical groups of an entity", 1);
+    for (std::size_t k = 0; k < in_groups; ++k) {
+      auto const group = stream.value<std::int32_t>("the tag of a physical group");
+      add_group(entity.groups, group);
+      // MSH 2.2 has the elements of a group with negative entities turned already.
+      if (k == 0) entity.turned = group < 0;
+    }
+    if (dim == 0) return;
+    auto const sides = stream.count("the number of sides of an entity", 1);
+    for (std::size_t k = 0; k < sides; ++k) stream.value<std::int32_t>("the tag of a side of an entity");
+  }
+
+  Entity entity_of(GmshStream const& stream, DimTag entity) const {
+    if (!entities_) return {};
+    auto const found = entities_->find(entity);
+    if (found == entities_->end()) {
+      refuse("{} names entity {} of dimension {} (it is not listed in $Entities): write it again, not partitioned",
+             stream.place(), entity.second, entity.first);
+    }
+    return found->second;
+  }
+
+  std::optional<std::map<DimTag, Entity>> entities_{};  ///< none in files without $Entities
+};
+
+}  // namespace scarp::detail

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "scarp/dem/neighbour_list.hpp"
+#include "scarp/io/csv_reader.hpp"
+#include "scarp/io/packings/detail/grain_columns.hpp"
+
+namespace scarp {
+
+/// A packing of a file and what its grains are called there.
+template <class PackingType>
+struct NamedPacking {
+  PackingType packing;                                    ///< at rest, placed as in the file, without a list of pairs
+  std::vector<std::int64_t> ids{};                        ///< of each grain
+  std::unordered_map<std::int64_t, std::size_t> grain{};  ///< by id
+};
+
+namespace detail {
+
+inline constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
+
+/// Ids of the rows; the rows' numbers where the table has no column `id`.
+template <class PackingType>
+void read_ids(CsvColumns const& table, NamedPacking<PackingType>& named) {
+  if (table.has("id")) {
+    named.ids = table.column<std::int64_t>("id");
+  } else {
+    for (std::size_t i = 0; i < table.rows(); ++i) named.ids.push_back(static_cast<std::int64_t>(i));
+  }
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    auto const [other, is_new] = named.grain.emplace(named.ids[i], i);
+    if (!is_new) {
+      table.refuse_cell(i, "id", fmt::format("line {} has the same", table.line(other->second)),
+                        "give each grain its own id");
+    }
+  }
+}
+
+template <class Shape>
+std::vector<std::array<double, static_cast<std::size_t>(Shape::size_count)>> read_sizes(CsvColumns const& table) {
+  std::vector<std::array<double, static_cast<std::size_t>(Shape::size_count)>> sizes(table.rows());
+  for (std::size_t k = 0; k < GrainColumns<Shape>::size.size(); ++k) {
+    auto const name = GrainColumns<Shape>::size[k];
+    auto const values = table.column(name);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (!(values[i] > 0.0)) table.refuse_cell(i, name, "a size is above zero", "mend it or leave the grain out");
+      sizes[i][k] = values[i];
+    }
+  }
+  if constexpr (requires { Shape::check(sizes[0]); }) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      naming(fmt::format("line {} of '{}'", table.line(i), table.file()), [&] { Shape::check(sizes[i]); });
+    }
+  }
+  return sizes;
+}
+
+template <class PackingType>
+void read_places(CsvColumns const& table, PackingType& packing) {
+  using Scalar = typename PackingType::Scalar;
+  using Shape = typename PackingType::Shape;
+  constexpr double farthest = 1e6;  // cells away; beyond, doubles in [m] lose digits that overlaps need
+  double const limit = farthest * packing.cell.norm();
+  packing.position.resize(table.rows());
+  packing.orientation.resize(table.rows());
+  packing.rest();
+  for (int a = 0; a < PackingType::dim; ++a) {
+    auto const name = axis_names[static_cast<std::size_t>(a)];
+    auto const values = table.column(name);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::abs(values[i]) > limit) {
+        table.refuse_cell(i, name, "it is more than a million cells away", "check the units, or wrap the position");
+      }
+      packing.position(i, a) = static_cast<Scalar>(values[i]);
+    }
+  }
+  if constexpr (Shape::orientation_count == 2) {
+    auto const angles = table.column(GrainColumns<Shape>::angle);
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      packing.orientation.set_row(i,
+                                  {static_cast<Scalar>(std::cos(angles[i])), static_cast<Scalar>(std::sin(angles[i]))});
+    }
+  }
+}
+
+/// Overlap [m] of a listed pair and the smaller of its contact radii [m].
+struct Depth {
+  double overlap;
+  double radius;
+};
+
+template <class PackingType>
+Depth pair_depth(PackingType const& packing, std::size_t pair) {
+  using Shape = typename PackingType::Shape;
+  auto const& pairs = packing.pairs;
+  auto const first = static_cast<std::size_t>(pairs.first[pair]);
+  auto const second = static_cast<std::size_t>(pairs.second[pair]);
+  auto branch = row_position(packing, second);
+  auto const from = row_position(packing, first);
+  Point<PackingType::dim, double> start{};
+  for (std::size_t a = 0; a < branch.size(); ++a) {
+    branch[a] -= from[a];
+    if constexpr (Shape::remembers_normal) start[a] = static_cast<double>(pairs.normal(pair, static_cast<int>(a)));
+  }
+  auto const pose = row_pose(packing, first);
+  auto const other = row_pose(packing, second);
+  return {settled_touch<Shape>(pose, other, branch, start).overlap,
+          std::min(Shape::contact_radius(pose), Shape::contact_radius(other))};
+}
+
+/// Takes a copy, because making the list of pairs wraps the positions.
+template <class PackingType>
+void refuse_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& ids, std::string const& file) {
+  if (!rebuild_pairs(packing, 0.0).acceptable()) {
+    refuse(
+        "the grains of '{}' do not fit into their cell (its base vectors must be right-handed and its faces more than "
+        "two "
+        "of the largest diameters apart): check cell and units",
+        file);
+  }
+  for (std::size_t p = 0; p < packing.pairs.count(); ++p) {
+    Depth const depth = pair_depth(packing, p);
+    if (depth.overlap <= depth.radius) continue;
+    refuse(
+        "grains {} and {} of '{}' overlap by {} m (more than the smaller one's radius {}): check cell, units and "
+        "repeated grains",
+        ids[grain_of_row(packing, static_cast<std::size_t>(packing.pairs.first[p]))],
+        ids[grain_of_row(packing, static_cast<std::size_t>(packing.pairs.second[p]))], file, depth.overlap,
+        depth.radius);
+  }
+}
+
+}  // namespace detail
+
+/// Reads grains from a table with columns x, y (z), those of GrainColumns and, when the file has it, id.
+/// cell: columns are base vectors [m]; lengths in [m], density [kg/m3]; thickness: out of plane in 2D [m], 1 in 3D
+/// \throws InputError naming the line for sizes, ids and places that cannot be, the ids of grains that lie in one
+/// another
+template <class PackingType>
+  requires HasGrainColumns<typename PackingType::Shape> NamedPacking<PackingType> read_packing(
+      CsvColumns const& table, Tensor<PackingType::dim> const& cell, double density, double thickness) {
+    using Shape = typename PackingType::Shape;
+    if (table.rows() == 0) refuse("'{}' lists no grain (a packing needs one at least): add lines", table.file());
+    if (!(cell.allFinite() && cell.determinant() > 0.0)) {
+      refuse("the cell for '{}' has a content of {} (its base vectors must be finite and right-handed): check them",
+             table.file(), cell.determinant());
+    }
+    NamedPacking<PackingType> named;
+    auto& packing = named.packing;
+    packing.cell = cell;
+    detail::read_ids(table, named);
+    packing.population = std::make_shared<Population<Shape, typename PackingType::Scalar> const>(
+        detail::read_sizes<Shape>(table), density, thickness);
+    detail::read_places(table, packing);
+    detail::refuse_deep_overlaps(packing, named.ids, table.file());
+    return named;
+  }
+
+template <class PackingType>
+NamedPacking<PackingType> read_packing(std::filesystem::path const& path, Tensor<PackingType::dim> const& cell,
+                                       double density, double thickness) {
+  return read_packing<PackingType>(read_csv(path), cell, density, thickness);
+}
+
+}  // namespace scarp

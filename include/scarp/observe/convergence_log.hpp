@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <vector>
+
+#include "scarp/io/csv.hpp"
+#include "scarp/io/json_lines.hpp"
+#include "scarp/observe/observers.hpp"
+
+namespace scarp {
+
+/// How every attempt at a load step converged, refused ones included: a row of a table for every iteration, and beside it
+/// JSON lines (`.jsonl`) with all that the solver knows. Of these each has a `kind`: "iteration", or "step", which
+/// closes an attempt. A rate is the residual over that of the iteration before; times are wall time [s].
+class ConvergenceLog : public NeverStops {
+ public:
+  /// \throws FileError when a file cannot be written
+  ConvergenceLog(std::filesystem::path const& file, double load_unit, CsvStart start = CsvStart::anew)
+      : table_(file,
+               {"step", "throw_over_depth", "iteration", "residual", "accepted", "reason", "largest_gradient",
+                "dem_steps", "seconds"},
+               start),
+        lines_(std::filesystem::path(file).replace_extension(".jsonl"), start == CsvStart::resumed),
+        load_unit_(load_unit) {}
+
+  template <class Problem>
+  void attempted(Problem const&, StepReport const& report) {
+    ++attempt_;
+    int iteration = 0;
+    double before = std::numeric_limits<double>::quiet_NaN();
+    for (auto const& record : report.history) {
+      ++iteration;
+      bool const accepted = report.verdict.acceptable() && iteration == report.iterations();
+      table_.add(report.step, report.load / load_unit_, iteration, record.residual, accepted ? 1 : 0,
+                 name(report.verdict.reason), report.largest_gradient, record.inner_steps, record.material_seconds);
+      lines_.add(line_of(report, record, iteration, before));
+      before = record.residual;
+    }
+    lines_.add(line_of(report));
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("table", self.table_);
+    visit("lines", self.lines_);
+    visit("attempt", self.attempt_);
+  }
+
+ private:
+  JsonObject begun(std::string_view kind, StepReport const& report) const {
+    JsonObject line;
+    line.add("kind", kind).add("attempt", attempt_).add("step", report.step);
+    line.add("throw_over_depth", report.load / load_unit_);
+    return line;
+  }
+
+  JsonObject line_of(StepReport const& report, IterationRecord const& record, int iteration, double before) const {
+    JsonObject points;
+    for (auto const status : {Status::ok, Status::fluid, Status::not_converged, Status::failed})
+      points.add(name(status), record.points.count(status));
+    std::vector<JsonObject> slowest;
+    for (auto const& work : record.points.slowest)
+      slowest.push_back(JsonObject().add("point", work.point).add("dem_steps", work.inner_steps));
+    JsonObject line = begun("iteration", report);
+    line.add("iteration", iteration).add("residual", record.residual).add("rate", record.residual / before);
+    line.add("linear_residual", record.linear_residual).add("points", points);
+    line.add("reason", name(record.verdict.reason)).add("worst_point", record.worst_point).add("slowest", slowest);
+    line.add("dem_steps", record.inner_steps).add("seconds", record.seconds);
+    return line.add("seconds_in_points", record.material_seconds);
+  }
+
+  JsonObject line_of(StepReport const& report) const {
+    long inner_steps = 0;
+    double in_points = 0.0;
+    for (auto const& record : report.history) {
+      inner_steps += record.inner_steps;
+      in_points += record.material_seconds;
+    }
+    JsonObject line = begun("step", report);
+    line.add("load_increment", report.load_increment).add("accepted", report.verdict.acceptable());
+    line.add("status", name(report.verdict.status)).add("reason", name(report.verdict.reason));
+    line.add("worst_point", report.worst_point).add("weak_dof", report.weak_dof);
+    line.add("iterations", report.iterations()).add("residual", report.residual());
+    line.add("largest_gradient", report.largest_gradient).add("condition", report.condition);
+    line.add("dem_steps", inner_steps).add("seconds", report.seconds).add("seconds_in_points", in_points);
+    return line.add("share_outside_points", 1.0 - in_points / report.seconds);
+  }
+
+  CsvLog table_;
+  JsonLog lines_;
+  double load_unit_;
+  int attempt_ = 0;
+};
+
+}  // namespace scarp

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "scarp/run/visit_point.hpp"
+
+namespace scarp {
+
+namespace detail {
+
+/// visit(stress of the floor) where a state, or one that it keeps, has one.
+template <class State, class Visit>
+void visit_floor(State const& state, Visit const& visit) {
+  if constexpr (requires { state.floor_stress; }) {
+    visit(state.floor_stress);
+  } else if constexpr (requires { state.own; }) {
+    visit_floor(state.own, visit);
+  }
+}
+
+}  // namespace detail
+
+/// Share of the stiffness floors (constitutive/stiffness_floor.hpp) in all stress of a problem's committed state:
+/// \f$ \sum v |\sigma_{floor}| / \sum v |\sigma| \f$, 0 where no point is fluid.
+template <class Problem>
+double floor_share(Problem const& problem) {
+  auto const& grid = problem.discretisation();
+  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  double floors = 0.0;
+  double all = 0.0;
+  for (int point = 0; point < grid.point_count(); ++point) {
+    double const volume = volumes[static_cast<std::size_t>(point)];
+    visit_point(problem, point, [&](auto const& provider, auto const& state) {
+      all += volume * provider.stress(state).norm();
+      detail::visit_floor(state, [&](auto const& stress) { floors += volume * stress.norm(); });
+    });
+  }
+  return floors > 0.0 ? floors / all : 0.0;
+}
+
+}  // namespace scarp

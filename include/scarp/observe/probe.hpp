@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "scarp/io/csv.hpp"
+#include "scarp/observe/field_series.hpp"
+
+namespace scarp {
+
+/// Number of the material point nearest to a place in the initial mesh.
+template <class DiscretisationType>
+int nearest_point(DiscretisationType const& discretisation, Vector<DiscretisationType::dim> const& place) {
+  int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int point = 0; point < discretisation.point_count(); ++point) {
+    double const distance = (discretisation.site(point, 0.0).position - place).norm();
+    if (distance < least) {
+      least = distance;
+      nearest = point;
+    }
+  }
+  return nearest;
+}
+
+/// Follows the packing of one material point: stress and strain in geo view (compression positive), void ratio and fabrics,
+/// one row for each accepted step.
+class RveProbe : public NeverStops {
+ public:
+  /// point: number of a material point, see nearest_point
+  RveProbe(std::filesystem::path const& file, int point, double load_unit, CsvStart start = CsvStart::anew)
+      : log_(file,
+             {"throw_over_depth", "eps_q", "eps_v", "p", "q", "contact_fabric", "particle_fabric", "void_ratio", "sxx",
+              "syy", "sxy"},
+             start),
+        point_(point),
+        load_unit_(load_unit) {}
+
+  template <class Problem>
+  void attempted(Problem const& problem, StepReport const& report) {
+    if (!report.verdict.acceptable()) return;
+    auto const stress = committed_stress(problem, point_);
+    auto const geo_stress = geo::plane_stress(stress);
+    auto const strain = geo::plane_strain(total_deformation(problem.discretisation(), point_));
+    double fabric_of_contacts = std::numeric_limits<double>::quiet_NaN();
+    double fabric_of_particles = fabric_of_contacts;
+    double void_ratio = fabric_of_contacts;
+    visit_point(problem, point_, [&](auto const& provider, auto const& state) {
+      for (auto const& [name, value] : RveQuantities{}(provider, state)) {
+        if (name == "contact_fabric") fabric_of_contacts = value;
+        if (name == "particle_fabric") fabric_of_particles = value;
+        if (name == "void_ratio") void_ratio = value;
+      }
+    });
+    log_.add(report.load / load_unit_, strain.deviatoric, strain.volumetric, geo_stress.p, geo_stress.q,
+             fabric_of_contacts, fabric_of_particles, void_ratio, -stress(0), -stress(1), -stress(2));
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("log", self.log_);
+  }
+
+ private:
+  CsvLog log_;
+  int point_;
+  double load_unit_;
+};
+
+}  // namespace scarp

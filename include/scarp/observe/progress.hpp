@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "scarp/bvp/describe_dof.hpp"
+#include "scarp/observe/observers.hpp"
+
+namespace scarp {
+
+/// A line for every attempt on the error stream: step, load, residual, iterations, elapsed and remaining time.
+class Progress : public NeverStops {
+ public:
+  Progress(double to, double load_unit) : to_(to), load_unit_(load_unit), started_(std::chrono::steady_clock::now()) {}
+
+  template <class Problem>
+  void attempted(Problem const& problem, StepReport const& report) {
+    if (from_ < 0.0 && report.load > 0.0) from_ = report.load - report.load_increment;
+    double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    if (report.verdict.acceptable()) {
+      double const remaining = report.load > 0.0 ? elapsed * (to_ - report.load) / (report.load - from_) : 0.0;
+      fmt::print(stderr,
+                 "step {:4}  h/H {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n",
+                 report.step, report.load / load_unit_, report.residual(), report.iterations(), elapsed, remaining);
+    } else {
+      fmt::print(stderr, "step {:4}  refused at h/H {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n",
+                 report.step, report.load / load_unit_, report.iterations(), report.residual(),
+                 name(report.verdict.reason), where(problem, report));
+    }
+    std::fflush(stderr);
+  }
+
+ private:
+  template <class Problem>
+  static std::string where(Problem const& problem, StepReport const& report) {
+    if (report.weak_dof >= 0)
+      return fmt::format(", nothing holds {}", describe_dof(problem.discretisation().mesh(), report.weak_dof));
+    if (report.worst_point < 0) return "";
+    auto const place = problem.discretisation().site(report.worst_point, 0.0).position;
+    return fmt::format(" at point {} ({:.2f}, {:.2f})", report.worst_point, place(0), place(1));
+  }
+
+  double to_;
+  double load_unit_;
+  double from_ = -1.0;  ///< load of the fault's motion at the first attempt, zero unless the run continues another
+  std::chrono::steady_clock::time_point started_;
+};
+
+}  // namespace scarp

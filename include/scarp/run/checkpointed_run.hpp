@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <chrono>
+#include <utility>
+
+#include "scarp/io/checkpoint_files.hpp"
+#include "scarp/run/detail/gathered_states.hpp"
+#include "scarp/solver/load_stepping.hpp"
+
+namespace scarp {
+
+/// A run in stages that can be killed at any moment and goes on from its last checkpoint with the same bits. It watches the
+/// stages in place of other observers, which it passes everything on to and whose memory it saves too:
+/// \code
+/// CheckpointFiles files({.folder = "states", .resume = true}, "size = 2.5\nseed = 1\n");
+/// Observers observers(...);  // logs are CsvStart::resumed where files.resumes()
+/// CheckpointedRun run(files, observers, notes);
+/// run.stage([&] { return scene.settle(problem, run); });
+/// run.stage([&] { return scene.rupture(problem, run); });
+/// \endcode
+/// Stages before that of the checkpoint are left out; the problem that it is loaded into is a new one of the same scene. A
+/// checkpoint is made before an attempt when its time has come, where a stage ends, and where it stops, for whatever reason:
+/// with the last accepted state then. Where points are shared out among processes, the first one writes for all and each reads all:
+/// another number of processes may go on.
+template <class Watched, Described Notes>
+class CheckpointedRun {
+ public:
+  /// notes: what the program itself remembers of earlier stages
+  /// \throws CheckpointError
+  CheckpointedRun(CheckpointFiles& files, Watched& watched, Notes& notes)
+      : files_(files), watched_(watched), notes_(notes), saved_(Clock::now()) {
+    if (files_.resumes()) {
+      files_.load([&](StateReader& reader) { read_place(reader); });
+      first_ = stage_;
+    }
+    stage_ = -1;
+  }
+
+  /// action() goes through a stage, watched by this object, and returns its RunReport. Left out when a stage before it was
+  /// not completed, or when a checkpoint lies behind it.
+  template <class Action>
+  void stage(Action&& action) {
+    ++stage_;
+    if (stage_ >= first_ && report_.verdict.acceptable()) report_ = joined(report_, action());
+  }
+
+  /// Of all stages so far.
+  RunReport const& report() const { return report_; }
+
+  template <class Problem>
+  void attempted(Problem const& problem, StepReport const& step) {
+    ++attempts_;
+    watched_.attempted(problem, step);
+  }
+  bool wants_stop() const { return watched_.wants_stop(); }
+
+  template <class Problem, class Session>
+  void begins(Problem& problem, Session& session, RunState& state) {
+    if (!files_.resumes() || stage_ != first_) return;
+    files_.load([&](StateReader& reader) {
+      read_place(reader);
+      members(*this, problem, session, state, reader);
+      // The observers' memory is for the first rank alone.
+      if (is_first_rank(problem.executor()) && !reader.at_end())
+        refuse("it holds more than the scene has: load it into the scene that was saved");
+    });
+    files_.release();
+    keep_own_states(problem);
+    if (state.report.verdict.reason == Reason::interrupted) state.report.verdict = {};
+  }
+
+  template <class Problem, class Session>
+  void between(Problem& problem, Session const& session, RunState const& state) {
+    auto const& settings = files_.settings();
+    double const seconds = std::chrono::duration<double>(Clock::now() - saved_).count();
+    bool const due =
+        seconds >= settings.every_seconds || (settings.every_attempts > 0 && attempts_ >= settings.every_attempts);
+    if (agreed(problem.executor(), due) && attempts_ > 0) save(problem, session, state);
+  }
+
+  template <class Problem, class Session>
+  void ends(Problem& problem, Session const& session, RunState const& state) {
+    if (attempts_ > 0) save(problem, session, state);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  template <class Problem, class Session>
+  void save(Problem& problem, Session const& session, RunState const& state) {
+    if (!files_.saves()) return;
+    with_all_states(problem, [&] {
+      files_.save([&](StateWriter& writer) {
+        writer("stage", stage_);
+        writer("earlier stages", report_);
+        members(std::as_const(*this), std::as_const(problem), session, state, writer);
+      });
+    });
+    attempts_ = 0;
+    saved_ = Clock::now();
+  }
+
+  void read_place(StateReader& reader) {
+    reader("stage", stage_);
+    reader("earlier stages", report_);
+  }
+
+  template <class Self, class Problem, class Session, class State, class Visit>
+  static void members(Self& self, Problem& problem, Session& session, State& state, Visit& visit) {
+    visit("problem", problem);
+    visit("session", session);
+    visit("state", state);
+    visit("notes", self.notes_);
+    visit("observers", self.watched_);
+  }
+
+  CheckpointFiles& files_;
+  Watched& watched_;
+  Notes& notes_;
+  RunReport report_;  ///< of the stages before the present one
+  int stage_ = -1;
+  int first_ = 0;     ///< stage to begin with
+  int attempts_ = 0;  ///< since the last checkpoint
+  Clock::time_point saved_;
+};
+
+}  // namespace scarp

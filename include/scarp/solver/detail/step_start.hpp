@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <vector>
+
+#include "scarp/solver/detail/evaluation.hpp"
+#include "scarp/solver/detail/linearised_step.hpp"
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// What a load step begins with, however it is iterated afterwards: the system linearised about the committed state, what is
+/// known of it, and the first guess that follows from it.
+template <class Problem, LinearSolver Linear>
+class StepStart {
+ public:
+  /// accuracy: see LinearisedStep
+  StepStart(Problem& problem, double accuracy) : problem_(problem), linearised_(problem, accuracy) {}
+
+  /// At the load factor that the problem is aimed at; says which degree of freedom is weak where the system is singular.
+  Verdict linearise(std::vector<VoigtTangent<Problem::dim>> const& tangents) {
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
+    Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, tangents);
+    condition_ = verdict.acceptable() ? linearised_.condition() : 0.0;
+    if (condition_ > linearised_.singular) verdict = {Status::failed, Reason::singular_system};
+    weak_dof_ = verdict.reason == Reason::singular_system ? linearised_.weak_dof() : -1;
+    return verdict;
+  }
+
+  /// Adds what was found out about the system.
+  void describe(StepReport& report) const {
+    report.condition = condition_;
+    report.weak_dof = weak_dof_;
+  }
+
+  /// First guess of the displacement increment between two load factors; from then on forces are measured against the
+  /// loads of the second one.
+  Eigen::VectorXd predict(double from, double to) {
+    problem_.aim(to);
+    Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
+    Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
+    // A prediction that fails is no more than a poor first guess.
+    linearised_.solve(increment, more_load);
+    return increment;
+  }
+
+  LinearisedStep<Problem, Linear>& linearised() { return linearised_; }
+
+ private:
+  Problem& problem_;
+  LinearisedStep<Problem, Linear> linearised_;
+  double condition_ = 0.0;
+  int weak_dof_ = -1;
+};
+
+}  // namespace scarp

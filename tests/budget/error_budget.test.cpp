@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/budget/error_budget.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include "approx.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+
+namespace {
+
+/// Stress that relaxes towards 1 with the shortening, by explicit Euler steps: \f$ s' = 1 - s \f$. As many steps as planned.
+struct Relaxing {
+  static constexpr int dim = 2;
+  struct State {
+    double s = 0.0;
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) {
+      visit("s", self.s);
+    }
+  };
+  using Plan = int;
+
+  int steps = 4;
+  int most_steps = 1000;
+
+  State initial_state(scarp::Site<2> const&) const { return {}; }
+  scarp::VoigtStress<2> stress(State const& state) const { return {state.s, state.s, 0.0}; }
+  scarp::VoigtTangent<2> tangent(State const&) const { return scarp::VoigtTangent<2>::Identity(); }
+  Plan plan(State const&, scarp::Gradient<2> const&) const { return steps; }
+  Plan refined(Plan plan) const { return std::min(2 * plan, most_steps); }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    return respond(committed, increment, trial, steps);
+  }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial,
+                             Plan plan) const {
+    trial = committed;
+    double const step = std::log1p(increment(0, 0)) / plan;
+    for (int k = 0; k < plan; ++k) trial.s += step * (1.0 - trial.s);
+    return {stress(trial), {}};
+  }
+};
+static_assert(scarp::PlansWork<Relaxing>);
+
+/// What a budget sees of a problem, without any solver: all points are strained alike.
+template <class Provider>
+struct Points {
+  static constexpr int dim = 2;
+  static constexpr bool is_bare = false;  // no work is added up
+  static constexpr bool averages = false;
+
+  explicit Points(Provider provider, int count)
+      : field(std::move(provider), std::vector<scarp::Site<2>>(static_cast<std::size_t>(count))),
+        seen(static_cast<std::size_t>(count)) {}
+
+  auto const& materials() const { return field; }
+  auto const& gradients() const { return seen; }
+  scarp::SerialExecutor& executor() const { return serial; }
+
+  void strain(double increment, scarp::ErrorBudget<Points>& budget) {
+    scarp::Gradient<2> const gradient = scarp::Gradient<2>::Identity() * std::expm1(increment);
+    scarp::StepReport report;
+    report.history.emplace_back().residual = 1e-4;
+    for (int point = 0; point < field.point_count(); ++point) {
+      seen[static_cast<std::size_t>(point)] = gradient;
+      field.plan(point, gradient);
+      field.respond(point, gradient);
+      report.history.back().inner_steps += field.work(point);
+    }
+    field.commit();
+    budget.attempted(*this, report);
+  }
+
+  scarp::ProviderField<Provider> field;
+  std::vector<scarp::Gradient<2>> seen;
+  mutable scarp::SerialExecutor serial{};
+};
+
+constexpr double increment = 0.02;
+
+/// Analytic: s = 1 - (1 - e/n)^n after n steps over the strain e.
+double relaxed(int steps, double strain) { return 1.0 - std::pow(1.0 - strain / steps, steps); }
+
+double part(scarp::BudgetParts const& parts, std::string_view name) {
+  for (auto const& part : parts)
+    if (part.name == name) return part.value;
+  return -1.0;
+}
+
+}  // namespace
+
+TEST_CASE("half an increment made twice is the increment") {
+  scarp::Gradient<2> gradient;
+  gradient << 0.2, 0.15, -0.05, -0.1;
+  scarp::Gradient<2> const half = scarp::half_increment<2>(gradient);
+  CHECK((half + half + half * half - gradient).norm() < 1e-15);
+  CHECK(scarp::half_increment<2>(scarp::Gradient<2>::Zero()).isZero(0.0));
+}
+
+TEST_CASE("the budget finds the known error of a law's steps in single increments and along the path") {
+  for (int const most_steps :
+       {1000, 4}) {  // by a refined plan, and in halves where no more than four steps are allowed
+    Points points(Relaxing{.steps = 4, .most_steps = most_steps}, 50);
+    scarp::ErrorBudget budget(points, {}, {.share = 1.0, .followed = {7}});
+    constexpr int increments = 10;
+    for (int k = 0; k < increments; ++k) points.strain(increment, budget);
+    REQUIRE(budget.samples().differences.size() >= 20);
+    CHECK(budget.samples().differences[0] ==
+          samples::Approx(1.0 - relaxed(8, increment) / relaxed(4, increment)).epsilon(1e-10));
+    // The second answers begin after the first increment, with the first one's state.
+    double const start = 1.0 - relaxed(4, increment);
+    double const once = 1.0 - start * std::pow(1.0 - increment / 4.0, 4 * (increments - 1));
+    double const twice = 1.0 - start * std::pow(1.0 - increment / 8.0, 8 * (increments - 1));
+    REQUIRE(budget.followed().points.size() == 1);
+    CHECK(budget.followed().points[0].point == 7);
+    CHECK(budget.followed().points[0].apart == samples::Approx(1.0 - twice / once).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("an elastic law has no error of its steps beyond the third order of the strain") {
+  Points points(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3), 400);
+  scarp::ErrorBudget budget(points, {}, {});
+  for (int k = 0; k < 5; ++k) points.strain(1e-4, budget);
+  CHECK(budget.followed().points.size() == 2);
+  REQUIRE(!budget.samples().differences.empty());
+  // Of increments of 1e-4: halves differ by the square of the strain over 16, and the sum of strains is no smaller.
+  CHECK(part(budget.parts(), "doubling_largest") < 1e-9);
+  CHECK(part(budget.parts(), "accumulated") < 1e-9);
+  CHECK(scarp::budget_headline(budget.parts()) == "");
+}
+
+TEST_CASE("samples take no more work than their share") {
+  Points points(Relaxing{}, 100);
+  scarp::ErrorBudget budget(points, {}, {.share = 0.01, .most_samples = 50});
+  for (int k = 0; k < 20; ++k) points.strain(increment, budget);
+  double const share = part(budget.parts(), "work_of_checks");
+  CHECK(share <= 0.01);
+  CHECK(share > 0.008);  // four steps a point: a sample of eight is one of 1/50 of an increment's work
+}
+
+TEST_CASE("a run outside its budget says by which part, with NaN counted as outside") {
+  Points points(Relaxing{}, 50);
+  scarp::ErrorBudget budget(points, {.residual = 1e-5, .doubling_median = 1.0}, {.share = 1.0});
+  points.strain(increment, budget);
+  CHECK(scarp::budget_headline(budget.parts()) == "OUTSIDE ITS ERROR BUDGET: residual is 0.0001, bound 1e-05\n");
+  CHECK(!scarp::BudgetPart{.value = std::nan(""), .bound = 1.0}.is_within());
+  CHECK_THROWS_AS(scarp::ErrorBudget(points, {}, {.followed = {50}}), scarp::InputError);
+}
+
+TEST_CASE("a quantile is not exceeded by its share of the samples, however few they are") {
+  auto const first = [](int count) {
+    scarp::DoubledSamples samples;
+    for (int k = count; k > 0; --k) samples.differences.push_back(k);
+    return samples;
+  };
+  CHECK(first(1).quantile(0.95) == 1.0);
+  CHECK(first(2).quantile(0.95) == 2.0);
+  CHECK(first(2).quantile(0.5) == 1.0);
+  CHECK(first(10).quantile(0.95) == 10.0);
+  CHECK(first(20).quantile(0.95) == 19.0);
+  CHECK(first(3).quantile(0.0) == 1.0);
+}
+
+TEST_CASE("a step has as many samples as it may, none twice, and the most strained point in every other one") {
+  Points points(Relaxing{}, 50);
+  scarp::ErrorBudget budget(points, {}, {.share = 10.0, .most_samples = 5});
+  points.strain(increment, budget);
+  points.strain(increment, budget);
+  CHECK(budget.samples().differences.size() == 10);
+  Points few(Relaxing{}, 3);
+  scarp::ErrorBudget small(few, {}, {.share = 10.0, .most_samples = 5});
+  few.strain(increment, small);
+  CHECK(small.samples().differences.size() == 3);
+}
+
+TEST_CASE("a number that is none puts a run outside its budget for good") {
+  Points points(Relaxing{}, 50);
+  scarp::ErrorBudget budget(points);
+  scarp::StepReport report;
+  report.history.emplace_back().linear_residual = std::nan("");
+  budget.attempted(points, report);
+  points.strain(increment, budget);
+  CHECK(std::isnan(part(budget.parts(), "linear_residual")));
+  CHECK(scarp::budget_headline(budget.parts()).find("linear_residual") != std::string::npos);
+}
+
+TEST_CASE("sampling that cannot be done is refused") {
+  Points points(Relaxing{}, 50);
+  for (auto const& sampling : {scarp::ErrorSampling{.most_samples = -1}, scarp::ErrorSampling{.points_per_followed = 0},
+                               scarp::ErrorSampling{.most_followed = -1}, scarp::ErrorSampling{.share = std::nan("")}})
+    CHECK_THROWS_AS(scarp::ErrorBudget(points, {}, sampling), scarp::InputError);
+}

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/io/gmsh/gmsh_reader.hpp"
+
+#include <doctest/doctest.h>
+
+#include "io/mesh_samples.hpp"
+#include "io/scratch_folder.hpp"
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/io/gmsh/gmsh_element_type.hpp"
+
+namespace {
+
+/// Two triangles of a unit square, sparse tags in any order, a node of no element and a point.
+std::string const square_22 = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 4 "ground"
+2 1 "sand"
+$EndPhysicalNames
+$Nodes
+5
+40 1 1 0
+7 0 0 0
+900 0.5 9 0
+12 1 0 0
+31 0 1 0
+$EndNodes
+$Elements
+5
+1 15 2 9 1 7
+5 1 2 4 1 12 7
+6 1 2 0 3 12 40
+30 2 2 2 1 7 40 31
+21 2 3 1 1 77 7 12 40
+$EndElements
+)";
+
+std::string const square_41 = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Entities
+0 1 1 0
+5 0 0 0 1 0 0 1 -4 2 1 2
+3 0 0 0 1 1 0 0 1 5
+$EndEntities
+$Nodes
+2 4 7 40
+1 5 1 1
+12
+1 0 0 0.5
+2 3 0 3
+40
+7
+31
+1 1 0
+0 0 0
+0 1 0
+$EndNodes
+$Elements
+2 3 1 9
+1 5 1 1
+1 7 12
+2 3 2 2
+8 7 12 40
+9 7 40 31
+$EndElements
+)";
+
+std::string with(std::string text, std::string_view old, std::string_view other) {
+  auto const at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), other);
+}
+
+template <class Element = scarp::Tri3>
+scarp::Mesh<Element> read(std::string const& text) {
+  ScratchFolder const folder;
+  scarp::write_file(folder / "m.msh", text);
+  return scarp::read_gmsh<Element>(folder / "m.msh");
+}
+
+/// What the reader says, with the file's folder left out; empty when it has nothing to say.
+template <class Element = scarp::Tri3>
+std::string complaint(std::string const& text) {
+  ScratchFolder const folder;
+  scarp::write_file(folder / "m.msh", text);
+  try {
+    scarp::read_gmsh<Element>(folder / "m.msh");
+  } catch (scarp::InputError const& error) {
+    std::string said = error.what();
+    auto const name = folder.path().string() + "/";
+    for (auto at = said.find(name); at != std::string::npos; at = said.find(name)) said.erase(at, name.size());
+    return said;
+  }
+  return {};
+}
+
+bool says(std::string const& text, std::string_view part) {
+  CAPTURE(text);
+  CAPTURE(part);
+  bool const found = text.find(part) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("nodes and elements are numbered in the order of their tags, what no element uses is left out") {
+  auto const mesh = read(square_22);
+  CHECK(mesh.nodes == std::vector<scarp::Vector<2>>{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}});
+  CHECK(mesh.elements == std::vector<std::array<int, 3>>{{0, 1, 3}, {0, 3, 2}});
+  CHECK(mesh.regions == std::vector<std::string>{"sand", "physical_2"});
+  CHECK(mesh.element_region == std::vector<int>{0, 1});
+  // The side is given the wrong way round and turned to the outward normal; the one in no group is left out.
+  REQUIRE(mesh.boundaries.size() == 1);
+  CHECK(mesh.boundaries.at("ground") == std::vector<std::array<int, 2>>{{0, 1}});
+}
+
+TEST_CASE("version 4.1 finds groups by entities, with signs and parameters") {
+  auto const mesh = read(square_41);
+  CHECK(mesh.nodes == std::vector<scarp::Vector<2>>{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}});
+  CHECK(mesh.elements == std::vector<std::array<int, 3>>{{0, 1, 3}, {0, 3, 2}});
+  CHECK(mesh.regions == std::vector<std::string>{"mesh"});
+  REQUIRE(mesh.boundaries.size() == 1);
+  CHECK(mesh.boundaries.at("physical_4") == std::vector<std::array<int, 2>>{{0, 1}});
+}
+
+TEST_CASE("the sign of a region in version 4.1 turns its elements") {
+  // Gmsh 4.8 saves "Physical Surface(5) = {-3}" so; in version 2.2 it turns the elements itself.
+  auto const turned =
+      with(with(square_41, "0 1 5\n$EndE", "1 -5 0\n$EndE"), "7 12 40\n9 7 40 31", "7 40 12\n9 7 31 40");
+  CHECK(read(turned).elements == read(square_41).elements);
+  says(complaint(with(square_41, "0 1 5\n$EndE", "1 -5 0\n$EndE")),
+       "element 8 of 'm.msh' (its nodes there: 7, 12, 40)");
+}
+
+TEST_CASE("a cell that is turned round twice is the same") {
+  samples::for_each_element([](char const* name, auto element) {
+    using Facet = typename decltype(element)::Facet;
+    CAPTURE(name);
+    std::array<int, Facet::nodes> nodes{};
+    for (int a = 0; a < Facet::nodes; ++a) nodes[static_cast<std::size_t>(a)] = 10 + a;
+    auto const turned = scarp::detail::turned_round<Facet>(nodes);
+    CHECK_FALSE(scarp::detail::same_winding<Facet>(turned, nodes));
+    CHECK(scarp::detail::same_winding<Facet>(scarp::detail::turned_round<Facet>(turned), nodes));
+  });
+  // By hand: corners 1 4 3 2, then the middles of 1-4, 4-3, 3-2, 2-1.
+  CHECK(scarp::detail::turned_round<scarp::Quad8>({1, 2, 3, 4, 12, 23, 34, 41}) ==
+        std::array<int, 8>{1, 4, 3, 2, 41, 34, 23, 12});
+}
+
+TEST_CASE("other sections, ends of lines as on Windows and a lifted plane do no harm") {
+  auto const plain = read(square_22);
+  auto text = with(square_22, "$Nodes", "$Periodic\n1\n0 1 1\n$EndPeriodic\n$Nodes");
+  for (auto at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2)) text.insert(at, "\r");
+  CHECK(read("$Comments\nmade by hand\n$EndComments\n" + text).elements == plain.elements);
+  auto lifted = square_41;
+  for (auto const* corner : {"1 0 0 0.5", "1 1 0\n0 0 0\n0 1 0\n"}) {
+    std::string other = corner;
+    other = other == "1 0 0 0.5" ? "1 0 2.5 0.5" : "1 1 2.5\n0 0 2.5\n0 1 2.5000000001\n";
+    lifted = with(lifted, corner, other);
+  }
+  CHECK(read(lifted).nodes == plain.nodes);
+}
+
+TEST_CASE("a boundary between two regions keeps the sense that the file gives it") {
+  auto const between = with(square_22, "5 1 2 4 1 12 7", "5 1 2 4 1 40 7");
+  CHECK(read(between).boundaries.at("ground") == std::vector<std::array<int, 2>>{{3, 0}});
+  auto const other = with(square_22, "5 1 2 4 1 12 7", "5 1 2 4 1 7 40");
+  CHECK(read(other).boundaries.at("ground") == std::vector<std::array<int, 2>>{{0, 3}});
+}
+
+TEST_CASE("a mesh of other elements is refused and the right element named") {
+  says(complaint<scarp::Tet4>(square_22),
+       "'m.msh' is a 2D mesh with 2 x type 2 (3-node triangle) (Tet4 needs a 3D one): read it as Tri3");
+  says(complaint<scarp::Quad4>(square_22),
+       "'m.msh' holds 2 x type 2 (3-node triangle) (all elements of a mesh of Quad4 are of type 3): read it "
+       "as "
+       "Tri3");
+  says(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 3 2 2 1 7 12 40 31")),
+       "'m.msh' holds 1 x type 2 (3-node triangle), 1 x type 3 (4-node quadrangle) (all elements "
+       "of a "
+       "mesh of Tri3 are of type 2): mesh with one kind");
+  says(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 4 2 2 1 7 12 40 31")),
+       "'m.msh' is a 3D mesh with 1 x type 4 (4-node tetrahedron) (Tri3 needs a 2D one): read it as Tet4");
+  says(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 6 2 2 1 7 12 40 31 7 12")),
+       "(Tri3 needs a 2D one): mesh with another kind");
+  auto const lines =
+      with(with(square_22, "30 2 2 2 1 7 40 31", "30 1 2 2 1 7 40"), "21 2 3 1 1 77 7 12 40", "21 1 2 2 1 40 31");
+  says(complaint(lines), "'m.msh' holds neither surface nor volume elements");
+  says(complaint(with(square_22, "5 1 2 4 1 12 7", "5 8 2 4 1 12 7 31")),
+       "the physical group 'ground' of 'm.msh' holds elements of type 8 (3-node line), such as 5 (the sides of Tri3 "
+       "have "
+       "type 1)");
+  says(complaint(with(square_22, "30 2 2 2 1", "30 77 2 2 1")), "line 22 of 'm.msh' has elements of type 77");
+}
+
+TEST_CASE("a file tells the type of its elements before it is read as one") {
+  ScratchFolder const folder;
+  auto const type_of = [&](std::string const& text) {
+    scarp::write_file(folder / "m.msh", text);
+    return scarp::gmsh_element_type(folder / "m.msh");
+  };
+  CHECK(type_of(square_22) == scarp::Tri3::gmsh_type);
+  CHECK(type_of(square_41) == scarp::Tri3::gmsh_type);
+  // One triangle becomes a quadrangle: of both types the lower number. Without surfaces there is none.
+  CHECK(type_of(with(square_22, "30 2 2 2 1 7 40 31", "30 3 2 2 1 7 12 40 31")) == scarp::Tri3::gmsh_type);
+  CHECK(type_of("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 15 2 0 1 1\n"
+                "$EndElements\n") == 0);
+}
+
+TEST_CASE("a bad mesh is refused with the element or node that is wrong") {
+  says(complaint(with(square_22, "77 7 12 40", "77 7 40 12")),
+       "element 21 of 'm.msh' (its nodes there: 7, 40, 12) has the Jacobian -1 m^2 (flat, or its nodes run the wrong "
+       "way "
+       "round)");
+  says(complaint(with(square_22, "77 7 12 40", "77 7 12 12")), "element 21 of 'm.msh' names a node twice");
+  says(complaint(with(square_22, "12 1 0 0", "7 1 0 0")), "'m.msh' lists node 7 twice");
+  says(complaint(with(square_22, "77 7 12 40", "77 7 12 41")), "element 21 of 'm.msh' names node 41");
+  says(complaint(with(square_22, "5 1 2 4 1 12 7", "5 1 2 4 1 12 31")),
+       "element 5 of 'm.msh' in the physical group 'ground' lies on no side");
+  says(complaint(with(square_22, "5 1 2 4 1 12 7", "5 1 2 4 1 12 8")), "element 5 of 'm.msh'");
+  says(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 2 2 2 1 12 40 7")),
+       "elements 21 and 30 of 'm.msh' have the same nodes");
+  says(complaint(with(square_22, "31 0 1 0", "31 0 1 0.01")), "node 31 of 'm.msh' is at z = 0.01, node 7 at z = 0");
+  says(complaint(with(square_41, "3 0 0 0 1 1 0 0 1 5", "3 0 0 0 1 1 0 2 6 7 1 5")),
+       "element 8 of 'm.msh' is in the physical groups 'physical_6' and 'physical_7'");
+  says(complaint(with(square_41, "2 3 2 2\n", "2 4 2 2\n")), "line 26 of 'm.msh' names entity 4 of dimension 2");
+  says(complaint(with(square_41, "2 3 2 2\n", "2 3 1 2\n")),
+       "line 26 of 'm.msh' has elements of type 1 (2-node line) on an entity of dimension 2");
+}
+
+TEST_CASE("names that a mesh does not have are refused with those that it has") {
+  auto const mesh = read(square_22);
+  CHECK_THROWS_WITH_AS(scarp::region_number(mesh, "clay"),
+                       "there is no region 'clay' (the mesh has: sand, physical_2): use one of these names",
+                       scarp::InputError);
+  CHECK_THROWS_WITH_AS(scarp::boundary(mesh, "top"),
+                       "there is no boundary 'top' (the mesh has: ground): use one of these names", scarp::InputError);
+}
+
+TEST_CASE("a damaged file is refused with the line") {
+  says(complaint(with(square_22, "7 0 0 0", "7 0 nan 0")), "line 12 of 'm.msh' has the coordinate nan of node 7");
+  says(complaint(with(square_22, "7 0 0 0", "7 0 1e999 0")), "line 12 of 'm.msh' has '1e999' for a coordinate");
+  says(complaint(with(square_22, "7 0 0 0", "7 0 x 0")), "line 12 of 'm.msh' has 'x' for a coordinate of a node");
+  says(complaint(with(square_22, "Nodes\n5", "Nodes\n6")),
+       "line 16 of 'm.msh' has '$EndNodes' for the tag of a node (it is no whole number that can stand here)");
+  says(complaint(with(square_22, "Nodes\n5", "Nodes\n4")), "line 15 of 'm.msh' has '31' ($EndNodes must follow)");
+  says(complaint(with(square_22, "Nodes\n5", "Nodes\n-5")), "line 10 of 'm.msh' has '-5' for the number of nodes");
+  says(complaint(with(square_22, "Nodes\n5", "Nodes\n5000000000000")),
+       "line 10 of 'm.msh' says 5000000000000 for the number of nodes (only ");
+  says(complaint(with(square_22, "30 2 2 2", "30 2 -2 2")), "line 22 of 'm.msh' has -2 for the number of tags");
+  says(complaint(with(square_22, "30 2 2 2", "30 2 2000000000 2")), "line 22 of 'm.msh' says 2000000000 for");
+  says(complaint(with(square_22, "\"sand\"", "sand")), "line 7 of 'm.msh' has 'sand' for the name of a physical group");
+  says(complaint(with(square_22, "2 1 \"sand\"", "1 4 \"sand\"")),
+       "line 7 of 'm.msh' names group 4 of dimension 1 'sand' (it is 'ground' already)");
+  says(complaint(with(square_41, "2 4 7 40", "2 5 7 40")),
+       "the section that ends at line 20 of 'm.msh' holds 4 nodes (it announces 5)");
+  says(complaint(with(square_41, "2 3 1 9", "1 3 1 9")),
+       "the section that ends at line 25 of 'm.msh' holds 1 elements (it announces 3)");
+  says(complaint(with(square_41, "1 5 1 1\n1 7", "1 5 1 99999\n1 7")), "line 24 of 'm.msh' says 99999 for");
+  says(complaint(square_22.substr(0, 150)), "'m.msh' ends at line 16 where");
+  says(complaint(square_22.substr(0, square_22.find("$Elements"))), "'m.msh' has no section $Elements");
+}
+
+TEST_CASE("what is no mesh of a version that is read is refused") {
+  says(complaint(""), "'m.msh' is no Gmsh mesh (it does not begin with $MeshFormat)");
+  says(complaint("solid cube\n"), "line 1 of 'm.msh' has 'solid' (a section such as $Nodes must begin)");
+  says(complaint("$NOD\n1\n1 0 0 0\n$ENDNOD\n"), "'m.msh' is a mesh of MSH 1 (2.2 and 4.1 are read)");
+  for (auto const* version : {"1.0", "2.1", "3.0", "4.0"}) {
+    says(complaint(with(square_22, "2.2 0 8", fmt::format("{} 0 8", version))),
+         fmt::format("'m.msh' is a mesh of MSH {} (2.2 and 4.1 are read)", std::stod(version)));
+  }
+  says(complaint(with(square_22, "2.2 0 8", "2.2 2 8")), "has file type 2");
+  says(complaint(with(square_22, "2.2 0 8", "2.2 0 4")), "numbers of 4 bytes");
+  says(complaint(with(square_22, "2.2 0 8", "2.2 1 8")), "byte 20 of 'm.msh' has 0x646e4524 where the number one");
+  CHECK_THROWS_AS(scarp::read_gmsh<scarp::Tri3>("nowhere.msh"), scarp::InputError);
+  CHECK_THROWS_AS(scarp::read_gmsh<scarp::Tri3>(std::filesystem::temp_directory_path()), scarp::InputError);
+  std::string const no_elements = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Elements\n0 0 0 0\n$EndElements\n";
+  says(complaint(no_elements), "'m.msh' holds neither surface nor volume elements");
+}

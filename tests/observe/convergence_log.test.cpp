@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/observe/convergence_log.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "io/scratch_folder.hpp"
+
+namespace {
+
+struct NoProblem {};
+
+std::string text_of(std::filesystem::path const& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Two iterations whose second one is accepted.
+scarp::StepReport two_iterations() {
+  scarp::StepReport report{.step = 3, .load = 0.5, .load_increment = 0.125};
+  report.history.resize(2);
+  auto& first = report.history[0];
+  first = {.residual = 0.5, .inner_steps = 64, .material_seconds = 1.5, .seconds = 2.0};
+  first.verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced};
+  first.worst_point = 2;
+  first.points.add(0, scarp::Status::ok, 20);
+  first.points.add(1, scarp::Status::fluid, 0);
+  first.points.add(2, scarp::Status::not_converged, 44);
+  report.history[1] = {
+      .residual = 0.125, .linear_residual = 1e-15, .inner_steps = 20, .material_seconds = 1.5, .seconds = 1.75};
+  report.largest_gradient = 0.01;
+  report.condition = 1e6;
+  report.seconds = 4.0;
+  return report;
+}
+
+}  // namespace
+
+TEST_CASE("every iteration and every attempt is a line of JSON beside the table") {
+  ScratchFolder const folder;
+  scarp::ConvergenceLog log(folder / "convergence.csv", 2.0);
+  log.attempted(NoProblem{}, two_iterations());
+  auto refused = two_iterations();
+  refused.history.resize(1);
+  refused.history[0].residual = std::numeric_limits<double>::quiet_NaN();
+  refused.verdict = {scarp::Status::failed, scarp::Reason::not_finite};
+  refused.worst_point = 2;
+  log.attempted(NoProblem{}, refused);
+  // Written by hand from the reports above: numbers are exact in binary or shortest.
+  std::string const iteration_one =
+      R"("iteration":1,"residual":0.5,"rate":null,"linear_residual":0,)"
+      R"("points":{"ok":1,"fluid":1,"not_converged":1,"failed":0},"reason":"unbalanced","worst_point":2,)"
+      R"("slowest":[{"point":2,"dem_steps":44},{"point":0,"dem_steps":20}],)"
+      R"("dem_steps":64,"seconds":2,"seconds_in_points":1.5})";
+  std::string failed_one = iteration_one;
+  failed_one.replace(failed_one.find(":0.5,"), 5, ":null,");
+  std::string const lines =
+      R"({"kind":"iteration","attempt":1,"step":3,"throw_over_depth":0.25,)" + iteration_one + "\n" +
+      R"({"kind":"iteration","attempt":1,"step":3,"throw_over_depth":0.25,)"
+      R"("iteration":2,"residual":0.125,"rate":0.25,"linear_residual":1e-15,)"
+      R"("points":{"ok":0,"fluid":0,"not_converged":0,"failed":0},"reason":"none","worst_point":-1,)"
+      R"("slowest":[],"dem_steps":20,"seconds":1.75,"seconds_in_points":1.5})"
+      "\n"
+      R"({"kind":"step","attempt":1,"step":3,"throw_over_depth":0.25,"load_increment":0.125,"accepted":true,)"
+      R"("status":"ok","reason":"none","worst_point":-1,"weak_dof":-1,"iterations":2,"residual":0.125,)"
+      R"("largest_gradient":0.01,"condition":1000000,"dem_steps":84,"seconds":4,"seconds_in_points":3,)"
+      R"("share_outside_points":0.25})"
+      "\n"
+      R"({"kind":"iteration","attempt":2,"step":3,"throw_over_depth":0.25,)" +
+      failed_one + "\n" +
+      R"({"kind":"step","attempt":2,"step":3,"throw_over_depth":0.25,"load_increment":0.125,"accepted":false,)"
+      R"("status":"failed","reason":"not_finite","worst_point":2,"weak_dof":-1,"iterations":1,"residual":null,)"
+      R"("largest_gradient":0.01,"condition":1000000,"dem_steps":64,"seconds":4,"seconds_in_points":1.5,)"
+      R"("share_outside_points":0.625})"
+      "\n";
+  CHECK(text_of(folder / "convergence.jsonl") == lines);
+  std::string const table = text_of(folder / "convergence.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 4);  // header and three iterations
+}
+
+TEST_CASE("the slowest points are those with the most work, equal ones by number") {
+  scarp::PointSurvey survey;
+  int point = 0;
+  for (long const work : {20, 30, 20, 500, 20, 40, 20, 0, 30}) survey.add(point++, scarp::Status::ok, work);
+  std::vector<scarp::PointSurvey::Work> const expected{{3, 500}, {5, 40}, {1, 30}, {8, 30}, {0, 20}};
+  CHECK(survey.slowest == expected);
+  CHECK(survey.count(scarp::Status::ok) == 9);
+}
+
+TEST_CASE("text in JSON keeps to one line and its quotes") {
+  CHECK(scarp::JsonObject().add("a \"name\"", "C:\\x\n").text() == R"({"a \"name\"":"C:\\x\u000a"})");
+}

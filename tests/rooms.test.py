@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Every arrow between the rooms of include/scarp points downwards, nobody but the room itself and those within it looks into its `detail`, and
+Hana composes in the upper rooms only."""
+import pathlib
+import re
+import sys
+
+# From the bottom to the top: a room may include those before it.
+ROOMS = ["core", "element", "shape", "contact", "mesh", "dem", "homogenise", "io", "io/gmsh", "io/packings", "measure",
+         "constitutive", "bvp", "solver", "run", "scene", "observe", "budget", "fault"]
+COMPOSES = {"scene", "observe", "budget", "fault"}
+FOLDER = pathlib.Path(__file__).resolve().parents[1] / "include" / "scarp"
+
+
+def room_of(header):
+    """The room of a header given by its path below include/scarp; a header beside a folder of its name belongs to it."""
+    parts = header.removesuffix(".hpp").split("/")
+    return next(("/".join(parts[:n]) for n in (2, 1) if "/".join(parts[:n]) in ROOMS), None)
+
+
+faults = []
+arrows = 0
+for path in sorted(FOLDER.rglob("*.hpp")):
+    header = path.relative_to(FOLDER).as_posix()
+    room = room_of(header)
+    text = path.read_text()
+    if room is None:
+        faults.append(f"{header} lies in no room (name its room in {pathlib.Path(__file__).name})")
+        continue
+    if "boost/hana" in text and room not in COMPOSES:
+        faults.append(f"{header} composes with Hana")
+    for included in re.findall(r'#include "scarp/([^"]+)"', text):
+        other = room_of(included)
+        if other == room:
+            continue
+        arrows += 1
+        if ROOMS.index(other) > ROOMS.index(room):
+            faults.append(f"{header} includes {included}, from a room above its own")
+        if "/detail/" in included and not room.startswith(f"{other}/"):
+            faults.append(f"{header} looks into {included}")
+for room in ROOMS:
+    if not (FOLDER / f"{room}.hpp").exists():
+        faults.append(f"the room {room} has no header of its name")
+if arrows < 100:
+    faults.append(f"only {arrows} arrows found: this test looks for includes in the wrong form")
+sys.exit("\n".join(faults))

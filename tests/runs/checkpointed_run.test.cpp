@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/run/checkpointed_run.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "io/scratch_folder.hpp"
+#include "scarp/budget/error_budget.hpp"
+#include "scarp/constitutive/dormant.hpp"
+#include "scarp/constitutive/recorded.hpp"
+#include "scarp/constitutive/varied_parameters.hpp"
+#include "scarp/io/csv.hpp"
+#include "scarp/observe/observers.hpp"
+#include "solver/sample_block.hpp"
+
+namespace {
+
+using scarp::CheckpointError;
+using Block = sample::Block<sample::Softening>;
+
+constexpr char const* scene = "size = 1\nseed = 7\n";
+
+struct LoadLog : scarp::NeverStops {
+  scarp::CsvLog log;
+
+  template <class Problem>
+  void attempted(Problem const&, scarp::StepReport const& report) {
+    log.add(report.step, report.load, report.residual(), name(report.verdict.reason));
+  }
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("log", self.log);
+  }
+};
+
+struct Killed {};
+
+/// Asks to stop, or ends without a word as a killed process does.
+struct Ending {
+  int stop_after = 1 << 30;  ///< attempts
+  int die_after = 1 << 30;
+
+  template <class Problem>
+  void attempted(Problem const&, scarp::StepReport const&) {
+    --stop_after;
+    if (--die_after == 0) throw Killed{};
+  }
+  bool wants_stop() const { return stop_after <= 0; }
+};
+
+/// Takes a budget's place when there is none.
+struct Budget : scarp::NeverStops {
+  std::optional<scarp::ErrorBudget<Block::Problem>> own{};
+
+  template <class Problem>
+  void attempted(Problem const& problem, scarp::StepReport const& report) {
+    if (own) own->attempted(problem, report);
+  }
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    if (self.own) visit("budget", *self.own);
+  }
+};
+
+struct Notes {
+  double settled_residual = -1.0;
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("settled_residual", self.settled_residual);
+  }
+};
+
+struct Outcome {
+  scarp::RunReport report;
+  std::optional<sample::Committed<Block::Problem>> state;
+  Notes notes;
+  std::string log;
+  std::vector<double> budget;
+};
+
+/// A softening block that is settled, pulled with refused steps on the way, and pulled on nearly to its peak, by objects that
+/// are all made anew.
+Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending ending, bool has_budget = true) {
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({.reference_strain = 0.02, .largest_increment = 4e-3}, serial);
+  auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
+  Outcome outcome;
+  Budget budget;
+  if (has_budget) budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 8});
+  scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}, start}},
+                             scarp::Borrowed(budget), ending);
+  scarp::CheckpointedRun run(files, observers, outcome.notes);
+  scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
+  scarp::LoadStepping const stepping{.first = 1e-3, .smallest = 1e-6, .largest = 4e-3, .largest_gradient = 0.1};
+  run.stage([&] {
+    auto const report = stepping.settle(solver, problem, 0.0, run);
+    outcome.notes.settled_residual = 0.25;
+    return report;
+  });
+  run.stage([&] { return stepping.run(solver, problem, 0.0, 0.012, run); });
+  run.stage([&] { return stepping.run(solver, problem, 0.012, 0.016, run); });
+  outcome.report = run.report();
+  outcome.state.emplace(problem);
+  outcome.log = content(folder / "log.csv");
+  if (has_budget) {
+    for (auto const& part : budget.own->parts()) outcome.budget.push_back(part.value);
+  }
+  return outcome;
+}
+
+scarp::CheckpointFiles resumed(ScratchFolder const& folder, std::string text = scene) {
+  return {{.folder = folder / "states", .resume = true, .every_seconds = 1e9}, std::move(text)};
+}
+
+Outcome const& undisturbed() {
+  static Outcome const made = [] {
+    ScratchFolder const folder;
+    return pull(folder, {}, {});
+  }();
+  return made;
+}
+
+/// Wall times aside.
+void check_same(Outcome const& outcome, Outcome const& expected) {
+  CHECK(outcome.report.verdict == expected.report.verdict);
+  CHECK(outcome.report.last_failure == expected.report.last_failure);
+  CHECK(outcome.report.load == expected.report.load);
+  CHECK(outcome.report.steps == expected.report.steps);
+  CHECK(outcome.report.refused == expected.report.refused);
+  CHECK(outcome.report.iterations == expected.report.iterations);
+  CHECK(outcome.report.largest_residual == expected.report.largest_residual);
+  CHECK(outcome.notes.settled_residual == expected.notes.settled_residual);
+  CHECK(*outcome.state == *expected.state);
+  CHECK(outcome.log == expected.log);
+  CHECK(outcome.budget == expected.budget);
+}
+
+std::string complaint_about(ScratchFolder const& folder, std::string text = scene) {
+  try {
+    static_cast<void>(resumed(folder, std::move(text)));
+  } catch (CheckpointError const& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+bool contains(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("an error budget does not change a bit of the run that it watches") {
+  ScratchFolder const folder;
+  auto unwatched = pull(folder, {}, {}, false);
+  CHECK(unwatched.budget.empty());
+  CHECK(undisturbed().budget.size() > 5);
+  unwatched.budget = undisturbed().budget;
+  check_same(unwatched, undisturbed());
+}
+
+TEST_CASE("a run that is stopped before every attempt and continued by new objects keeps its bits") {
+  REQUIRE(undisturbed().report.verdict.acceptable());
+  REQUIRE(undisturbed().report.refused > 0);
+  ScratchFolder const folder;
+  Outcome outcome;
+  int parts = 0;
+  do {
+    outcome = pull(folder, resumed(folder), {.stop_after = 1});
+    ++parts;
+  } while (outcome.report.verdict.reason == scarp::Reason::interrupted && parts < 100);
+  check_same(outcome, undisturbed());
+  // The step that settles cannot be stopped; every other attempt is a part, and the first stage's end makes one more at most.
+  int const attempts = undisturbed().report.steps + undisturbed().report.refused;
+  CHECK(attempts > 10);
+  CHECK(parts >= attempts - 1);
+}
+
+TEST_CASE("rows that were written after the last checkpoint vanish when a killed run goes on") {
+  int const attempts = undisturbed().report.steps + undisturbed().report.refused;
+  for (int last = 2; last < attempts; last += 3) {
+    CAPTURE(last);
+    ScratchFolder const folder;
+    scarp::CheckpointSettings settings{.folder = folder / "states", .every_seconds = 1e9, .every_attempts = 4};
+    CHECK_THROWS_AS(pull(folder, {settings, scene}, {.die_after = last}), Killed);
+    // One cut off in the middle is no obstacle either.
+    std::ofstream(folder / "log.csv", std::ios::app) << "99,0.0";
+    check_same(pull(folder, resumed(folder), {}), undisturbed());
+  }
+}
+
+TEST_CASE("two checkpoints are kept, and a run afresh does not replace them") {
+  ScratchFolder const folder;
+  scarp::CheckpointSettings const settings{.folder = folder / "states", .every_seconds = 0.0};
+  static_cast<void>(pull(folder, {settings, scene}, {}));
+  std::vector<std::string> names;
+  for (auto const& file : std::filesystem::directory_iterator(folder / "states"))
+    names.push_back(file.path().filename().string());
+  CHECK(names.size() == 2);
+  CHECK_THROWS_WITH_AS(scarp::CheckpointFiles(settings, scene),
+                       doctest::Contains("holds checkpoints of an earlier run"), CheckpointError);
+  check_same(pull(folder, resumed(folder), {}), undisturbed());  // of a run that has ended: nothing is left to do
+}
+
+TEST_CASE("a checkpoint of another scene, version or machine is refused with the reason, and so is a damaged one") {
+  ScratchFolder const folder;
+  CHECK_FALSE(resumed(folder).resumes());  // there is none
+  scarp::CheckpointSettings const settings{.folder = folder / "states", .every_seconds = 0.0};
+  static_cast<void>(pull(folder, {settings, scene}, {.stop_after = 4}));
+  auto const newest = resumed(folder).newest();
+  CHECK(contains(complaint_about(folder, "size = 1\nseed = 8\n"),
+                 newest.string() + "': it is of another scene ('seed = 7' there, 'seed = 8' here)"));
+  CHECK(contains(complaint_about(folder, "size = 1\n"), "('seed = 7' there, '' here)"));
+  auto const bytes = content(newest);
+  auto const complaint = [&](auto change) {
+    auto harmed = bytes;
+    change(harmed);
+    scarp::write_file(newest, harmed);
+    return complaint_about(folder);
+  };
+  CHECK(contains(complaint([](auto& harmed) {
+                   auto& byte = harmed[harmed.size() / 2];
+                   byte = static_cast<char>(byte ^ 1);
+                 }),
+                 "its bytes have changed"));
+  CHECK(contains(complaint([](auto& harmed) { harmed.resize(harmed.size() / 2); }), "it was cut off"));
+  CHECK(contains(complaint([](auto& harmed) { harmed.resize(5); }), "it is no checkpoint"));
+  CHECK(contains(complaint([](auto& harmed) { harmed[12] = 9; }), "it is of version"));
+  CHECK(contains(complaint([](auto& harmed) { std::reverse(harmed.begin() + 8, harmed.begin() + 12); }),
+                 "its order of bytes"));
+  auto const text = complaint([](auto& harmed) { harmed.clear(); });
+  std::size_t const named = text.find("the one before is '");
+  REQUIRE(named != std::string::npos);
+  std::filesystem::remove(newest);  // as the complaint advises
+  CHECK(contains(text, resumed(folder).newest().string()));
+  check_same(pull(folder, resumed(folder), {}), undisturbed());
+}
+
+TEST_CASE("a checkpoint is refused by a scene of another size and by one whose tables have lost rows") {
+  ScratchFolder const folder;
+  static_cast<void>(pull(folder, resumed(folder), {.stop_after = 6}));
+  auto const files = resumed(folder);
+  std::vector<scarp::VoigtStress<2>> few(3);
+  CHECK_THROWS_WITH_AS(files.load([&](scarp::StateReader& reader) { reader("stage", few); }),
+                       doctest::Contains("it has 'stage' of 4 bytes where 'stage' of 24 bytes should be"),
+                       CheckpointError);
+  scarp::StateWriter writer;
+  writer("states", few);
+  scarp::StateReader reader(writer.bits());
+  few.resize(2);
+  CHECK_THROWS_WITH_AS(reader("states", std::span(few)), doctest::Contains("it has 3 'states' (the scene has 2)"),
+                       scarp::InputError);
+  scarp::write_file(folder / "log.csv", "step,load,residual,reason\n");
+  CHECK_THROWS_WITH_AS(pull(folder, resumed(folder), {}), doctest::Contains("log.csv' has 26 bytes (it had "),
+                       CheckpointError);
+}
+
+TEST_CASE("adaptors keep what is their own beside what they hold") {
+  using Elastic = scarp::LinearElastic<2>;
+  using Adapted = scarp::Dormant<scarp::Recorded<scarp::VariedParameters<Elastic>>>;
+  Adapted provider;
+  provider.provider.provider.vary = [](Elastic const&, scarp::Site<2> const& site) {
+    return Elastic::from_young_poisson(1e6 * (1 + site.index), 0.3);
+  };
+  auto state = provider.initial_state({.index = 3});
+  state.awake = true;
+  scarp::Gradient<2> stretch = scarp::Gradient<2>::Zero();
+  stretch(0, 0) = 1e-3;
+  for (int k = 0; k < 3; ++k) {
+    auto const before = state;
+    REQUIRE(provider.respond(before, stretch, state).verdict.acceptable());
+  }
+  scarp::StateWriter writer;
+  writer("state", state);
+  auto loaded = provider.initial_state({.index = 3});
+  scarp::StateReader reader(writer.bits());
+  reader("state", loaded);
+  CHECK(reader.at_end());
+  CHECK(loaded.awake);
+  CHECK(provider.stress(loaded) == provider.stress(state));
+  CHECK(provider.tangent(loaded) == provider.tangent(state));
+  auto const rows = loaded.own.history.rows();
+  auto const expected = state.own.history.rows();
+  REQUIRE(rows.size() == 4);
+  REQUIRE(expected.size() == 4);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    CHECK(rows[k].stress == expected[k].stress);
+    CHECK(rows[k].gradient == expected[k].gradient);
+    CHECK(rows[k].verdict == expected[k].verdict);
+  }
+}
