@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scarp/bvp/discretisation.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
@@ -27,7 +28,7 @@ void averaged_stiffness(DiscretisationType const& discretisation, Eigen::VectorX
   auto const volumes = discretisation.volumes(increment);
   std::vector<Eigen::Triplet<double>> entries;  // stress, times volume, of every point from the strains of all
   for (int point = 0; point < discretisation.point_count(); ++point) {
-    auto const k = static_cast<std::size_t>(point);
+    auto const k = detail::index(point);
     VoigtTangent<DiscretisationType::dim> const answer = volumes[k] * (tangents[k] + materials.added_by_mean()[k]);
     for (auto const& share : materials.mean().of(point)) {
       for (int i = 0; i < size; ++i) {

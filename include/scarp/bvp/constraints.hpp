@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/bvp/time_function.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {
@@ -105,7 +106,7 @@ class Constraints {
       dofs_.insert(place, dof);
       return;
     }
-    auto const known = static_cast<std::size_t>(k);
+    auto const known = detail::index(k);
     if (rates_[known] != rate) {
       refuse("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, rates_[known], rate);
     }

@@ -6,6 +6,7 @@
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
@@ -175,7 +176,7 @@ struct Lazy {
     VoigtTangent<dim> result;
     constexpr auto indices = voigt_indices<dim>();
     for (int k = 0; k < voigt_size<dim>; ++k) {
-      auto const [i, j] = indices[static_cast<std::size_t>(k)];
+      auto const [i, j] = indices[detail::index(k)];
       Tensor<dim> strain = Tensor<dim>::Zero();
       strain(i, j) += 0.5;
       strain(j, i) += 0.5;

@@ -7,6 +7,7 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
@@ -73,13 +74,13 @@ class ProviderField {
   }
 
   Provider const& provider() const { return provider_; }
-  int point_count() const { return static_cast<int>(committed_.size()); }
-  State const& committed(int point) const { return committed_[number(point)]; }
-  State const& trial(int point) const { return trial_[number(point)]; }
+  int point_count() const { return detail::count(committed_); }
+  State const& committed(int point) const { return committed_[detail::index(point)]; }
+  State const& trial(int point) const { return trial_[detail::index(point)]; }
   /// The state that the last commit replaced, until the point is asked again.
-  State const& replaced(int point) const { return trial_[number(point)]; }
+  State const& replaced(int point) const { return trial_[detail::index(point)]; }
   /// Work that is fixed for the present load step.
-  PlanOf<Provider> const& planned(int point) const { return plans_[number(point)]; }
+  PlanOf<Provider> const& planned(int point) const { return plans_[detail::index(point)]; }
 
   /// visit(field, local point), as fields that are composed of several do.
   template <class Visit>
@@ -93,16 +94,17 @@ class ProviderField {
 
   /// Fixes the work of a point for the load step that begins; nothing to do for providers without plan.
   void plan(int point, Gradient<dim> const& predicted) {
-    if constexpr (PlansWork<Provider>) plans_[number(point)] = provider_.plan(committed_[number(point)], predicted);
+    if constexpr (PlansWork<Provider>)
+      plans_[detail::index(point)] = provider_.plan(committed_[detail::index(point)], predicted);
   }
 
   /// Lets a point whose answer is `not_converged` work harder in this load step.
   void refine_plan(int point) {
-    if constexpr (PlansWork<Provider>) plans_[number(point)] = provider_.refined(plans_[number(point)]);
+    if constexpr (PlansWork<Provider>) plans_[detail::index(point)] = provider_.refined(plans_[detail::index(point)]);
   }
 
   Response<dim> respond(int point, Gradient<dim> const& increment) {
-    std::size_t const k = number(point);
+    std::size_t const k = detail::index(point);
     if constexpr (PlansWork<Provider>) {
       return provider_.respond(committed_[k], increment, trial_[k], plans_[k]);
     } else {
@@ -112,12 +114,13 @@ class ProviderField {
 
   /// Fixes the work of going on from the trial state by a further gradient, which refers to the trial configuration.
   void plan_advance(int point, Gradient<dim> const& further) {
-    if constexpr (PlansWork<Provider>) plans_[number(point)] = provider_.plan(trial_[number(point)], further);
+    if constexpr (PlansWork<Provider>)
+      plans_[detail::index(point)] = provider_.plan(trial_[detail::index(point)], further);
   }
 
   /// Goes on from the trial state, which is replaced by that of the answer.
   Response<dim> advance(int point, Gradient<dim> const& further) {
-    std::size_t const k = number(point);
+    std::size_t const k = detail::index(point);
     State const from = trial_[k];
     if constexpr (PlansWork<Provider>) {
       return provider_.respond(from, further, trial_[k], plans_[k]);
@@ -129,16 +132,16 @@ class ProviderField {
   /// Steps of inner work that one response of this point takes.
   long work(int point) const {
     if constexpr (PlansWork<Provider>) {
-      return static_cast<long>(plans_[number(point)]);
+      return static_cast<long>(plans_[detail::index(point)]);
     } else {
       static_cast<void>(point);
       return 0;
     }
   }
 
-  VoigtStress<dim> committed_stress(int point) const { return provider_.stress(committed_[number(point)]); }
-  VoigtTangent<dim> committed_tangent(int point) const { return provider_.tangent(committed_[number(point)]); }
-  VoigtTangent<dim> trial_tangent(int point) const { return provider_.tangent(trial_[number(point)]); }
+  VoigtStress<dim> committed_stress(int point) const { return provider_.stress(committed_[detail::index(point)]); }
+  VoigtTangent<dim> committed_tangent(int point) const { return provider_.tangent(committed_[detail::index(point)]); }
+  VoigtTangent<dim> trial_tangent(int point) const { return provider_.tangent(trial_[detail::index(point)]); }
 
   /// The trial states become the committed ones.
   void commit() { committed_.swap(trial_); }
@@ -150,9 +153,9 @@ class ProviderField {
   }
 
   /// Another committed state for a point, between load steps.
-  void put(int point, State state) { committed_[number(point)] = std::move(state); }
+  void put(int point, State state) { committed_[detail::index(point)] = std::move(state); }
   /// Leaves a point without state, since another process answers for it.
-  void forget(int point) { committed_[number(point)] = trial_[number(point)] = no_state(); }
+  void forget(int point) { committed_[detail::index(point)] = trial_[detail::index(point)] = no_state(); }
 
   /// What evolves: the committed states.
   template <class Self, class Visit>
@@ -171,8 +174,6 @@ class ProviderField {
           "constructor): give it one");
     }
   }
-
-  static std::size_t number(int point) { return static_cast<std::size_t>(point); }
 
   Provider provider_;
   std::vector<State> committed_;

@@ -6,6 +6,7 @@
 #include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/isotropic_elasticity.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/core/principal.hpp"
 
 namespace scarp {
@@ -165,8 +166,7 @@ struct MohrCoulomb {
       constexpr std::array in_plane{0, 1, 5};
       VoigtTangent<2> part;
       for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j)
-          part(i, j) = whole(in_plane[static_cast<std::size_t>(i)], in_plane[static_cast<std::size_t>(j)]);
+        for (int j = 0; j < 3; ++j) part(i, j) = whole(in_plane[detail::index(i)], in_plane[detail::index(j)]);
       }
       return part;
     }

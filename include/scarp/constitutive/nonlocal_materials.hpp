@@ -6,6 +6,7 @@
 
 #include "scarp/constitutive/detail/neighbour_mean.hpp"
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/core/polar.hpp"
 
 namespace scarp {
@@ -111,7 +112,7 @@ class NonlocalMaterials {
  private:
   static NeighbourMean<dim> mean_of(Field const& field, std::span<Site<dim> const> sites,
                                     std::span<double const> volumes, std::span<Neighbourhood const> neighbourhoods) {
-    std::size_t const count = static_cast<std::size_t>(field.point_count());
+    std::size_t const count = detail::index(field.point_count());
     if (sites.size() != count || volumes.size() != count || neighbourhoods.size() != count) {
       refuse("{} sites, {} volumes and {} neighbourhoods are given for {} points: give one of each to every point",
              sites.size(), volumes.size(), neighbourhoods.size(), count);

@@ -7,6 +7,7 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
@@ -33,7 +34,7 @@ struct PackingsByDepth {
     auto const nearest = std::min_element(depths.begin(), depths.end(), [&](double a, double b) {
       return std::abs(a - site.depth) < std::abs(b - site.depth);
     });
-    return packings[static_cast<std::size_t>(nearest - depths.begin())];
+    return packings[detail::index(nearest - depths.begin())];
   }
 };
 

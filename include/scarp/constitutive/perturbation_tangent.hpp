@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/homogenise/tangent_answer.hpp"
 
@@ -48,7 +49,7 @@ struct PerturbationTangent {
     VoigtStress<dim> const start = trial.settle(*this, base, answer.verdict, taken);
     constexpr auto indices = voigt_indices<dim>();
     for (int k = 0; k < voigt_size<dim>; ++k) {
-      auto const [i, j] = indices[static_cast<std::size_t>(k)];
+      auto const [i, j] = indices[detail::index(k)];
       Tensor<dim> mode = Tensor<dim>::Zero();
       mode(i, j) += 0.5;
       mode(j, i) += 0.5;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/preparation.hpp"
@@ -57,7 +58,7 @@ struct RandomChoice {
              site.index);
     }
     auto const drawn = family_seed(seed, static_cast<std::uint64_t>(site.index)) % sources.size();
-    return sources[static_cast<std::size_t>(drawn)].at(site);
+    return sources[drawn].at(site);
   }
 };
 
@@ -89,13 +90,12 @@ struct RandomPackings {
   template <class Executor>
   RandomChoice<SamePacking<Packing>> pool(int count, Executor&& executor) const {
     if (count < 1) refuse("a pool of {} packings was asked for (points need one to draw): ask for at least one", count);
-    std::vector<std::optional<Prepared<Packing>>> prepared(static_cast<std::size_t>(count));
-    executor.for_each(count, [&](int k) {
-      prepared[static_cast<std::size_t>(k)] = recipe(family_seed(seed, static_cast<std::uint64_t>(k)));
-    });
+    std::vector<std::optional<Prepared<Packing>>> prepared(detail::index(count));
+    executor.for_each(
+        count, [&](int k) { prepared[detail::index(k)] = recipe(family_seed(seed, static_cast<std::uint64_t>(k))); });
     RandomChoice<SamePacking<Packing>> choice{{}, family_seed(seed, static_cast<std::uint64_t>(count))};
     for (int k = 0; k < count; ++k) {
-      choice.sources.push_back({settled(std::move(*prepared[static_cast<std::size_t>(k)]), "in the pool, number", k)});
+      choice.sources.push_back({settled(std::move(*prepared[detail::index(k)]), "in the pool, number", k)});
     }
     return choice;
   }

@@ -6,6 +6,7 @@
 
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/linear_frictional.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/core/select.hpp"
 
 namespace scarp {
@@ -90,7 +91,7 @@ struct CohesiveBond {
   double damping_ratio() const { return damping_ratio_of(law); }
 
  private:
-  static constexpr std::size_t state = static_cast<std::size_t>(Law::needs.scalars);
+  static constexpr std::size_t state = detail::index(Law::needs.scalars);
   static constexpr double intact = 1.0;  // a contact that was never bonded holds zero
   static constexpr double broken = 2.0;
 

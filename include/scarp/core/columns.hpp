@@ -6,6 +6,7 @@
 #include <span>
 
 #include "scarp/core/aligned_vector.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
@@ -28,20 +29,20 @@ class Columns {
   std::size_t rows() const { return rows_; }
   std::size_t padded_rows() const { return stride_; }
 
-  Scalar* column(int k) { return values_.data() + static_cast<std::size_t>(k) * stride_; }
-  Scalar const* column(int k) const { return values_.data() + static_cast<std::size_t>(k) * stride_; }
+  Scalar* column(int k) { return values_.data() + detail::index(k) * stride_; }
+  Scalar const* column(int k) const { return values_.data() + detail::index(k) * stride_; }
 
   Scalar& operator()(std::size_t row, int k) { return column(k)[row]; }
   Scalar operator()(std::size_t row, int k) const { return column(k)[row]; }
 
   std::array<Scalar, Count> row(std::size_t r) const {
     std::array<Scalar, Count> values{};
-    for (int k = 0; k < Count; ++k) values[static_cast<std::size_t>(k)] = (*this)(r, k);
+    for (int k = 0; k < Count; ++k) values[detail::index(k)] = (*this)(r, k);
     return values;
   }
 
   void set_row(std::size_t r, std::array<Scalar, Count> const& values) {
-    for (int k = 0; k < Count; ++k) (*this)(r, k) = values[static_cast<std::size_t>(k)];
+    for (int k = 0; k < Count; ++k) (*this)(r, k) = values[detail::index(k)];
   }
 
   std::size_t bytes() const { return values_.capacity() * sizeof(Scalar); }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 
 namespace scarp::detail {
 
-/// A node, element or point number as an index into a standard container; the number is not negative.
-constexpr std::size_t index(int number) { return static_cast<std::size_t>(number); }
+/// A node, element, point, grain or row number as an index into a standard container; the number is not negative.
+constexpr std::size_t index(std::signed_integral auto number) { return static_cast<std::size_t>(number); }
 
 /// The number of entries of a container as the signed integer that numbers them.
 template <class Container>

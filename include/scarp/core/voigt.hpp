@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "scarp/core/index.hpp"
 #include "scarp/core/tensor.hpp"
 
 namespace scarp {
@@ -41,7 +42,7 @@ VoigtStress<Dim, Scalar> to_voigt_stress(Tensor<Dim, Scalar> const& stress) {
   VoigtStress<Dim, Scalar> voigt;
   constexpr auto indices = voigt_indices<Dim>();
   for (int k = 0; k < voigt_size<Dim>; ++k) {
-    auto const [i, j] = indices[static_cast<std::size_t>(k)];
+    auto const [i, j] = indices[detail::index(k)];
     voigt(k) = (stress(i, j) + stress(j, i)) / Scalar(2);
   }
   return voigt;
@@ -52,7 +53,7 @@ Tensor<Dim, Scalar> from_voigt_stress(VoigtStress<Dim, Scalar> const& voigt) {
   Tensor<Dim, Scalar> stress;
   constexpr auto indices = voigt_indices<Dim>();
   for (int k = 0; k < voigt_size<Dim>; ++k) {
-    auto const [i, j] = indices[static_cast<std::size_t>(k)];
+    auto const [i, j] = indices[detail::index(k)];
     stress(i, j) = stress(j, i) = voigt(k);
   }
   return stress;
@@ -64,7 +65,7 @@ EngineeringStrain<Dim, Scalar> to_engineering_strain(Gradient<Dim, Scalar> const
   EngineeringStrain<Dim, Scalar> strain;
   constexpr auto indices = voigt_indices<Dim>();
   for (int k = 0; k < voigt_size<Dim>; ++k) {
-    auto const [i, j] = indices[static_cast<std::size_t>(k)];
+    auto const [i, j] = indices[detail::index(k)];
     strain(k) = i == j ? gradient(i, i) : gradient(i, j) + gradient(j, i);
   }
   return strain;

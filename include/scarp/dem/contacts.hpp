@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/detail/contact_frame.hpp"
 #include "scarp/dem/grain_view.hpp"
 
@@ -33,7 +34,7 @@ void read_tangential(Columns<Scalar, Count> const& columns, std::size_t row, Tan
   if constexpr (Count == 1) {
     to = static_cast<double>(columns(row, 0));
   } else if constexpr (Count == 3) {
-    for (int a = 0; a < 3; ++a) to[static_cast<std::size_t>(a)] = static_cast<double>(columns(row, a));
+    for (int a = 0; a < 3; ++a) to[detail::index(a)] = static_cast<double>(columns(row, a));
   }
 }
 
@@ -48,7 +49,7 @@ ContactMemory<Shape::dim, double> contact_memory(NearPairs<Shape, Law, Scalar> c
   detail::read_tangential<dim>(pairs.moment, pair, memory.moment);
   if constexpr (Law::needs.scalars > 0) {
     for (int k = 0; k < Law::needs.scalars; ++k) {
-      memory.scalars[static_cast<std::size_t>(k)] = static_cast<double>(pairs.scalars(pair, k));
+      memory.scalars[detail::index(k)] = static_cast<double>(pairs.scalars(pair, k));
     }
   }
   return memory;
@@ -62,8 +63,8 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
   constexpr int dim = PackingType::dim;
   auto const& pairs = packing.pairs;
   for (std::size_t p = 0; p < pairs.count(); ++p) {
-    auto const first = static_cast<std::size_t>(pairs.first[p]);
-    auto const second = static_cast<std::size_t>(pairs.second[p]);
+    auto const first = detail::index(pairs.first[p]);
+    auto const second = detail::index(pairs.second[p]);
     auto const from = row_position(packing, first);
     auto const to = row_position(packing, second);
     Point<dim, double> branch;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/contacts.hpp"
 
 namespace scarp {
@@ -54,8 +55,8 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
   Tensor<Dim> modes;
   for (int k = 0; k < Dim; ++k) {
     for (int l = 0; l <= k; ++l) {
-      auto const& e = axes[static_cast<std::size_t>(k)];
-      auto const& f = axes[static_cast<std::size_t>(l)];
+      auto const& e = axes[detail::index(k)];
+      auto const& f = axes[detail::index(l)];
       double const springs = std::sqrt((k == 0 ? stiffness.normal : stiffness.tangential) *
                                        (l == 0 ? stiffness.normal : stiffness.tangential));
       modes(k, l) =

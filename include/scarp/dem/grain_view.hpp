@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/packing.hpp"
 
 namespace scarp {
@@ -9,7 +10,7 @@ namespace scarp {
 template <class PackingType>
 std::size_t grain_of_row(PackingType const& packing, std::size_t row) {
   std::size_t const rows = packing.row_count();
-  std::size_t const own = row < rows ? row : static_cast<std::size_t>(packing.pairs.ghost_owner[row - rows]);
+  std::size_t const own = row < rows ? row : detail::index(packing.pairs.ghost_owner[row - rows]);
   return own / static_cast<std::size_t>(part_count<typename PackingType::Shape>());
 }
 
@@ -28,7 +29,7 @@ template <class PackingType>
 auto row_pose(PackingType const& packing, std::size_t row) {
   constexpr auto parts = static_cast<std::size_t>(part_count<typename PackingType::Shape>());
   std::size_t const rows = packing.row_count();
-  std::size_t const own = row < rows ? row : static_cast<std::size_t>(packing.pairs.ghost_owner[row - rows]);
+  std::size_t const own = row < rows ? row : detail::index(packing.pairs.ghost_owner[row - rows]);
   return grain_pose(packing, own / parts, static_cast<int>(own % parts));
 }
 
@@ -39,12 +40,11 @@ Point<PackingType::dim, double> row_position(PackingType const& packing, std::si
   std::size_t const grain = grain_of_row(packing, row);
   std::size_t const rows = packing.row_count();
   Point<dim, double> place;
-  for (int a = 0; a < dim; ++a) place[static_cast<std::size_t>(a)] = static_cast<double>(packing.position(grain, a));
+  for (int a = 0; a < dim; ++a) place[detail::index(a)] = static_cast<double>(packing.position(grain, a));
   if (row >= rows) {
     auto const& shift = packing.pairs.ghost_shift[row - rows];
     for (int a = 0; a < dim; ++a) {
-      for (int b = 0; b < dim; ++b)
-        place[static_cast<std::size_t>(a)] += packing.cell(a, b) * shift[static_cast<std::size_t>(b)];
+      for (int b = 0; b < dim; ++b) place[detail::index(a)] += packing.cell(a, b) * shift[detail::index(b)];
     }
   }
   return place;

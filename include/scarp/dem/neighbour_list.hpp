@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/dem/detail/periodic_images.hpp"
 #include "scarp/dem/grain_view.hpp"
@@ -54,12 +55,12 @@ std::vector<FormerPair<Dim>> former_pairs(std::vector<std::int32_t> const& first
   std::vector<FormerPair<Dim>> former;
   former.reserve(first.size());
   for (std::size_t p = 0; p < first.size(); ++p) {
-    auto const i = static_cast<std::size_t>(first[p]);
-    auto j = static_cast<std::size_t>(second[p]);
+    auto const i = detail::index(first[p]);
+    auto j = detail::index(second[p]);
     Vector<Dim> shift = Vector<Dim>::Zero();
     if (j >= rows) {
-      for (int a = 0; a < Dim; ++a) shift(a) = shift_of[j - rows][static_cast<std::size_t>(a)];
-      j = static_cast<std::size_t>(owner_of[j - rows]);
+      for (int a = 0; a < Dim; ++a) shift(a) = shift_of[j - rows][detail::index(a)];
+      j = detail::index(owner_of[j - rows]);
     }
     shift = (renaming.old_to_new * shift).eval();
     std::size_t const parts = rows / renaming.moved.size();
@@ -139,19 +140,19 @@ std::vector<NearPair<Shape::dim>> find_near_pairs(Population<Shape, Scalar> cons
     hits.clear();
     tree.radiusSearch(all.points[i].place.data(), radius * radius, hits, unsorted);
     std::erase_if(hits, [&](auto const& hit) {
-      auto const j = static_cast<std::size_t>(all.points[hit.first].owner);
+      auto const j = detail::index(all.points[hit.first].owner);
       double const touching = own_radius + Shape::bounding_radius(population.size(j)) + reach;
       return hit.first <= i || hit.second > touching * touching;
     });
     std::sort(hits.begin(), hits.end());
     for (int part = 0; part < parts; ++part) {
-      std::size_t const row = i * parts + static_cast<std::size_t>(part);
+      std::size_t const row = i * parts + detail::index(part);
       for (auto const& [point, squared] : hits) {
         auto const& partner = all.points[point];
         Point<dim, double> branch;
         for (std::size_t a = 0; a < branch.size(); ++a) branch[a] = partner.place[a] - all.points[i].place[a];
         for (int other = 0; other < parts; ++other) {
-          std::size_t const partner_row = static_cast<std::size_t>(partner.owner * parts + other);
+          std::size_t const partner_row = detail::index(partner.owner * parts + other);
           PairName<dim> name{static_cast<std::int32_t>(row), static_cast<std::int32_t>(partner_row), {}};
           for (std::size_t a = 0; a < branch.size(); ++a) name.shift[a] = partner.shift[a];
           auto const* const known = find_former(former, name);
@@ -189,7 +190,7 @@ template <int Parts, class Pairs, int Dim>
 void write_members(Pairs& next, std::vector<NearPair<Dim>> const& found, GrainsAndImages<Dim> const& all,
                    std::size_t rows) {
   std::vector<std::int32_t> ghost_number(all.points.size() * Parts, -1);
-  for (auto const& pair : found) ghost_number[static_cast<std::size_t>(pair.second)] = 0;
+  for (auto const& pair : found) ghost_number[detail::index(pair.second)] = 0;
   for (std::size_t row = rows; row < ghost_number.size(); ++row) {
     if (ghost_number[row] < 0) continue;
     auto const& image = all.points[row / Parts];
@@ -200,7 +201,7 @@ void write_members(Pairs& next, std::vector<NearPair<Dim>> const& found, GrainsA
   next.first.reserve(found.size());
   next.second.reserve(found.size());
   for (auto const& pair : found) {
-    auto const row = static_cast<std::size_t>(pair.second);
+    auto const row = detail::index(pair.second);
     next.first.push_back(pair.first);
     next.second.push_back(row < rows ? pair.second : ghost_number[row]);
   }
@@ -226,7 +227,7 @@ void write_memory(NearPairs<Shape, Law, Scalar>& next, std::vector<NearPair<Shap
   for (std::size_t p = 0; p < found.size(); ++p) {
     auto const& pair = found[p];
     if constexpr (Shape::remembers_normal) {
-      for (int a = 0; a < dim; ++a) next.normal(p, a) = static_cast<Scalar>(pair.normal[static_cast<std::size_t>(a)]);
+      for (int a = 0; a < dim; ++a) next.normal(p, a) = static_cast<Scalar>(pair.normal[detail::index(a)]);
     }
     if (pair.former == nullptr) continue;
     std::size_t const row = pair.former->row;

@@ -10,6 +10,7 @@
 
 #include "scarp/core/columns.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {
@@ -34,7 +35,7 @@ class Population {
     inverse_inertia_.resize(sizes.size());
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       for (int k = 0; k < Shape::size_count; ++k) {
-        size_(i, k) = static_cast<Scalar>(require_positive("grain size", sizes[i][static_cast<std::size_t>(k)]));
+        size_(i, k) = static_cast<Scalar>(require_positive("grain size", sizes[i][detail::index(k)]));
       }
       if constexpr (requires { Shape::check(sizes[i]); }) Shape::check(sizes[i]);
       Size const grain = size(i);  // as stored: a population made from another one's sizes has the same bits
@@ -63,7 +64,7 @@ class Population {
   Size size(std::size_t grain) const {
     Size values;
     for (int k = 0; k < Shape::size_count; ++k) {
-      values[static_cast<std::size_t>(k)] = static_cast<double>(size_(grain, k));
+      values[detail::index(k)] = static_cast<double>(size_(grain, k));
     }
     return values;
   }

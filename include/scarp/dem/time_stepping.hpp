@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/critical_step.hpp"
 #include "scarp/dem/detail/pair_loop.hpp"
 #include "scarp/dem/local_damping.hpp"
@@ -156,7 +157,7 @@ class TimeStepper {
     Lanes kinetic(Scalar(0));
     std::array<Lanes, static_cast<std::size_t>(dim * dim)> cell;
     for (int a = 0; a < dim; ++a) {
-      for (int b = 0; b < dim; ++b) cell[static_cast<std::size_t>(a * dim + b)] = constant<Lanes>(cell_step(a, b));
+      for (int b = 0; b < dim; ++b) cell[detail::index(a * dim + b)] = constant<Lanes>(cell_step(a, b));
     }
     std::size_t const grains = packing.grain_count();
     std::size_t const padded = packing.position.padded_rows();
@@ -172,7 +173,7 @@ class TimeStepper {
             [&](std::size_t lane) { return scratch_.forces.data() + (start + lane) * force_size + 4 * quad; });
       }
       Point<dim, Lanes> place;
-      for (int a = 0; a < dim; ++a) place[static_cast<std::size_t>(a)] = load(packing.position.column(a) + start);
+      for (int a = 0; a < dim; ++a) place[detail::index(a)] = load(packing.position.column(a) + start);
       Lanes speed(Scalar(0));
       for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
         int const column = static_cast<int>(a);
@@ -187,7 +188,7 @@ class TimeStepper {
       }
       Lanes turning(Scalar(0));
       for (int k = 0; k < spin_size<dim>; ++k) {
-        std::size_t const entry = Layout::torque + static_cast<std::size_t>(k);
+        std::size_t const entry = Layout::torque + detail::index(k);
         Lanes const torque = force[entry / 4][entry % 4];
         Lanes const spin = advance<what>(packing.spin.column(k) + start, torque, inverse_inertia, dt, damped, kinetic);
         turning += spin * spin;

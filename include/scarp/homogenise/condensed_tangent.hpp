@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scarp/core/index.hpp"
 #include "scarp/homogenise/detail/initial_stress.hpp"
 #include "scarp/homogenise/detail/sliding_contacts.hpp"
 #include "scarp/homogenise/tangent_answer.hpp"
@@ -74,7 +75,7 @@ struct CondensedTangent {
     Eigen::Matrix<double, Dim, voigt_size<Dim>> motion = Eigen::Matrix<double, Dim, voigt_size<Dim>>::Zero();
     constexpr auto indices = voigt_indices<Dim>();
     for (int k = 0; k < voigt_size<Dim>; ++k) {
-      auto const [i, j] = indices[static_cast<std::size_t>(k)];
+      auto const [i, j] = indices[detail::index(k)];
       motion(i, k) += branch(j) / 2.0;
       motion(j, k) += branch(i) / 2.0;
     }
@@ -91,7 +92,7 @@ struct CondensedTangent {
       if constexpr (Dim == 2) {
         turn = 1.0 / length;
       } else {
-        turn[static_cast<std::size_t>(k)] = 1.0 / length;
+        turn[detail::index(k)] = 1.0 / length;
       }
       auto const swing = turned_motion(turn, arm);
       motion.col(Dim + k) = Eigen::Map<Vector<Dim> const>(swing.data());

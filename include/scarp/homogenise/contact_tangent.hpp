@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/core/voigt.hpp"
 #include "scarp/dem/contacts.hpp"
 
@@ -36,9 +37,9 @@ VoigtTangent<Dim> to_voigt_tangent(FullTangent<Dim> const& full) {
   VoigtTangent<Dim> voigt;
   constexpr auto indices = voigt_indices<Dim>();
   for (int p = 0; p < voigt_size<Dim>; ++p) {
-    auto const [i, j] = indices[static_cast<std::size_t>(p)];
+    auto const [i, j] = indices[detail::index(p)];
     for (int q = 0; q < voigt_size<Dim>; ++q) {
-      auto const [k, l] = indices[static_cast<std::size_t>(q)];
+      auto const [k, l] = indices[detail::index(q)];
       voigt(p, q) = (full(i + Dim * j, k + Dim * l) + full(j + Dim * i, k + Dim * l) + full(i + Dim * j, l + Dim * k) +
                      full(j + Dim * i, l + Dim * k)) /
                     4.0;

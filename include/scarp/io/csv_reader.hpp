@@ -8,6 +8,7 @@
 #include <concepts>
 #include <optional>
 
+#include "scarp/core/index.hpp"
 #include "scarp/io/detail/csv_lines.hpp"
 #include "scarp/io/read_file.hpp"
 
@@ -67,7 +68,7 @@ class CsvColumns {
   std::optional<std::size_t> find(std::string_view name) const {
     auto const found = std::find(header_.cells.begin(), header_.cells.end(), name);
     if (found == header_.cells.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - header_.cells.begin());
+    return detail::index(found - header_.cells.begin());
   }
 
   std::size_t require(std::string_view name) const {

@@ -5,6 +5,7 @@
 
 #include "scarp/constitutive/nonlocal.hpp"
 #include "scarp/constitutive/nonlocal_materials.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/scene/scene.hpp"
 
 namespace scarp {
@@ -48,14 +49,14 @@ struct SceneMaterials<Providers...> {
     Regions materials(discretisation, surface_level, local);
     std::vector<Neighbourhood> of_region(discretisation.mesh().regions.size());
     boost::hana::for_each(regions, [&]<class Provider>(Region<Provider> const& region) {
-      of_region[static_cast<std::size_t>(region_number(discretisation.mesh(), region.name))] =
+      of_region[detail::index(region_number(discretisation.mesh(), region.name))] =
           detail::LocalPart<Provider>::neighbourhood(region.provider);
     });
     std::vector<Site<dim>> sites;
     std::vector<Neighbourhood> neighbourhoods;
     for (int point = 0; point < discretisation.point_count(); ++point) {
       sites.push_back(discretisation.site(point, surface_level));
-      neighbourhoods.push_back(of_region[static_cast<std::size_t>(sites.back().region)]);
+      neighbourhoods.push_back(of_region[detail::index(sites.back().region)]);
     }
     auto const volumes = discretisation.volumes(Eigen::VectorXd::Zero(discretisation.dof_count()));
     Type means(std::move(materials), sites, volumes, neighbourhoods);

@@ -10,6 +10,7 @@
 
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
@@ -38,13 +39,13 @@ class RegionMaterials {
   template <class Element, class Motion, class Scheme, class Owned>
   RegionMaterials(Discretisation<Element, Motion, Scheme> const& discretisation, double surface_level,
                   boost::hana::tuple<Region<Providers>...> const& regions, Owned const& owned)
-      : where_(static_cast<std::size_t>(discretisation.point_count())),
+      : where_(detail::index(discretisation.point_count())),
         fields_(make_fields(discretisation, surface_level, regions, owned, std::index_sequence_for<Providers...>{})) {
     for (std::size_t point = 0; point < where_.size(); ++point) {
       if (where_[point].field >= 0) continue;
       int const region = discretisation.site(static_cast<int>(point), surface_level).region;
       refuse("region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
-             discretisation.mesh().regions[static_cast<std::size_t>(region)], point);
+             discretisation.mesh().regions[detail::index(region)], point);
     }
   }
 
@@ -53,7 +54,7 @@ class RegionMaterials {
                   boost::hana::tuple<Region<Providers>...> const& regions)
       : RegionMaterials(discretisation, surface_level, regions, [](int) { return true; }) {}
 
-  int point_count() const { return static_cast<int>(where_.size()); }
+  int point_count() const { return detail::count(where_); }
 
   /// Calls visit(field, local point) with the provider field that a point belongs to.
   template <class Visit>
@@ -143,10 +144,10 @@ class RegionMaterials {
     for (int point = 0; point < discretisation.point_count(); ++point) {
       auto const site = discretisation.site(point, surface_level);
       if (site.region != number) continue;
-      if (where_[static_cast<std::size_t>(point)].field >= 0) {
+      if (where_[detail::index(point)].field >= 0) {
         refuse("region '{}' is given two providers (only one can answer): leave one out", region.name);
       }
-      where_[static_cast<std::size_t>(point)] = {field, static_cast<int>(sites.size())};
+      where_[detail::index(point)] = {field, detail::count(sites)};
       sites.push_back(site);
     }
     return ProviderField<Provider>(region.provider, sites, owned);
@@ -154,7 +155,7 @@ class RegionMaterials {
 
   template <class Fields, class Visit>
   void visit_in(Fields& fields, int point, Visit& visit) const {
-    Place const place = where_[static_cast<std::size_t>(point)];
+    Place const place = where_[detail::index(point)];
     int number = 0;
     boost::hana::for_each(fields, [&](auto& field) {
       if (number++ == place.field) visit(field, place.local);

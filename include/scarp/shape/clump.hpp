@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scarp/core/constant.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/shape/detail/disc_union.hpp"
 #include "scarp/shape/disc.hpp"
 
@@ -19,7 +20,7 @@ struct Clump {
   static constexpr int size_count = 1;
   static constexpr int orientation_count = 2;
   static constexpr int pose_count = 3;
-  static constexpr int part_count = static_cast<int>(Template::members.size());
+  static constexpr int part_count = detail::count(Template::members);
   static constexpr bool remembers_normal = false;
   static_assert(part_count > 0, "a clump needs at least one disc");
 
@@ -34,7 +35,7 @@ struct Clump {
 
   template <class T>
   static std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation, int part = 0) {
-    ClumpMember const& member = unit().members[static_cast<std::size_t>(part)];
+    ClumpMember const& member = unit().members[detail::index(part)];
     T const x = constant<T>(member.x) * size[0];
     T const y = constant<T>(member.y) * size[0];
     return {orientation[0] * x - orientation[1] * y, orientation[1] * x + orientation[0] * y,

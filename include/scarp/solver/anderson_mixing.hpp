@@ -4,6 +4,8 @@
 #include <Eigen/QR>
 #include <deque>
 
+#include "scarp/core/index.hpp"
+
 namespace scarp {
 
 /// Anderson mixing of a fixed-point iteration x <- x + d(x): the next iterate minimises the combination of the last
@@ -21,7 +23,7 @@ class AndersonMixing {
   Eigen::VectorXd next(Eigen::VectorXd const& point, Eigen::VectorXd const& correction) {
     points_.push_back(point);
     corrections_.push_back(correction);
-    while (static_cast<int>(points_.size()) > depth + 1) {
+    while (detail::count(points_) > depth + 1) {
       points_.pop_front();
       corrections_.pop_front();
     }
@@ -30,7 +32,7 @@ class AndersonMixing {
     Eigen::MatrixXd changes(point.size(), history);
     Eigen::MatrixXd moves(point.size(), history);
     for (Eigen::Index k = 0; k < history; ++k) {
-      auto const i = static_cast<std::size_t>(k);
+      auto const i = detail::index(k);
       changes.col(k) = corrections_[i + 1] - corrections_[i];
       moves.col(k) = points_[i + 1] - points_[i];
     }

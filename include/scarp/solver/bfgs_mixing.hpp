@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "scarp/core/index.hpp"
 #include "scarp/solver/mixing.hpp"
 
 namespace scarp {
@@ -55,7 +56,7 @@ class BfgsMixing {
   void remember(Pair pair) {
     if (!(pair.work() > least_cosine * pair.moved.norm() * pair.resisted.norm())) return;
     pairs_.push_back(std::move(pair));
-    while (static_cast<int>(pairs_.size()) > depth) pairs_.pop_front();
+    while (detail::count(pairs_) > depth) pairs_.pop_front();
   }
 
   std::deque<Pair> pairs_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scarp/bvp/constraints.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
@@ -12,9 +13,8 @@ namespace scarp {
 class FreeSystem {
  public:
   explicit FreeSystem(Constraints const& constraints) : free_dofs_(constraints.free_dofs()) {
-    free_index_.assign(static_cast<std::size_t>(constraints.dof_count()), -1);
-    for (std::size_t k = 0; k < free_dofs_.size(); ++k)
-      free_index_[static_cast<std::size_t>(free_dofs_[k])] = static_cast<int>(k);
+    free_index_.assign(detail::index(constraints.dof_count()), -1);
+    for (std::size_t k = 0; k < free_dofs_.size(); ++k) free_index_[detail::index(free_dofs_[k])] = static_cast<int>(k);
   }
 
   Eigen::SparseMatrix<double> matrix(Eigen::SparseMatrix<double> const& full) const {
@@ -23,9 +23,8 @@ class FreeSystem {
     part.reserve(full.nonZeros());
     for (Eigen::Index column = 0; column < size; ++column) {
       part.startVec(column);
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(full, free_dofs_[static_cast<std::size_t>(column)]); entry;
-           ++entry) {
-        int const row = free_index_[static_cast<std::size_t>(entry.row())];
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(full, free_dofs_[detail::index(column)]); entry; ++entry) {
+        int const row = free_index_[detail::index(entry.row())];
         if (row >= 0) part.insertBack(row, column) = entry.value();
       }
     }
@@ -34,7 +33,7 @@ class FreeSystem {
   }
 
   /// Number among all degrees of freedom of a free one; -1 stays.
-  int dof(int free) const { return free < 0 ? -1 : free_dofs_[static_cast<std::size_t>(free)]; }
+  int dof(int free) const { return free < 0 ? -1 : free_dofs_[detail::index(free)]; }
 
   Eigen::VectorXd gather(Eigen::VectorXd const& full) const {
     Eigen::VectorXd part(static_cast<Eigen::Index>(free_dofs_.size()));

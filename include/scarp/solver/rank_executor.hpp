@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/solver/executor.hpp"
 
 namespace scarp {
@@ -74,14 +75,14 @@ class RankExecutor {
       lengths[r] = static_cast<int>(owned(count, r) * sizeof(Value));
       starts[r] = static_cast<int>(at * sizeof(Value));
     }
-    std::vector<std::byte> mine(static_cast<std::size_t>(lengths[static_cast<std::size_t>(rank_)]));
+    std::vector<std::byte> mine(detail::index(lengths[detail::index(rank_)]));
     std::byte* to = mine.data();
-    for (auto k = static_cast<std::size_t>(rank_); k < count; k += ranks, to += sizeof(Value)) {
+    for (auto k = detail::index(rank_); k < count; k += ranks, to += sizeof(Value)) {
       std::memcpy(to, &values[k], sizeof(Value));
     }
     std::vector<std::byte> all(count * sizeof(Value));
-    MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_BYTE, all.data(), lengths.data(), starts.data(),
-                   MPI_BYTE, communicator_);
+    MPI_Allgatherv(mine.data(), detail::count(mine), MPI_BYTE, all.data(), lengths.data(), starts.data(), MPI_BYTE,
+                   communicator_);
     for (std::size_t r = 0; r < ranks; ++r) {
       std::byte const* from = all.data() + starts[r];
       for (std::size_t k = r; k < count; k += ranks, from += sizeof(Value)) {
@@ -125,7 +126,7 @@ class RankExecutor {
       MPI_Recv(&point, 1, MPI_INT, 0, question, communicator_, MPI_STATUS_IGNORE);
       if (point < 0) return;
       std::string const bytes = answer_to(point);
-      MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, 0, answer, communicator_);
+      MPI_Send(bytes.data(), detail::count(bytes), MPI_BYTE, 0, answer, communicator_);
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/solver/point_survey.hpp"
 
@@ -32,7 +33,7 @@ struct StepReport {
   int weak_dof = -1;       ///< degree of freedom that a singular system does not hold, -1 for none
   double seconds = 0.0;    ///< wall time of the attempt
 
-  int iterations() const { return static_cast<int>(history.size()); }
+  int iterations() const { return detail::count(history); }
   double residual() const { return history.empty() ? 0.0 : history.back().residual; }
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/solver/executor.hpp"
 
 namespace scarp {
@@ -35,7 +36,7 @@ class ThreadExecutor {
     begin_.notify_all();
   }
 
-  int threads() const { return static_cast<int>(team_.size()) + 1; }
+  int threads() const { return detail::count(team_) + 1; }
 
   /// An exception of a task is rethrown here after all threads have come to rest.
   template <std::invocable<int> Task>
@@ -45,7 +46,7 @@ class ThreadExecutor {
       task_ = std::ref(task);
       count_ = count;
       next_ = 0;
-      busy_ = static_cast<int>(team_.size());
+      busy_ = detail::count(team_);
       ++round_;
     }
     begin_.notify_all();

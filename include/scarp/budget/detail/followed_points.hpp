@@ -63,7 +63,7 @@ struct FollowedPoints {
   template <class Problem>
   void follow(Problem const& problem, double loose_pressure) {
     std::vector<long> works(points.size());
-    problem.executor().for_each(static_cast<int>(points.size()), [&](int task) {
+    problem.executor().for_each(detail::count(points), [&](int task) {
       FollowedPoint& one = points[detail::index(task)];
       problem.materials().visit(one.point, [&](auto const& field, int local) {
         auto const answer = followed_answer(field, local, problem.gradients()[detail::index(one.point)], one.bits);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scarp/constitutive/strength.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/core/tensor.hpp"
 
 namespace scarp::detail {
@@ -83,10 +84,10 @@ class MohrCoulombReturn {
   }
 
   void add(Vector<3> const& normal, Vector<3> const& flow, double limit) {
-    planes_[static_cast<std::size_t>(count_++)] = {normal, flow, limit};
+    planes_[detail::index(count_++)] = {normal, flow, limit};
   }
 
-  YieldPlane const& plane(int k) const { return planes_[static_cast<std::size_t>(k)]; }
+  YieldPlane const& plane(int k) const { return planes_[detail::index(k)]; }
 
   bool admissible(Vector<3> const& stress, double slack) const {
     for (int k = 0; k < count_; ++k) {
@@ -101,7 +102,7 @@ class MohrCoulombReturn {
     Eigen::Matrix<double, 3, Count> flows;
     Eigen::Matrix<double, Count, 1> excess;
     for (int k = 0; k < Count; ++k) {
-      auto const& chosen = plane(active[static_cast<std::size_t>(k)]);
+      auto const& chosen = plane(active[detail::index(k)]);
       normals.col(k) = chosen.normal;
       flows.col(k) = chosen.flow;
       excess(k) = chosen.normal.dot(trial) - chosen.limit;

@@ -11,6 +11,7 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
@@ -58,11 +59,11 @@ class NeighbourMean {
     }
   }
 
-  int point_count() const { return static_cast<int>(first_.size()) - 1; }
+  int point_count() const { return detail::count(first_) - 1; }
 
   /// Points that take part in the mean of one, in increasing order; weights add up to one.
   std::span<Share const> of(int point) const {
-    auto const k = static_cast<std::size_t>(point);
+    auto const k = detail::index(point);
     return std::span(shares_).subspan(first_[k], first_[k + 1] - first_[k]);
   }
 
@@ -73,8 +74,8 @@ class NeighbourMean {
   template <class Value>
   Value mean(int point, std::span<Value const> values) const {
     auto const shares = of(point);
-    Value sum = shares[0].weight * values[static_cast<std::size_t>(shares[0].point)];
-    for (auto const& share : shares.subspan(1)) sum += share.weight * values[static_cast<std::size_t>(share.point)];
+    Value sum = shares[0].weight * values[detail::index(shares[0].point)];
+    for (auto const& share : shares.subspan(1)) sum += share.weight * values[detail::index(share.point)];
     return sum;
   }
 

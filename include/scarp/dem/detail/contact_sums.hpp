@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "scarp/core/index.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/core/tensor.hpp"
 
@@ -47,7 +48,7 @@ struct LaneSums {
   ContactSums<Dim> total() const {
     ContactSums<Dim> sums;
     for (int a = 0; a < Dim; ++a) {
-      for (int b = 0; b < Dim; ++b) sums.moment(a, b) = lane_sum(moment[static_cast<std::size_t>(a * Dim + b)]);
+      for (int b = 0; b < Dim; ++b) sums.moment(a, b) = lane_sum(moment[detail::index(a * Dim + b)]);
     }
     sums.force = lane_sum(force);
     sums.contacts = contacts;

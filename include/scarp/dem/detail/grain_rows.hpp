@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scarp/core/aligned_vector.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/dem/packing.hpp"
 
@@ -82,12 +83,12 @@ std::size_t fill_ghost_rows(PackingType const& packing, typename PackingType::Sc
   auto const& pairs = packing.pairs;
   std::size_t const own = packing.row_count();
   for (std::size_t g = 0; g < pairs.ghost_owner.size(); ++g) {
-    Scalar const* const owner = rows + static_cast<std::size_t>(pairs.ghost_owner[g]) * Layout::size;
+    Scalar const* const owner = rows + detail::index(pairs.ghost_owner[g]) * Layout::size;
     Scalar* const row = rows + (own + g) * Layout::size;
     std::copy(owner, owner + Layout::size, row);
     for (int a = 0; a < dim; ++a) {
       double offset = 0.0;
-      for (int b = 0; b < dim; ++b) offset += packing.cell(a, b) * pairs.ghost_shift[g][static_cast<std::size_t>(b)];
+      for (int b = 0; b < dim; ++b) offset += packing.cell(a, b) * pairs.ghost_shift[g][detail::index(b)];
       row[a] += static_cast<Scalar>(offset);
     }
   }
@@ -107,8 +108,7 @@ void gather_forces(PackingType const& packing, typename PackingType::Scalar* for
   auto const& owner = packing.pairs.ghost_owner;
   std::size_t const own = packing.row_count();
   for (std::size_t g = 0; g < owner.size(); ++g) {
-    for (std::size_t k = 0; k < used; ++k)
-      forces[static_cast<std::size_t>(owner[g]) * size + k] += forces[(own + g) * size + k];
+    for (std::size_t k = 0; k < used; ++k) forces[detail::index(owner[g]) * size + k] += forces[(own + g) * size + k];
   }
   if constexpr (parts > 1) {
     for (std::size_t grain = 0; grain < packing.grain_count(); ++grain) {

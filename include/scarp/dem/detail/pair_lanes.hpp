@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/detail/contact_frame.hpp"
 #include "scarp/dem/detail/grain_rows.hpp"
 
@@ -9,7 +10,7 @@ namespace scarp::detail {
 /// Rows of columns as lanes, one number or several.
 template <class Scalar, int Count, std::size_t Size>
 void load_rows(Columns<Scalar, Count> const& columns, std::size_t start, std::array<Pack<Scalar>, Size>& to) {
-  for (int k = 0; k < Count; ++k) to[static_cast<std::size_t>(k)] = load(columns.column(k) + start);
+  for (int k = 0; k < Count; ++k) to[detail::index(k)] = load(columns.column(k) + start);
 }
 template <class Scalar>
 void load_rows(Columns<Scalar, 1> const& columns, std::size_t start, Pack<Scalar>& to) {
@@ -17,7 +18,7 @@ void load_rows(Columns<Scalar, 1> const& columns, std::size_t start, Pack<Scalar
 }
 template <class Scalar, int Count, std::size_t Size>
 void store_rows(std::array<Pack<Scalar>, Size> const& from, std::size_t start, Columns<Scalar, Count>& columns) {
-  for (int k = 0; k < Count; ++k) store(from[static_cast<std::size_t>(k)], columns.column(k) + start);
+  for (int k = 0; k < Count; ++k) store(from[detail::index(k)], columns.column(k) + start);
 }
 template <class Scalar>
 void store_rows(Pack<Scalar> const& from, std::size_t start, Columns<Scalar, 1>& columns) {
@@ -44,7 +45,7 @@ struct PairSide {
   PairSide(Scalar const* rows, std::int32_t const* numbers) {
     for (std::size_t quad = 0; quad < row.size(); ++quad) {
       row[quad] = load_quads<Scalar>(
-          [=](std::size_t lane) { return rows + static_cast<std::size_t>(numbers[lane]) * Layout::size + 4 * quad; });
+          [=](std::size_t lane) { return rows + detail::index(numbers[lane]) * Layout::size + 4 * quad; });
     }
   }
   Lanes const& operator[](std::size_t k) const { return row[k / 4][k % 4]; }
@@ -82,8 +83,8 @@ void scatter_plane(Point<2, Lanes> const& force, Lanes const& torque_first, Lane
   // Rows of (force, torque on the first, torque on the second); the fourth entry of a force row is scratch.
   auto const quads = to_quads<Scalar>({force[0], force[1], torque_first, torque_second});
   for (std::size_t k = 0; k < Lanes::size(); ++k) {
-    Scalar* const on_first = forces + static_cast<std::size_t>(first[k]) * Layout::force_size;
-    Scalar* const on_second = forces + static_cast<std::size_t>(second[k]) * Layout::force_size;
+    Scalar* const on_first = forces + detail::index(first[k]) * Layout::force_size;
+    Scalar* const on_second = forces + detail::index(second[k]) * Layout::force_size;
     auto sum = Quad<Scalar>::read(on_first);
     sum.value -= quads[k].value;
     sum.write(on_first);
@@ -107,8 +108,8 @@ void scatter_space(Point<3, Lanes> const& force, std::array<Lanes, 3> const& tor
     sum.write(to);
   };
   for (std::size_t k = 0; k < Lanes::size(); ++k) {
-    Scalar* const on_first = forces + static_cast<std::size_t>(first[k]) * Layout::force_size;
-    Scalar* const on_second = forces + static_cast<std::size_t>(second[k]) * Layout::force_size;
+    Scalar* const on_first = forces + detail::index(first[k]) * Layout::force_size;
+    Scalar* const on_second = forces + detail::index(second[k]) * Layout::force_size;
     add(on_first, start[k].value, Scalar(-1));
     add(on_first + 4, turn_first[k].value, Scalar(-1));
     add(on_second, start[k].value, Scalar(1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/detail/pair_block.hpp"
 
 namespace scarp {
@@ -26,8 +27,7 @@ class PairResponse {
     step_ = constant<Lanes>(move.duration);
     affine_turn_ = affine_turn<dim, Lanes>(move.gradient);
     for (int a = 0; a < dim; ++a) {
-      for (int b = 0; b < dim; ++b)
-        affine_[static_cast<std::size_t>(a * dim + b)] = constant<Lanes>(move.gradient(a, b));
+      for (int b = 0; b < dim; ++b) affine_[detail::index(a * dim + b)] = constant<Lanes>(move.gradient(a, b));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/cell.hpp"
 #include "scarp/dem/packing.hpp"
 
@@ -71,12 +72,12 @@ bool reduce_and_wrap(Tensor<Dim>& cell, std::vector<Vector<Dim>>& places, Renami
   for (std::size_t i = 0; i < places.size(); ++i) {
     Vector<Dim> const cells = (inverse * places[i]).array().floor();
     if (!(cells.cwiseAbs().maxCoeff() <= furthest_cell)) return false;
-    for (int a = 0; a < Dim; ++a) renaming.moved[i][static_cast<std::size_t>(a)] = static_cast<int>(cells(a));
+    for (int a = 0; a < Dim; ++a) renaming.moved[i][detail::index(a)] = static_cast<int>(cells(a));
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (renaming.moved[i] == typename Renaming<Dim>::Cells{}) continue;
     Vector<Dim> cells;
-    for (int a = 0; a < Dim; ++a) cells(a) = renaming.moved[i][static_cast<std::size_t>(a)];
+    for (int a = 0; a < Dim; ++a) cells(a) = renaming.moved[i][detail::index(a)];
     places[i] -= reduced * cells;
   }
   cell = reduced;
@@ -104,7 +105,7 @@ GrainsAndImages<Dim> grains_and_images(Tensor<Dim> const& cell, std::vector<Vect
   for (int a = 0; a < Dim; ++a) margin(a) = reach * inverse.row(a).norm();
   auto const add = [&](Vector<Dim> const& place, std::size_t owner, auto const& shift) {
     PlacedGrain<Dim> grain{{}, static_cast<std::int32_t>(owner), shift};
-    for (int a = 0; a < Dim; ++a) grain.place[static_cast<std::size_t>(a)] = place(a);
+    for (int a = 0; a < Dim; ++a) grain.place[detail::index(a)] = place(a);
     all.points.push_back(grain);
   };
   for (std::size_t i = 0; i < places.size(); ++i) add(places[i], i, decltype(PlacedGrain<Dim>::shift){});
@@ -118,7 +119,7 @@ GrainsAndImages<Dim> grains_and_images(Tensor<Dim> const& cell, std::vector<Vect
       bool near = true;
       Vector<Dim> steps;
       for (int a = 0; a < Dim; ++a) {
-        steps(a) = shift[static_cast<std::size_t>(a)];
+        steps(a) = shift[detail::index(a)];
         double const there = fraction(a) + steps(a);
         near = near && there > -margin(a) && there < 1.0 + margin(a);
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/core/voigt.hpp"
 
 namespace scarp {
@@ -12,7 +13,7 @@ VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
   VoigtTangent<Dim> tangent;
   constexpr auto indices = voigt_indices<Dim>();
   for (int k = 0; k < voigt_size<Dim>; ++k) {
-    auto const [i, j] = indices[static_cast<std::size_t>(k)];
+    auto const [i, j] = indices[detail::index(k)];
     Tensor<Dim> strain = Tensor<Dim>::Zero();
     strain(i, j) += 0.5;
     strain(j, i) += 0.5;

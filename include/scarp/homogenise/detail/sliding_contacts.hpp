@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/contacts.hpp"
 
 namespace scarp {
@@ -25,7 +26,7 @@ struct SlidingContacts {
     if constexpr (Dim == 2) {
       approach.slip = -asked / tangential * direction.dot(tangent(contact));
     } else {
-      for (int a = 0; a < Dim; ++a) approach.slip[static_cast<std::size_t>(a)] = -asked / tangential * direction(a);
+      for (int a = 0; a < Dim; ++a) approach.slip[detail::index(a)] = -asked / tangential * direction(a);
     }
     auto const answer = as_vector(law.respond(approach, memory).shear, contact.touch.normal);
     return (Eigen::Map<Vector<Dim> const>(answer.data()) - contact.shear_force()).dot(direction) < 0.5 * asked;

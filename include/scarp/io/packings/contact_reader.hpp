@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/contacts.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/io/packings/packing_reader.hpp"
@@ -50,8 +51,8 @@ std::vector<ListedContact<PackingType::dim>> listed_contacts(NamedPacking<Packin
     listed[c] = {first[c], second[c], Vector<dim>::Zero(), Vector<dim>::Zero()};
   }
   for (int a = 0; a < dim; ++a) {
-    auto const images = table.column<std::int64_t>(image_names[static_cast<std::size_t>(a)]);
-    auto const forces = table.column(shear_names[static_cast<std::size_t>(a)]);
+    auto const images = table.column<std::int64_t>(image_names[detail::index(a)]);
+    auto const forces = table.column(shear_names[detail::index(a)]);
     auto const* const place = named.packing.position.column(a);
     for (std::size_t c = 0; c < listed.size(); ++c) {
       listed[c].branch += named.packing.cell.col(a) * static_cast<double>(images[c]);
@@ -103,7 +104,7 @@ void write_shear(Columns<Scalar, Count>& columns, Contact<Dim> const& contact, V
     columns(contact.pair, 0) = static_cast<Scalar>(shear);
   } else {
     for (int a = 0; a < Count; ++a) {
-      columns(contact.pair, a) = static_cast<Scalar>(shear[static_cast<std::size_t>(a)]);
+      columns(contact.pair, a) = static_cast<Scalar>(shear[detail::index(a)]);
     }
   }
 }

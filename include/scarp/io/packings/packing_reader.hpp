@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "scarp/core/index.hpp"
 #include "scarp/dem/neighbour_list.hpp"
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/packings/detail/grain_columns.hpp"
@@ -70,7 +71,7 @@ void read_places(CsvColumns const& table, PackingType& packing) {
   packing.orientation.resize(table.rows());
   packing.rest();
   for (int a = 0; a < PackingType::dim; ++a) {
-    auto const name = axis_names[static_cast<std::size_t>(a)];
+    auto const name = axis_names[detail::index(a)];
     auto const values = table.column(name);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::abs(values[i]) > limit) {
@@ -98,8 +99,8 @@ template <class PackingType>
 Depth pair_depth(PackingType const& packing, std::size_t pair) {
   using Shape = typename PackingType::Shape;
   auto const& pairs = packing.pairs;
-  auto const first = static_cast<std::size_t>(pairs.first[pair]);
-  auto const second = static_cast<std::size_t>(pairs.second[pair]);
+  auto const first = detail::index(pairs.first[pair]);
+  auto const second = detail::index(pairs.second[pair]);
   auto branch = row_position(packing, second);
   auto const from = row_position(packing, first);
   Point<PackingType::dim, double> start{};
@@ -129,9 +130,8 @@ void refuse_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& 
     refuse(
         "grains {} and {} of '{}' overlap by {} m (more than the smaller one's radius {}): check cell, units and "
         "repeated grains",
-        ids[grain_of_row(packing, static_cast<std::size_t>(packing.pairs.first[p]))],
-        ids[grain_of_row(packing, static_cast<std::size_t>(packing.pairs.second[p]))], file, depth.overlap,
-        depth.radius);
+        ids[grain_of_row(packing, detail::index(packing.pairs.first[p]))],
+        ids[grain_of_row(packing, detail::index(packing.pairs.second[p]))], file, depth.overlap, depth.radius);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/core/index.hpp"
 #include "scarp/measure/cpu_time.hpp"
 #include "scarp/measure/detail/sweep_table.hpp"
 #include "scarp/measure/measured.hpp"
@@ -96,7 +97,7 @@ class SweepEvaluation {
   }
 
   SweepTable table() const {
-    SweepTable table{.name = name_, .repetitions = static_cast<int>(results_.front().size())};
+    SweepTable table{.name = name_, .repetitions = detail::count(results_.front())};
     for (auto const& [name, values] : references_.front().measured.answers) table.answers.push_back(name);
     if (!exact_) {
       std::vector<double> ratios;

@@ -114,7 +114,7 @@ class PointAnswers {
   }
 
  private:
-  std::size_t count() const { return static_cast<std::size_t>(materials_.point_count()); }
+  std::size_t count() const { return detail::index(materials_.point_count()); }
 
   auto from_committed() {
     return [this](int point) { return materials_.respond(point, gradients_[detail::index(point)]); };
@@ -147,7 +147,7 @@ class PointAnswers {
     // The longest answers first: one that begins last would keep the other threads waiting.
     std::vector<int> order = selected;
     std::ranges::stable_sort(order, std::ranges::greater{}, [&](int point) { return materials_.work(point); });
-    executor_.for_each(static_cast<int>(order.size()), [&](int task) {
+    executor_.for_each(detail::count(order), [&](int task) {
       int const point = order[detail::index(task)];
       auto const k = detail::index(point);
       responses_[k] = answer(point);
@@ -175,7 +175,7 @@ class PointAnswers {
   template <class TangentOf>
   Tangents all_tangents(TangentOf const& tangent_of) const {
     Tangents values(count());
-    executor_.for_each(static_cast<int>(owned_.size()), [&](int task) {
+    executor_.for_each(detail::count(owned_), [&](int task) {
       int const point = owned_[detail::index(task)];
       values[detail::index(point)] = tangent_of(point);
     });

@@ -56,7 +56,7 @@ class GmshNumbering {
           refuse("element {} of '{}' names node {} (the file has no such node): write the file again", pick.tag, file_,
                  tag);
         }
-        used[static_cast<std::size_t>(found - nodes_.begin())] = true;
+        used[detail::index(found - nodes_.begin())] = true;
       }
     }
     std::size_t kept = 0;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "scarp/core/index.hpp"
 #include "scarp/io/gmsh/detail/gmsh_content.hpp"
 
 namespace scarp::detail {
@@ -15,7 +16,7 @@ class GmshSections41 {
     std::array<std::size_t, 4> counts{};
     for (auto& entities : counts) entities = stream.count("the number of entities", 5);
     for (int dim = 0; dim < 4; ++dim) {
-      for (std::size_t k = 0; k < counts[static_cast<std::size_t>(dim)]; ++k) read_entity(stream, dim);
+      for (std::size_t k = 0; k < counts[detail::index(dim)]; ++k) read_entity(stream, dim);
     }
   }
 

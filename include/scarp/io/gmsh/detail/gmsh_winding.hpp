@@ -11,7 +11,7 @@ namespace scarp::detail {
 
 /// Corners of a plane cell; its nodes are rings of as many: corners, then, if there are any, mid-side nodes.
 template <class Cell>
-inline constexpr int plane_corners = static_cast<int>(Cell::facets().size());
+inline constexpr int plane_corners = detail::count(Cell::facets());
 
 /// Whether two lists name the nodes of a side in the same sense of rotation, begun at any corner.
 template <class Cell>
