@@ -17,7 +17,7 @@ class Parts {
   using Scalar = typename PackingType::Scalar;
   using Layout = scarp::RowLayout<Shape, Law>;
   using Block = scarp::detail::PairBlock<Shape, Law, Scalar>;
-  static constexpr std::size_t width = scarp::Pack<Scalar>::size();
+  static constexpr std::size_t width = scarp::lanes::Pack<Scalar>::size();
 
   Parts(PackingType packing, Law const& law) : packing_(std::move(packing)), law_(law) {
     forces();

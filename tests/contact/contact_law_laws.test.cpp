@@ -128,7 +128,7 @@ TEST_CASE_TEMPLATE("without a bond shear stays inside Coulomb's limit", Law, EVE
 
 TEST_CASE_TEMPLATE("packs give lane by lane what single numbers give", Law, EVERY_CONTACT_LAW) {
   Law const law = Sample<Law>::law();
-  using Lanes = scarp::Pack<double>;
+  using Lanes = scarp::lanes::Pack<double>;
   RandomApproaches approaches;
   for (int path = 0; path < 20; ++path) {
     std::array<ContactMemory<3, double>, Lanes::size()> single{};

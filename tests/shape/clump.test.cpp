@@ -204,7 +204,7 @@ TEST_CASE("parts touch as discs at their places and the arms reach from the cent
 }
 
 TEST_CASE("a pack of clumps gives what each gives alone") {
-  using Lanes = scarp::Pack<double>;
+  using Lanes = scarp::lanes::Pack<double>;
   using Shape = scarp::Quatrefoil;
   scarp::Random random(43);
   std::array<Lanes, 6> in;  // scales, angles, branch

@@ -92,7 +92,7 @@ TEST_CASE("volume and inertia of a sphere are those of its layers of discs") {
 }
 
 TEST_CASE("a pack of sphere pairs gives what each pair gives alone") {
-  using Lanes = scarp::Pack<double>;
+  using Lanes = scarp::lanes::Pack<double>;
   scarp::Random random(33);
   std::array<Lanes, 5> in;  // radii, branch
   for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {

@@ -361,7 +361,7 @@ TEST_CASE("the contact point of superellipses is the middle between their suppor
 }
 
 TEST_CASE_TEMPLATE("a pack of superellipse pairs gives what each pair gives alone", Scalar, double, float) {
-  using Lanes = scarp::Pack<Scalar>;
+  using Lanes = scarp::lanes::Pack<Scalar>;
   scarp::Random random(30);
   for (int k = 0; k < 20; ++k) {
     Superellipse::Pose<Lanes> first, second;

@@ -60,19 +60,19 @@ struct CohesiveBond {
     T const zero = constant<T>(0);
     T const normal = constant<T>(law.normal_stiffness) * approach.overlap;
     Tangential<Dim, T> const shear = stretched<Dim, T>(memory.shear, approach.slip);
-    T const strength = at_least(constant<T>(shear_strength) + constant<T>(law.friction) * normal, zero);
+    T const strength = lanes::at_least(constant<T>(shear_strength) + constant<T>(law.friction) * normal, zero);
     auto const bonded = is_intact(memory);
     auto const holds = bonded && normal >= constant<T>(-tensile_strength) && squared_size(shear) <= strength * strength;
 
     T const state_after =
-        select(holds, constant<T>(intact), select(bonded, constant<T>(broken), memory.scalars[state]));
-    T const released = select(bonded, pull_energy(approach.overlap), zero);
+        lanes::select(holds, constant<T>(intact), lanes::select(bonded, constant<T>(broken), memory.scalars[state]));
+    T const released = lanes::select(bonded, pull_energy(approach.overlap), zero);
     ContactForce<Dim, T> force = law.respond(approach, memory);
-    memory.shear = select(holds, shear, memory.shear);
+    memory.shear = lanes::select(holds, shear, memory.shear);
     memory.scalars[state] = state_after;
-    return {.normal = select(holds, normal, force.normal),
-            .shear = select(holds, shear, force.shear),
-            .dissipated = select(holds, zero, force.dissipated + released)};
+    return {.normal = lanes::select(holds, normal, force.normal),
+            .shear = lanes::select(holds, shear, force.shear),
+            .dissipated = lanes::select(holds, zero, force.dissipated + released)};
   }
 
   ContactStiffness stiffness(double overlap, double reduced_radius) const {
@@ -83,7 +83,7 @@ struct CohesiveBond {
 
   template <int Dim, class T>
   T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
-    T const pulled = select(is_intact(memory), pull_energy(approach.overlap), constant<T>(0));
+    T const pulled = lanes::select(is_intact(memory), pull_energy(approach.overlap), constant<T>(0));
     return law.stored_energy(approach, memory) + pulled;
   }
 
@@ -108,7 +108,7 @@ struct CohesiveBond {
 
   template <class T>
   T pull_energy(T const& overlap) const {
-    T const pulled = at_most(overlap, constant<T>(0));
+    T const pulled = lanes::at_most(overlap, constant<T>(0));
     return constant<T>(law.normal_stiffness / 2.0) * pulled * pulled;
   }
 };

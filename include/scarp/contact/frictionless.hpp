@@ -14,14 +14,14 @@ struct Frictionless {
 
   template <int Dim, class T>
   ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
-    return {.normal = at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0))};
+    return {.normal = lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0))};
   }
 
   ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
 
   template <int Dim, class T>
   T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const&) const {
-    T const closed = at_least(approach.overlap, constant<T>(0));
+    T const closed = lanes::at_least(approach.overlap, constant<T>(0));
     return constant<T>(normal_stiffness / 2.0) * closed * closed;
   }
 };

@@ -49,13 +49,13 @@ struct HertzMindlin {
   template <int Dim, class T>
   ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     using std::sqrt;
-    T const overlap = at_least(approach.overlap, constant<T>(0));
+    T const overlap = lanes::at_least(approach.overlap, constant<T>(0));
     T const contact_radius = sqrt(approach.reduced_radius * overlap);
     T const elastic = constant<T>(4.0 / 3.0 * reduced_modulus) * contact_radius * overlap;
     T const tangential_stiffness = constant<T>(8.0 * reduced_shear_modulus) * contact_radius;
 
     T const viscous = damping.push(constant<T>(2.0 * reduced_modulus) * contact_radius, approach);
-    T const normal = at_least(elastic + viscous, constant<T>(0));
+    T const normal = lanes::at_least(elastic + viscous, constant<T>(0));
     T const limit = constant<T>(friction) * normal;
 
     T lost = (normal - elastic) * approach.closing;
@@ -68,7 +68,7 @@ struct HertzMindlin {
 
   /// \f$ S_n = 2 E^* a,\; S_t = 8 G^* a \f$
   ContactStiffness stiffness(double overlap, double reduced_radius) const {
-    double const contact_radius = std::sqrt(reduced_radius * at_least(overlap, 0.0));
+    double const contact_radius = std::sqrt(reduced_radius * lanes::at_least(overlap, 0.0));
     return {.normal = 2.0 * reduced_modulus * contact_radius,
             .tangential = 8.0 * reduced_shear_modulus * contact_radius};
   }
@@ -82,7 +82,7 @@ struct HertzMindlin {
   template <int Dim, class T>
   T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     using std::sqrt;
-    T const overlap = at_least(approach.overlap, constant<T>(0));
+    T const overlap = lanes::at_least(approach.overlap, constant<T>(0));
     T const contact_radius = sqrt(approach.reduced_radius * overlap);
     return constant<T>(8.0 / 15.0 * reduced_modulus) * contact_radius * overlap * overlap +
            shear_energy<Dim, T>(memory.shear, contact_radius);
@@ -92,7 +92,7 @@ struct HertzMindlin {
   template <int Dim, class T>
   T shear_energy(Tangential<Dim, T> const& shear, T const& contact_radius) const {
     // An open contact has neither force nor stiffness.
-    return squared_size(shear) / at_least(constant<T>(16.0 * reduced_shear_modulus) * contact_radius, tiny<T>());
+    return squared_size(shear) / lanes::at_least(constant<T>(16.0 * reduced_shear_modulus) * contact_radius, tiny<T>());
   }
 
   /// Gives the remembered shear spring the new contact radius.
@@ -101,7 +101,7 @@ struct HertzMindlin {
   T resize(T const& contact_radius, Tangential<Dim, T> const& slip, ContactMemory<Dim, T>& memory) const {
     T const former_radius = memory.scalars[0];
     T const former_energy = shear_energy<Dim, T>(memory.shear, former_radius);
-    T const kept = at_most(contact_radius / at_least(former_radius, tiny<T>()), constant<T>(1));
+    T const kept = lanes::at_most(contact_radius / lanes::at_least(former_radius, tiny<T>()), constant<T>(1));
     T const work_of_former = inner_product(memory.shear, slip);
     memory.shear = scaled(memory.shear, kept);
     memory.scalars[0] = contact_radius;

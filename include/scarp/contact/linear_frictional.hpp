@@ -20,7 +20,7 @@ struct LinearFrictional {
 
   template <int Dim, class T>
   ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
-    T const normal = at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));
+    T const normal = lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));
     T const lost = coulomb_slide<Dim, T>(memory.shear, approach.slip, constant<T>(tangential_stiffness),
                                          constant<T>(friction) * normal);
     return {.normal = normal, .shear = memory.shear, .dissipated = lost};
@@ -34,7 +34,7 @@ struct LinearFrictional {
 
   template <int Dim, class T>
   T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
-    T const closed = at_least(approach.overlap, constant<T>(0));
+    T const closed = lanes::at_least(approach.overlap, constant<T>(0));
     T const normal = constant<T>(normal_stiffness / 2.0) * closed * closed;
     if (tangential_stiffness == 0.0) return normal;
     return normal + constant<T>(0.5 / tangential_stiffness) * squared_size(memory.shear);

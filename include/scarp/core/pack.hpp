@@ -14,7 +14,7 @@
     "scarp: clang for AVX-512 makes masked assignments of libstdc++'s packs set all lanes or none: add -mno-avx512f or use g++"
 #endif
 
-namespace scarp {
+namespace scarp::lanes {
 
 /// As many scalars as one vector register of the target holds, at most eight: rows of more lanes cannot be read as quads.
 template <class Scalar>
@@ -40,15 +40,15 @@ struct RawVector {
   using type [[gnu::vector_size(Count * sizeof(Scalar))]] = Scalar;
 };
 
-/// Four scalars that lie side by side, such as half a grain's row.
+/// A quad: four scalars that lie side by side, such as half a grain's row.
 template <class Scalar>
-struct Quad {
+struct FourScalars {
   using Vector = typename RawVector<Scalar, 4>::type;
 
   Vector value;
 
-  static Quad read(Scalar const* from) {
-    Quad quad;
+  static FourScalars read(Scalar const* from) {
+    FourScalars quad;
     std::memcpy(&quad.value, from, sizeof(Vector));
     return quad;
   }
@@ -93,10 +93,10 @@ std::array<Pack<Scalar>, 4> load_quads(RowOf const& row_of) {
     std::array<Vector, 4> rows;
     for (std::size_t j = 0; j < 4; ++j) {
       if constexpr (width == 4) {
-        rows[j] = Quad<Scalar>::read(row_of(j)).value;
+        rows[j] = FourScalars<Scalar>::read(row_of(j)).value;
       } else {
-        rows[j] = __builtin_shufflevector(Quad<Scalar>::read(row_of(j)).value, Quad<Scalar>::read(row_of(j + 4)).value,
-                                          0, 1, 2, 3, 4, 5, 6, 7);
+        rows[j] = __builtin_shufflevector(FourScalars<Scalar>::read(row_of(j)).value,
+                                          FourScalars<Scalar>::read(row_of(j + 4)).value, 0, 1, 2, 3, 4, 5, 6, 7);
       }
     }
     auto const columns = detail::transpose_blocks(rows);
@@ -111,9 +111,9 @@ std::array<Pack<Scalar>, 4> load_quads(RowOf const& row_of) {
 
 /// The reverse in registers: quad k holds lane k of the four packs.
 template <class Scalar>
-std::array<Quad<Scalar>, Pack<Scalar>::size()> to_quads(std::array<Pack<Scalar>, 4> const& packs) {
+std::array<FourScalars<Scalar>, Pack<Scalar>::size()> to_quads(std::array<Pack<Scalar>, 4> const& packs) {
   constexpr std::size_t width = Pack<Scalar>::size();
-  std::array<Quad<Scalar>, width> quads;
+  std::array<FourScalars<Scalar>, width> quads;
   if constexpr (width == 4 || width == 8) {
     using Vector = typename RawVector<Scalar, width>::type;
     std::array<Vector, 4> columns;
@@ -135,4 +135,4 @@ std::array<Quad<Scalar>, Pack<Scalar>::size()> to_quads(std::array<Pack<Scalar>,
   return quads;
 }
 
-}  // namespace scarp
+}  // namespace scarp::lanes

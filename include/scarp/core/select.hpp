@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <experimental/simd>
 
-namespace scarp {
+namespace scarp::lanes {
 
 /// `yes` where the condition holds, `no` elsewhere; both are always computed. Numbers take a bool, packs a mask.
 template <class T>
@@ -52,4 +52,4 @@ std::experimental::simd<Scalar, Abi> at_most(std::experimental::simd<Scalar, Abi
   return select(ceiling < value, ceiling, value);
 }
 
-}  // namespace scarp
+}  // namespace scarp::lanes

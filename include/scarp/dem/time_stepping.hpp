@@ -36,7 +36,7 @@ class TimeStepper {
   using Shape = typename PackingType::Shape;
   using Law = typename PackingType::Law;
   using Scalar = typename PackingType::Scalar;
-  using Lanes = Pack<Scalar>;
+  using Lanes = lanes::Pack<Scalar>;
 
   Damping damping{};
   /// Gap up to which pairs are listed, as a share of the largest radius: a wider skin lists more pairs, a thinner one is
@@ -131,9 +131,9 @@ class TimeStepper {
   template <Observe what>
   Lanes advance(Scalar* velocities, Lanes const& force, Lanes const& inverse_inertia, Lanes const& dt, Lanes& damped,
                 Lanes& kinetic) const {
-    Lanes const before = load(velocities);
+    Lanes const before = lanes::load(velocities);
     Lanes const after = damping.next_velocity(before, force, inverse_inertia * dt);
-    store(after, velocities);
+    lanes::store(after, velocities);
     if constexpr (what == Observe::energy) {
       using std::experimental::max;
       Lanes const inertia = Lanes(Scalar(1)) / max(inverse_inertia, tiny<Lanes>());  // padding never moves
@@ -165,15 +165,15 @@ class TimeStepper {
     std::fill(scratch_.forces.begin() + static_cast<std::ptrdiff_t>(grains * force_size),
               scratch_.forces.begin() + static_cast<std::ptrdiff_t>(padded * force_size), Scalar(0));
     for (std::size_t start = 0; start < padded; start += width) {
-      Lanes const inverse_mass = load(population.inverse_mass() + start);
-      Lanes const inverse_inertia = load(population.inverse_inertia() + start);
+      Lanes const inverse_mass = lanes::load(population.inverse_mass() + start);
+      Lanes const inverse_inertia = lanes::load(population.inverse_inertia() + start);
       std::array<std::array<Lanes, 4>, force_size / 4> force;
       for (std::size_t quad = 0; quad < force.size(); ++quad) {
-        force[quad] = load_quads<Scalar>(
+        force[quad] = lanes::load_quads<Scalar>(
             [&](std::size_t lane) { return scratch_.forces.data() + (start + lane) * force_size + 4 * quad; });
       }
       Point<dim, Lanes> place;
-      for (int a = 0; a < dim; ++a) place[detail::index(a)] = load(packing.position.column(a) + start);
+      for (int a = 0; a < dim; ++a) place[detail::index(a)] = lanes::load(packing.position.column(a) + start);
       Lanes speed(Scalar(0));
       for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
         int const column = static_cast<int>(a);
@@ -183,7 +183,7 @@ class TimeStepper {
         Lanes moved = velocity * dt;
         for (std::size_t b = 0; b < static_cast<std::size_t>(dim); ++b)
           moved += cell[a * static_cast<std::size_t>(dim) + b] * place[b];
-        store(moved, packing.position.column(column) + start);
+        lanes::store(moved, packing.position.column(column) + start);
         everything += moved;
       }
       Lanes turning(Scalar(0));
@@ -215,10 +215,10 @@ class TimeStepper {
     Lanes const scale = one / (one + half * half);
     Lanes const c = (one - half * half) * scale;
     Lanes const s = Lanes(Scalar(2)) * half * scale;
-    Lanes const x = load(packing.orientation.column(0) + start);
-    Lanes const y = load(packing.orientation.column(1) + start);
-    store(x * c - y * s, packing.orientation.column(0) + start);
-    store(x * s + y * c, packing.orientation.column(1) + start);
+    Lanes const x = lanes::load(packing.orientation.column(0) + start);
+    Lanes const y = lanes::load(packing.orientation.column(1) + start);
+    lanes::store(x * c - y * s, packing.orientation.column(0) + start);
+    lanes::store(x * s + y * c, packing.orientation.column(1) + start);
   }
 
   PairScratch<Scalar> scratch_;

@@ -19,13 +19,13 @@ Touch<Dim, T> round_touch(T const& first, T const& second, Point<Dim, T> const& 
   for (std::size_t a = 1; a < branch.size(); ++a) squared = squared + branch[a] * branch[a];
   T const distance = sqrt(squared);
   auto const coincident = distance == constant<T>(0);
-  T const inverse = constant<T>(1) / select(coincident, constant<T>(1), distance);
+  T const inverse = constant<T>(1) / lanes::select(coincident, constant<T>(1), distance);
   Touch<Dim, T> touch;
   touch.overlap = first + second - distance;
   T const reach_first = first - touch.overlap * constant<T>(0.5);
   T const reach_second = second - touch.overlap * constant<T>(0.5);
   for (std::size_t a = 0; a < branch.size(); ++a) {
-    T const along = a == 0 ? select(coincident, constant<T>(1), branch[0]) : branch[a];
+    T const along = a == 0 ? lanes::select(coincident, constant<T>(1), branch[0]) : branch[a];
     touch.normal[a] = along * inverse;
     touch.arm_first[a] = touch.normal[a] * reach_first;
     touch.arm_second[a] = -touch.normal[a] * reach_second;

@@ -34,7 +34,7 @@ Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> con
   T const slope = a.slope + b.slope - across;
   T const curvature = a.curvature_radius + b.curvature_radius - depth;
   T const largest_turn = constant<T>(0.5);  // radians; keeps a poor start from overshooting
-  T const turn = at_least(at_most(-slope / curvature, largest_turn), -largest_turn);
+  T const turn = lanes::at_least(lanes::at_most(-slope / curvature, largest_turn), -largest_turn);
 
   // 1/sqrt(1 + excess) by its series: the stored normal is a unit vector and turns little in a step; a poor start of a new
   // pair becomes one while the touch is iterated.

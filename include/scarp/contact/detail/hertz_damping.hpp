@@ -81,7 +81,7 @@ struct HertzRestitution {
   T stiffness_of_step(T const& stiffness, Approach<Dim, T> const& approach) const {
     using std::sqrt;
     T const dashpot = constant<T>(2.0 * damping_ratio) * sqrt(approach.reduced_mass * stiffness);
-    return select(approach.time_step > constant<T>(0), dashpot / approach.time_step, constant<T>(0));
+    return lanes::select(approach.time_step > constant<T>(0), dashpot / approach.time_step, constant<T>(0));
   }
 };
 

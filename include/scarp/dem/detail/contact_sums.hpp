@@ -29,9 +29,9 @@ struct ContactSums {
 namespace detail {
 
 template <class Lanes>
-double lane_sum(Lanes const& lanes) {
+double lane_sum(Lanes const& values) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < Lanes::size(); ++k) sum += static_cast<double>(lanes[k]);
+  for (std::size_t k = 0; k < Lanes::size(); ++k) sum += static_cast<double>(values[k]);
   return sum;
 }
 

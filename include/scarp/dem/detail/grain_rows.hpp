@@ -43,10 +43,10 @@ void fill_grain_rows(PackingType const& packing, typename PackingType::Scalar* r
   using Shape = typename PackingType::Shape;
   using Scalar = typename PackingType::Scalar;
   using Layout = RowLayout<Shape, typename PackingType::Law>;
-  using Lanes = Pack<Scalar>;
+  using Lanes = lanes::Pack<Scalar>;
   constexpr auto parts = static_cast<std::size_t>(part_count<Shape>());
   auto const read = [](auto const& columns, std::size_t start, Lanes* to, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) to[k] = load(columns.column(static_cast<int>(k)) + start);
+    for (std::size_t k = 0; k < count; ++k) to[k] = lanes::load(columns.column(static_cast<int>(k)) + start);
   };
   for (std::size_t start = 0; start < packing.position.padded_rows(); start += Lanes::size()) {
     std::array<Lanes, Layout::size> fields{};
@@ -59,13 +59,14 @@ void fill_grain_rows(PackingType const& packing, typename PackingType::Scalar* r
     if constexpr (Shape::orientation_count > 0)
       read(packing.orientation, start, orientation.data(), orientation.size());
     if constexpr (PackingType::Law::needs.motion) {
-      fields[Layout::inverse_mass] = load(packing.population->inverse_mass() + start);
+      fields[Layout::inverse_mass] = lanes::load(packing.population->inverse_mass() + start);
     }
     for (std::size_t part = 0; part < parts; ++part) {
       auto const pose = part_pose<Shape>(size, orientation, static_cast<int>(part));
       for (std::size_t k = 0; k < pose.size(); ++k) fields[Layout::pose + k] = pose[k];
       for (std::size_t quad = 0; quad < Layout::size; quad += 4) {
-        auto const quads = to_quads<Scalar>({fields[quad], fields[quad + 1], fields[quad + 2], fields[quad + 3]});
+        auto const quads =
+            lanes::to_quads<Scalar>({fields[quad], fields[quad + 1], fields[quad + 2], fields[quad + 3]});
         for (std::size_t lane = 0; lane < quads.size(); ++lane)
           quads[lane].write(rows + ((start + lane) * parts + part) * Layout::size + quad);
       }

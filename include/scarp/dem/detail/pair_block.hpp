@@ -12,7 +12,7 @@ namespace scarp::detail {
 template <class Shape, class Law, class Scalar>
 struct PairBlock {
   using Layout = RowLayout<Shape, Law>;
-  using Lanes = Pack<Scalar>;
+  using Lanes = lanes::Pack<Scalar>;
   static constexpr std::size_t size = 64;  ///< pairs
   static constexpr auto axes = static_cast<std::size_t>(Shape::dim);
   static constexpr std::size_t turns = Layout::turns;
@@ -47,10 +47,10 @@ struct PairBlock {
   template <std::size_t Count>
   std::array<Lanes, Count> read(std::size_t field, std::size_t at) const {
     std::array<Lanes, Count> values;
-    for (std::size_t k = 0; k < Count; ++k) values[k] = load(fields[field + k].data() + at);
+    for (std::size_t k = 0; k < Count; ++k) values[k] = lanes::load(fields[field + k].data() + at);
     return values;
   }
-  void write(std::size_t field, std::size_t at, Lanes const& value) { store(value, fields[field].data() + at); }
+  void write(std::size_t field, std::size_t at, Lanes const& value) { lanes::store(value, fields[field].data() + at); }
   template <std::size_t Count>
   void write(std::size_t field, std::size_t at, std::array<Lanes, Count> const& values) {
     for (std::size_t k = 0; k < Count; ++k) write(field + k, at, values[k]);

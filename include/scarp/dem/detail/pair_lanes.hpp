@@ -9,20 +9,20 @@ namespace scarp::detail {
 
 /// Rows of columns as lanes, one number or several.
 template <class Scalar, int Count, std::size_t Size>
-void load_rows(Columns<Scalar, Count> const& columns, std::size_t start, std::array<Pack<Scalar>, Size>& to) {
-  for (int k = 0; k < Count; ++k) to[detail::index(k)] = load(columns.column(k) + start);
+void load_rows(Columns<Scalar, Count> const& columns, std::size_t start, std::array<lanes::Pack<Scalar>, Size>& to) {
+  for (int k = 0; k < Count; ++k) to[detail::index(k)] = lanes::load(columns.column(k) + start);
 }
 template <class Scalar>
-void load_rows(Columns<Scalar, 1> const& columns, std::size_t start, Pack<Scalar>& to) {
-  to = load(columns.column(0) + start);
+void load_rows(Columns<Scalar, 1> const& columns, std::size_t start, lanes::Pack<Scalar>& to) {
+  to = lanes::load(columns.column(0) + start);
 }
 template <class Scalar, int Count, std::size_t Size>
-void store_rows(std::array<Pack<Scalar>, Size> const& from, std::size_t start, Columns<Scalar, Count>& columns) {
-  for (int k = 0; k < Count; ++k) store(from[detail::index(k)], columns.column(k) + start);
+void store_rows(std::array<lanes::Pack<Scalar>, Size> const& from, std::size_t start, Columns<Scalar, Count>& columns) {
+  for (int k = 0; k < Count; ++k) lanes::store(from[detail::index(k)], columns.column(k) + start);
 }
 template <class Scalar>
-void store_rows(Pack<Scalar> const& from, std::size_t start, Columns<Scalar, 1>& columns) {
-  store(from, columns.column(0) + start);
+void store_rows(lanes::Pack<Scalar> const& from, std::size_t start, Columns<Scalar, 1>& columns) {
+  lanes::store(from, columns.column(0) + start);
 }
 
 /// Affine spin of a displacement gradient: half its curl.
@@ -44,7 +44,7 @@ struct PairSide {
   template <class Scalar>
   PairSide(Scalar const* rows, std::int32_t const* numbers) {
     for (std::size_t quad = 0; quad < row.size(); ++quad) {
-      row[quad] = load_quads<Scalar>(
+      row[quad] = lanes::load_quads<Scalar>(
           [=](std::size_t lane) { return rows + detail::index(numbers[lane]) * Layout::size + 4 * quad; });
     }
   }
@@ -81,14 +81,14 @@ template <class Layout, class Scalar, class Lanes>
 void scatter_plane(Point<2, Lanes> const& force, Lanes const& torque_first, Lanes const& torque_second,
                    std::int32_t const* first, std::int32_t const* second, Scalar* forces) {
   // Rows of (force, torque on the first, torque on the second); the fourth entry of a force row is scratch.
-  auto const quads = to_quads<Scalar>({force[0], force[1], torque_first, torque_second});
+  auto const quads = lanes::to_quads<Scalar>({force[0], force[1], torque_first, torque_second});
   for (std::size_t k = 0; k < Lanes::size(); ++k) {
     Scalar* const on_first = forces + detail::index(first[k]) * Layout::force_size;
     Scalar* const on_second = forces + detail::index(second[k]) * Layout::force_size;
-    auto sum = Quad<Scalar>::read(on_first);
+    auto sum = lanes::FourScalars<Scalar>::read(on_first);
     sum.value -= quads[k].value;
     sum.write(on_first);
-    sum = Quad<Scalar>::read(on_second);
+    sum = lanes::FourScalars<Scalar>::read(on_second);
     sum.value += __builtin_shufflevector(quads[k].value, quads[k].value, 0, 1, 3, 2);
     sum.write(on_second);
   }
@@ -99,11 +99,11 @@ void scatter_space(Point<3, Lanes> const& force, std::array<Lanes, 3> const& tor
                    Scalar* forces) {
   static_assert(Layout::force_size == 8);
   Lanes const none(Scalar(0));
-  auto const start = to_quads<Scalar>({force[0], force[1], force[2], none});
-  auto const turn_first = to_quads<Scalar>({torque_first[0], torque_first[1], torque_first[2], none});
-  auto const turn_second = to_quads<Scalar>({torque_second[0], torque_second[1], torque_second[2], none});
+  auto const start = lanes::to_quads<Scalar>({force[0], force[1], force[2], none});
+  auto const turn_first = lanes::to_quads<Scalar>({torque_first[0], torque_first[1], torque_first[2], none});
+  auto const turn_second = lanes::to_quads<Scalar>({torque_second[0], torque_second[1], torque_second[2], none});
   auto const add = [](Scalar* to, auto const& values, Scalar sign) {
-    auto sum = Quad<Scalar>::read(to);
+    auto sum = lanes::FourScalars<Scalar>::read(to);
     sum.value += sign * values;
     sum.write(to);
   };

@@ -14,7 +14,7 @@ class PairResponse {
  public:
   using Shape = typename PackingType::Shape;
   using Scalar = typename PackingType::Scalar;
-  using Lanes = Pack<Scalar>;
+  using Lanes = lanes::Pack<Scalar>;
   using Block = PairBlock<Shape, Law, Scalar>;
   static constexpr int dim = Shape::dim;
   static constexpr auto axes = static_cast<std::size_t>(dim);
@@ -153,7 +153,7 @@ template <Observe what, class PackingType, class Law>
   using Scalar = typename PackingType::Scalar;
   using Layout = RowLayout<Shape, Law>;
   using Block = detail::PairBlock<Shape, Law, Scalar>;
-  constexpr std::size_t width = Pack<Scalar>::size();
+  constexpr std::size_t width = lanes::Pack<Scalar>::size();
 
   auto const& pairs = packing.pairs;
   constexpr auto parts = static_cast<std::size_t>(part_count<Shape>());
