@@ -15,6 +15,7 @@
 #include "scarp/constitutive/lazy.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/measure/cpu_time.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/observe/outcrop.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -132,12 +133,12 @@ void run(Setting& setting, Candidate const& candidate) {
   PredictionCount count;
   scarp::CpuTime const time;
   auto const settled = scene.settle(problem, count);
+  auto const rest = scarp::ground_at_rest(problem);
   auto const report = scarp::joined(settled, scene.rupture(problem, count));
   double const cpu = time.seconds();
 
   auto const& grid = problem.discretisation();
-  auto const profile =
-      scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface"));
+  auto const profile = scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions());
   Outcome outcome{{}, problem.committed_stresses(), scarp::outcrop(profile, report.load)};
   for (auto const& place : profile) outcome.settlement.push_back(place.settlement);
   if (!setting.reference) setting.reference = outcome;

@@ -8,6 +8,7 @@
 
 #include "any_tangent.hpp"
 #include "scarp/measure/cpu_time.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/outcrop.hpp"
 #include "scarp/run/time_limit.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -70,11 +71,12 @@ End run(SettingType const& setting, fault_rupture::SandFreeField const& study, d
   scarp::TimeLimit limit(seconds);
   scarp::CpuTime const time;
   auto const settled = scene.settle(problem, limit);
+  auto const rest = scarp::ground_at_rest(problem);
   End end;
   end.report = scarp::joined(settled, scene.rupture(problem, limit));
   end.cpu_seconds = time.seconds();
   auto const& grid = problem.discretisation();
-  end.surface = scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface"));
+  end.surface = scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions());
   Eigen::VectorXd const forces = problem.evaluate_committed().unbalanced;
   end.reactions = forces(problem.constraints().prescribed_dofs());
   return end;

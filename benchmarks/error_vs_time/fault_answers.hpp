@@ -10,18 +10,20 @@
 #include "scarp/measure/measured.hpp"
 #include "scarp/observe/band_angle.hpp"
 #include "scarp/observe/field_series.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/observers.hpp"
-#include "scarp/observe/outcrop.hpp"
+#include "scarp/observe/rupture_survey.hpp"
 
 namespace error_vs_time {
 
 /// Settlement over throw at fixed places of the initial surface, between the sides, which are prescribed.
-inline Eigen::VectorXd settlements(std::vector<scarp::SurfacePoint> const& profile, scarp::FaultMesh const& layer,
-                                   double fault_throw) {
+inline Eigen::VectorXd settlements(std::vector<scarp::SurfacePoint> const& profile, double fault_throw) {
   constexpr int places = 29;
+  double const left = profile.front().x_initial;
+  double const right = profile.back().x_initial;
   Eigen::VectorXd found(places);
   for (int k = 0; k < places; ++k) {
-    double const x = layer.left + (layer.right - layer.left) * (k + 1) / (places + 1);
+    double const x = left + (right - left) * (k + 1) / (places + 1);
     found(k) = scarp::settlement_at(profile, x) / fault_throw;
   }
   return found;
@@ -68,6 +70,7 @@ scarp::Measured run_fault(SceneType const& scene, Executor& executor, double mos
   scarp::CpuTime const time;
   auto report = scene.settle(problem, limit);
   if (report.verdict.acceptable()) report = scarp::joined(report, scene.place(problem, limit));
+  auto const rest = scarp::ground_at_rest(problem);
   if (report.verdict.acceptable()) report = scarp::joined(report, scene.rupture(problem, limit));
   scarp::Measured measured;
   measured.seconds = time.seconds();
@@ -75,16 +78,14 @@ scarp::Measured run_fault(SceneType const& scene, Executor& executor, double mos
   measured.verdict = report.verdict;
   if (!report.verdict.acceptable()) return measured;
   auto const& grid = problem.discretisation();
-  auto nodes = scarp::boundary_nodes(grid.mesh(), "surface");
-  if (grid.mesh().boundaries.contains("footing_base")) {
-    auto const below = scarp::boundary_nodes(grid.mesh(), "footing_base");
-    nodes.insert(nodes.end(), below.begin(), below.end());
-  }
-  auto const profile = scarp::surface_profile(grid.mesh(), grid.positions(), nodes);
-  auto const outcrop = scarp::outcrop(profile, report.load);
-  measured.answer("surface profile", settlements(profile, scene.layer, report.load));
-  measured.answer("outcrop", outcrop.outcrop_x);
-  measured.answer("band width", outcrop.width);
+  auto const& mesh = grid.mesh();
+  auto const profile = scarp::surface_profile(mesh, rest.of(mesh), grid.positions());
+  auto const survey =
+      scarp::rupture_survey(mesh, rest.of(mesh), grid.positions(), {.tip = scene.fault.tip, .hanging = report.load});
+  measured.answer("surface profile", settlements(profile, report.load));
+  measured.answer("outcrop", survey.surface.outcrop_x);
+  measured.answer("x50", survey.surface.surface_x50);
+  measured.answer("band width", survey.surface.outcrop_width);
   measured.answer("band angle", band_angle(problem));
   measured.answer("reactions", held_forces(problem, scene.fault.tip));
   if constexpr (requires { scene.structure.motion(problem); }) {

@@ -102,8 +102,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   scarp::OnFirstRank observers(executor, [&] {
     return scarp::Observers(
         scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
-        scarp::SurfaceLog(folder / "surface.csv", scarp::boundary_nodes(grid.mesh(), "surface"), to, profiles, depth,
-                          start),
+        scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
         scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
         footing_log(folder, scene.structure, to, profiles, depth, start),
@@ -118,7 +117,11 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
     on_first_rank(problem, [&] { rest = at_rest(problem, scene); });
     return settled;
   });
-  stages.stage([&] { return scene.place(problem, stages); });
+  stages.stage([&] {
+    auto const placed = scene.place(problem, stages);
+    rest.ground = scarp::ground_at_rest(problem);
+    return placed;
+  });
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& report = stages.report();
 

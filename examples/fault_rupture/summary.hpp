@@ -13,7 +13,8 @@
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/observe/floor_share.hpp"
-#include "scarp/observe/outcrop.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
+#include "scarp/observe/rupture_survey.hpp"
 #include "team.hpp"
 
 namespace fault_rupture {
@@ -25,7 +26,8 @@ struct AtRest {
   double k0_max = 0.0;
   double void_ratio_min = 0.0;  ///< not finite where the soil has no packings
   double void_ratio_max = 0.0;
-  double vertical_error = 0.0;  ///< largest |vertical stress / overburden - 1|
+  double vertical_error = 0.0;      ///< largest |vertical stress / overburden - 1|
+  scarp::GroundAtRest<2> ground{};  ///< with what stands on it
 
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
@@ -35,13 +37,14 @@ struct AtRest {
     visit("void_ratio_min", self.void_ratio_min);
     visit("void_ratio_max", self.void_ratio_max);
     visit("vertical_error", self.vertical_error);
+    visit("ground", self.ground);
   }
 };
 
 template <class Problem, class SceneType>
 AtRest at_rest(Problem const& problem, SceneType const& scene) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  AtRest rest{0.0, infinity, -infinity, infinity, -infinity, 0.0};
+  AtRest rest{0.0, infinity, -infinity, infinity, -infinity, 0.0, {}};
   auto const& grid = problem.discretisation();
   int const soil = scarp::region_number(grid.mesh(), "soil");
   int points = 0;
@@ -103,13 +106,37 @@ void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem c
   }
 }
 
+/// Where and how sharply the offset comes through the ground; lengths [m], angles [rad].
+/// block_x50: where a rigid hanging wall would come out, on the fault's own line [m]
+inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const& survey, double block_x50) {
+  auto const& surface = survey.surface;
+  json["outcrop_x"] = surface.outcrop_x;
+  json["steepest_x"] = surface.steepest_x;
+  json["outcrop_width"] = surface.outcrop_width;
+  json["surface_x05"] = surface.surface_x05;
+  json["surface_x50"] = surface.surface_x50;
+  json["surface_x95"] = surface.surface_x95;
+  json["surface_slope_max"] = surface.surface_slope_max;
+  json["mid_line_dip"] = surface.mid_line_dip;
+  json["largest_share"] = surface.largest_share;
+  json["block_x50"] = block_x50;
+  for (auto const& band : survey.bands) {
+    json["bands"].push_back({{"height_over_depth", band.height / survey.depth},
+                             {"band_x50", band.band_x50},
+                             {"band_width", band.band_width},
+                             {"band_across", band.band_across},
+                             {"band_dip", band.band_dip}});
+  }
+}
+
 template <class Problem, class SceneType>
 nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Problem const& problem, AtRest const& rest,
                                scarp::RunReport const& run, double wall_seconds) {
   auto const& grid = problem.discretisation();
-  auto const profile =
-      scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface"));
-  auto const found = scarp::outcrop(profile, run.load);
+  auto const& ground = rest.ground.of(grid.mesh());
+  auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
+  scarp::FaultOffset const offset{.tip = scene.fault.tip, .hanging = std::max(run.load, 0.0)};
+  auto const survey = scarp::rupture_survey(grid.mesh(), ground, grid.positions(), offset);
   Usage const used = usage();
   constexpr double from_side = 5.0;  // [m], where the far field is read: the sides themselves are prescribed
   auto const per_throw = [&](double settlement) {
@@ -131,11 +158,10 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
     json["void_ratio_max"] = rest.void_ratio_max;
   }
   json["vertical_stress_error"] = rest.vertical_error;
-  json["outcrop_x"] = found.outcrop_x;
-  json["steepest_x"] = found.steepest_x;
-  json["outcrop_width"] = found.width;
-  json["settlement_foot_over_throw"] = per_throw(scarp::settlement_at(profile, scene.layer.left + from_side));
-  json["settlement_hanging_over_throw"] = per_throw(scarp::settlement_at(profile, scene.layer.right - from_side));
+  add_rupture(json, survey, offset.tip - survey.depth / std::tan(scene.fault.dip));
+  json["settlement_foot_over_throw"] = per_throw(scarp::settlement_at(profile, profile.front().x_initial + from_side));
+  json["settlement_hanging_over_throw"] =
+      per_throw(scarp::settlement_at(profile, profile.back().x_initial - from_side));
   add_footing(json, scene, problem);
   json["tolerance"] = scene.solver.tolerance;
   json["max_accepted_residual"] = run.largest_residual;
@@ -160,6 +186,7 @@ inline std::string table(nlohmann::ordered_json const& json) {
   auto const number = [&](char const* key) {
     return json.contains(key) && json[key].is_number() ? json[key].get<double>() : std::nan("");
   };
+  auto const degrees = [](double angle) { return angle * 180.0 / std::numbers::pi; };
   std::string text = fmt::format("{:<44} {:>12} {}\n", "quantity", "this run", "  study / yardstick");
   auto const row = [&](std::string const& what, std::string const& value, char const* reference) {
     text += fmt::format("{:<44} {:>12}   {}\n", what, value, reference);
@@ -177,12 +204,26 @@ inline std::string table(nlohmann::ordered_json const& json) {
       "-12.5 (surface starts to deflect); dip alone -14.4");
   row("steepest_x [m]", fmt::format("{:.2f}", number("steepest_x")), "sharp band: -14.5 to -6.5");
   row("outcrop_width [m]", fmt::format("{:.2f}", number("outcrop_width")), "mild and broad slope, no figure given");
+  auto const block = fmt::format("{:.2f} on the fault's own line", number("block_x50"));
+  row("surface_x50 [m]: half of the throw has passed", fmt::format("{:.2f}", number("surface_x50")), block.c_str());
+  row("surface_x05, surface_x95 [m]", fmt::format("{:.2f}, {:.2f}", number("surface_x05"), number("surface_x95")),
+      "a sharp band: both at surface_x50");
+  row("steepest slope of the surface [degrees]", fmt::format("{:.1f}", degrees(std::atan(number("surface_slope_max")))),
+      "not reported");
+  row("mid_line_dip [degrees]: tip to surface_x50", fmt::format("{:.1f}", degrees(number("mid_line_dip"))),
+      "the fault's dip, and its dilation above that");
+  for (auto const& band : json["bands"]) {
+    auto const of_band = [&](char const* key) { return band[key].get<double>(); };
+    row(fmt::format("at {:.2f} of the depth: x50, width [m], dip", of_band("height_over_depth")),
+        fmt::format("{:.1f}, {:.1f}, {:.0f}", of_band("band_x50"), of_band("band_width"), degrees(of_band("band_dip"))),
+        "as the line above; across, the width of a shear band");
+  }
   row("settlement of the far foot wall / throw", fmt::format("{:.4f}", number("settlement_foot_over_throw")), "0");
   row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_over_throw")),
       "1");
   if (json.contains("tilt")) {
-    row("tilt of the footing towards the hanging wall [degrees]",
-        fmt::format("{:.3f}", number("tilt") * 180.0 / std::numbers::pi), "no figure given");
+    row("tilt of the footing towards the hanging wall [degrees]", fmt::format("{:.3f}", degrees(number("tilt"))),
+        "no figure given");
     row("settlement of the footing [m]", fmt::format("{:.3f}", number("settlement")), "no figure given");
     row("contact pressure [kPa]",
         fmt::format("{:.0f}-{:.0f}", number("contact_pressure_min") / 1e3, number("contact_pressure_max") / 1e3),

@@ -4,6 +4,7 @@
 #include "../shared/convergence_table.hpp"
 #include "fault.hpp"
 #include "scarp/fault/free_field_fault.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/outcrop.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
 
@@ -40,11 +41,11 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
       scarp::NoObserver nobody;
       auto const settled = scene.settle(problem, nobody);
       double const at_rest = reaction(problem);
+      auto const rest = scarp::ground_at_rest(problem);
       auto const run = settled.verdict.acceptable() ? scene.rupture(problem, nobody) : settled;
       auto const& grid = problem.discretisation();
-      auto const found = scarp::outcrop(
-          scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface")),
-          run.load);
+      auto const found =
+          scarp::outcrop(scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions()), run.load);
       fmt::print("{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
                  grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
                  reaction(problem) - at_rest, run.steps, run.refused, run.iterations, watch.seconds(),

@@ -7,7 +7,8 @@
 #include "scarp/dem/ellipse_grading.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
-#include "scarp/observe/outcrop.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
+#include "scarp/observe/rupture_survey.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 using Elastic = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
@@ -22,12 +23,14 @@ bool rupture(char const* name, scarp::FreeFieldFault<Soil> const& scene) {
   bool balanced = scene.settle(problem, nobody).verdict.acceptable();
   double k0 = 0.0;
   for (auto const& stress : problem.committed_stresses()) k0 += stress(0) / stress(1);
+  auto const rest = ground_at_rest(problem);
   auto const run = scene.rupture(problem, nobody);
   auto const& mesh = problem.discretisation().mesh();
-  auto const surface = surface_profile(mesh, problem.discretisation().positions(), boundary_nodes(mesh, "surface"));
-  auto const found = scarp::outcrop(surface, run.load);
-  fmt::print("{:<8} K0 {:.3f}  throw {:.3f} m  outcrop_x {:6.2f} m  steepest_x {:6.2f} m\n", name,
-             k0 / problem.materials().point_count(), run.load, found.outcrop_x, found.steepest_x);
+  scarp::FaultOffset const offset{.tip = scene.fault.tip, .hanging = run.load};
+  auto const found = rupture_survey(mesh, rest.of(mesh), problem.discretisation().positions(), offset).surface;
+  fmt::print("{:<8} K0 {:.3f}  throw {:.3f} m  outcrop_x {:6.2f} m  steepest_x {:6.2f} m  surface_x50 {:6.2f} m\n",
+             name, k0 / problem.materials().point_count(), run.load, found.outcrop_x, found.steepest_x,
+             found.surface_x50);
   return balanced && run.verdict.acceptable();
 }
 

@@ -9,6 +9,7 @@
 #include "io/scratch_folder.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/outcrop.hpp"
 #include "scarp/observe/probe.hpp"
 #include "scarp/observe/surface_log.hpp"
@@ -22,12 +23,6 @@ using scarp::Verdict;
 
 static_assert(std::is_empty_v<scarp::StressFree<2>> && std::is_empty_v<scarp::NoObserver>);
 static_assert(sizeof(sample::ElasticSoil::State) == sizeof(scarp::VoigtStress<2>), "elastic points carry stress only");
-
-template <class Problem>
-std::vector<scarp::SurfacePoint> surface_of(Problem const& problem) {
-  auto const& grid = problem.discretisation();
-  return scarp::surface_profile(grid.mesh(), grid.positions(), scarp::boundary_nodes(grid.mesh(), "surface"));
-}
 
 /// All that evolves in a run.
 struct Outcome {
@@ -125,11 +120,13 @@ TEST_CASE("the fault moves the hanging wall by the throw and leaves the foot wal
   auto problem = scene.problem(serial);
   scarp::NoObserver nobody;
   REQUIRE(scene.settle(problem, nobody).verdict == Verdict{});
+  auto const rest = scarp::ground_at_rest(problem);
   auto const run = scene.rupture(problem, nobody);
   REQUIRE(run.verdict == Verdict{});
   CHECK(run.load == scene.throw_to);
   CHECK(run.largest_residual <= scene.solver.tolerance);
-  auto const profile = surface_of(problem);
+  auto const& grid = problem.discretisation();
+  auto const profile = scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions());
   // Analytic: the sides are prescribed; a sum of some tens of increments, the last cut off at `smallest` = 1e-7 m.
   CHECK(std::abs(profile.front().settlement) < 1e-12);
   CHECK(profile.back().settlement == samples::Approx(scene.throw_to).epsilon(1e-6));
@@ -178,17 +175,15 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
   std::filesystem::create_directory(folder / "fields");
   auto const& scene = sample::sandy_ground();
   scarp::SerialExecutor serial;
-  auto const mesh = scene.layer.generate();
   double const unit = scene.layer.depth;
   int files = 0;
   FilesAreWhole whole;
   whole.folder = folder.path();
   whole.seen = &files;
-  scarp::Observers observers(
-      scarp::FieldSeries<scarp::RveQuantities>(folder.path(), scene.throw_to, 4, unit),
-      scarp::SurfaceLog(folder / "surface.csv", scarp::boundary_nodes(mesh, "surface"), scene.throw_to, 4, unit),
-      scarp::RveProbe(folder / "probe.csv", 3, unit), scarp::ConvergenceLog(folder / "convergence.csv", unit), whole,
-      scarp::TimeLimit(0.0));
+  scarp::Observers observers(scarp::FieldSeries<scarp::RveQuantities>(folder.path(), scene.throw_to, 4, unit),
+                             scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, 4, unit),
+                             scarp::RveProbe(folder / "probe.csv", 3, unit),
+                             scarp::ConvergenceLog(folder / "convergence.csv", unit), whole, scarp::TimeLimit(0.0));
   check_same_bits(run_sand(serial, observers), serial_sand());
   CHECK(files == 5);  // analytic: at rest and at each quarter of the throw
 }

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include "approx.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 
 namespace {
 
@@ -46,28 +45,29 @@ TEST_CASE("a surface that has not settled, or only rises, has no outcrop") {
   }
 }
 
-TEST_CASE("settlement is linear between the points and constant beyond them") {
-  auto const profile = bent_profile();
-  CHECK(scarp::settlement_at(profile, -100.0) == 0.0);
-  CHECK(scarp::settlement_at(profile, -12.0) == 0.0);
-  CHECK(scarp::settlement_at(profile, -5.0) == samples::Approx(1.0).epsilon(round_off));
-  CHECK(scarp::settlement_at(profile, 0.0) == samples::Approx(2.0).epsilon(round_off));
-  CHECK(scarp::settlement_at(profile, 5.0) == samples::Approx(2.05).epsilon(round_off));
-  CHECK(scarp::settlement_at(profile, 100.0) == samples::Approx(2.1).epsilon(round_off));
+TEST_CASE("a gap is no part of a slope") {
+  // The steepest joined part falls by 0.1 per metre; across the gap it would be 0.9.
+  std::vector<scarp::SurfacePoint> const profile{
+      {0.0, 0.0, 0.0}, {1.0, 1.0, 0.05}, {2.0, 2.0, 0.95, false}, {3.0, 3.0, 1.05}};
+  auto const found = scarp::outcrop(profile, 1.0);
+  CHECK(found.steepest_x == 2.5);
+  CHECK(found.width == samples::Approx(10.0).epsilon(round_off));
 }
 
-TEST_CASE("the profile runs from left to right and tells where each node was and is") {
-  auto const mesh = scarp::RectangleMesh{.width = 4.0, .height = 1.0, .columns = 4, .rows = 1}.generate();
-  auto positions = mesh.nodes;
-  for (auto& position : positions) position += scarp::Vector<2>(0.25, -0.5 * position(0));
-  auto nodes = scarp::boundary_nodes(mesh, "top");
-  std::reverse(nodes.begin(), nodes.end());
-  auto const profile = scarp::surface_profile(mesh, positions, nodes);
-  REQUIRE(profile.size() == 5);
-  for (std::size_t k = 0; k < profile.size(); ++k) {
-    auto const x = static_cast<double>(k);
-    CHECK(profile[k].x_initial == x);
-    CHECK(profile[k].x == x + 0.25);
-    CHECK(profile[k].settlement == 0.5 * x);
-  }
+TEST_CASE("a reverse fault comes out where the normal one does that goes the other way") {
+  auto risen = bent_profile();
+  for (auto& point : risen) point.settlement *= -1.0;
+  auto const down = scarp::outcrop(bent_profile(), 2.1);
+  auto const up = scarp::outcrop(risen, -2.1);
+  CHECK(up.outcrop_x == down.outcrop_x);
+  CHECK(up.steepest_x == down.steepest_x);
+  CHECK(up.width == down.width);
+}
+
+TEST_CASE("what both walls do is no part of the outcrop") {
+  auto moved = bent_profile();
+  for (auto& point : moved) point.settlement += 5.0;
+  auto const found = scarp::outcrop(moved, {.foot = 5.0, .hanging = 7.1});
+  CHECK(found.outcrop_x == samples::Approx(-10.0).epsilon(round_off));
+  CHECK(found.width == samples::Approx(10.5).epsilon(round_off));
 }

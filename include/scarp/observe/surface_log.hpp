@@ -5,29 +5,32 @@
 #include <vector>
 
 #include "scarp/io/csv.hpp"
-#include "scarp/observe/observers.hpp"
-#include "scarp/observe/outcrop.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
+#include "scarp/observe/surface_profile.hpp"
 
 namespace scarp {
 
-/// Settlement of the ground surface at every accepted step at which the load has grown by to / profiles.
+/// Settlement of the ground surface, also below a footing, at every accepted step at which the load has grown by to / profiles. It counts
+/// from the last accepted state that was seen with a load that is not positive, in a run without one from the mesh. `joined` is 0
+/// where a gap separates a point from the row before it.
+template <int Dim = 2>
 class SurfaceLog : public NeverStops {
  public:
-  SurfaceLog(std::filesystem::path const& file, std::vector<int> nodes, double to, int profiles, double load_unit,
+  SurfaceLog(std::filesystem::path const& file, double to, int profiles, double load_unit,
              CsvStart start = CsvStart::anew)
-      : log_(file, {"throw_over_depth", "x_initial", "x", "settlement"}, start),
-        nodes_(std::move(nodes)),
+      : log_(file, {"throw_over_depth", "x_initial", "x", "settlement", "joined"}, start),
         between_(require_positive("distance between profiles", to / profiles)),
         end_(to),
         load_unit_(load_unit) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
+    rest_.attempted(problem, report);
     if (!report.verdict.acceptable() || (report.load < next_ && report.load < end_)) return;
     while (next_ <= report.load) next_ += between_;
     auto const& grid = problem.discretisation();
-    for (auto const& point : surface_profile(grid.mesh(), grid.positions(), nodes_)) {
-      log_.add(report.load / load_unit_, point.x_initial, point.x, point.settlement);
+    for (auto const& point : surface_profile(grid.mesh(), rest_.of(grid.mesh()), grid.positions())) {
+      log_.add(report.load / load_unit_, point.x_initial, point.x, point.settlement, point.joined ? 1 : 0);
     }
   }
 
@@ -35,11 +38,12 @@ class SurfaceLog : public NeverStops {
   static void members(Self& self, Visit&& visit) {
     visit("log", self.log_);
     visit("next", self.next_);
+    visit("rest", self.rest_);
   }
 
  private:
   CsvLog log_;
-  std::vector<int> nodes_;
+  GroundAtRest<Dim> rest_;
   double between_;
   double end_;
   double load_unit_;

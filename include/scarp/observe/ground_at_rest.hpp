@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <vector>
+
+#include "scarp/mesh/mesh.hpp"
+#include "scarp/observe/observers.hpp"
+
+namespace scarp {
+
+/// Where the nodes were when the fault began to move: settlement counts from here, without what earlier stages brought. Ask for it
+/// by ground_at_rest(problem) between two stages, or let it watch the stages: it takes the last accepted state whose load
+/// factor is not positive. Only positions are kept, dim numbers for a node.
+template <int Dim = 2>
+struct GroundAtRest : NeverStops {
+  std::vector<Vector<Dim>> positions;  ///< [m], for each node; empty as long as none were taken
+
+  template <class Problem>
+  void attempted(Problem const& problem, StepReport const& report) {
+    if (report.verdict.acceptable() && !(report.load > 0.0)) positions = problem.discretisation().positions();
+  }
+
+  /// The positions; those of the mesh where nothing was taken.
+  template <class Element>
+  std::vector<Vector<Dim>> const& of(Mesh<Element> const& mesh) const {
+    return positions.empty() ? mesh.nodes : positions;
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("positions at rest", self.positions);
+  }
+};
+
+/// The committed positions of a problem whose fault has not moved yet.
+template <class Problem>
+auto ground_at_rest(Problem const& problem) {
+  GroundAtRest<std::remove_cvref_t<decltype(problem.discretisation())>::dim> rest;
+  rest.positions = problem.discretisation().positions();
+  return rest;
+}
+
+}  // namespace scarp

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/observe/surface_log.hpp"
+
+#include <doctest/doctest.h>
+
+#include "io/scratch_folder.hpp"
+#include "scarp/fault/fault_mesh.hpp"
+#include "scarp/io/csv_reader.hpp"
+#include "scarp/io/state_bits.hpp"
+
+namespace {
+
+/// As much of a problem as the log looks at; it sinks by hand.
+struct Ground {
+  struct Grid {
+    static constexpr int dim = 2;
+    scarp::Mesh<scarp::Tri3> own;
+    std::vector<scarp::Vector<2>> now = own.nodes;
+    auto const& mesh() const { return own; }
+    auto const& positions() const { return now; }
+  };
+  Grid grid;
+  auto const& discretisation() const { return grid; }
+
+  void sink(double by) {
+    for (auto& position : grid.now) position.y() -= by;
+  }
+};
+
+Ground ground_with_footing() {
+  scarp::FaultMesh layer;
+  layer.size = 5.0;
+  layer.footing = scarp::Footing{.centre = -10.0, .width = 10.0, .meshed = false};
+  return {{layer.generate()}};
+}
+
+struct Row {
+  double fault_throw, x_initial, x, settlement;
+  int joined;
+};
+
+std::vector<Row> rows_of(std::filesystem::path const& path) {
+  std::istringstream lines(content(path));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "throw_over_depth,x_initial,x,settlement,joined");
+  std::vector<Row> rows;
+  char comma;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    Row row{};
+    cells >> row.fault_throw >> comma >> row.x_initial >> comma >> row.x >> comma >> row.settlement >> comma >>
+        row.joined;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+scarp::StepReport accepted(double load) { return {.load = load}; }
+scarp::StepReport refused(double load) {
+  return {.load = load, .verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced}};
+}
+
+}  // namespace
+
+TEST_CASE("settlement counts from the last accepted state before the fault moves, below a footing too") {
+  ScratchFolder const folder;
+  auto ground = ground_with_footing();
+  scarp::SurfaceLog log(folder / "surface.csv", 1.0, 2, 10.0);
+  ground.sink(0.5);
+  log.attempted(ground, accepted(-1.0));  // settled
+  ground.sink(0.25);
+  log.attempted(ground, accepted(0.0));  // placed
+  log.attempted(ground, refused(0.5));   // no state: positions are those before
+  ground.sink(0.125);
+  log.attempted(ground, accepted(0.5));
+  auto const rows = rows_of(folder / "surface.csv");
+  std::size_t const points = scarp::surface_profile(ground.grid.own, ground.grid.own.nodes, ground.grid.now).size();
+  REQUIRE(rows.size() == 2 * points);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    CHECK(rows[k].settlement == (k < points ? 0.0 : 0.125));  // binary fractions: exact
+    CHECK(rows[k].fault_throw == (k < points ? 0.0 : 0.05));
+    CHECK(rows[k].joined == (k % points == 0 ? 0 : 1));
+  }
+}
+
+TEST_CASE("a log that is continued from a checkpoint still knows the ground at rest") {
+  ScratchFolder const folder;
+  auto ground = ground_with_footing();
+  scarp::StateWriter saved;
+  {
+    scarp::SurfaceLog log(folder / "surface.csv", 1.0, 2, 1.0);
+    ground.sink(0.5);
+    log.attempted(ground, accepted(0.0));
+    saved("log", std::as_const(log));
+  }
+  scarp::SurfaceLog log(folder / "surface.csv", 1.0, 2, 1.0, scarp::CsvStart::resumed);
+  scarp::StateReader reader(saved.bits());
+  reader("log", log);
+  ground.sink(0.25);
+  log.attempted(ground, accepted(1.0));
+  auto const rows = rows_of(folder / "surface.csv");
+  CHECK(rows.front().settlement == 0.0);
+  CHECK(rows.back().settlement == 0.25);
+}
+
+TEST_CASE("a run that nobody saw at rest counts from its mesh") {
+  ScratchFolder const folder;
+  auto ground = ground_with_footing();
+  scarp::SurfaceLog log(folder / "surface.csv", 1.0, 1, 1.0);
+  ground.sink(0.5);
+  log.attempted(ground, accepted(1.0));
+  CHECK(rows_of(folder / "surface.csv").back().settlement == 0.5);
+}
