@@ -33,7 +33,7 @@ scarp::FreeFieldFault<Soil, Solver> scene_of(fault_rupture::SandFreeField const&
   scene.soil.unbalanced_tolerance = packings.unbalanced_tolerance;
   scene.soil.loose_pressure = packings.loose_pressure;
   scene.soil.tangent_policy = tangent;
-  scene.layer = study.layer;
+  scene.ground.layer = study.ground.layer;
   scene.fault = study.fault;
   scene.throw_to = study.throw_to;
   scene.stepping = study.stepping;

@@ -46,8 +46,8 @@ End row(SettingType const& setting, fault_rupture::SandFreeField const& study, d
                               100.0 * (end.reactions - reference->reactions).norm() / reference->reactions.norm());
   }
   fmt::print("| {} | {:.4f} | {:.1e} | {} | {} | {} | {:.2f} | {:.1f} | {}\n", setting.name,
-             report.load / study.layer.depth, report.largest_residual, report.steps, report.refused, report.iterations,
-             static_cast<double>(report.inner_steps) / 1e6, end.cpu_seconds, differences);
+             report.load / study.ground.layer.depth, report.largest_residual, report.steps, report.refused,
+             report.iterations, static_cast<double>(report.inner_steps) / 1e6, end.cpu_seconds, differences);
   std::fflush(stdout);
   return end;
 }

@@ -89,7 +89,7 @@ LazyFreeField scene_of(Setting const& setting, Candidate const& candidate) {
   scene.soil.tolerance = candidate.tolerance;
   scene.soil.loose_pressure = study.soil.provider.loose_pressure;
   if (!candidate.learns) scene.soil.learning_strain = 1e6;  // no answer reaches it
-  scene.layer = study.layer;
+  scene.ground.layer = study.ground.layer;
   scene.fault = study.fault;
   scene.throw_to = study.throw_to;
   scene.solver.tolerance = candidate.residual;
@@ -151,7 +151,7 @@ void run(Setting& setting, Candidate const& candidate) {
              100.0 * largest_difference(outcome.settlement, reference.settlement) / report.load,
              outcome.outcrop.outcrop_x, 100.0 * error.all, 100.0 * error.median);
   if (!report.verdict.acceptable()) {
-    fmt::print("stopped at h/H = {:.4f}: {}\n", report.load / scene.layer.depth, name(report.verdict.reason));
+    fmt::print("stopped at h/H = {:.4f}: {}\n", report.load / scene.ground.layer.depth, name(report.verdict.reason));
   }
   std::fflush(stdout);
 }

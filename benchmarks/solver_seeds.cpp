@@ -54,7 +54,7 @@ Ensemble ensemble(SettingType const& setting, fault_rupture::Choice choice, doub
     if (!end.report.verdict.acceptable()) ++all.unfinished;
     fmt::print(stderr, "{}, seed {}: {} steps, {} refused, {} iterations, {:.1f} CPU s, h/H {:.4f}\n", setting.name,
                k + 1, end.report.steps, end.report.refused, end.report.iterations, end.cpu_seconds,
-               end.report.load / study.layer.depth);
+               end.report.load / study.ground.layer.depth);
   }
   return all;
 }

@@ -41,7 +41,7 @@ void run(std::string const& solver, Candidate const& candidate, fault_rupture::S
   auto const report = scarp::joined(settled, scene.rupture(problem, observer));
   double const cpu = time.seconds();
   fmt::print("| {} | {} | {:.4f} | {} | {} | {} | {:.2f} | {:.1f} |\n", solver, candidate.name,
-             report.load / scene.layer.depth, report.steps, report.refused, report.iterations,
+             report.load / scene.ground.layer.depth, report.steps, report.refused, report.iterations,
              static_cast<double>(report.inner_steps) / 1e6, cpu);
   std::fflush(stdout);
 }

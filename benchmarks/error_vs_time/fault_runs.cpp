@@ -49,9 +49,9 @@ scarp::Measured run_with(Solver solver, scarp::LoadStepping stepping, FaultSetti
       settings.condensed ? AnyTangent{scarp::CondensedTangent{}} : AnyTangent{scarp::ElasticContactTangent{}};
   scene.soil.tolerance = settings.lazy;
   scene.soil.loose_pressure = study.soil.provider.loose_pressure;
-  scene.layer = study.layer;
+  scene.ground.layer = study.ground.layer;
   scene.fault = study.fault;
-  scene.throw_to = settings.throw_over_depth * scene.layer.depth;
+  scene.throw_to = settings.throw_over_depth * scene.ground.layer.depth;
   solver.tolerance = settings.tolerance;
   scene.solver = solver;
   scene.stepping = stepping;

@@ -49,7 +49,7 @@ scarp::Measured footing(GroundSettings const& settings) {
   FootingOnSoil scene;
   scene.soil.provider = made.soil;
   scene.soil.length = settings.length;
-  scene.layer = made.layer;
+  scene.ground.layer = made.ground.layer;
   scene.fault = made.fault;
   scene.unit_weight = made.unit_weight;
   scene.surcharge = made.surcharge;

@@ -39,13 +39,13 @@ Outcome surcharge(double pressure, double cohesion) {
   FaultGround ground;
   ground.loaded(gamma_soil, pressure);
   ground.soil.strength.strength.cohesion = cohesion;
-  return reaches(ground, gamma_soil * ground.layer.depth);
+  return reaches(ground, gamma_soil * ground.layer().depth);
 }
 
 Outcome gravity(double times) {
   FaultGround ground;
   ground.loaded(times * gamma_soil, 0.0);
-  if (times >= 1.0) return reaches(ground, times * gamma_soil * ground.layer.depth);
+  if (times >= 1.0) return reaches(ground, times * gamma_soil * ground.layer().depth);
   // Where cohesion is all that holds, ground tears at the surface, and what is torn off carries its weight by
   // nothing: 1e-8 of the forces at 1e-9 g, below which the run takes hundreds of tiny steps.
   ground.solver.tolerance = 1e-7;
@@ -76,9 +76,9 @@ Outcome dip(double degrees, double throw_over_depth, Size size) {
   FaultGround ground;
   ground.loaded(gamma_soil, 4e3);
   ground.fault.dip = degrees * degree;
-  if (size == Size::full) ground.layer.size = 2.5;
-  ground.throw_to = throw_over_depth * ground.layer.depth;
-  return reaches(ground, gamma_soil * ground.layer.depth);
+  if (size == Size::full) ground.layer().size = 2.5;
+  ground.throw_to = throw_over_depth * ground.layer().depth;
+  return reaches(ground, gamma_soil * ground.layer().depth);
 }
 
 Outcome tiny_throw() {
@@ -87,7 +87,7 @@ Outcome tiny_throw() {
   ground.throw_to = 1e-9;
   auto const found = answer(ground);
   double most = 0.0;
-  for (auto const& moved : found.surface) most = scarp::worse_of(most, moved.norm() * ground.layer.depth);
+  for (auto const& moved : found.surface) most = scarp::worse_of(most, moved.norm() * ground.layer().depth);
   // No node goes further than the hanging wall, the square root of 1 + 1/tan(60 degrees)^2 times the throw.
   double const beyond = std::max(0.0, most / (ground.throw_to * std::sqrt(4.0 / 3.0)) - 1.0);
   auto outcome = at_most(1e-6, beyond, "largest motion of the surface over that of the hanging wall, less 1",
@@ -111,14 +111,14 @@ Outcome impossible_faults() {
   wants("dip", [](auto& ground) { ground.fault.dip = 0.0; });
   wants("was it given in degrees", [](auto& ground) { ground.fault.dip = 60.0; });
   wants("dip", [&](auto& ground) { ground.fault.dip = nan; });
-  wants("kink", [](auto& ground) { ground.fault.tip = 1.0; });
-  wants("kink", [&](auto& ground) { ground.fault.tip = nan; });
-  wants("tip", [](auto& ground) { ground.fault.tip = ground.layer.tip = 1e3; });
+  wants("put a node there", [](auto& ground) { ground.fault.tip = 1.0; });
+  wants("put a node there", [&](auto& ground) { ground.fault.tip = nan; });
+  wants("tip", [](auto& ground) { ground.fault.tip = ground.layer().tip = 1e3; });
   wants("unit weight", [&](auto& ground) { ground.unit_weight = nan; });
   wants("surcharge", [](auto& ground) { ground.surcharge = -1.0; });
-  wants("size", [](auto& ground) { ground.layer.size = 0.0; });
-  wants("depth", [&](auto& ground) { ground.layer.depth = nan; });
-  wants("triangles", [](auto& ground) { ground.layer.size = 1e-6; });
+  wants("size", [](auto& ground) { ground.layer().size = 0.0; });
+  wants("depth", [&](auto& ground) { ground.layer().depth = nan; });
+  wants("triangles", [](auto& ground) { ground.layer().size = 1e-6; });
   wants("dilation", [](auto& ground) { ground.soil.strength.strength.dilation = 1.0; });
   return at_most(0.0, missed, "wrong scenes that were taken");
 }
@@ -128,24 +128,26 @@ FaultAnswer with_kink_at(FaultGround const& ground, double tip) {
   scarp::SerialExecutor serial;
   auto fault = ground.fault;
   fault.tip = tip;
-  FaultGround::Grid grid(ground.layer.generate());
-  auto constraints = fault.constraints(grid.mesh(), 0, scarp::TimeFunction::after(0.0));
+  FaultGround::Grid grid(ground.layer().generate());
+  auto constraints = scarp::bedrock_constraints(grid.mesh(), fault, 0, scarp::TimeFunction::after(0.0));
   Eigen::VectorXd dead = body_force(grid, [&](int) { return scarp::Vector<2>(0.0, -ground.unit_weight); });
   dead += traction(grid, "surface", scarp::Vector<2>(0.0, -ground.surcharge));
-  auto problem = scarp::make_problem(std::move(grid), ground.layer.depth,
+  auto problem = scarp::make_problem(std::move(grid), ground.layer().depth,
                                      boost::hana::make_tuple(scarp::Region{"soil", ground.soil}), constraints,
                                      scarp::LoadHistory(dead), serial);
   return answer(ground, problem);
 }
 
-/// A kink between two nodes is one on the left of them, bit for bit: the bottom bends over the whole cell in either
-/// case.
+/// A kink between two nodes is a mean of kinks at these: its surface lies between theirs.
 Outcome kink_between_nodes() {
   FaultGround ground;
   ground.loaded(gamma_soil, 4e3);
-  auto const on_node = with_kink_at(ground, 0.0);
-  auto const between = with_kink_at(ground, 0.4 * ground.layer.size);
-  return at_most(0.0, difference(between, on_node), "difference of the surfaces", effort(between));
+  auto const place = [&](double tip) { return half_way(with_kink_at(ground, tip), 0.01) * ground.layer().depth; };
+  double const cell = ground.layer().size;
+  double const share = (place(0.4 * cell) - place(0.0)) / cell;
+  // A tenth of a cell for ground that yields: the place need not move evenly.
+  return at_most(0.1, std::abs(share - 0.4), "place of half the throw off the kink's, in cells",
+                 fmt::format("{:.3f}", share));
 }
 
 /// Ground and fault together elsewhere along x.
@@ -153,8 +155,8 @@ Outcome moved_scene() {
   FaultGround ground;
   ground.loaded(gamma_soil, 4e3);
   auto const reference = answer(ground);
-  for (double* place : {&ground.layer.left, &ground.layer.right, &ground.layer.tip, &ground.layer.band_left,
-                        &ground.layer.band_right, &ground.fault.tip}) {
+  for (double* place : {&ground.layer().left, &ground.layer().right, &ground.layer().tip, &ground.layer().band_left,
+                        &ground.layer().band_right, &ground.fault.tip}) {
     *place += 1234.5;
   }
   auto const moved = answer(ground);
@@ -172,19 +174,19 @@ Outcome mesh_past_kink(Size size) {
   for (double const shift : {0.0, 0.25, 0.5, 0.75}) {
     FaultGround ground;
     ground.loaded(gamma_soil, 4e3);
-    ground.layer.size = cell;
-    ground.layer.tip = -shift * cell;
-    ground.throw_to = 0.05 * ground.layer.depth;
+    ground.layer().size = cell;
+    ground.layer().tip = -shift * cell;
+    ground.throw_to = 0.05 * ground.layer().depth;
     auto const found = with_kink_at(ground, 0.0);
     if (!found.run.verdict.acceptable()) return {false, shift, "shift that was not solved", effort(found)};
-    double const place = half_way(found, 0.05) * ground.layer.depth / cell;
+    double const place = half_way(found, 0.05) * ground.layer().depth / cell;
     if (!std::isfinite(place)) return {false, shift, "shift without a place of half the throw", effort(found)};
     least = std::min(least, place);
     most = std::max(most, place);
     remark += fmt::format("{:.2f} ", place);
   }
-  // The ground sees the kink half a cell right of the last node that stays.
-  return at_most(1.25, most - least, "range of the half settlement's place over a cell", remark);
+  // The kink is felt where it is; a crossed cell is not the same at every shift.
+  return at_most(0.35, most - least, "range of the half settlement's place over a cell", remark);
 }
 
 }  // namespace

@@ -19,14 +19,17 @@ struct FaultGround : scarp::FreeFieldFault<FaultSoil, FaultNewton> {
 
   FaultGround() {
     constexpr double degree = std::numbers::pi / 180.0;
-    layer.size = 5.0;
+    layer().size = 5.0;
     soil.elasticity = scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25);
     soil.strength.strength = {.cohesion = 1e3, .friction = 30.8 * degree, .dilation = 6.6 * degree};
     soil.initial.k0 = 0.4;
     solver.tolerance = 1e-10;
     solver.rule.floor = 1e-4;
-    throw_to = 0.01 * layer.depth;
+    throw_to = 0.01 * layer().depth;
   }
+
+  scarp::FaultMesh& layer() { return ground.layer; }
+  scarp::FaultMesh const& layer() const { return ground.layer; }
 
   /// A value for the gravity, surcharge and initial stress alike.
   FaultGround& loaded(double weight, double pressure) {
@@ -41,8 +44,8 @@ struct FaultGround : scarp::FreeFieldFault<FaultSoil, FaultNewton> {
   FaultGround in_units(double length, double stress) const {
     FaultGround other = *this;
     for (double* place :
-         {&other.layer.left, &other.layer.right, &other.layer.depth, &other.layer.tip, &other.layer.size,
-          &other.layer.band_left, &other.layer.band_right, &other.fault.tip, &other.throw_to}) {
+         {&other.layer().left, &other.layer().right, &other.layer().depth, &other.layer().tip, &other.layer().size,
+          &other.layer().band_left, &other.layer().band_right, &other.fault.tip, &other.throw_to}) {
       *place *= length;
     }
     other.soil.elasticity.lame_lambda *= stress;
@@ -66,9 +69,9 @@ struct FaultAnswer {
 template <class Problem>
 FaultAnswer answer(FaultGround const& ground, Problem& problem) {
   auto scene = ground;
-  scene.stepping.first = 1e-3 / 25.0 * ground.layer.depth;
-  scene.stepping.smallest = 1e-7 / 25.0 * ground.layer.depth;
-  scene.stepping.largest = ground.largest_part * ground.layer.depth;
+  scene.stepping.first = 1e-3 / 25.0 * ground.layer().depth;
+  scene.stepping.smallest = 1e-7 / 25.0 * ground.layer().depth;
+  scene.stepping.largest = ground.largest_part * ground.layer().depth;
   scene.stepping.largest_gradient = 0.02;
   scarp::NoObserver nobody;
   FaultAnswer found;
@@ -78,8 +81,8 @@ FaultAnswer answer(FaultGround const& ground, Problem& problem) {
   auto const& grid = problem.discretisation();
   for (int const node : boundary_nodes(grid.mesh(), "surface")) {
     auto const k = static_cast<std::size_t>(node);
-    found.places.push_back((grid.mesh().nodes[k].x() - ground.fault.tip) / ground.layer.depth);
-    found.surface.push_back((grid.positions()[k] - grid.mesh().nodes[k]) / ground.layer.depth);
+    found.places.push_back((grid.mesh().nodes[k].x() - ground.fault.tip) / ground.layer().depth);
+    found.surface.push_back((grid.positions()[k] - grid.mesh().nodes[k]) / ground.layer().depth);
   }
   Eigen::VectorXd forces;
   auto const stresses = problem.committed_stresses();

@@ -67,9 +67,9 @@ struct Ran {
 
 Ran run_with(double share, double throw_over_depth) {
   scarp::FreeFieldFault<Soil> scene;
-  scene.layer.size = 5.0;
+  scene.ground.layer.size = 5.0;
   scene.fault.dip = std::numbers::pi / 6.0;
-  scene.throw_to = throw_over_depth * scene.layer.depth;
+  scene.throw_to = throw_over_depth * scene.ground.layer.depth;
   scene.surcharge = 0.0;
   scene.soil.share = share;
   scene.soil.provider.elastic =

@@ -35,7 +35,7 @@ scarp::FaultScene<FaultSoil, Structure, FaultNewton> scene_with(Structure const&
   if (strong) ground.soil.strength.strength.cohesion = 1e9;
   scarp::FaultScene<FaultSoil, Structure, FaultNewton> scene;
   scene.soil = ground.soil;
-  scene.layer = ground.layer;
+  scene.ground = ground.ground;
   scene.solver = ground.solver;
   scene.structure = structure;
   scene.stepping.largest_gradient = 0.02;
@@ -96,7 +96,7 @@ Outcome contrast(double factor) {
     scarp::StickingFooting footing;
     footing.block = scarp::LinearElastic<2>::from_young_poisson(times * 25e6, 0.25);
     auto scene = scene_with(footing, false);
-    scene.throw_to = 0.02 * scene.layer.depth;
+    scene.throw_to = 0.02 * scene.ground.layer.depth;
     scene.solver.tolerance = tolerance_at(times);
     return stand(scene, scene.stepping);
   };
@@ -118,7 +118,7 @@ Outcome frictional(double stiffness, double friction, double width, double throw
   footing.footing.width = width;
   footing.interface = {.normal_stiffness = stiffness, .tangential_stiffness = stiffness, .friction = friction};
   auto scene = scene_with(footing, false);
-  scene.throw_to = throw_over_depth * scene.layer.depth;
+  scene.throw_to = throw_over_depth * scene.ground.layer.depth;
   // Round-off of places of 25 m times the springs, over the footing's pressure of 91 kPa.
   scene.solver.tolerance = std::max(1e-10, 1e-19 * stiffness);
   auto const found = stand(scene, scene.stepping);

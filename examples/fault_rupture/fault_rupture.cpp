@@ -31,12 +31,17 @@ struct ChoiceLines {
   void operator()(std::string_view name, std::optional<double> const& value) {
     text += fmt::format("{} = {}\n", name, value ? fmt::format("{}", *value) : "the soil's own");
   }
+  void operator()(std::string_view name, std::optional<fault_rupture::MeshPattern> const& value) {
+    text += fmt::format("{} = {}\n", name,
+                        value ? fmt::format("number {}", static_cast<int>(*value)) : "the element's own");
+  }
 };
 
 /// \throws scarp::CheckpointError
 scarp::CheckpointFiles checkpoint_files(Choice const& choice) {
   ChoiceLines lines;
   Choice::members(choice, lines);
+  lines("element", fault_rupture::element_name);
   // The error budget follows points of the first rank.
   if (int const ranks = fault_rupture::ranks(); ranks > 1) lines("ranks", ranks);
   return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
@@ -47,7 +52,7 @@ CLI::Validator named(std::map<std::string, Enum> names) {
   return CLI::CheckedTransformer(std::move(names)).description("");
 }
 
-void declare_options(CLI::App& app, Choice& choice, bool& quick) {
+void declare_options(CLI::App& app, Choice& choice, std::string& element, bool& quick) {
   using namespace fault_rupture;
   using examples::number_from;
   app.add_option("--case", choice.scene, "free (field), heavy or light footing")
@@ -67,14 +72,30 @@ void declare_options(CLI::App& app, Choice& choice, bool& quick) {
       ->check(number_from(0.0, true, 10.0));
   app.add_flag("--quick", quick, "tiny mesh and few grains; other options still apply")->configurable(false);
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(number_from(0.0, false, 25.0));
-  app.add_option("--triangles", choice.triangles, "wanted number of triangles instead of --size")
+  app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
       ->check(CLI::Range(100, 1'000'000));
+  app.add_option("--element", element, "compiled in: examples/run builds and runs the program of the one that is named")
+      ->check(CLI::IsMember({"tri3", "tri6", "quad4", "quad8"}));
+  app.add_option(
+         "--pattern", choice.pattern,
+         "of the mesh: crossed, left or right (diagonals), quads, or jittered; crossed, or quads for quadrilaterals")
+      ->transform(named<MeshPattern>({{"crossed", MeshPattern::crossed},
+                                      {"left", MeshPattern::left},
+                                      {"right", MeshPattern::right},
+                                      {"quads", MeshPattern::quads},
+                                      {"jittered", MeshPattern::jittered}}));
+  app.add_option("--aspect", choice.aspect, "height of a mesh cell over its width")
+      ->check(number_from(0.0, false, 10.0));
+  app.add_option("--mesh-seed", choice.mesh_seed, "of a jittered mesh");
+  app.add_option("--mesh", choice.mesh, "Gmsh file: region soil; boundaries left, right, bottom, surface")
+      ->check(CLI::ExistingFile);
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--seed", choice.seed, "of the packing");
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));
   app.add_option("--dip", choice.dip, "of the fault [degrees]")->check(number_from(0.0, false, 90.0));
+  app.add_flag("--reverse", choice.reverse, "the hanging wall is pushed up the fault plane");
   app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--tolerance", choice.tolerance,
                  "force residual over reactions; packings 1e-3, below a footing 5e-3; else 1e-10")
@@ -126,12 +147,20 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Fault rupture below level ground or a footing: finite elements, with a discrete-element packing in each.");
   app.option_defaults()->always_capture_default();
-  declare_options(app, choice, quick);
+  std::string element = fault_rupture::element_name;
+  declare_options(app, choice, element, quick);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
     int const code = app.exit(error);
     return code == 0 ? 0 : 2;
+  }
+  if (element != fault_rupture::element_name) {
+    fmt::print(stderr,
+               "fault_rupture: --element {} (this program was compiled for {}): build and run the one for it by "
+               "./examples/run fault_rupture --element {}\n",
+               element, fault_rupture::element_name, element);
+    fault_rupture::give_up(2);
   }
   try {
     auto const started = std::chrono::steady_clock::now();

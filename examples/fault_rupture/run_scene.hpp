@@ -82,8 +82,8 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   fs::path const folder = choice.output;
   if (is_first_rank(executor)) {
     if (files.resumes()) fmt::print(stderr, "going on from '{}'\n", files.newest().string());
-    fmt::print(stderr, "{} triangles, {} threads, ground made after {:.1f} s\n",
-               problem.discretisation().mesh().elements.size(), threads.threads(), elapsed());
+    fmt::print(stderr, "{} {} elements, {} threads, ground made after {:.1f} s\n",
+               problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
     fs::create_directories(folder / "fields");
     remove_older_results(folder, files.resumes());
     if constexpr (requires { scene.soil.provider.source.packings; }) {
@@ -91,7 +91,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
       scarp::write_packing_tables(folder, packings[packings.size() / 2], scene.soil.provider.law);
     }
   }
-  double const depth = scene.layer.depth;
+  double const depth = scene.ground.depth();
   double const to = scene.throw_to;
   constexpr int profiles = 17;
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
@@ -124,6 +124,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   });
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& report = stages.report();
+  if (!report.verdict.acceptable()) observers.ended(problem, report.load);
 
   on_first_rank(problem, [&] {
     auto json = summary(choice, scene, problem, rest, report, elapsed());

@@ -49,7 +49,7 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
   int const soil = scarp::region_number(grid.mesh(), "soil");
   int points = 0;
   for (int point = 0; point < grid.point_count(); ++point) {
-    auto const site = grid.site(point, scene.layer.depth);
+    auto const site = grid.site(point, scene.ground.surface_level());
     if (site.region != soil) continue;
     ++points;
     auto const stress = committed_stress(problem, point);
@@ -135,21 +135,19 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   auto const& grid = problem.discretisation();
   auto const& ground = rest.ground.of(grid.mesh());
   auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
-  scarp::FaultOffset const offset{.tip = scene.fault.tip, .hanging = std::max(run.load, 0.0)};
+  auto const offset = scarp::offset_at(scene.fault, std::max(run.load, 0.0));
   auto const survey = scarp::rupture_survey(grid.mesh(), ground, grid.positions(), offset);
   Usage const used = usage();
   constexpr double from_side = 5.0;  // [m], where the far field is read: the sides themselves are prescribed
-  auto const per_throw = [&](double settlement) {
-    return run.load > 0.0 ? settlement / run.load : std::numeric_limits<double>::quiet_NaN();
-  };
   nlohmann::ordered_json json;
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
+  json["element"] = element_name;
   json["elements"] = grid.mesh().elements.size();
   if (choice.soil == Soil::dem) {
     json["grains_per_rve"] = choice.grains;
     json["seed"] = choice.seed;
   }
-  json["throw_over_depth"] = run.load / scene.layer.depth;
+  json["throw_over_depth"] = run.load / scene.ground.depth();
   json["k0"] = rest.k0;
   json["k0_min"] = rest.k0_min;
   json["k0_max"] = rest.k0_max;
@@ -159,9 +157,9 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   }
   json["vertical_stress_error"] = rest.vertical_error;
   add_rupture(json, survey, offset.tip - survey.depth / std::tan(scene.fault.dip));
-  json["settlement_foot_over_throw"] = per_throw(scarp::settlement_at(profile, profile.front().x_initial + from_side));
+  json["settlement_foot_over_throw"] = offset.share(scarp::settlement_at(profile, profile.front().x_initial + from_side));
   json["settlement_hanging_over_throw"] =
-      per_throw(scarp::settlement_at(profile, profile.back().x_initial - from_side));
+      offset.share(scarp::settlement_at(profile, profile.back().x_initial - from_side));
   add_footing(json, scene, problem);
   json["tolerance"] = scene.solver.tolerance;
   json["max_accepted_residual"] = run.largest_residual;

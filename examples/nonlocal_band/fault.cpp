@@ -17,7 +17,7 @@ void print_fault(FaultChoice const& choice) {
   print_rows(choice, [](double size) {
     Scene scene;
     scene.soil.provider = fault_rupture::make_frictional_soil();
-    scene.layer.size = size;
+    scene.ground.layer.size = size;
     scene.solver.rule.floor = 1e-4;
     scene.stepping.largest_gradient = 0.02;
     return scene;

@@ -35,7 +35,7 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
       scene.soil.length = length;
       scene.soil.stiffness = choice.stiffness;
       scene.soil.fading = choice.fading;
-      scene.throw_to = choice.throw_over_depth * scene.layer.depth;
+      scene.throw_to = choice.throw_over_depth * scene.ground.layer.depth;
       scene.solver.tolerance = choice.tolerance;
       auto problem = scene.problem(executor);
       scarp::NoObserver nobody;

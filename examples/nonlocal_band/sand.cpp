@@ -16,12 +16,12 @@ struct Scene : scarp::FreeFieldFault<Soil, Sand::Solver> {};
 void print_sand(FaultChoice const& choice, int grains, std::uint64_t seed) {
   print_rows(choice, [&](double size) {
     Scene scene;
-    scene.layer.size = size;
+    scene.ground.layer.size = size;
     scene.stepping.largest_gradient = Sand::largest_gradient(false);
     fault_rupture::Choice sand;
     sand.grains = grains;
     sand.seed = seed;
-    scene.soil.provider = fault_rupture::make_sand(sand, scene.layer);
+    scene.soil.provider = fault_rupture::make_sand(sand, scene.soil_depths());
     return scene;
   });
 }

@@ -6,6 +6,7 @@
 #include "approx.hpp"
 #include "bvp/sample_problems.hpp"
 #include "scarp/fault/fault_mesh.hpp"
+#include "scarp/fault/strip_on_surface.hpp"
 
 namespace {
 
@@ -17,8 +18,10 @@ scarp::Vector<Dim> sum(Eigen::VectorXd const& forces) {
 }  // namespace
 
 TEST_CASE("body forces add up to the weight of each region") {
-  scarp::FaultMesh const scene{.size = 2.5, .footing = scarp::Footing{-12.0, 7.0, 1.5}};
-  scarp::Discretisation<scarp::Tri3> const disc(scene.generate(), 0.2);
+  auto mesh = scarp::FaultMesh{.size = 2.5}.generate({-15.5, -8.5});
+  scarp::mark_footing_base(mesh, -12.0, 7.0);
+  scarp::add_footing_block(mesh, 1.5, 2.5);
+  scarp::Discretisation<scarp::Tri3> const disc(mesh, 0.2);
   int const footing = scarp::region_number(disc.mesh(), "footing");
   auto const forces =
       scarp::body_force(disc, [&](int region) { return scarp::Vector<2>(0.0, region == footing ? -25e3 : -16e3); });

@@ -28,7 +28,7 @@ Scene<Structure> scene(Structure const& structure, double cohesion) {
   made.soil = {scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25),
                {strength},
                {.surcharge = made.surcharge, .unit_weight = made.unit_weight, .k0 = 0.4}};
-  made.layer.size = 5.0;
+  made.ground.layer.size = 5.0;
   made.structure = structure;
   made.throw_to = 0.25;
   made.solver.tolerance = 1e-10;

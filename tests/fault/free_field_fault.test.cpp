@@ -106,7 +106,7 @@ TEST_CASE("elastic ground starts in balance with the given stress ratio and the 
   CHECK(rest.iterations == 1);
   for (int point = 0; point < problem.discretisation().point_count(); ++point) {
     auto const stress = problem.materials().committed_stress(point);
-    double const depth = problem.discretisation().site(point, scene.layer.depth).depth;
+    double const depth = problem.discretisation().site(point, scene.ground.layer.depth).depth;
     double const overburden = scene.surcharge + scene.unit_weight * depth;
     CHECK(stress(1) == samples::Approx(-overburden).epsilon(1e-12));  // round-off of the settling solve
     CHECK(stress(0) == samples::Approx(-sample::k0 * overburden).epsilon(1e-12));
@@ -133,8 +133,8 @@ TEST_CASE("the fault moves the hanging wall by the throw and leaves the foot wal
   CHECK(profile.back().x - profile.back().x_initial ==
         samples::Approx(scene.throw_to / std::tan(scene.fault.dip)).epsilon(1e-6));
   auto const found = scarp::outcrop(profile, run.load);
-  CHECK(found.steepest_x > scene.layer.left);
-  CHECK(found.steepest_x < scene.layer.right);
+  CHECK(found.steepest_x > scene.ground.layer.left);
+  CHECK(found.steepest_x < scene.ground.layer.right);
   CHECK(found.width > 0.0);
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("parts of a scene that make no sense are refused") {
   refused([](auto& scene) { scene.throw_to = 0.0; });
   refused([](auto& scene) { scene.fault.tip = 100.0; });
   refused([](auto& scene) { scene.fault.dip = 60.0; });
-  refused([](auto& scene) { scene.layer.size = 0.0; });
+  refused([](auto& scene) { scene.ground.layer.size = 0.0; });
 }
 
 TEST_CASE("ground of packings ruptures to the asked throw") {
@@ -175,7 +175,7 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
   std::filesystem::create_directory(folder / "fields");
   auto const& scene = sample::sandy_ground();
   scarp::SerialExecutor serial;
-  double const unit = scene.layer.depth;
+  double const unit = scene.ground.layer.depth;
   int files = 0;
   FilesAreWhole whole;
   whole.folder = folder.path();

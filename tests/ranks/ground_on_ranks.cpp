@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   } else {
     scarp::FreeFieldFault<scarp::Nonlocal<sample::Sand>> scene;
     scene.soil = {.provider = ground.soil, .length = length};
-    scene.layer = ground.layer;
+    scene.ground = ground.ground;
     scene.throw_to = ground.throw_to;
     scene.solver = ground.solver;
     rupture(scene, threads, files, attempts);

@@ -7,6 +7,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/fault_mesh.hpp"
+#include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 
 namespace {
@@ -21,9 +22,10 @@ static_assert(scarp::MaterialField<TwoRegions>);
 constexpr double depth = 25.0;
 
 Grid ground_with_footing() {
-  scarp::FaultMesh mesh{.depth = depth, .size = 8.0};
-  mesh.footing = scarp::Footing{.centre = -10.0, .width = 10.0, .height = 2.0};
-  return Grid(mesh.generate());
+  auto mesh = scarp::FaultMesh{.depth = depth, .size = 8.0}.generate({-15.0, -5.0});
+  scarp::mark_footing_base(mesh, -10.0, 10.0);
+  scarp::add_footing_block(mesh, 2.0, 8.0);
+  return Grid(mesh);
 }
 
 scarp::Region<Soil> soil() { return {"soil", Soil::from_young_poisson(20e6, 0.3, {.unit_weight = 16e3, .k0 = 0.5})}; }

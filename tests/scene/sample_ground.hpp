@@ -21,7 +21,7 @@ inline constexpr double k0 = 0.4;
 inline scarp::FreeFieldFault<ElasticSoil> elastic_ground() {
   scarp::FreeFieldFault<ElasticSoil> scene;
   scene.soil = ElasticSoil::from_young_poisson(20e6, 0.3, {scene.surcharge, scene.unit_weight, k0});
-  scene.layer.size = 5.0;
+  scene.ground.layer.size = 5.0;
   return scene;
 }
 
@@ -29,12 +29,12 @@ inline scarp::FreeFieldFault<ElasticSoil> elastic_ground() {
 inline scarp::FreeFieldFault<Sand> const& sandy_ground() {
   static scarp::FreeFieldFault<Sand> const made = [] {
     scarp::FreeFieldFault<Sand> scene;
-    scene.layer.size = 12.0;
-    scene.throw_to = 0.002 * scene.layer.depth;
-    scarp::Discretisation<scarp::Tri3> const grid(scene.layer.generate());
+    scene.ground.layer.size = 12.0;
+    scene.throw_to = 0.002 * scene.ground.layer.depth;
+    scarp::Discretisation<scarp::Tri3> const grid(scene.ground.layer.generate());
     std::vector<double> depths;
     for (int point = 0; point < grid.point_count(); ++point)
-      depths.push_back(grid.site(point, scene.layer.depth).depth);
+      depths.push_back(grid.site(point, scene.ground.layer.depth).depth);
     scarp::LevelGround<scarp::EllipseGrading> ground;
     ground.cloud = {.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75},
                     .grains = 36,

@@ -11,20 +11,26 @@ namespace fault_rupture {
 enum class Case { free, heavy, light };
 enum class Soil { dem, mohr_coulomb, elastic };
 enum class Base { sticking, frictional };
+enum class MeshPattern { crossed, left, right, quads, jittered };
 
 /// What a user may choose; defaults are the study's free field on a mesh for a ten-minute run.
 struct Choice {
   Case scene = Case::free;
   Soil soil = Soil::dem;
   Base base = Base::sticking;
-  bool quick = false;  ///< looser defaults of tolerance and load steps with packings
-  double size = 2.5;   ///< [m], cell width in the band
-  int triangles = 0;   ///< wanted number instead of `size`; 0 for none
+  bool quick = false;                  ///< looser defaults of tolerance and load steps with packings
+  double size = 2.5;                   ///< [m], cell width in the band
+  int triangles = 0;                   ///< wanted number of elements instead of `size`; 0 for none
+  std::optional<MeshPattern> pattern;  ///< crossed, or quads where elements are quadrilaterals
+  double aspect = 1.0;                 ///< height of a cell over its width
+  std::uint64_t mesh_seed = 1;         ///< of the jittered mesh
+  std::string mesh;                    ///< Gmsh file in place of all these
   int grains = 400;
   std::uint64_t seed = 1;
   double preparation_friction = 0.09;
   double throw_over_depth = 0.085;
   double dip = 60.0;                       ///< [degrees]
+  bool reverse = false;                    ///< the hanging wall goes up
   double tip = 0.0;                        ///< [m]
   std::optional<double> tolerance;         ///< of the force residual; packings 1e-3, below a footing 5e-3; else 1e-10
   std::optional<double> largest_gradient;  ///< of a load step; 0.005 with packings, else 0.02
@@ -58,6 +64,11 @@ struct Choice {
     visit("quick", self.quick);
     visit("size", self.size);
     visit("triangles", self.triangles);
+    visit("pattern", self.pattern);
+    visit("aspect", self.aspect);
+    visit("mesh-seed", self.mesh_seed);
+    visit("mesh", self.mesh);
+    visit("reverse", self.reverse);
     visit("grains", self.grains);
     visit("seed", self.seed);
     visit("preparation-friction", self.preparation_friction);

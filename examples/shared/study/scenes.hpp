@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "chosen_ground.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/sticking_footing.hpp"
@@ -11,7 +12,7 @@
 namespace fault_rupture {
 
 template <class SoilType, class Structure>
-using Scene = scarp::FaultScene<SoilType, Structure, typename SoilType::Solver>;
+using Scene = scarp::FaultScene<SoilType, Structure, typename SoilType::Solver, ChosenGround<Element>, ChosenFault>;
 using RigidFooting = scarp::FrictionalFooting<scarp::LinearFrictional>;
 
 struct SandFreeField : Scene<Sand, scarp::BareGround> {};
@@ -27,12 +28,6 @@ struct ElasticFrictionalFooting : Scene<ElasticSoil, RigidFooting> {};
 using AnyScene = std::variant<SandFreeField, SandStickingFooting, SandFrictionalFooting, MohrCoulombFreeField,
                               MohrCoulombStickingFooting, MohrCoulombFrictionalFooting, ElasticFreeField,
                               ElasticStickingFooting, ElasticFrictionalFooting>;
-
-inline scarp::FaultMesh layer_of(Choice const& choice) {
-  scarp::FaultMesh layer{.tip = choice.tip, .size = choice.size};
-  if (choice.triangles > 0) layer = layer.with_about(choice.triangles);
-  return layer;
-}
 
 inline scarp::StripFooting footing_of(Choice const& choice) {
   double const own = choice.scene == Case::heavy ? 91e3 : 37e3;
@@ -55,17 +50,17 @@ template <class SceneType>
 SceneType make(Choice const& choice) {
   using SoilType = decltype(SceneType::soil);
   SceneType scene;
-  scene.layer = layer_of(choice);
-  scene.fault = {.dip = choice.dip * std::numbers::pi / 180.0, .tip = choice.tip};
+  scene.ground = ground_of<Element>(choice);
+  scene.fault = {{.dip = choice.dip * std::numbers::pi / 180.0, .tip = choice.tip}, choice.reverse};
   scene.unit_weight = unit_weight;
   scene.surcharge = surcharge;
-  scene.throw_to = choice.throw_over_depth * scene.layer.depth;
+  scene.throw_to = choice.throw_over_depth * scene.ground.depth();
   scene.solver.tolerance = choice.tolerance.value_or(SoilType::tolerance(choice));
   scene.solver.most_iterations = choice.most_iterations;
   scene.stepping.largest_gradient = choice.largest_gradient.value_or(SoilType::largest_gradient(choice.quick));
   set(scene.structure, choice);
   if constexpr (std::is_same_v<SoilType, Sand>) {
-    scene.soil = make_sand(choice, scene.structure.on(scene.layer));
+    scene.soil = make_sand(choice, scene.soil_depths());
   } else if constexpr (std::is_same_v<SoilType, FrictionalSoil>) {
     scene.soil = make_frictional_soil();
     scene.solver.rule.floor = 1e-4;

@@ -4,8 +4,6 @@
 #include <numbers>
 #include <vector>
 
-#include "scarp/bvp/discretisation.hpp"
-#include "scarp/element/tri3.hpp"
 #include "scarp/fault/level_ground.hpp"
 #include "study_sand.hpp"
 
@@ -18,21 +16,9 @@ scarp::GeostaticStress<2> ground_at_rest() { return {.surcharge = surcharge, .un
 
 scarp::IsotropicElasticity soil_elasticity() { return scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25); }
 
-/// Depths of all points of the soil [m].
-std::vector<double> depths(scarp::FaultMesh const& layer) {
-  scarp::Discretisation<scarp::Tri3> const grid(layer.generate());
-  int const soil = scarp::region_number(grid.mesh(), "soil");
-  std::vector<double> found;
-  for (int point = 0; point < grid.point_count(); ++point) {
-    auto const site = grid.site(point, layer.depth);
-    if (site.region == soil) found.push_back(site.depth);
-  }
-  return found;
-}
-
 }  // namespace
 
-Sand make_sand(Choice const& choice, scarp::FaultMesh const& layer) {
+Sand make_sand(Choice const& choice, std::vector<double> depths) {
   auto const law = examples::study_law();
   scarp::LevelGround<scarp::EllipseGrading> ground;
   ground.cloud = examples::study_cloud(choice.grains, choice.seed);
@@ -42,7 +28,7 @@ Sand make_sand(Choice const& choice, scarp::FaultMesh const& layer) {
   Sand sand;
   auto& packings = sand.provider;
   packings.law = law;
-  packings.source = ground.make<Grains>(law, depths(layer));
+  packings.source = ground.make<Grains>(law, std::move(depths));
   packings.strain_per_step = choice.strain_per_step;
   packings.least_steps = choice.least_dem_steps;
   packings.unbalanced_tolerance = choice.unbalanced_tolerance;

@@ -9,7 +9,6 @@
 #include "scarp/constitutive/softening_strength.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/fault/fault_mesh.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/consistent_tangent.hpp"
 #include "scarp/solver/quasi_newton.hpp"
@@ -46,9 +45,9 @@ struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
   static double largest_gradient(bool) { return 0.02; }
 };
 
-/// layer: the mesh that the scene will have
+/// depths [m]: of all points that will be sand
 /// \throws scarp::PreparationError
-Sand make_sand(Choice const& choice, scarp::FaultMesh const& layer);
+Sand make_sand(Choice const& choice, std::vector<double> depths);
 FrictionalSoil make_frictional_soil();
 ElasticSoil make_elastic_soil();
 

@@ -22,6 +22,7 @@ template <ReferenceElement Element, Kinematics Motion = UpdatedLagrangian, class
   requires Integration<Scheme, Element>
 class Discretisation {
  public:
+  using ElementType = Element;
   static constexpr bool follows_motion = Motion::follows_motion;
   static constexpr int dim = Element::dim;
   static constexpr int points_per_element = static_cast<int>(material_points<Scheme, Element>);

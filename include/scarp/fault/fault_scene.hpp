@@ -1,36 +1,43 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/bvp/usual_integration.hpp"
 #include "scarp/element/tri3.hpp"
-#include "scarp/fault/fault_block.hpp"
-#include "scarp/fault/fault_mesh.hpp"
+#include "scarp/fault/ground.hpp"
+#include "scarp/fault/layered_ground.hpp"
+#include "scarp/fault/normal_fault.hpp"
 #include "scarp/scene/scene.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 
 namespace scarp {
 
-/// What stands on the ground: part of the mesh, loads, regions and what is attached, in stages of the load factor: from -1 to 0 it is
-/// placed, from 0 on the fault moves.
+/// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is attached, in
+/// stages of the load factor: from start() to 0 it is placed, from 0 on the fault moves.
 template <class Structure, class Grid>
-concept StandsOnGround = requires(Structure const& structure, FaultMesh const& layer, Grid const& grid,
+concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid::ElementType>& mesh, Grid const& grid,
                                   LoadHistory& loads) {
-  { structure.on(layer) } -> std::same_as<FaultMesh>;
+  { structure.edges() } -> std::same_as<std::vector<double>>;
+  structure.put_on(mesh);
   { structure.extra_dofs() } -> std::same_as<int>;
   { structure.start() } -> std::same_as<double>;
-  {structure.add_loads(grid, 4e3, loads)};
-  {structure.attached(grid)};
+  structure.add_loads(grid, 4e3, loads);
+  structure.attached(grid);
 };
 
-/// Level ground over a dip-slip fault in the bedrock. `Soil` is any provider whose initial states carry the geostatic stress; the
-/// load factor is the throw [m] once it is positive.
-template <ConstitutiveProvider Soil, class Structure, class Solver = QuasiNewton<>>
+/// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states carry the
+/// geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the bedrock, structure,
+/// solver and grid (element, integration, kinematics) are chosen independently of one another.
+template <ConstitutiveProvider Soil, class Structure, class Solver = QuasiNewton<>,
+          Ground GroundType = LayeredGround<Tri3>, BedrockMotion Motion = NormalFault,
+          class GridType = UsualGrid<typename GroundType::Element>>
 struct FaultScene {
-  using Grid = Discretisation<Tri3>;
+  using Grid = GridType;
+  static constexpr int dim = Grid::dim;
 
   Soil soil;
-  FaultMesh layer{};
-  FaultBlock fault{};
+  GroundType ground{};
+  Motion fault{};
   double unit_weight = 15.68e3;    ///< [N/m3]
   double surcharge = 4e3;          ///< [Pa], on the ground surface, below a structure until it is placed
   double throw_to = 0.085 * 25.0;  ///< [m]
@@ -38,30 +45,51 @@ struct FaultScene {
   LoadStepping stepping{};
   Structure structure{};
 
+  /// The ground with what of the structure is part of the mesh.
+  /// \throws InputError for parts that do not fit
+  Mesh<typename GroundType::Element> mesh() const {
+    static_assert(StandsOnGround<Structure, Grid>);
+    static_assert(std::same_as<typename GroundType::Element, typename Grid::ElementType>,
+                  "the grid is of the ground's element");
+    auto made = ground.mesh(structure.edges());
+    structure.put_on(made);
+    return made;
+  }
+
+  /// Depths of all points of the soil [m], for those who prepare it.
+  /// \throws InputError for parts that do not fit
+  std::vector<double> soil_depths() const {
+    Grid const grid(mesh());
+    int const soil_region = region_number(grid.mesh(), "soil");
+    std::vector<double> depths;
+    for (int point = 0; point < grid.point_count(); ++point) {
+      auto const site = grid.site(point, ground.surface_level());
+      if (site.region == soil_region) depths.push_back(site.depth);
+    }
+    return depths;
+  }
+
   /// \throws InputError for parts that do not fit
   template <class Executor>
   auto problem(Executor& executor) const {
-    static_assert(StandsOnGround<Structure, Grid>);
     require_not_negative("unit weight", unit_weight);
     require_not_negative("surcharge", surcharge);
     require_positive("throw", throw_to);
-    if (layer.tip != fault.tip) {
-      refuse("the mesh has its kink at x = {} m, the fault at {} m (the kink belongs on a node): set both alike",
-             layer.tip, fault.tip);
-    }
-    Grid grid(structure.on(layer).generate());
-    Constraints constraints = fault.constraints(grid.mesh(), structure.extra_dofs(), TimeFunction::after(0.0));
+    Grid grid(mesh());
+    require_node_at_tip(grid.mesh(), fault.tip);
+    Constraints constraints = bedrock_constraints(grid.mesh(), fault, structure.extra_dofs(), TimeFunction::after(0.0));
     int const soil_region = region_number(grid.mesh(), "soil");
+    Vector<dim> const down = -Vector<dim>::Unit(dim - 1);
     Eigen::VectorXd dead =
-        body_force(grid, [&](int region) { return Vector<2>(0.0, region == soil_region ? -unit_weight : 0.0); });
-    dead += traction(grid, "surface", Vector<2>(0.0, -surcharge));
+        body_force(grid, [&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
+    dead += traction(grid, "surface", surcharge * down);
     dead.conservativeResizeLike(Eigen::VectorXd::Zero(grid.dof_count() + structure.extra_dofs()));
     LoadHistory loads(std::move(dead));
     structure.add_loads(grid, surcharge, loads);
     auto attached = structure.attached(grid);
     auto const regions = structure.regions(Region{"soil", soil});
-    return make_problem(std::move(grid), layer.depth, regions, std::move(constraints), std::move(loads), executor,
-                        std::move(attached));
+    return make_problem(std::move(grid), ground.surface_level(), regions, std::move(constraints), std::move(loads),
+                        executor, std::move(attached));
   }
 
   /// First stage: the ground as prepared is brought into equilibrium.
@@ -78,7 +106,7 @@ struct FaultScene {
     return stage.run(solver, problem, structure.start(), 0.0, observer);
   }
 
-  /// Last stage: the hanging wall moves.
+  /// Last stage: the bedrock moves.
   template <class ProblemType, class Observer>
   RunReport rupture(ProblemType& problem, Observer& observer) const {
     return stepping.run(solver, problem, 0.0, throw_to, observer);

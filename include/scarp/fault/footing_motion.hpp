@@ -16,6 +16,8 @@ struct StripFooting {
   double centre = -10.5;  ///< x [m]
   double width = 10.0;    ///< [m]
   double bearing = 91e3;  ///< mean pressure on the base [Pa]
+
+  std::vector<double> edges() const { return {centre - width / 2.0, centre + width / 2.0}; }
 };
 
 /// How a footing has moved since it was placed, and what the ground presses with against its base.

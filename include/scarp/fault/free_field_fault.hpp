@@ -7,7 +7,9 @@ namespace scarp {
 
 /// Nothing stands on the ground.
 struct BareGround {
-  static FaultMesh on(FaultMesh const& layer) { return layer; }
+  static std::vector<double> edges() { return {}; }
+  template <class Element>
+  static void put_on(Mesh<Element>&) {}
   static constexpr int extra_dofs() { return 0; }
   static constexpr double start() { return 0.0; }
   template <class Grid>
@@ -22,8 +24,9 @@ struct BareGround {
   }
 };
 
-/// The study's free-field case.
-template <ConstitutiveProvider Soil, class Solver = QuasiNewton<>>
-using FreeFieldFault = FaultScene<Soil, BareGround, Solver>;
+/// Nothing but ground and fault; by default the study's case.
+template <ConstitutiveProvider Soil, class Solver = QuasiNewton<>, Ground GroundType = LayeredGround<Tri3>,
+          BedrockMotion Motion = NormalFault, class Grid = UsualGrid<typename GroundType::Element>>
+using FreeFieldFault = FaultScene<Soil, BareGround, Solver, GroundType, Motion, Grid>;
 
 }  // namespace scarp

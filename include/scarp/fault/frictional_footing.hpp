@@ -6,6 +6,8 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/fault_scene.hpp"
 #include "scarp/fault/footing_motion.hpp"
+#include "scarp/fault/strip_on_surface.hpp"
+#include "scarp/mesh/straight_facets.hpp"
 
 namespace scarp {
 
@@ -15,9 +17,10 @@ struct FrictionalFooting {
   StripFooting footing{};
   Law interface {};  ///< [Pa/m] where grains have [N/m]
 
-  FaultMesh on(FaultMesh layer) const {
-    layer.footing = Footing{.centre = footing.centre, .width = footing.width, .meshed = false};
-    return layer;
+  std::vector<double> edges() const { return footing.edges(); }
+  template <class Element>
+  void put_on(Mesh<Element>& mesh) const {
+    mark_footing_base(mesh, footing.centre, footing.width);
   }
   static constexpr int extra_dofs() { return RigidBody::extra_dofs; }
   static constexpr double start() { return -1.0; }
@@ -33,12 +36,11 @@ struct FrictionalFooting {
   template <class Grid>
   Interface<Law, RigidFooting> attached(Grid const& grid) const {
     auto const& mesh = grid.mesh();
-    auto ground = boundary(mesh, "footing_base");
-    double const level = mesh.nodes[static_cast<std::size_t>(ground.front().front())].y();
+    auto ground = straight_facets(mesh, "footing_base");
+    double const level = mesh.nodes[detail::index(ground.front().front())].y();
     std::vector<double> breaks;
-    for (int const node : boundary_nodes(mesh, "footing_base"))
-      breaks.push_back(mesh.nodes[static_cast<std::size_t>(node)].x());
-    auto const& beside = boundary(mesh, "surface");
+    for (int const node : boundary_nodes(mesh, "footing_base")) breaks.push_back(mesh.nodes[detail::index(node)].x());
+    auto const beside = straight_facets(mesh, "surface");
     ground.insert(ground.end(), beside.begin(), beside.end());
     double const half = footing.width / 2.0;
     RigidFooting const body({{footing.centre, level}, half}, {footing.centre - half, level},
@@ -56,7 +58,7 @@ struct FrictionalFooting {
     auto const& body = problem.attached().body().body();
     auto const& mesh = problem.discretisation().mesh();
     int const node = boundary(mesh, "footing_base").front().front();
-    Vector<2> const start(footing.centre, mesh.nodes[static_cast<std::size_t>(node)].y());
+    Vector<2> const start(footing.centre, mesh.nodes[detail::index(node)].y());
     return {start.y() - body.reference().y(), body.reference().x() - start.x(), -body.rotation(),
             problem.attached().points()};
   }

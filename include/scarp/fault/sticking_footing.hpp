@@ -7,6 +7,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/fault/fault_scene.hpp"
 #include "scarp/fault/footing_motion.hpp"
+#include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/run/visit_point.hpp"
 
 namespace scarp {
@@ -17,9 +18,12 @@ struct StickingFooting {
   double height = 1.0;                                               ///< [m]
   LinearElastic<2> block = LinearElastic<2>::from_lame(20e9, 12e9);  ///< the study's
 
-  FaultMesh on(FaultMesh layer) const {
-    layer.footing = Footing{.centre = footing.centre, .width = footing.width, .height = height};
-    return layer;
+  std::vector<double> edges() const { return footing.edges(); }
+  template <class Element>
+  void put_on(Mesh<Element>& mesh) const {
+    mark_footing_base(mesh, footing.centre, footing.width);
+    double const facets = static_cast<double>(boundary(mesh, "footing_base").size());
+    add_footing_block(mesh, height, footing.width / facets);
   }
   static constexpr int extra_dofs() { return 0; }
   static constexpr double start() { return -1.0; }
@@ -46,7 +50,7 @@ struct StickingFooting {
     auto const& grid = problem.discretisation();
     auto const& mesh = grid.mesh();
     auto nodes = boundary_nodes(mesh, "footing_base");
-    auto const index = [](int node) { return static_cast<std::size_t>(node); };
+    using detail::index;
     std::sort(nodes.begin(), nodes.end(),
               [&](int a, int b) { return mesh.nodes[index(a)].x() < mesh.nodes[index(b)].x(); });
     Vector<2> const left = grid.positions()[index(nodes.front())];
@@ -76,11 +80,10 @@ struct StickingFooting {
   template <class Problem>
   Eigen::VectorXd forces_of_block(Problem const& problem) const {
     auto const& grid = problem.discretisation();
-    std::vector<VoigtStress<2>> stresses(static_cast<std::size_t>(grid.point_count()), VoigtStress<2>::Zero());
+    std::vector<VoigtStress<2>> stresses(detail::index(grid.point_count()), VoigtStress<2>::Zero());
     int const region = region_number(grid.mesh(), "footing");
     for (int point = 0; point < grid.point_count(); ++point) {
-      if (grid.site(point, 0.0).region == region)
-        stresses[static_cast<std::size_t>(point)] = committed_stress(problem, point);
+      if (grid.site(point, 0.0).region == region) stresses[detail::index(point)] = committed_stress(problem, point);
     }
     Eigen::VectorXd forces;
     grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), stresses, forces);

@@ -10,19 +10,6 @@
 
 namespace scarp {
 
-namespace detail {
-
-template <class Element>
-struct CornerElement {
-  using Type = Element;
-};
-template <HasMidSides Element>
-struct CornerElement<Element> {
-  using Type = typename Element::Linear;
-};
-
-}  // namespace detail
-
 /// Rectangle or box from the origin to `lengths`, a grid of cells that are divided into the elements; region "soil",
 /// boundaries "left" and "right" along x, "bottom" and "top" along the last axis and in 3D "front" and "back" along y.
 /// Interior corners may be moved at random; then nodes on edges are put in their middles, and at last every node goes
@@ -46,7 +33,7 @@ struct BoxMesh {
   /// \throws InputError for lengths, counts or a distortion out of range, and for a map that turns elements inside out
   Mesh<Element> generate() const {
     check();
-    auto mesh = finish(corner_mesh());
+    auto mesh = with_nodes_of<Element>(corner_mesh());
     if (map) {
       for (auto& node : mesh.nodes) {
         node = map(node);
@@ -57,7 +44,7 @@ struct BoxMesh {
   }
 
  private:
-  using Linear = typename detail::CornerElement<Element>::Type;
+  using Linear = LinearOf<Element>;
   static_assert(detail::is_simplex<Linear> || detail::is_cube<Linear>,
                 "a box can be divided into elements that are triangles, tetrahedra, quadrilaterals or hexahedra");
   using Place = std::array<int, dim>;  // of a grid node, in cells along each axis
@@ -96,14 +83,6 @@ struct BoxMesh {
     });
     add_boundaries(mesh, places);
     return mesh;
-  }
-
-  static Mesh<Element> finish(Mesh<Linear> linear) {
-    if constexpr (HasMidSides<Element>) {
-      return with_mid_side_nodes<Element>(linear);
-    } else {
-      return linear;
-    }
   }
 
   /// visit(place) for every cell (extra = 0) or grid node (extra = 1), the first axis fastest.

@@ -11,6 +11,15 @@ namespace scarp {
 
 namespace detail {
 
+template <class Element>
+struct CornerElement {
+  using Type = Element;
+};
+template <HasMidSides Element>
+struct CornerElement<Element> {
+  using Type = typename Element::Linear;
+};
+
 /// For each facet of a mesh, by its sorted nodes: an element that has it, and which of that element's facets it is.
 template <class Element>
 std::map<std::array<int, Element::facet_nodes>, std::pair<int, int>> facet_owners(Mesh<Element> const& mesh) {
@@ -43,6 +52,10 @@ constexpr bool facets_agree() {
 }
 
 }  // namespace detail
+
+/// The element without the nodes on its sides; a straight element itself.
+template <class Element>
+using LinearOf = typename detail::CornerElement<Element>::Type;
 
 /// The mesh with one more node in the middle of every edge, shared by the elements there; edges stay straight. Corners
 /// keep their numbers, regions and boundaries their names.
@@ -83,5 +96,17 @@ template <ReferenceElement Element>
     }
     return mesh;
   }
+
+/// A mesh of any element from its corners' mesh.
+/// \throws InputError for an invalid mesh
+template <ReferenceElement Element>
+Mesh<Element> with_nodes_of(Mesh<LinearOf<Element>> linear) {
+  if constexpr (HasMidSides<Element>) {
+    return with_mid_side_nodes<Element>(linear);
+  } else {
+    validate(linear);
+    return linear;
+  }
+}
 
 }  // namespace scarp

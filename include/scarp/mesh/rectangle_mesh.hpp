@@ -4,7 +4,8 @@
 #include <cstdint>
 
 #include "scarp/core/random.hpp"
-#include "scarp/mesh/crossed_grid.hpp"
+#include "scarp/element/tri3.hpp"
+#include "scarp/mesh/pattern_grid.hpp"
 
 namespace scarp {
 
@@ -31,8 +32,8 @@ struct RectangleMesh {
     }
     Mesh<Tri3> mesh;
     mesh.regions = {"soil"};
-    GridNumbers numbers(columns + 1, rows + 1);
-    add_crossed_grid(mesh, lines(width, columns), lines(height, rows), numbers, 0);
+    auto const numbers = add_grid_nodes(mesh.nodes, lines(width, columns), lines(height, rows));
+    add_grid_cells(mesh, numbers, Pattern::crossed, 0);
     mesh.boundaries["left"] = left_facets(numbers, rows);
     mesh.boundaries["right"] = right_facets(numbers, columns, rows);
     mesh.boundaries["bottom"] = lower_facets(numbers, 0, columns);

@@ -53,6 +53,14 @@ class FieldSeries : public NeverStops {
     write(problem, report.load);
   }
 
+  /// Writes the last state of a run that stopped between two frames.
+  template <class Problem>
+  void ended(Problem const& problem, double load) {
+    if (load <= last_) return;
+    last_ = load;
+    write(problem, load);
+  }
+
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     visit("series", self.series_);

@@ -21,6 +21,14 @@ struct Observers {
     boost::hana::for_each(parts, [&](auto& part) { part.attempted(problem, report); });
   }
 
+  /// Tells those who want to know where a run has stopped.
+  template <class Problem>
+  void ended(Problem const& problem, double load) {
+    boost::hana::for_each(parts, [&](auto& part) {
+      if constexpr (requires { part.ended(problem, load); }) part.ended(problem, load);
+    });
+  }
+
   bool wants_stop() const {
     bool stop = false;
     boost::hana::for_each(parts, [&](auto const& part) { stop = stop || part.wants_stop(); });

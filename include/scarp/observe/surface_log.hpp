@@ -28,26 +28,40 @@ class SurfaceLog : public NeverStops {
     rest_.attempted(problem, report);
     if (!report.verdict.acceptable() || (report.load < next_ && report.load < end_)) return;
     while (next_ <= report.load) next_ += between_;
-    auto const& grid = problem.discretisation();
-    for (auto const& point : surface_profile(grid.mesh(), rest_.of(grid.mesh()), grid.positions())) {
-      log_.add(report.load / load_unit_, point.x_initial, point.x, point.settlement, point.joined ? 1 : 0);
-    }
+    write(problem, report.load);
+  }
+
+  /// Writes the last state of a run that stopped between two profiles.
+  template <class Problem>
+  void ended(Problem const& problem, double load) {
+    if (load > last_) write(problem, load);
   }
 
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     visit("log", self.log_);
     visit("next", self.next_);
+    visit("last", self.last_);
     visit("rest", self.rest_);
   }
 
  private:
+  template <class Problem>
+  void write(Problem const& problem, double load) {
+    last_ = load;
+    auto const& grid = problem.discretisation();
+    for (auto const& point : surface_profile(grid.mesh(), rest_.of(grid.mesh()), grid.positions())) {
+      log_.add(load / load_unit_, point.x_initial, point.x, point.settlement, point.joined ? 1 : 0);
+    }
+  }
+
   CsvLog log_;
   GroundAtRest<Dim> rest_;
   double between_;
   double end_;
   double load_unit_;
   double next_ = 0.0;
+  double last_ = 0.0;
 };
 
 }  // namespace scarp

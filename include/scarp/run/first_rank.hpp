@@ -78,6 +78,11 @@ class OnFirstRank {
     on_first_rank(problem, [&] { observers_->attempted(problem, report); });
   }
 
+  template <class Problem>
+  void ended(Problem const& problem, double load) {
+    on_first_rank(problem, [&] { observers_->ended(problem, load); });
+  }
+
   bool wants_stop() const { return agreed(executor_, observers_ && observers_->wants_stop()); }
 
   /// Of the observers; nothing on other ranks.

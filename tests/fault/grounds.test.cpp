@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSL-1.0
+// The fault scene on every element, pattern and kind of ground.
+#include <doctest/doctest.h>
+
+#include "approx.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/element/hex20.hpp"
+#include "scarp/element/quad8.hpp"
+#include "scarp/element/tet10.hpp"
+#include "scarp/element/tri6.hpp"
+#include "scarp/fault/free_field_fault.hpp"
+#include "scarp/fault/given_ground.hpp"
+#include "scarp/fault/reverse_fault.hpp"
+#include "scarp/solver/consistent_tangent.hpp"
+
+namespace {
+
+using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+
+template <int dim>
+using Soil = scarp::LinearElastic<dim, scarp::GeostaticStress<dim>>;
+
+template <class Ground, class Motion = scarp::NormalFault, class Grid = scarp::UsualGrid<typename Ground::Element>>
+using Scene = scarp::FreeFieldFault<Soil<Ground::Element::dim>, Newton, Ground, Motion, Grid>;
+
+template <class SceneType>
+SceneType elastic(SceneType scene) {
+  scene.soil = std::remove_cvref_t<decltype(scene.soil)>::from_young_poisson(20e6, 0.3,
+                                                                             {scene.surcharge, scene.unit_weight, 0.4});
+  scene.throw_to = 0.25;
+  scene.solver.tolerance = 1e-9;
+  return scene;
+}
+
+/// Settlement of the surface at some places [m], after the rupture.
+template <class SceneType>
+Eigen::VectorXd ruptured(SceneType const& scene, std::vector<double> const& places) {
+  scarp::SerialExecutor serial;
+  scarp::NoObserver nobody;
+  auto problem = scene.problem(serial);
+  REQUIRE(scene.settle(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.rupture(problem, nobody).verdict.acceptable());
+  auto const& grid = problem.discretisation();
+  constexpr int up = SceneType::dim - 1;
+  std::vector<std::pair<double, double>> profile;
+  for (int const node : boundary_nodes(grid.mesh(), "surface")) {
+    auto const k = static_cast<std::size_t>(node);
+    profile.emplace_back(grid.mesh().nodes[k](0), grid.mesh().nodes[k](up) - grid.positions()[k](up));
+  }
+  std::sort(profile.begin(), profile.end());
+  Eigen::VectorXd found(static_cast<Eigen::Index>(places.size()));
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    auto const after = std::lower_bound(profile.begin(), profile.end(), std::pair(places[p], -1e300));
+    auto const before = after == profile.begin() ? after : std::prev(after);
+    double const width = after->first - before->first;
+    double const share = width > 0.0 ? (places[p] - before->first) / width : 0.0;
+    found(static_cast<Eigen::Index>(p)) = before->second + share * (after->second - before->second);
+  }
+  return found;
+}
+
+template <class Element>
+Eigen::VectorXd on_layer(scarp::FaultMesh const& layer) {
+  Scene<scarp::LayeredGround<Element>> scene;
+  scene.ground.layer = layer;
+  return ruptured(elastic(scene), {-30.0, -15.0, -5.0, 5.0, 15.0});
+}
+
+scarp::FaultMesh coarse() { return {.size = 5.0}; }
+
+}  // namespace
+
+TEST_CASE("all elements of the plane tell the same surface") {
+  auto const exact = on_layer<scarp::Quad8>({.size = 2.0});
+  auto const error = [&](Eigen::VectorXd const& found) { return (found - exact).lpNorm<Eigen::Infinity>() / 0.25; };
+  // Of the throw; linear elements of 5 m in ground of 25 m have five rows.
+  CHECK(error(on_layer<scarp::Tri3>(coarse())) < 0.03);
+  CHECK(error(on_layer<scarp::Quad4>(coarse())) < 0.03);
+  CHECK(error(on_layer<scarp::Tri6>(coarse())) < 0.01);
+  CHECK(error(on_layer<scarp::Quad8>(coarse())) < 0.01);
+}
+
+TEST_CASE("all patterns, aspects and jittered meshes tell the same surface") {
+  auto const exact = on_layer<scarp::Quad8>({.size = 2.0});
+  for (auto const pattern : {scarp::Pattern::crossed, scarp::Pattern::left, scarp::Pattern::right}) {
+    for (double const aspect : {0.6, 1.73}) {
+      for (double const jitter : {0.0, 0.25}) {
+        scarp::FaultMesh const layer{.size = 2.5, .row_aspect = aspect, .pattern = pattern, .jitter = jitter};
+        CHECK((on_layer<scarp::Tri3>(layer) - exact).lpNorm<Eigen::Infinity>() < 0.03 * 0.25);
+      }
+    }
+  }
+}
+
+TEST_CASE("a slab of one element in space tells the plane's surface") {
+  auto const tall = coarse();
+  // Analytic: hexahedra between two planes that do not move along the strike hold the plane's shapes, and reduced rules meet
+  // the same points. Round-off of some tens of increments.
+  CHECK((on_layer<scarp::Hex20>(tall) - on_layer<scarp::Quad8>(tall)).norm() < 1e-8);
+  auto const exact = on_layer<scarp::Quad8>({.size = 2.0});
+  auto const error = [&](Eigen::VectorXd const& found) { return (found - exact).lpNorm<Eigen::Infinity>() / 0.25; };
+  CHECK(error(on_layer<scarp::Hex8>(tall)) < 0.03);
+  CHECK(error(on_layer<scarp::Tet4>(tall)) < 0.05);
+  CHECK(error(on_layer<scarp::Tet10>(tall)) < 0.01);
+}
+
+TEST_CASE("a linear hexahedron, fully integrated, is its quadrilateral") {
+  using Plane = scarp::Discretisation<scarp::Quad4>;
+  using Space = scarp::Discretisation<scarp::Hex8>;
+  Scene<scarp::LayeredGround<scarp::Quad4>, scarp::NormalFault, Plane> plane;
+  Scene<scarp::LayeredGround<scarp::Hex8>, scarp::NormalFault, Space> space;
+  plane.ground.layer = space.ground.layer = coarse();
+  std::vector<double> const places{-15.0, -5.0, 5.0};
+  CHECK((ruptured(elastic(plane), places) - ruptured(elastic(space), places)).norm() < 1e-8);
+}
+
+TEST_CASE("small reverse and normal faults in elastic ground are each other's mirror") {
+  Scene<scarp::LayeredGround<scarp::Tri3>> normal;
+  Scene<scarp::LayeredGround<scarp::Tri3>, scarp::ReverseFault> reverse;
+  normal.ground.layer = reverse.ground.layer = coarse();
+  normal = elastic(normal);
+  reverse = elastic(reverse);
+  normal.throw_to = reverse.throw_to = 0.01;
+  std::vector<double> const places{-15.0, -5.0, 5.0};
+  auto const down = ruptured(normal, places);
+  auto const up = ruptured(reverse, places);
+  // Second order in the throw over the depth, 4e-4.
+  CHECK((down + up).norm() < 2e-3 * down.norm());
+}
