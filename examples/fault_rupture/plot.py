@@ -166,13 +166,16 @@ def surface_profiles(table):
     shown = {int(np.argmin(np.abs(throws - share * throws[-1]))) for share in np.linspace(1 / 6, 1, 6)}
     for throw in throws[sorted(shown)]:
         rows = np.flatnonzero(table["throw_over_depth"] == throw)
-        rows = rows[np.argsort(table["x_initial"][rows])]
-        yield throw, table["x"][rows], table["settlement"][rows]
+        rows = rows[np.argsort(table["x_initial"][rows], kind="stable")]
+        gaps = np.flatnonzero(table["joined"][rows][1:] == 0) + 1  # no line is drawn across them
+        yield throw, np.insert(table["x"][rows], gaps, np.nan), np.insert(table["settlement"][rows], gaps, np.nan)
 
 
 def outcrop_marks(axes, summary):
     marks = [(figures.finite(summary.get("outcrop_x")), VERMILION, "-", "outcrop here, last throw"),
              (figures.finite(summary.get("steepest_x")), GREEN, "-.", "steepest slope here, last throw"),
+             *((figures.finite(summary.get(f"surface_x{share}")), BLUE, line, f"{share} % of the throw has passed here")
+               for share, line in (("05", ":"), ("50", "-"), ("95", ":"))),
              (STUDY_OUTCROP, BLACK, "--", "study's text, surface starts to deflect"),
              (CENTRIFUGE_OUTCROP, GREY, ":", "centrifuge, as the study states it")]
     return [axes.axvline(x, color=colour, linestyle=line, linewidth=1.1, label=f"{text}: {x:.1f} m")
@@ -188,7 +191,7 @@ def layer_depth(folder):
 
 
 def surface(folder):
-    table = figures.read_csv(folder / "surface.csv", ["throw_over_depth", "x_initial", "x", "settlement"])
+    table = figures.read_csv(folder / "surface.csv", ["throw_over_depth", "x_initial", "x", "settlement", "joined"])
     profiles = list(surface_profiles(table))
     summary = figures.read_summary(folder)
     depth = layer_depth(folder)

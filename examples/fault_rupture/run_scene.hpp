@@ -119,7 +119,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   });
   stages.stage([&] {
     auto const placed = scene.place(problem, stages);
-    rest.ground = scarp::ground_at_rest(problem);
+    rest.ground = scarp::ground_at_rest(problem);  // a checkpoint of this stage comes back here
     return placed;
   });
   stages.stage([&] { return scene.rupture(problem, stages); });

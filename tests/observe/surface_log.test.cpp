@@ -71,8 +71,8 @@ TEST_CASE("settlement counts from the last accepted state before the fault moves
   log.attempted(ground, accepted(-1.0));  // settled
   ground.sink(0.25);
   log.attempted(ground, accepted(0.0));  // placed
-  log.attempted(ground, refused(0.5));   // no state: positions are those before
   ground.sink(0.125);
+  log.attempted(ground, refused(0.0));  // no state that could be one of rest
   log.attempted(ground, accepted(0.5));
   auto const rows = rows_of(folder / "surface.csv");
   std::size_t const points = scarp::surface_profile(ground.grid.own, ground.grid.own.nodes, ground.grid.now).size();
