@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Bad input to the example programs gets a message and a non-zero exit, and destroys nothing; a run that is
 stopped leaves whole files. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
+import csv
 import json
 import os
 import pathlib
@@ -16,6 +17,7 @@ sys.dont_write_bytecode = True  # the import below leaves no folder in the sourc
 from expectations import expect, finish
 
 programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 FAULT = programs / "fault_rupture"
 BIAXIAL = programs / "rve_biaxial"
 TINY = {"--size": "12", "--grains": "49", "--throw-over-depth": "0.002"}
@@ -94,6 +96,15 @@ def check_bad_input():
     check_refusal(FAULT, "tip outside the domain", "--tip", "100", "fault tip is at x = 100 m")
     check_refusal(FAULT, "tip close to the side", "--tip", "22.9", "22.9")
     check_refusal(FAULT, "a single grain", "--grains", "1", "fault_rupture: ")
+    check_refusal(FAULT, "an element of another program", "--element", "quad8", "compiled for tri3")
+    check_refusal(FAULT, "an unknown pattern", "--pattern", "zigzag", "--pattern")
+    check_refusal(FAULT, "whole rectangles of triangles", "--pattern", "quads", "quads")
+    check_refusal(FAULT, "a mesh that is not there", "--mesh", "none.msh", "none.msh")
+    mesh = (REPOSITORY / "examples/fault_rupture/meshes/unstructured.msh").read_text()
+    for title, changed, named in (("a mesh without a surface", mesh.replace('"surface"', '"top"'), "surface"),
+                                  ("a mesh without soil", mesh.replace('"soil"', '"rock"'), "soil"),
+                                  ("a mesh that is cut off", mesh[:len(mesh) // 2], "m.msh")):
+        check_refusal(FAULT, title, "--mesh", "m.msh", named, {"m.msh": changed})
     check_refusal(BIAXIAL, "a window wider than the test", "--smoothing", "0.05", "window")
     for title, value, named in (("negative friction in a list", "0.1,-1", "'-1' is out of range"),
                                 ("text for a friction", "a", "'a' is out of range"),
@@ -113,6 +124,19 @@ def check_help():
             code, said = run(program, "--help", folder=scratch)
             expect(code == 0 and "--grains" in said, f"{program.name} --help ended with {code}\n{said}")
             expect(not list(pathlib.Path(scratch).iterdir()), f"{program.name} --help wrote files")
+
+
+def check_mesh_file():
+    """A rupture in a mesh from a file, of a reverse fault: the hanging wall comes up."""
+    with tempfile.TemporaryDirectory() as scratch:
+        code, said = run(FAULT, "--soil", "mohr_coulomb", "--mesh",
+                         REPOSITORY / "examples/fault_rupture/meshes/unstructured.msh", "--reverse",
+                         "--throw-over-depth", "0.002", "--output", "out", folder=scratch)
+        expect(code == 0, f"--mesh: ended with {code}\n{said}")
+        if code == 0:
+            with open(pathlib.Path(scratch) / "out/surface.csv", newline="") as table:
+                last = list(csv.DictReader(table))[-1]
+            expect(abs(float(last["settlement"]) + 0.002 * 25.0) < 1e-6, f"--reverse: the far side settled by {last}")
 
 
 def check_config():
@@ -224,7 +248,7 @@ def check_repeat():
 if not (FAULT.is_file() and BIAXIAL.is_file()):
     print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_help, check_bad_input, check_config, check_list, check_repeat, check_time_limit, check_interrupt):
+for check in (check_help, check_bad_input, check_mesh_file, check_config, check_list, check_repeat, check_time_limit, check_interrupt):
     started = time.monotonic()
     check()
     print(f"{check.__name__}: {time.monotonic() - started:.1f} s")
