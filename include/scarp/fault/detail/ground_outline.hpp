@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scarp/mesh/outer_facets.hpp"
+
+namespace scarp::detail {
+
+/// A plane across an axis that a boundary lies in, at one end of the soil.
+struct OutlinePart {
+  std::string name;
+  int axis;
+  bool upper;
+};
+
+/// What bounds the soil; "footing_base" belongs to it where a mesh has one.
+template <class Element>
+std::vector<OutlinePart> outline_parts(Mesh<Element> const& mesh) {
+  constexpr int up = Element::dim - 1;
+  std::vector<OutlinePart> parts{{"left", 0, false}, {"right", 0, true}, {"bottom", up, false}, {"surface", up, true}};
+  if constexpr (Element::dim == 3) {
+    parts.push_back({"front", 1, false});
+    parts.push_back({"back", 1, true});
+  }
+  if (mesh.boundaries.count("footing_base") != 0) parts.push_back({"footing_base", up, true});
+  return parts;
+}
+
+/// Lowest and highest coordinates of a region's nodes [m].
+template <class Element>
+std::array<Vector<Element::dim>, 2> extents_of(Mesh<Element> const& mesh, int region) {
+  std::array<Vector<Element::dim>, 2> ends;
+  bool first = true;
+  for (int e = 0; e < count(mesh.elements); ++e) {
+    if (mesh.element_region[index(e)] != region) continue;
+    for (int const node : mesh.elements[index(e)]) {
+      auto const& place = mesh.nodes[index(node)];
+      ends[0] = first ? place : Vector<Element::dim>(ends[0].cwiseMin(place));
+      ends[1] = first ? place : Vector<Element::dim>(ends[1].cwiseMax(place));
+      first = false;
+    }
+  }
+  return ends;
+}
+
+/// Ends of the soil are sought to 1e-6 of its extent: files with seven digits pass.
+template <class Element>
+void require_straight_outline(Mesh<Element> const& mesh) {
+  auto const ends = extents_of(mesh, region_number(mesh, "soil"));
+  double const same = 1e-6 * (ends[1] - ends[0]).maxCoeff();
+  for (auto const& part : outline_parts(mesh)) {
+    double const end = ends[part.upper ? 1 : 0](part.axis);
+    for (int const node : boundary_nodes(mesh, part.name)) {
+      auto const& place = mesh.nodes[index(node)];
+      if (std::abs(place(part.axis) - end) <= same) continue;
+      refuse(
+          "the boundary '{}' passes through ({}), but the soil {} at {} = {} m (it must be straight, level below and "
+          "above, upright beside): mesh a layer with level surface and bottom and upright ends",
+          part.name, fmt::join(place, ", "), part.upper ? "ends" : "begins", "xyz"[part.axis], end);
+    }
+  }
+}
+
+/// A sound outline: every side of the soil that no other element has is in one part, once.
+template <class Element>
+void require_closed_outline(Mesh<Element> const& mesh) {
+  using Side = std::array<int, Element::facet_nodes>;
+  auto const sorted = [](Side side) {
+    std::sort(side.begin(), side.end());
+    return side;
+  };
+  auto const middle = [&](Side const& side) {
+    Vector<Element::dim> sum = Vector<Element::dim>::Zero();
+    for (int const node : side) sum += mesh.nodes[index(node)] / static_cast<double>(side.size());
+    return sum;
+  };
+  std::map<Side, std::string> part_of;
+  std::vector<std::string> names;
+  for (auto const& part : outline_parts(mesh)) {
+    names.push_back(part.name);
+    for (auto const& side : boundary(mesh, part.name)) {
+      auto const [found, is_new] = part_of.try_emplace(sorted(side), part.name);
+      if (is_new) continue;
+      refuse(
+          "the side with its middle at ({}) is in '{}' and in '{}' (loads and motions would count twice): put it in "
+          "one physical group, once",
+          fmt::join(middle(side), ", "), found->second, part.name);
+    }
+  }
+  int const soil = region_number(mesh, "soil");
+  int open = 0;
+  Side first{};
+  for (auto const& side : outer_facets(mesh)) {
+    if (mesh.element_region[index(side.element)] != soil) continue;
+    if (part_of.erase(sorted(side.nodes)) == 0 && ++open == 1) first = side.nodes;
+  }
+  if (open > 0) {
+    refuse(
+        "the side with its middle at ({}) bounds the soil but is in none of {} ({} such sides: a hole, a crack or a "
+        "part "
+        "of the outline without physical group): close it or put it in its group",
+        fmt::join(middle(first), ", "), fmt::join(names, ", "), open);
+  }
+  for (auto const& [side, name] : part_of) {
+    if (name == "footing_base") continue;  // a block stands on it
+    refuse(
+        "the side with its middle at ({}) is in '{}' but lies between two elements (a boundary bounds the soil): take "
+        "it "
+        "out of the group{}",
+        fmt::join(middle(side), ", "), name, name == "surface" ? ", below a footing into 'footing_base'" : "");
+  }
+}
+
+}  // namespace scarp::detail

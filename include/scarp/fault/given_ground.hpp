@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+
+#include "scarp/fault/detail/ground_outline.hpp"
+#include "scarp/fault/detail/surface_corners.hpp"
+#include "scarp/fault/ground_levels.hpp"
+#include "scarp/io/gmsh/gmsh_element_type.hpp"
+#include "scarp/mesh/mesh_checks.hpp"
+
+namespace scarp {
+
+namespace detail {
+
+template <class Element>
+void require_ground_groups(Mesh<Element> const& mesh) {
+  std::vector<std::string> used;
+  for (int r = 0; r < count(mesh.regions); ++r) {
+    auto const& numbers = mesh.element_region;
+    if (std::find(numbers.begin(), numbers.end(), r) != numbers.end()) used.push_back(mesh.regions[index(r)]);
+  }
+  bool const has_soil = std::find(used.begin(), used.end(), "soil") != used.end();
+  bool const others =
+      std::any_of(used.begin(), used.end(), [](auto const& r) { return r != "soil" && r != "footing"; });
+  if (!has_soil || others) {
+    refuse(
+        "the mesh has elements in the regions {} (a ground has 'soil' and, where a block stands on it, 'footing'; "
+        "elements "
+        "in no physical group are the region 'mesh'): name the physical groups so",
+        fmt::join(used, ", "));
+  }
+  std::vector<std::string> wanted;
+  for (auto const& part : outline_parts(mesh)) wanted.push_back(part.name);
+  if (std::find(used.begin(), used.end(), "footing") != used.end()) {
+    for (auto const* const name : {"footing_base", "footing_top"}) wanted.emplace_back(name);
+  }
+  std::vector<std::string> there;
+  for (auto const& [name, facets] : mesh.boundaries) {
+    if (!facets.empty()) there.push_back(name);
+  }
+  for (auto const& name : wanted) {
+    if (std::find(there.begin(), there.end(), name) != there.end()) continue;
+    refuse("the mesh has no side in a boundary '{}' (it has: {}): put the sides there in a physical group of this name",
+           name, there.empty() ? "none" : fmt::format("{}", fmt::join(there, ", ")));
+  }
+}
+
+/// \throws InputError saying what is wrong and where
+template <class Element>
+void require_ground(Mesh<Element> const& mesh) {
+  require_ground_groups(mesh);
+  require_no_duplicate_nodes(mesh);
+  require_no_hanging_nodes(mesh);
+  require_straight_outline(mesh);
+  require_closed_outline(mesh);
+}
+
+}  // namespace detail
+
+/// Ground on a mesh from elsewhere: region "soil", level "surface" and "bottom" across the last axis, upright "left"
+/// and "right", in space "front" and "back" across the second; where a footing stands "footing_base", and with the
+/// region "footing" its "footing_top". `ground_from_file` checks all of this.
+template <ReferenceElement E>
+struct GivenGround {
+  using Element = E;
+
+  Mesh<Element> given;
+
+  /// edges: x [m] where a structure needs corner nodes on the surface
+  /// \throws InputError for an edge without one, naming the nearest
+  Mesh<Element> mesh(std::vector<double> const& edges) const {
+    if (edges.empty()) return given;
+    auto corners = detail::corners_along(given, "surface");
+    if (given.boundaries.count("footing_base") != 0) {
+      auto const below = detail::corners_along(given, "footing_base");
+      corners.insert(corners.end(), below.begin(), below.end());
+      std::sort(corners.begin(), corners.end());
+      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    }
+    double const same =
+        corners.empty() ? 0.0 : 1e-7 * (corners.back() - corners.front());  // what files with seven digits hold
+    for (double const edge : edges) detail::require_corner(corners, edge, same);
+    return given;
+  }
+
+  /// Along the last axis [m].
+  double surface_level() const { return scarp::surface_level(given); }
+};
+
+/// Reads a ground from a file of Gmsh. A file of the straight element serves for the quadratic one: nodes are put in
+/// the middle of its sides.
+/// \throws InputError naming the file for what read_gmsh refuses, missing or further regions, missing boundaries, nodes
+/// at one place, hanging nodes, boundaries that are not straight at the soil's ends, and sides of the soil in no
+/// boundary or in two
+template <HasGmshType E>
+GivenGround<E> ground_from_file(std::filesystem::path const& path) {
+  auto const read = [&]() -> Mesh<E> {
+    if constexpr (HasMidSides<E>) {
+      if (gmsh_element_type(path) == E::Linear::gmsh_type) {
+        return with_mid_side_nodes<E>(read_gmsh<typename E::Linear>(path));
+      }
+    }
+    return read_gmsh<E>(path);
+  };
+  GivenGround<E> ground{read()};
+  try {
+    detail::require_ground(ground.given);
+  } catch (InputError const& error) {
+    refuse("'{}': {}", path.string(), error.what());
+  }
+  return ground;
+}
+
+}  // namespace scarp
