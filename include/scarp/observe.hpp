@@ -2,8 +2,8 @@
 /// \file
 /// What watches a run: series for ParaView, profiles of the surface, probes of points, convergence, progress.
 /// Observers are told of every attempt at a load step; `observers.hpp` joins several into one.
-/// `rupture_survey.hpp` measures a rupture at the surface and inside the ground, `band_angle.hpp` its inclination by strains;
-/// settlement counts from `ground_at_rest.hpp`.
+/// `rupture_survey.hpp` measures a rupture at the surface and inside the ground, `band_angle.hpp` its inclination by
+/// strains; settlement counts from `ground_at_rest.hpp`.
 /// Lengths in metres; throws are divided by the unit that an observer is given.
 /// An observer that writes costs nothing where no scene names it.
 #pragma once

@@ -79,8 +79,8 @@ TEST_CASE("the offset of a fault spreads on its way through elastic ground") {
 }
 
 TEST_CASE("ground that settles before the fault moves shows the same rupture") {
-  // Elastic ground: what came before changes the answer only through the changed shape, here 4 mm in 25 m; from the initial mesh the
-  // same settlement is 7 % of the throw.
+  // Elastic ground: what came before changes the answer only through the changed shape, here 4 mm in 25 m; from the
+  // initial mesh the same settlement is 7 % of the throw.
   auto const settled = run(0.02);
   double const before = settled.mesh.nodes[0].y() - settled.rest[0].y();
   CHECK(before == 0.0);  // bedrock

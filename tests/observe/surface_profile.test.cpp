@@ -14,7 +14,8 @@ namespace {
 
 constexpr double round_off = 1e-12;
 
-/// Positions at rest lie 1 m below the mesh, as if the ground had settled; then it settles by 0.25 x and moves along by 0.5.
+/// Positions at rest lie 1 m below the mesh, as if the ground had settled; then it settles by 0.25 x and moves along by
+/// 0.5.
 template <class Element>
 struct Moved {
   std::vector<scarp::Vector<Element::dim>> rest;

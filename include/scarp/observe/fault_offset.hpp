@@ -5,8 +5,8 @@
 
 namespace scarp {
 
-/// A dip-slip fault below the ground, its foot wall on the left, and how far its walls have settled. With the share of the offset in
-/// place of settlement normal and reverse faults, and those that move both walls, are alike.
+/// A dip-slip fault below the ground, its foot wall on the left, and how far its walls have settled. With the share of
+/// the offset in place of settlement normal and reverse faults, and those that move both walls, are alike.
 struct FaultOffset {
   double tip = 0.0;      ///< where the fault meets the bottom of the ground, along the first axis [m]
   double foot = 0.0;     ///< settlement of the foot wall, positive down [m]

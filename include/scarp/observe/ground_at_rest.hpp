@@ -8,9 +8,9 @@
 
 namespace scarp {
 
-/// Where the nodes were when the fault began to move: settlement counts from here, without what earlier stages brought. Ask for it
-/// by ground_at_rest(problem) between two stages, or let it watch the stages: it takes the last accepted state whose load
-/// factor is not positive. Only positions are kept, dim numbers for a node.
+/// Where the nodes were when the fault began to move: settlement counts from here, without what earlier stages brought.
+/// Ask for it by ground_at_rest(problem) between two stages, or let it watch the stages: it takes the last accepted
+/// state whose load factor is not positive. Only positions are kept, dim numbers for a node.
 template <int Dim = 2>
 struct GroundAtRest : NeverStops {
   std::vector<Vector<Dim>> positions;  ///< [m], for each node; empty as long as none were taken

@@ -11,8 +11,8 @@ namespace scarp {
 
 namespace detail {
 
-/// visit(a, b) for the straight parts of an element's sides, as node numbers of the mesh in increasing order: two parts where a side
-/// has a node in its middle.
+/// visit(a, b) for the straight parts of an element's sides, as node numbers of the mesh in increasing order: two parts
+/// where a side has a node in its middle.
 template <class Element, class Visit>
 void for_each_edge(std::array<int, Element::nodes> const& nodes, Visit const& visit) {
   auto const part = [&](int a, int b) { visit(std::min(a, b), std::max(a, b)); };
@@ -31,8 +31,8 @@ void for_each_edge(std::array<int, Element::nodes> const& nodes, Visit const& vi
 
 }  // namespace detail
 
-/// Where a level line crosses the sides of the elements, from left to right, as a profile inside the ground. Settlement is linear along
-/// sides, on each half of a side with a node in its middle.
+/// Where a level line crosses the sides of the elements, from left to right, as a profile inside the ground. Settlement
+/// is linear along sides, on each half of a side with a node in its middle.
 /// height [m]: of the line where the nodes were at rest; along the bottom it crosses nothing
 /// rest, positions [m]: of the mesh's nodes when the fault began to move, see GroundAtRest, and now
 /// \throws InputError for positions of another mesh

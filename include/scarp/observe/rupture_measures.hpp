@@ -7,8 +7,8 @@
 
 namespace scarp {
 
-/// First place, coming from the foot wall's side, where a profile passes a share of the fault's offset, linear between points [m]
-/// at rest. NaN where it passes in a gap, has passed before the profile begins, or does not pass.
+/// First place, coming from the foot wall's side, where a profile passes a share of the fault's offset, linear between
+/// points [m] at rest. NaN where it passes in a gap, has passed before the profile begins, or does not pass.
 inline double first_passage(std::vector<SurfacePoint> const& profile, FaultOffset const& fault, double share) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < profile.size(); ++k) {
@@ -22,11 +22,12 @@ inline double first_passage(std::vector<SurfacePoint> const& profile, FaultOffse
   return none;
 }
 
-/// Inclination of a line through the ground that goes to the left by `left` while it rises by `up`, from 0 up to pi [rad]; above
-/// pi/2 it leans to the right, over the hanging wall. NaN for NaN.
+/// Inclination of a line through the ground that goes to the left by `left` while it rises by `up`, from 0 up to pi
+/// [rad]; above pi/2 it leans to the right, over the hanging wall. NaN for NaN.
 inline double line_dip(double left, double up) { return std::atan2(up, left); }
 
-/// Where and how sharply the offset of a fault comes out at the ground surface. Places are those at rest [m]; NaN where there is none.
+/// Where and how sharply the offset of a fault comes out at the ground surface. Places are those at rest [m]; NaN where
+/// there is none.
 struct RuptureMeasures {
   double
       surface_x05;  ///< first place, from the foot wall's side, that has gone 5 % of the offset: where the scarp begins

@@ -6,7 +6,8 @@
 
 namespace scarp {
 
-/// The band through which the offset of a fault passes, where it crosses a level inside the ground. NaN where it does not.
+/// The band through which the offset of a fault passes, where it crosses a level inside the ground. NaN where it does
+/// not.
 struct BandAtLevel {
   double height;       ///< above the bottom of the ground [m]
   double band_x50;     ///< place at rest that has gone half of the offset [m]
@@ -15,7 +16,8 @@ struct BandAtLevel {
   double band_dip;     ///< of its middle line from `reach` below to `reach` above, see line_dip [rad]
 };
 
-/// level, reach [m]: a height in the coordinates of the nodes at rest, and how far below and above it the middle line is looked for
+/// level, reach [m]: a height in the coordinates of the nodes at rest, and how far below and above it the middle line
+/// is looked for
 /// \throws InputError for positions of another mesh
 template <class Element>
   requires(Element::dim == 2)
@@ -38,8 +40,9 @@ struct RuptureSurvey {
   std::array<BandAtLevel, 3> bands;  ///< at a quarter, half and three quarters of the depth
 };
 
-/// Extents are read from the mesh: boundary "bottom", and ground_boundaries(mesh) for the surface, both above the fault's tip. Dips of
-/// bands are taken over a quarter of the depth, so that the three together follow the band from an eighth to seven eighths of it.
+/// Extents are read from the mesh: boundary "bottom", and ground_boundaries(mesh) for the surface, both above the
+/// fault's tip. Dips of bands are taken over a quarter of the depth, so that the three together follow the band from an
+/// eighth to seven eighths of it.
 /// rest, positions [m]: of the mesh's nodes when the fault began to move, see GroundAtRest, and now
 /// \throws InputError for positions of another mesh and a mesh without these boundaries
 template <class Element>

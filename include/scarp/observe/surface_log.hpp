@@ -10,9 +10,9 @@
 
 namespace scarp {
 
-/// Settlement of the ground surface, also below a footing, at every accepted step at which the load has grown by to / profiles. It counts
-/// from the last accepted state that was seen with a load that is not positive, in a run without one from the mesh. `joined` is 0
-/// where a gap separates a point from the row before it.
+/// Settlement of the ground surface, also below a footing, at every accepted step at which the load has grown by to /
+/// profiles. It counts from the last accepted state that was seen with a load that is not positive, in a run without
+/// one from the mesh. `joined` is 0 where a gap separates a point from the row before it.
 template <int Dim = 2>
 class SurfaceLog : public NeverStops {
  public:

@@ -6,7 +6,8 @@
 
 namespace scarp {
 
-/// A place of the ground surface, or of a level inside the ground: where it was, where it is, how far it has settled. [m]
+/// A place of the ground surface, or of a level inside the ground: where it was, where it is, how far it has settled.
+/// [m]
 struct SurfacePoint {
   double x_initial;    ///< when the fault began to move
   double x;            ///< now
@@ -14,8 +15,8 @@ struct SurfacePoint {
   bool joined = true;  ///< to the point before it, by ground without a gap; of the first point it says nothing
 };
 
-/// Settlement at a place of a profile, linear between joined points; that of the nearest end outside. NaN inside a gap, where
-/// nothing is known, and for an empty profile.
+/// Settlement at a place of a profile, linear between joined points; that of the nearest end outside. NaN inside a gap,
+/// where nothing is known, and for an empty profile.
 inline double settlement_at(std::vector<SurfacePoint> const& profile, double x_initial) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (profile.empty()) return none;

@@ -17,9 +17,9 @@ std::vector<std::string> ground_boundaries(Mesh<Element> const& mesh) {
   return names;
 }
 
-/// Profile of the ground surface along the first axis, from left to right, made from the facets of boundaries; settlement is along
-/// the last axis. Nodes in the middle of facets are points of it too. In space a point is the mean over the nodes of equal x in
-/// the mesh, which should have its nodes in lines along the strike.
+/// Profile of the ground surface along the first axis, from left to right, made from the facets of boundaries;
+/// settlement is along the last axis. Nodes in the middle of facets are points of it too. In space a point is the mean
+/// over the nodes of equal x in the mesh, which should have its nodes in lines along the strike.
 /// rest, positions [m]: of the mesh's nodes when the fault began to move, see GroundAtRest, and now
 /// \throws InputError for unknown boundaries and for positions of another mesh
 template <class Element>

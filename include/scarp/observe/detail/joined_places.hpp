@@ -21,8 +21,8 @@ struct Span {
   double to;
 };
 
-/// Points in the order of their places. Those at equal places become one, their mean; neighbours are joined where a span covers
-/// the distance between them.
+/// Points in the order of their places. Those at equal places become one, their mean; neighbours are joined where a
+/// span covers the distance between them.
 inline std::vector<SurfacePoint> joined_places(std::vector<Placed> points, std::vector<Span> const& spans) {
   if (points.empty()) return {};
   std::sort(points.begin(), points.end(), [](auto const& a, auto const& b) { return a.along < b.along; });
