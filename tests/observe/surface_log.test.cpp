@@ -13,7 +13,6 @@ namespace {
 /// As much of a problem as the log looks at; it sinks by hand.
 struct Ground {
   struct Grid {
-    static constexpr int dim = 2;
     scarp::Mesh<scarp::Tri3> own;
     std::vector<scarp::Vector<2>> now = own.nodes;
     auto const& mesh() const { return own; }
