@@ -7,6 +7,7 @@
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/given_ground.hpp"
 #include "scarp/fault/reverse_fault.hpp"
+#include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
 #include "scarp/solver/consistent_tangent.hpp"
 #include "scarp/solver/thread_executor.hpp"

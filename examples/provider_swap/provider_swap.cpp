@@ -26,7 +26,7 @@ bool rupture(char const* name, scarp::FreeFieldFault<Soil> const& scene) {
   auto const rest = ground_at_rest(problem);
   auto const run = scene.rupture(problem, nobody);
   auto const& mesh = problem.discretisation().mesh();
-  scarp::FaultOffset const offset{.tip = scene.fault.tip, .hanging = run.load};
+  auto const offset = offset_at(scene.fault, run.load);
   auto const found = rupture_survey(mesh, rest.of(mesh), problem.discretisation().positions(), offset).surface;
   fmt::print("{:<8} K0 {:.3f}  throw {:.3f} m  outcrop_x {:6.2f} m  steepest_x {:6.2f} m  surface_x50 {:6.2f} m\n",
              name, k0 / problem.materials().point_count(), run.load, found.outcrop_x, found.steepest_x,
@@ -42,6 +42,6 @@ int main() {
   std::vector<double> depths;  // three levels of points in each row of crossed triangles
   for (double depth = 5.0 / 6.0; depth < layer.depth; depth += 5.0 / 3.0) depths.push_back(depth);
   Sand const sand{.law = law, .source = ground.make<Grains>(law, depths), .loose_pressure = 1e3};
-  bool const done = rupture<Elastic>("elastic", {.soil = elastic, .layer = layer, .throw_to = 0.25});
-  return rupture<Sand>("grains", {.soil = sand, .layer = layer, .throw_to = 0.25}) && done ? 0 : 1;
+  bool const done = rupture<Elastic>("elastic", {.soil = elastic, .ground = {layer}, .throw_to = 0.25});
+  return rupture<Sand>("grains", {.soil = sand, .ground = {layer}, .throw_to = 0.25}) && done ? 0 : 1;
 }
