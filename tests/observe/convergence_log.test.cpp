@@ -91,3 +91,13 @@ TEST_CASE("the slowest points are those with the most work, equal ones by number
 TEST_CASE("text in JSON keeps to one line and its quotes") {
   CHECK(scarp::JsonObject().add("a \"name\"", "C:\\x\n").text() == R"({"a \"name\"":"C:\\x\u000a"})");
 }
+
+TEST_CASE("a step of a problem with parts tells the residual of each") {
+  ScratchFolder const folder;
+  scarp::ConvergenceLog log(folder / "convergence.csv", 2.0);
+  auto report = two_iterations();
+  report.parts = {{"all", 0.125}, {"a \"light\" footing", 0.0625}};
+  log.attempted(NoProblem{}, report);
+  CHECK(text_of(folder / "convergence.jsonl").find(R"("residuals":{"all":0.125,"a \"light\" footing":0.0625})") !=
+        std::string::npos);
+}

@@ -13,7 +13,8 @@ namespace scarp {
 
 /// How every attempt at a load step converged, refused ones included: a row of a table for every iteration, and beside it
 /// JSON lines (`.jsonl`) with all that the solver knows. Of these each has a `kind`: "iteration", or "step", which
-/// closes an attempt. A rate is the residual over that of the iteration before; times are wall time [s].
+/// closes an attempt and has the last residual of every part, where the problem has parts. A rate is the residual over
+/// that of the iteration before; times are wall time [s].
 class ConvergenceLog : public NeverStops {
  public:
   /// \throws FileError when a file cannot be written
@@ -83,6 +84,11 @@ class ConvergenceLog : public NeverStops {
     line.add("status", name(report.verdict.status)).add("reason", name(report.verdict.reason));
     line.add("worst_point", report.worst_point).add("weak_dof", report.weak_dof);
     line.add("iterations", report.iterations()).add("residual", report.residual());
+    if (!report.parts.empty()) {
+      JsonObject parts;
+      for (auto const& part : report.parts) parts.add(part.name, part.value);
+      line.add("residuals", parts);
+    }
     line.add("largest_gradient", report.largest_gradient).add("condition", report.condition);
     line.add("dem_steps", inner_steps).add("seconds", report.seconds).add("seconds_in_points", in_points);
     return line.add("share_outside_points", 1.0 - in_points / report.seconds);

@@ -85,6 +85,7 @@ struct DynamicRelaxation {
       report.history.push_back({evaluation.residual, 0.0, evaluation.inner_steps, seconds});
       report.verdict = evaluation.verdict;
       report.worst_point = evaluation.worst_point;
+      report.parts = evaluation.parts;
       return evaluation;
     }
 

@@ -11,6 +11,7 @@
 #include "scarp/bvp/averaged_stiffness.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
+#include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/detail/point_answers.hpp"
 
 namespace scarp {
@@ -34,7 +35,8 @@ class EquilibriumProblem {
         constraints_(std::move(constraints)),
         loads_(std::move(loads)),
         attached_(std::move(attached)),
-        free_dofs_(constraints_.free_dofs()) {
+        free_dofs_(constraints_.free_dofs()),
+        regions_(discretisation_.mesh(), constraints_) {
     if (points_.materials().point_count() != discretisation_.point_count()) {
       refuse("materials are given for {} points (the mesh has {}): make one field over all sites",
              points_.materials().point_count(), discretisation_.point_count());
@@ -163,31 +165,27 @@ class EquilibriumProblem {
     }
   }
 
-  /// \return |unbalanced| over free dofs / |reactions|, Euclidean norms; where that is larger, that of what stands on the mesh
-  /// over its loads
+  /// Largest of all parts' residuals, see `residuals`.
   double residual(Eigen::VectorXd const& unbalanced) const {
-    double free = 0.0;
-    for (int const dof : free_dofs_) free += unbalanced(dof) * unbalanced(dof);
-    double prescribed = 0.0;
-    for (int const dof : constraints_.prescribed_dofs()) prescribed += unbalanced(dof) * unbalanced(dof);
-    // A body held nowhere has no reactions: measure against the loads.
-    double const scale = prescribed > 0.0 ? prescribed : load_now_.squaredNorm();
-    double const all = free == 0.0 ? 0.0 : std::sqrt(free / scale);
-    if constexpr (is_bare) {
-      return all;
-    } else {
-      return std::max(all, residual_beside(unbalanced));
-    }
+    double largest = std::max(residual_of_all(unbalanced), regions_.largest(unbalanced, load_now_));
+    if constexpr (!is_bare) largest = std::max(largest, residual_beside(unbalanced));
+    return largest;
+  }
+
+  /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom / |reactions|, Euclidean norms; then follows every
+  /// region of the mesh that is held nowhere, by its name, unless it is the only one, as a rigid body, and "attached", each
+  /// over its own loads at the present load factor (0 without such loads).
+  std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
+    std::vector<PartResidual> parts{{"all", residual_of_all(unbalanced)}};
+    regions_.list(unbalanced, load_now_, parts);
+    if constexpr (!is_bare) parts.push_back({"attached", residual_beside(unbalanced)});
+    return parts;
   }
 
   /// Imbalance of a body beside the mesh relative to its own loads: the reactions of a heavy ground would hide it.
   /// 0 without such a body or loads.
   double residual_beside(Eigen::VectorXd const& unbalanced) const {
-    int const first = discretisation_.dof_count();
-    double free = 0.0;
-    for (int const dof : free_dofs_) free += dof < first ? 0.0 : unbalanced(dof) * unbalanced(dof);
-    double const scale = load_now_.tail(dof_count() - first).norm();
-    return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
+    return detail::residual_beside(unbalanced, load_now_, free_dofs_, discretisation_.dof_count());
   }
 
   /// Tangents of all points' committed states.
@@ -225,6 +223,10 @@ class EquilibriumProblem {
 
  private:
   static_assert(is_bare || Attachment<Attached, dim>);
+
+  double residual_of_all(Eigen::VectorXd const& unbalanced) const {
+    return detail::residual_of_all(unbalanced, load_now_, free_dofs_, constraints_.prescribed_dofs());
+  }
 
   decltype(auto) of_nodes(Eigen::VectorXd const& increment) const {
     if constexpr (is_bare) {
@@ -276,6 +278,7 @@ class EquilibriumProblem {
     }
     evaluation.unbalanced -= load_now_;
     evaluation.residual = residual(evaluation.unbalanced);
+    if (!is_bare || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
     if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable()) {
       evaluation.verdict = {Status::failed, Reason::not_finite};
     }
@@ -288,6 +291,7 @@ class EquilibriumProblem {
   Eigen::VectorXd load_now_;
   Attached attached_;
   std::vector<int> free_dofs_;
+  detail::RegionResiduals<dim> regions_;
 };
 
 }  // namespace scarp

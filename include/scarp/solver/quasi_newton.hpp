@@ -140,6 +140,7 @@ struct QuasiNewton {
       record.points = evaluation.points;
       report.verdict = evaluation.verdict;
       report.worst_point = evaluation.worst_point;
+      report.parts = evaluation.parts;
       return evaluation;
     }
 

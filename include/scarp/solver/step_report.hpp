@@ -5,6 +5,7 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
+#include "scarp/solver/part_residual.hpp"
 #include "scarp/solver/point_survey.hpp"
 
 namespace scarp {
@@ -28,7 +29,8 @@ struct StepReport {
   Verdict verdict{};
   int worst_point = -1;  ///< material point behind a verdict that is not ok, -1 for none
   std::vector<IterationRecord> history{};
-  double largest_gradient = 0.0;  ///< of the prediction, over all points
+  std::vector<PartResidual> parts{};  ///< of the last iteration; empty where the problem has no parts
+  double largest_gradient = 0.0;      ///< of the prediction, over all points
   double condition = 0.0;  ///< estimate of the stiffness at the start of the step, 1-norm; 0 where it was not made
   int weak_dof = -1;       ///< degree of freedom that a singular system does not hold, -1 for none
   double seconds = 0.0;    ///< wall time of the attempt

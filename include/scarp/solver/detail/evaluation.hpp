@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "scarp/core/status.hpp"
+#include "scarp/solver/part_residual.hpp"
 #include "scarp/solver/point_survey.hpp"
 
 namespace scarp {
@@ -16,6 +18,7 @@ struct Evaluation {
   int worst_point = -1;        ///< that is not acceptable, -1 for none
   long inner_steps = 0;        ///< DEM steps of all points
   PointSurvey points;
+  std::vector<PartResidual> parts;  ///< see EquilibriumProblem::residuals; empty where the whole is the only one
 };
 
 }  // namespace scarp

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "scarp/bvp/constraints.hpp"
+#include "scarp/core/index.hpp"
+#include "scarp/core/tensor.hpp"
+#include "scarp/mesh/mesh.hpp"
+#include "scarp/solver/part_residual.hpp"
+
+namespace scarp::detail {
+
+/// |unbalanced| over free degrees of freedom / |reactions|, Euclidean norms.
+inline double residual_of_all(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads,
+                              std::vector<int> const& free_dofs, std::vector<int> const& prescribed_dofs) {
+  double free = 0.0;
+  for (int const dof : free_dofs) free += unbalanced(dof) * unbalanced(dof);
+  double prescribed = 0.0;
+  for (int const dof : prescribed_dofs) prescribed += unbalanced(dof) * unbalanced(dof);
+  // A body held nowhere has no reactions: measure against the loads.
+  double const scale = prescribed > 0.0 ? prescribed : loads.squaredNorm();
+  return free == 0.0 ? 0.0 : std::sqrt(free / scale);
+}
+
+/// |unbalanced| over |loads| of free degrees of freedom from the first one beside the mesh on; 0 without such loads.
+inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads,
+                              std::vector<int> const& free_dofs, int first) {
+  double free = 0.0;
+  for (int const dof : free_dofs) free += dof < first ? 0.0 : unbalanced(dof) * unbalanced(dof);
+  double const scale = loads.tail(loads.size() - first).norm();
+  return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
+}
+
+/// Imbalance of each region that is held nowhere, as a rigid body, relative to its own dead loads: the reactions of heavy
+/// ground would hide a light block that shares its nodes. Regions with a prescribed node have reactions and count in the
+/// whole; a mesh of one region has no parts.
+///
+/// \f$ \sqrt{|\sum f|^2 + |\sum a \times f|^2 / r^2}\, /\, |\sum p| \f$ with f the unbalanced force of a node, a its initial place from
+/// the mean place of the region's nodes, r the root mean square of |a|, p the load of a node. The imbalance is that of
+/// all nodes of the region, since what carries it acts where it meets its neighbours; the loads are those of nodes that no
+/// other region has, since the weight of a neighbour must not make them look large. Sums rather than norms over the nodes:
+/// a block of concrete's own forces, 1e3 times as stiff as the ground, are known to no more digits than its strains, but
+/// they have no sum; and a sum does not change with the size of the elements.
+template <int Dim>
+class RegionResiduals {
+ public:
+  template <class Element>
+  RegionResiduals(Mesh<Element> const& mesh, Constraints const& constraints) {
+    if (mesh.regions.size() < 2) return;
+    auto const regions_of = regions_of_nodes(mesh);
+    std::vector<bool> held(mesh.regions.size(), false);
+    for (int const dof : constraints.prescribed_dofs()) {
+      if (dof < Dim * count(mesh.nodes))
+        for (int const region : regions_of[index(dof / Dim)]) held[index(region)] = true;
+    }
+    for (int region = 0; region < count(mesh.regions); ++region) {
+      if (held[index(region)]) continue;
+      Part part{.name = mesh.regions[index(region)]};
+      for (int node = 0; node < count(mesh.nodes); ++node) {
+        auto const& regions = regions_of[index(node)];
+        if (std::find(regions.begin(), regions.end(), region) == regions.end()) continue;
+        part.nodes.push_back(node);
+        part.arms.push_back(mesh.nodes[index(node)]);
+        if (regions.size() == 1) part.own_nodes.push_back(node);
+      }
+      if (part.nodes.empty()) continue;
+      centre(part.arms);
+      parts_.push_back(std::move(part));
+    }
+  }
+
+  bool empty() const { return parts_.empty(); }
+
+  /// unbalanced, loads [N], shape (degrees of freedom)
+  double largest(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
+    double largest = 0.0;
+    for (auto const& part : parts_) largest = std::max(largest, part.residual(unbalanced, loads));
+    return largest;
+  }
+
+  void list(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, std::vector<PartResidual>& to) const {
+    for (auto const& part : parts_) to.push_back({part.name, part.residual(unbalanced, loads)});
+  }
+
+ private:
+  struct Part {
+    std::string name;
+    std::vector<int> nodes{};         ///< of its elements; none is prescribed
+    std::vector<Vector<Dim>> arms{};  ///< of these nodes, over the region's radius
+    std::vector<int> own_nodes{};     ///< those that belong to no other region
+
+    /// 0 for a region without loads, such as a block before it is placed.
+    double residual(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
+      Vector<Dim> load = Vector<Dim>::Zero();
+      for (int const node : own_nodes) load += loads.template segment<Dim>(Dim * node);
+      double const scale = load.norm();
+      if (scale == 0.0) return 0.0;
+      Vector<Dim> force = Vector<Dim>::Zero();
+      Tensor<Dim> turning = Tensor<Dim>::Zero();
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        auto const at_node = unbalanced.template segment<Dim>(Dim * nodes[k]);
+        force += at_node;
+        turning += arms[k] * at_node.transpose();
+      }
+      // Twice the couple's squared length is that of the skew tensor.
+      double const couple = (turning - turning.transpose()).squaredNorm() / 2.0;
+      return std::sqrt(force.squaredNorm() + couple) / scale;
+    }
+  };
+
+  /// Makes places [m] arms from their mean, over the root mean square of their lengths.
+  static void centre(std::vector<Vector<Dim>>& places) {
+    Vector<Dim> mean = Vector<Dim>::Zero();
+    for (auto const& place : places) mean += place / static_cast<double>(places.size());
+    double squares = 0.0;
+    for (auto& place : places) squares += (place -= mean).squaredNorm();
+    for (auto& place : places) place /= std::sqrt(squares / static_cast<double>(places.size()));
+  }
+
+  /// For each node the regions of its elements, each once.
+  template <class Element>
+  static std::vector<std::vector<int>> regions_of_nodes(Mesh<Element> const& mesh) {
+    std::vector<std::vector<int>> regions_of(mesh.nodes.size());
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      for (int const node : mesh.elements[e]) {
+        auto& regions = regions_of[index(node)];
+        if (std::find(regions.begin(), regions.end(), mesh.element_region[e]) == regions.end())
+          regions.push_back(mesh.element_region[e]);
+      }
+    }
+    return regions_of;
+  }
+
+  std::vector<Part> parts_;
+};
+
+}  // namespace scarp::detail

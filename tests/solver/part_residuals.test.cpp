@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <doctest/doctest.h>
+
+#include "scarp/bvp/loads.hpp"
+#include "solver/sample_block.hpp"
+
+namespace {
+
+using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
+template <class Provider>
+using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Provider>, scarp::SerialExecutor>;
+
+constexpr double ground_weight = 20e3 * 4.0 * 4.0;  // [N], unit weight times width, height; 1 m thick
+constexpr double footing_weight = 0.1e3 * 4.0 * 1.0;
+
+/// 4 m x 4 m of heavy ground, fixed at its base, below a light block 1 m high that shares its nodes. The load factor places
+/// the block.
+template <class Provider>
+Problem<Provider> ground_with_block(Provider const& provider, scarp::SerialExecutor& executor) {
+  auto mesh = scarp::RectangleMesh{.width = 4.0, .height = 5.0, .columns = 4, .rows = 5}.generate();
+  mesh.regions.emplace_back("footing");
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    double height = 0.0;
+    for (int const node : mesh.elements[e]) height += mesh.nodes[scarp::detail::index(node)].y() / 3.0;
+    mesh.element_region[e] = height > 4.0 ? 1 : 0;
+  }
+  scarp::Constraints constraints(mesh);
+  for (int const node : scarp::boundary_nodes(mesh, "bottom")) constraints.fix(node);
+  Grid grid(std::move(mesh));
+  auto const weight_of = [&](int chosen, double unit_weight) {
+    return scarp::body_force(grid,
+                             [=](int region) { return scarp::Vector<2>(0.0, region == chosen ? -unit_weight : 0.0); });
+  };
+  scarp::LoadHistory loads(weight_of(0, 20e3));
+  loads.add(weight_of(1, 0.1e3), scarp::TimeFunction::ramp(0.0, 1.0));
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 5.0));
+  return {std::move(grid), {provider, sites}, std::move(constraints), std::move(loads), executor};
+}
+
+template <class Problem>
+std::vector<int> base_of_block(Problem const& problem) {
+  std::vector<int> nodes;
+  auto const& places = problem.discretisation().mesh().nodes;
+  for (int node = 0; node < scarp::detail::count(places); ++node)
+    if (places[scarp::detail::index(node)].y() == 4.0) nodes.push_back(node);
+  return nodes;
+}
+
+/// Forces [N] when the ground is carried but a part of the block's weight is not, at the block's base.
+template <class Problem>
+Eigen::VectorXd unsupported(Problem const& problem, double part) {
+  Eigen::VectorXd unbalanced = Eigen::VectorXd::Zero(problem.dof_count());
+  auto const bottom = scarp::boundary_nodes(problem.discretisation().mesh(), "bottom");
+  for (int const node : bottom)
+    unbalanced(2 * node + 1) = (ground_weight + (1.0 - part) * footing_weight) / static_cast<double>(bottom.size());
+  auto const base = base_of_block(problem);
+  for (int const node : base) unbalanced(2 * node + 1) = part * footing_weight / static_cast<double>(base.size());
+  return unbalanced;
+}
+
+double value_of(std::vector<scarp::PartResidual> const& parts, std::string const& name) {
+  for (auto const& part : parts)
+    if (part.name == name) return part.value;
+  FAIL("no part has the name " << name);
+  return 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("nine hundredths of a light block that nothing carries are no equilibrium, however heavy the ground") {
+  scarp::SerialExecutor serial;
+  auto problem = ground_with_block(sample::elastic_soil(), serial);
+  problem.aim(1.0);
+  auto const unbalanced = unsupported(problem, 0.09);
+  auto const parts = problem.residuals(unbalanced);
+  REQUIRE(parts.size() == 2);  // the ground has reactions of its own
+  // Analytic: 9 % of the weight on five nodes over all of it on five, 400 / 320 400 of each other.
+  CHECK(value_of(parts, "all") == doctest::Approx(0.09 * 400.0 / 320364.0));
+  CHECK(value_of(parts, "all") < 1e-3);
+  // Analytic: nodes that the block has of its own bear two thirds of it (one row of crossed triangles).
+  CHECK(value_of(parts, "footing") == doctest::Approx(0.09 * 1.5));
+  CHECK(problem.residual(unbalanced) == value_of(parts, "footing"));
+}
+
+TEST_CASE("forces that turn a block without pushing it count as well") {
+  scarp::SerialExecutor serial;
+  auto problem = ground_with_block(sample::elastic_soil(), serial);
+  problem.aim(1.0);
+  auto const base = base_of_block(problem);
+  REQUIRE(base.size() == 5);
+  Eigen::VectorXd unbalanced = Eigen::VectorXd::Zero(problem.dof_count());
+  unbalanced(2 * base.front() + 1) = 1.0;
+  unbalanced(2 * base.back() + 1) = -1.0;
+  // Analytic: couple 1 N x 4 m over the radius of the 14 nodes of a row of crossed triangles, two lines of five nodes 0.5 m
+  // off the middle and four centres: squares of x sum up to 25, those of y to 2.5.
+  double const radius = std::sqrt(27.5 / 14.0);
+  CHECK(value_of(problem.residuals(unbalanced), "footing") == doctest::Approx(4.0 / radius / (footing_weight / 1.5)));
+}
+
+TEST_CASE("a block that is not placed yet has nothing to be measured against") {
+  scarp::SerialExecutor serial;
+  auto problem = ground_with_block(sample::elastic_soil(), serial);
+  problem.aim(0.0);
+  auto const parts = problem.residuals(unsupported(problem, 0.09));
+  CHECK(value_of(parts, "footing") == 0.0);
+}
+
+TEST_CASE("a mesh of one region has one residual") {
+  scarp::SerialExecutor serial;
+  auto problem = sample::Block<scarp::LinearElastic<2>>::make(sample::elastic_soil(), serial);
+  Eigen::VectorXd const unbalanced = Eigen::VectorXd::LinSpaced(problem.dof_count(), -1.0, 2.0);
+  auto const parts = problem.residuals(unbalanced);
+  REQUIRE(parts.size() == 1);
+  CHECK(parts.front().name == "all");
+  CHECK(parts.front().value == problem.residual(unbalanced));
+}
+
+TEST_CASE("a step is iterated until the light block is carried, and tells the residual of every part") {
+  scarp::SerialExecutor serial;
+  // Tells a tangent twice too stiff in shear, so that predictions are wrong.
+  auto problem = ground_with_block(sample::Planning{}, serial);
+  scarp::QuasiNewton<> const solver{.tolerance = 1e-3};
+  scarp::LoadStepping const stepping{.first = 1.0, .largest_gradient = 1.0};
+  auto witness = sample::watch(problem);
+  REQUIRE(stepping.settle(solver, problem, 0.0, witness).verdict == scarp::Verdict{});
+  REQUIRE(stepping.run(solver, problem, 0.0, 1.0, witness).verdict == scarp::Verdict{});
+  auto const& placed = witness.reports.back();
+  CHECK(value_of(placed.parts, "all") < 1e-4);  // had done for the step long before
+  CHECK(value_of(placed.parts, "footing") <= 1e-3);
+  CHECK(placed.residual() == value_of(placed.parts, "footing"));
+  // The vertical part of the imbalance of the block with its base.
+  double carried = 0.0;
+  auto const unbalanced = problem.evaluate_committed().unbalanced;
+  for (int node = 0; node < problem.discretisation().node_count(); ++node)
+    if (problem.discretisation().mesh().nodes[scarp::detail::index(node)].y() >= 4.0)
+      carried += unbalanced(2 * node + 1);
+  CHECK(std::abs(carried) <= 1e-3 * footing_weight);
+}
