@@ -17,8 +17,9 @@ struct TestRow {
   double ratio() const { return horizontal / vertical; }
 };
 
-/// Drained biaxial test on a packing from the stress that it has at rest: for the active case the vertical is compressed while
-/// the horizontal stress is held, for the passive one the other way round; no shear stress, as beside smooth walls.
+/// Drained biaxial test on a packing from the stress that it has at rest: for the active case the vertical is
+/// compressed while the horizontal stress is held, for the passive one the other way round; no shear stress, as beside
+/// smooth walls.
 /// \throws PreparationError when the packing cannot follow
 template <class PackingType>
 std::vector<TestRow> biaxial_test(PackingType packing, typename PackingType::Law const& law, Movement movement,
@@ -55,9 +56,10 @@ inline Curve curve_of(std::vector<TestRow> const& rows) {
   return curve;
 }
 
-/// Strength of packings from all depths together, as a wall sees it: of the sums of their stresses, in the window of strain
-/// where their ratio is extreme. The scatter is that of all single rows of all packings in this window. The wall is another
-/// walk of as many packings: the difference of two such means has the standard deviation \f$ s\sqrt{2/n} \f$, twice this is allowed.
+/// Strength of packings from all depths together, as a wall sees it: of the sums of their stresses, in the window of
+/// strain where their ratio is extreme. The scatter s is that of all single rows of all n packings in this window. The
+/// wall takes as many packings along another path: the difference of two such means has the standard deviation
+/// \f$ s\sqrt{2/n} \f$ if they are independent, and twice this is allowed.
 inline Friction friction_of(std::vector<std::vector<TestRow>> const& tests, Movement movement) {
   auto sums = tests.front();
   for (std::size_t k = 1; k < tests.size(); ++k) {

@@ -12,8 +12,9 @@ namespace retaining_wall {
 
 using Grid = scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::BBar>;
 
-/// Ground between a smooth rigid wall on the left, which moves without turning, and rollers on the right, on a smooth base: the
-/// whole of it yields, as Rankine has it. The load factor is the wall's displacement over the length of the ground.
+/// Ground between a smooth rigid wall on the left, which moves without turning, and rollers on the right, on a smooth
+/// base: the whole of it yields, as Rankine has it. The load factor is the wall's displacement over the ground's
+/// length.
 struct Wall {
   double height = 4.0;           ///< [m]
   double length = 10.0;          ///< of the ground [m]; a passive wedge of phi = 45 degrees ends at 9.7 m
@@ -58,7 +59,7 @@ struct Wall {
   }
 };
 
-/// What presses on the wall and what the ground weighs on itself, both per metre [N/m].
+/// Forces per metre of wall [N/m].
 struct Pressed {
   double force = 0.0;       ///< on the wall
   double far_force = 0.0;   ///< on the rollers, which the base's smoothness makes equal
