@@ -42,6 +42,8 @@ scarp::CheckpointFiles checkpoint_files(Choice const& choice) {
   ChoiceLines lines;
   Choice::members(choice, lines);
   lines("element", fault_rupture::element_name);
+  // What a file holds and not where it lies.
+  if (!choice.mesh.empty()) lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
   // The error budget follows points of the first rank.
   if (int const ranks = fault_rupture::ranks(); ranks > 1) lines("ranks", ranks);
   return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
@@ -87,8 +89,11 @@ void declare_options(CLI::App& app, Choice& choice, std::string& element, bool& 
   app.add_option("--aspect", choice.aspect, "height of a mesh cell over its width")
       ->check(number_from(0.0, false, 10.0));
   app.add_option("--mesh-seed", choice.mesh_seed, "of a jittered mesh");
-  app.add_option("--mesh", choice.mesh, "Gmsh file: region soil; boundaries left, right, bottom, surface")
-      ->check(CLI::ExistingFile);
+  auto* const file =
+      app.add_option("--mesh", choice.mesh, "Gmsh file: region soil; boundaries left, right, bottom, surface")
+          ->check(CLI::ExistingFile);
+  for (char const* made_mesh : {"--size", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
+    file->excludes(app.get_option(made_mesh));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--seed", choice.seed, "of the packing");
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")

@@ -22,8 +22,8 @@ namespace fault_rupture {
 
 using Moment = std::chrono::steady_clock::time_point;
 
-/// An older, longer series would be mixed up with the new one, and an old summary would speak for it. A run that goes on keeps its
-/// series.
+/// An older, longer series would be mixed up with the new one, and an old summary would speak for it. A run that goes
+/// on keeps its series.
 inline void remove_older_results(std::filesystem::path const& folder, bool goes_on) {
   std::filesystem::remove(folder / "summary.json");
   std::filesystem::remove(folder / "summary.txt");
@@ -96,7 +96,9 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   constexpr int profiles = 17;
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   auto const& grid = problem.discretisation();
-  auto const at = [&](double x, double y) { return nearest_point(grid, scarp::Vector<2>(x, y)); };
+  auto const at = [&](double x, double y) {
+    return nearest_point(grid, scarp::Vector<2>(x, scene.ground.surface_level() - depth + y));
+  };
   auto budget = error_budget(choice, scene, problem, at(choice.probe_a_x, choice.probe_a_y));
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnFirstRank observers(executor, [&] {

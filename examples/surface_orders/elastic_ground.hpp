@@ -19,7 +19,8 @@ enum class Step {
   one_facet,  ///< none of it at the tip, all of it at the next node
 };
 
-/// Elastic ground of 75 m x 25 m over a fault at a third from its right end, in cells of 25 m / rows; in space a slab one cell thick.
+/// Elastic ground of 75 m x 25 m over a fault at a third from its right end, in cells of 25 m / rows; in space a slab
+/// one cell thick.
 struct ElasticGround {
   int rows = 4;
   double poisson = 0.3;

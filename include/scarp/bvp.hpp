@@ -23,3 +23,4 @@
 #include "scarp/bvp/rigid_body.hpp"
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/bvp/time_function.hpp"
+#include "scarp/bvp/usual_integration.hpp"

@@ -8,6 +8,7 @@
 /// The load factor is the throw in metres.
 #pragma once
 
+#include "scarp/fault/bedrock_motion.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/fault_scene.hpp"
 #include "scarp/fault/footing_log.hpp"
@@ -15,9 +16,12 @@
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/given_ground.hpp"
+#include "scarp/fault/ground.hpp"
 #include "scarp/fault/ground_levels.hpp"
 #include "scarp/fault/layered_ground.hpp"
 #include "scarp/fault/level_ground.hpp"
 #include "scarp/fault/normal_fault.hpp"
+#include "scarp/fault/reverse_fault.hpp"
+#include "scarp/fault/shared_slip.hpp"
 #include "scarp/fault/sticking_footing.hpp"
 #include "scarp/fault/strip_on_surface.hpp"

@@ -19,3 +19,4 @@
 #include "scarp/mesh/pattern.hpp"
 #include "scarp/mesh/pattern_grid.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/mesh/straight_facets.hpp"

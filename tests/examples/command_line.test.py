@@ -49,7 +49,7 @@ def command(*options):
     return [word for option, value in merged.items() for word in ([option, value] if value is not None else [option])]
 
 
-def check_refusal(program, title, option, value, named, files=None):
+def check_refusal(program, title, option, value, named, files=None, without=(), also=()):
     """The program must end with an error that names what is wrong, before it touches the output folder."""
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
@@ -60,6 +60,7 @@ def check_refusal(program, title, option, value, named, files=None):
         tiny = {"--quick": None, **TINY} if program == FAULT else TINY_BIAXIAL
         if files:
             tiny = {name: given for name, given in tiny.items() if name != "--grains"}
+        tiny = {**{name: given for name, given in tiny.items() if name not in without}, **dict(also)}
         code, said = run(program, *command(tiny, {"--output": "out"}, {option: value}), folder=scratch)
         what = f"{program.name}, {title}"
         expect(code > 0, f"{what}: ended with {code}\n{said}")
@@ -104,7 +105,10 @@ def check_bad_input():
     for title, changed, named in (("a mesh without a surface", mesh.replace('"surface"', '"top"'), "surface"),
                                   ("a mesh without soil", mesh.replace('"soil"', '"rock"'), "soil"),
                                   ("a mesh that is cut off", mesh[:len(mesh) // 2], "m.msh")):
-        check_refusal(FAULT, title, "--mesh", "m.msh", named, {"m.msh": changed})
+        check_refusal(FAULT, title, "--mesh", "m.msh", named, {"m.msh": changed}, {"--size"})
+    check_refusal(FAULT, "a file beside a mesh of its own", "--mesh", "m.msh", "--mesh excludes --size", {"m.msh": mesh})
+    check_refusal(FAULT, "a file without a node at the tip", "--tip", "0.3", "put a node there", {"m.msh": mesh},
+                  {"--size"}, {"--mesh": "m.msh"})
     check_refusal(BIAXIAL, "a window wider than the test", "--smoothing", "0.05", "window")
     for title, value, named in (("negative friction in a list", "0.1,-1", "'-1' is out of range"),
                                 ("text for a friction", "a", "'a' is out of range"),

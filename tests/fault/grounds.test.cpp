@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// The fault scene on every element, pattern and kind of ground.
+// The fault scene on every element and pattern of a layer.
 #include <doctest/doctest.h>
 
 #include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/given_ground.hpp"
 #include "scarp/fault/reverse_fault.hpp"
 #include "scarp/solver/consistent_tangent.hpp"
 
@@ -95,8 +93,8 @@ TEST_CASE("all patterns, aspects and jittered meshes tell the same surface") {
 
 TEST_CASE("a slab of one element in space tells the plane's surface") {
   auto const tall = coarse();
-  // Analytic: hexahedra between two planes that do not move along the strike hold the plane's shapes, and reduced rules meet
-  // the same points. Round-off of some tens of increments.
+  // Analytic: hexahedra between two planes that do not move along the strike hold the plane's shapes, and reduced
+  // rules meet the same points. Round-off of some tens of increments.
   CHECK((on_layer<scarp::Hex20>(tall) - on_layer<scarp::Quad8>(tall)).norm() < 1e-8);
   auto const exact = on_layer<scarp::Quad8>({.size = 2.0});
   auto const error = [&](Eigen::VectorXd const& found) { return (found - exact).lpNorm<Eigen::Infinity>() / 0.25; };

@@ -10,7 +10,7 @@
 
 namespace {
 
-/// A box of quadrilaterals whose cells are narrow near the fault.
+/// A box of quadrilaterals.
 struct BoxGround {
   using Element = scarp::Quad8;
   int cells = 4;

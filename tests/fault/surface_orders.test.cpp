@@ -22,7 +22,8 @@ double surface_order(surface_orders::Step step = surface_orders::Step::moments) 
 }  // namespace
 
 TEST_CASE("the surface over a fault converges by the element's order, its tip included") {
-  // Analytic: order p + 1, since the step at the tip has the moments of the real one; a tenth of an order is not there yet.
+  // Analytic: order p + 1, since the step at the tip has the moments of the real one; a tenth of an order is not there
+  // yet.
   CHECK(surface_order<scarp::Tri3>() > 1.9);
   CHECK(surface_order<scarp::Tri6>() > 2.8);
   CHECK(surface_order<scarp::Quad8>() > 2.8);

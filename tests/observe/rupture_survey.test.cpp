@@ -72,10 +72,9 @@ TEST_CASE("the offset of a fault spreads on its way through elastic ground") {
     CHECK(found.bands[k].band_width < above);
     CHECK(found.bands[k].band_across < found.bands[k].band_width);
   }
-  // Just above bedrock half of the offset has passed within the cell of 5 m right of the tip, over which it is applied.
+  // Just above bedrock half of the offset has passed at the tip, about which it is applied over two cells of 5 m.
   auto const low = scarp::band_at_level(elastic().mesh, elastic().rest, elastic().now, elastic().fault, 0.25, 0.125);
-  CHECK(low.band_x50 > 0.0);
-  CHECK(low.band_x50 < 5.0);
+  CHECK(std::abs(low.band_x50) < 0.5);
 }
 
 TEST_CASE("ground that settles before the fault moves shows the same rupture") {

@@ -5,6 +5,7 @@
 
 #include "io/scratch_folder.hpp"
 #include "scarp/fault/fault_mesh.hpp"
+#include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/state_bits.hpp"
 
@@ -27,10 +28,9 @@ struct Ground {
 };
 
 Ground ground_with_footing() {
-  scarp::FaultMesh layer;
-  layer.size = 5.0;
-  layer.footing = scarp::Footing{.centre = -10.0, .width = 10.0, .meshed = false};
-  return {{layer.generate()}};
+  auto mesh = scarp::FaultMesh{.size = 5.0}.generate({-15.0, -5.0});
+  scarp::mark_footing_base(mesh, -10.0, 10.0);
+  return {{mesh}};
 }
 
 struct Row {
@@ -110,4 +110,20 @@ TEST_CASE("a run that nobody saw at rest counts from its mesh") {
   ground.sink(0.5);
   log.attempted(ground, accepted(1.0));
   CHECK(rows_of(folder / "surface.csv").back().settlement == 0.5);
+}
+
+TEST_CASE("a run that stops between two profiles leaves its last state, once") {
+  ScratchFolder const folder;
+  auto ground = ground_with_footing();
+  scarp::SurfaceLog log(folder / "surface.csv", 1.0, 2, 1.0);
+  log.attempted(ground, accepted(0.0));
+  std::size_t const points = rows_of(folder / "surface.csv").size();
+  ground.sink(0.25);
+  log.attempted(ground, accepted(0.25));  // not due
+  log.ended(ground, 0.25);
+  log.ended(ground, 0.25);
+  auto const rows = rows_of(folder / "surface.csv");
+  REQUIRE(rows.size() == 2 * points);
+  CHECK(rows.back().settlement == 0.25);
+  CHECK(rows.back().fault_throw == 0.25);
 }

@@ -7,6 +7,7 @@
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/fault/fault_mesh.hpp"
+#include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 
@@ -71,10 +72,9 @@ TEST_CASE("in space a place is the mean along the strike") {
 
 TEST_CASE("ground below a footing is part of the profile, and a gap without it") {
   for (bool const meshed : {true, false}) {
-    scarp::FaultMesh layer;
-    layer.size = 5.0;
-    layer.footing = scarp::Footing{.centre = -10.0, .width = 10.0, .height = 5.0, .meshed = meshed};
-    auto const mesh = layer.generate();
+    auto mesh = scarp::FaultMesh{.size = 5.0}.generate({-15.0, -5.0});
+    scarp::mark_footing_base(mesh, -10.0, 10.0);
+    if (meshed) scarp::add_footing_block(mesh, 5.0, 5.0);
     Moved<scarp::Tri3> const moved(mesh);
     auto const whole = scarp::surface_profile(mesh, moved.rest, moved.now);
     for (std::size_t k = 1; k < whole.size(); ++k) CHECK(whole[k].joined);

@@ -67,7 +67,6 @@ struct Choice {
     visit("pattern", self.pattern);
     visit("aspect", self.aspect);
     visit("mesh-seed", self.mesh_seed);
-    visit("mesh", self.mesh);
     visit("reverse", self.reverse);
     visit("grains", self.grains);
     visit("seed", self.seed);

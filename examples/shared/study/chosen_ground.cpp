@@ -22,14 +22,7 @@ double ChosenGround<E>::depth() const {
 
 template <class E>
 ChosenGround<E> ground_of(Choice const& choice) {
-  if (!choice.mesh.empty()) {
-    if (choice.pattern || choice.aspect != 1.0 || choice.triangles > 0) {
-      scarp::refuse(
-          "--mesh '{}' is given with --pattern, --aspect or --triangles (a file has its own mesh): leave these out",
-          choice.mesh);
-    }
-    return {.given = scarp::ground_from_file<E>(choice.mesh).given};
-  }
+  if (!choice.mesh.empty()) return {.given = scarp::ground_from_file<E>(choice.mesh).given};
   auto const pattern = choice.pattern.value_or(is_triangle ? MeshPattern::crossed : MeshPattern::quads);
   scarp::FaultMesh layer{.tip = choice.tip, .size = choice.size, .row_aspect = choice.aspect};
   switch (pattern) {

@@ -11,16 +11,17 @@
 
 namespace fault_rupture {
 
-/// The element is compiled in: a program for another one is another target, see examples/fault_rupture/CMakeLists.txt.
+/// The element is compiled in, so that these names differ from program to program and stay within their sources: a
+/// program for another one is another target, see examples/fault_rupture/CMakeLists.txt.
 #ifndef FAULT_RUPTURE_ELEMENT
 #define FAULT_RUPTURE_ELEMENT Tri3
 #endif
 using Element = scarp::FAULT_RUPTURE_ELEMENT;
-inline constexpr char const* element_name = Element::nodes == 3   ? "tri3"
-                                            : Element::nodes == 6 ? "tri6"
-                                            : Element::nodes == 4 ? "quad4"
-                                                                  : "quad8";
-inline constexpr bool is_triangle = Element::nodes % 3 == 0;
+constexpr char const* element_name = Element::nodes == 3   ? "tri3"
+                                     : Element::nodes == 6 ? "tri6"
+                                     : Element::nodes == 4 ? "quad4"
+                                                           : "quad8";
+constexpr bool is_triangle = Element::nodes % 3 == 0;
 
 /// A layer in a mesh of its own, or the mesh of a file. Defined in chosen_ground.cpp for one element.
 template <class ElementType>

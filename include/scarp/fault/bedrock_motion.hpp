@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// A fault in the bedrock: how far its two sides move per unit of throw (horizontal, vertical; upwards is positive) and where it
-/// meets the bottom of the ground, `tip` [m]. The throw is the vertical part of the slip [m].
+/// A fault in the bedrock: how far its two sides move per unit of throw (horizontal, vertical; upwards is positive)
+/// and where it meets the bottom of the ground, `tip` [m]. The throw is the vertical part of the slip [m].
 template <class Motion>
 concept BedrockMotion = requires(Motion const& motion) {
   { motion.tip } -> std::convertible_to<double>;
@@ -27,22 +27,24 @@ FaultOffset offset_at(Motion const& motion, double fault_throw) {
 /// \throws InputError when no corner of the bottom lies at the tip of a fault
 template <class Element>
 void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
-  auto const lines = detail::bottom_lines(mesh);
+  auto const lines = detail::bottom_corners(mesh);
   double nearest = std::numeric_limits<double>::infinity();
   for (double const line : lines) {
     if (std::abs(line - tip) < std::abs(nearest - tip)) nearest = line;
   }
-  if (std::abs(nearest - tip) <= 1e-6 * (lines.back() - lines.front())) return;
+  if (std::abs(nearest - tip) <= detail::StepAtTip::same_place * (lines.back() - lines.front())) return;
   refuse(
       "the fault tip is at x = {} m (the nearest corner of the mesh's bottom is at {} m): put a node there or move the "
       "tip",
       tip, nearest);
 }
 
-/// The sides "left" and "right" of a mesh and its "bottom" move with the two sides of a fault, by course(load factor) in units of
-/// throw; in between, at the tip, the bottom takes the step as detail::StepAtTip says. The first axis is horizontal, the last
-/// vertical; in space the fault strikes along the second, where nothing moves on "front", "back" and the prescribed sides.
-/// \throws InputError for parameters that the motion refuses, a tip outside the bottom, or a mesh without these boundaries
+/// The sides "left" and "right" of a mesh and its "bottom" move with the two sides of a fault, by course(load factor)
+/// in units of throw; in between, at the tip, the bottom takes the step as detail::StepAtTip says. The first axis is
+/// horizontal, the last vertical; in space the fault strikes along the second, where nothing moves on "front", "back"
+/// and the prescribed sides.
+/// \throws InputError for parameters that the motion refuses, a tip outside the bottom, or a mesh without these
+/// boundaries
 template <BedrockMotion Motion, class Element>
 Constraints bedrock_constraints(Mesh<Element> const& mesh, Motion const& motion, int extra_dofs = 0,
                                 TimeFunction const& course = {}) {

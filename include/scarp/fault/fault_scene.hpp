@@ -12,7 +12,8 @@
 
 namespace scarp {
 
-/// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is attached, in
+/// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is
+/// attached, in
 /// stages of the load factor: from start() to 0 it is placed, from 0 on the fault moves.
 template <class Structure, class Grid>
 concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid::ElementType>& mesh, Grid const& grid,
@@ -25,9 +26,9 @@ concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid
   structure.attached(grid);
 };
 
-/// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states carry the
-/// geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the bedrock, structure,
-/// solver and grid (element, integration, kinematics) are chosen independently of one another.
+/// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
+/// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
+/// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
 template <ConstitutiveProvider Soil, class Structure, class Solver = QuasiNewton<>,
           Ground GroundType = LayeredGround<Tri3>, BedrockMotion Motion = NormalFault,
           class GridType = UsualGrid<typename GroundType::Element>>
@@ -53,6 +54,7 @@ struct FaultScene {
                   "the grid is of the ground's element");
     auto made = ground.mesh(structure.edges());
     structure.put_on(made);
+    require_node_at_tip(made, fault.tip);
     return made;
   }
 
@@ -76,7 +78,6 @@ struct FaultScene {
     require_not_negative("surcharge", surcharge);
     require_positive("throw", throw_to);
     Grid grid(mesh());
-    require_node_at_tip(grid.mesh(), fault.tip);
     Constraints constraints = bedrock_constraints(grid.mesh(), fault, structure.extra_dofs(), TimeFunction::after(0.0));
     int const soil_region = region_number(grid.mesh(), "soil");
     Vector<dim> const down = -Vector<dim>::Unit(dim - 1);

@@ -20,7 +20,7 @@ struct StripFooting {
   std::vector<double> edges() const { return {centre - width / 2.0, centre + width / 2.0}; }
 };
 
-/// How a footing has moved since it was placed, and what the ground presses with against its base.
+/// How a footing has moved from where the mesh has it, and what the ground presses with against its base.
 struct FootingMotion {
   double settlement = 0.0;  ///< of the centre of the base, positive down [m]
   double sideways = 0.0;    ///< along x [m]

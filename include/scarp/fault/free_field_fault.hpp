@@ -8,8 +8,14 @@ namespace scarp {
 /// Nothing stands on the ground.
 struct BareGround {
   static std::vector<double> edges() { return {}; }
+  /// The place of a footing that a mesh marks is bare surface here.
   template <class Element>
-  static void put_on(Mesh<Element>&) {}
+  static void put_on(Mesh<Element>& mesh) {
+    auto const base = mesh.boundaries.extract("footing_base");
+    if (base.empty()) return;
+    auto& surface = mesh.boundaries["surface"];
+    surface.insert(surface.end(), base.mapped().begin(), base.mapped().end());
+  }
   static constexpr int extra_dofs() { return 0; }
   static constexpr double start() { return 0.0; }
   template <class Grid>

@@ -8,9 +8,9 @@
 
 namespace scarp {
 
-/// The ground of a scene: a mesh with the region "soil" and the boundaries "left", "right", "bottom" and "surface", and the height
-/// of its level surface [m]. edges: where along x [m] a structure wants nodes on the surface; a ground whose mesh is given
-/// need not follow, the structure says what it misses.
+/// The ground of a scene: a mesh with the region "soil" and the boundaries "left", "right", "bottom" and "surface",
+/// and the height of its level surface [m]. edges: where along x [m] a structure wants nodes on the surface; a ground
+/// whose mesh is given need not follow, the structure says what it misses.
 template <class G>
 concept Ground = requires(G const& ground, std::vector<double> const& edges) {
   requires ReferenceElement<typename G::Element>;

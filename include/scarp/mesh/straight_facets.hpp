@@ -5,8 +5,8 @@
 
 namespace scarp {
 
-/// The facets of a plane mesh's boundary as straight pieces between neighbouring nodes, in the direction of the facets; one with
-/// a node in its middle gives two.
+/// The facets of a plane mesh's boundary as straight pieces between neighbouring nodes, in the direction of the
+/// facets; one with a node in its middle gives two.
 /// \throws InputError for an unknown name, listing the known ones
 template <class Element>
   requires(Element::dim == 2)

@@ -29,9 +29,9 @@ Tensor<DiscretisationType::dim> total_deformation(DiscretisationType const& disc
   return corners<Element, dim>(nodes, discretisation.positions()).transpose().lazyProduct(shape.gradients);
 }
 
-/// Writes the fields of a plane scene as a VTU series: displacement at the nodes; at the elements (their first point) Cauchy
-/// stress [Pa] tension positive, logarithmic volumetric (contraction positive) and deviatoric strain, status and the given
-/// quantities. Every file is complete when it appears; the PVD's time is load / load_unit.
+/// Writes the fields of a plane scene as a VTU series: displacement at the nodes; at the elements (their first point)
+/// Cauchy stress [Pa] tension positive, logarithmic volumetric (contraction positive) and deviatoric strain, status
+/// and the given quantities. Every file is complete when it appears; the PVD's time is load / load_unit.
 template <class PointQuantities = NoQuantities>
 class FieldSeries : public NeverStops {
  public:
@@ -53,10 +53,11 @@ class FieldSeries : public NeverStops {
     write(problem, report.load);
   }
 
-  /// Writes the last state of a run that stopped between two frames.
+  /// Writes the last state of a run whose fault has moved and that stopped between two frames; its statuses are those
+  /// of the points' last answers, also where these were refused.
   template <class Problem>
   void ended(Problem const& problem, double load) {
-    if (load <= last_) return;
+    if (!(load > 0.0 && load > last_)) return;
     last_ = load;
     write(problem, load);
   }

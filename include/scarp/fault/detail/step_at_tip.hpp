@@ -6,56 +6,42 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/element/mid_sides.hpp"
-#include "scarp/mesh/mesh.hpp"
+#include "scarp/fault/detail/surface_corners.hpp"
 
 namespace scarp::detail {
-
-/// Nodes of a facet that are its corners; they come first.
-template <class Element>
-constexpr std::size_t facet_corners() {
-  if constexpr (HasMidSides<Element>) {
-    return Element::Linear::facet_nodes;
-  } else {
-    return Element::facet_nodes;
-  }
-}
 
 /// Places [m] of the bottom's corners, increasing, each once.
 /// \throws InputError without the boundary "bottom", or when it is empty
 template <class Element>
-std::vector<double> bottom_lines(Mesh<Element> const& mesh) {
-  std::vector<double> lines;
-  for (auto const& facet : boundary(mesh, "bottom")) {
-    for (std::size_t k = 0; k < facet_corners<Element>(); ++k) lines.push_back(mesh.nodes[index(facet[k])](0));
-  }
-  if (lines.empty()) refuse("the boundary 'bottom' is empty (the bedrock moves the ground there): name its facets");
-  std::sort(lines.begin(), lines.end());
-  double const apart = 1e-9 * (lines.back() - lines.front());
-  lines.erase(std::unique(lines.begin(), lines.end(), [&](double a, double b) { return b - a <= apart; }), lines.end());
-  return lines;
+std::vector<double> bottom_corners(Mesh<Element> const& mesh) {
+  auto const corners = corners_along(mesh, "bottom");
+  if (corners.empty()) refuse("the boundary 'bottom' is empty (the bedrock moves the ground there): name its facets");
+  return corners;
 }
 
-/// A unit step of the bottom at the tip of a fault, in the shapes of the mesh. The shapes cannot jump, so the nodes next to the tip
-/// take values whose interpolant has the step's moments \f$ \int (u - u_h)\, x^k\, dx = 0 \f$ about the tip: k = 0 with linear
-/// facets (half at the tip when its neighbours are equally far), k = 0, 1, 2 with quadratic ones (half at the tip, 0 and 1 at the
-/// middles of the two facets). Away from the tip the ground feels moments only, so the step costs no element its order.
-/// A tip between two lines of nodes is a mean of steps at these two.
+/// A unit step of the bottom at the tip of a fault, in the shapes of the mesh. The shapes cannot jump, so the nodes
+/// next to the tip take values whose interpolant has the step's moments \f$ \int (u - u_h)\, x^k\, dx = 0 \f$ about
+/// the tip: k = 0 with linear facets, k = 0, 1, 2 with quadratic ones; where both facets are equally long that is half
+/// at the tip, and 0 and 1 in their middles. Away from the tip the ground feels moments only, so the step costs no
+/// element its order. A tip between two lines of nodes is a mean of steps at these two.
 class StepAtTip {
  public:
+  static constexpr double same_place = 1e-6;  ///< of the bottom's length: what files with seven digits hold
+
   /// \throws InputError for a tip outside the bottom or beside its outermost facets
   template <class Element>
   StepAtTip(Mesh<Element> const& mesh, double tip) : is_quadratic_(HasMidSides<Element>) {
-    auto const lines = bottom_lines(mesh);
+    auto const lines = bottom_corners(mesh);
     if (!(tip > lines.front() && tip < lines.back())) {
       refuse("the fault tip is at x = {} m (the mesh's bottom reaches from {} to {} m): move the tip between them", tip,
              lines.front(), lines.back());
     }
     round_off_ = 1e-9 * (lines.back() - lines.front());
+    double const same = same_place * (lines.back() - lines.front());
     std::size_t before = 0;  // the last line at the tip or left of it
-    while (lines[before + 1] <= tip + round_off_) ++before;
+    while (before + 2 < lines.size() && lines[before + 1] <= tip + same) ++before;
     double const share = (tip - lines[before]) / (lines[before + 1] - lines[before]);
-    bool const on_line = std::abs(tip - lines[before]) <= round_off_;
+    bool const on_line = std::abs(tip - lines[before]) <= same;
     if (before == 0 || before + (on_line ? 1 : 2) >= lines.size()) {
       refuse(
           "the fault tip is at x = {} m (in the outermost facet of the bottom, {} to {} m, whose end moves with the "
@@ -86,8 +72,8 @@ class StepAtTip {
     double const r = lines[line + 1] - lines[line];
     Part part{weight, lines[line], l, r, 0.0, r / (l + r), 1.0};
     if (is_quadratic_) {
-      // Integrals over a facet of its shapes times 1, x, x^2, x from the tip's node: middle 2/3, 1/3, 1/5; node at the tip
-      // 1/6, 0, -1/60; node at the other end 1/6, 1/6, 3/20. Unknown: before, at, after.
+      // Integrals over a facet of its shapes times 1, x, x^2, x from the tip's node: middle 2/3, 1/3, 1/5; node at the
+      // tip 1/6, 0, -1/60; node at the other end 1/6, 1/6, 3/20. Unknown: before, at, after.
       Eigen::Matrix3d moments;
       moments << 2.0 / 3.0 * l, (l + r) / 6.0, 2.0 / 3.0 * r,  //
           -l * l / 3.0, 0.0, r * r / 3.0,                      //

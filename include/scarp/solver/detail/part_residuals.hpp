@@ -35,16 +35,16 @@ inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd
   return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
 }
 
-/// Imbalance of each region that is held nowhere, as a rigid body, relative to its own dead loads: the reactions of heavy
-/// ground would hide a light block that shares its nodes. Regions with a prescribed node have reactions and count in the
-/// whole; a mesh of one region has no parts.
+/// Imbalance of each region that is held nowhere, as a rigid body, relative to its own dead loads: the reactions of
+/// heavy ground would hide a light block that shares its nodes. Regions with a prescribed node have reactions and
+/// count in the whole; a mesh of one region has no parts.
 ///
-/// \f$ \sqrt{|\sum f|^2 + |\sum a \times f|^2 / r^2}\, /\, |\sum p| \f$ with f the unbalanced force of a node, a its initial place from
-/// the mean place of the region's nodes, r the root mean square of |a|, p the load of a node. The imbalance is that of
-/// all nodes of the region, since what carries it acts where it meets its neighbours; the loads are those of nodes that no
-/// other region has, since the weight of a neighbour must not make them look large. Sums rather than norms over the nodes:
-/// a block of concrete's own forces, 1e3 times as stiff as the ground, are known to no more digits than its strains, but
-/// they have no sum; and a sum does not change with the size of the elements.
+/// \f$ \sqrt{|\sum f|^2 + |\sum a \times f|^2 / r^2}\, /\, |\sum p| \f$ with f the unbalanced force of a node, a its
+/// initial place from the mean place of the region's nodes, r the root mean square of |a|, p the load of a node. The
+/// imbalance is that of all nodes of the region, since what carries it acts where it meets its neighbours; the loads
+/// are those of nodes that no other region has, since the weight of a neighbour must not make them look large. Sums
+/// rather than norms over the nodes: a block of concrete's own forces, 1e3 times as stiff as the ground, are known to
+/// no more digits than its strains, but they have no sum; and a sum does not change with the size of the elements.
 template <int Dim>
 class RegionResiduals {
  public:

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSL-1.0
+// Footings on a mesh of quadratic elements, whose facets have nodes in their middles.
+#include <doctest/doctest.h>
+
+#include "approx.hpp"
+#include "scarp/element/quad8.hpp"
+#include "scarp/fault/frictional_footing.hpp"
+#include "scarp/fault/sticking_footing.hpp"
+#include "scarp/solver/consistent_tangent.hpp"
+
+namespace {
+
+using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Soil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
+
+/// Tilt that a small throw gives a footing on elastic ground; what carries it must be its weight.
+template <class Element, class Structure>
+double tilt(Structure const& structure) {
+  scarp::FaultScene<Soil, Structure, Newton, scarp::LayeredGround<Element>> scene;
+  scene.soil = Soil::from_young_poisson(25e6, 0.25, {scene.surcharge, scene.unit_weight, 0.4});
+  scene.ground.layer.size = 5.0;
+  scene.structure = structure;
+  scene.throw_to = 0.05;
+  scene.solver.tolerance = 1e-9;
+  scene.stepping.largest_gradient = 0.02;
+  scarp::SerialExecutor executor;
+  scarp::NoObserver nobody;
+  auto problem = scene.problem(executor);
+  REQUIRE(scene.settle(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.place(problem, nobody).verdict.acceptable());
+  double const placed = structure.motion(problem).tilt;
+  REQUIRE(scene.rupture(problem, nobody).verdict.acceptable());
+  auto const motion = structure.motion(problem);
+  double const weight = structure.footing.bearing * structure.footing.width;
+  CHECK(scarp::support(motion) == samples::Approx(weight).epsilon(1e-6));
+  return motion.tilt - placed;
+}
+
+}  // namespace
+
+TEST_CASE("footings on quadratic elements tilt as on linear ones and are carried by the ground") {
+  scarp::FrictionalFooting<> rigid;
+  rigid.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = 0.5};
+  double const sticking = tilt<scarp::Quad8>(scarp::StickingFooting{});
+  double const frictional = tilt<scarp::Quad8>(rigid);
+  CHECK(sticking > 0.0);
+  // The same settlements below both: a tenth for what the base lets slip.
+  CHECK(frictional == samples::Approx(sticking).epsilon(0.1));
+  // Linear triangles of 5 m: the surface's slope to a few per cent, see tests/fault/grounds.test.cpp.
+  CHECK(tilt<scarp::Tri3>(rigid) == samples::Approx(frictional).epsilon(0.1));
+}
