@@ -39,12 +39,13 @@ inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd
 /// heavy ground would hide a light block that shares its nodes. Regions with a prescribed node have reactions and
 /// count in the whole; a mesh of one region has no parts.
 ///
-/// \f$ \sqrt{|\sum f|^2 + |\sum a \times f|^2 / r^2}\, /\, |\sum p| \f$ with f the unbalanced force of a node, a its
-/// initial place from the mean place of the region's nodes, r the root mean square of |a|, p the load of a node. The
-/// imbalance is that of all nodes of the region, since what carries it acts where it meets its neighbours; the loads
-/// are those of nodes that no other region has, since the weight of a neighbour must not make them look large. Sums
-/// rather than norms over the nodes: a block of concrete's own forces, 1e3 times as stiff as the ground, are known to
-/// no more digits than its strains, but they have no sum; and a sum does not change with the size of the elements.
+/// The resultant \f$ \sqrt{|\sum f|^2 + |\sum a \times f|^2 / r^2} \f$ of the unbalanced forces f over that of the
+/// loads; a is the initial place of a node from the mean place of the region's nodes, r the root mean square of |a|.
+/// The imbalance is that of all nodes of the region, since what carries it acts where it meets its neighbours; the
+/// loads are those of nodes that no other region has, since the weight of a neighbour must not make them look large.
+/// Sums rather than norms over the nodes: a block of concrete's own forces, 1e3 times as stiff as the ground, are
+/// known to no more digits than its strains, but they have no sum; and a sum does not change with the size of the
+/// elements.
 template <int Dim>
 class RegionResiduals {
  public:
@@ -60,14 +61,16 @@ class RegionResiduals {
     for (int region = 0; region < count(mesh.regions); ++region) {
       if (held[index(region)]) continue;
       Part part{.name = mesh.regions[index(region)]};
+      std::vector<int> shared;
       for (int node = 0; node < count(mesh.nodes); ++node) {
         auto const& regions = regions_of[index(node)];
         if (std::find(regions.begin(), regions.end(), region) == regions.end()) continue;
-        part.nodes.push_back(node);
-        part.arms.push_back(mesh.nodes[index(node)]);
-        if (regions.size() == 1) part.own_nodes.push_back(node);
+        (regions.size() == 1 ? part.nodes : shared).push_back(node);
       }
+      part.own = part.nodes.size();
+      part.nodes.insert(part.nodes.end(), shared.begin(), shared.end());
       if (part.nodes.empty()) continue;
+      for (int const node : part.nodes) part.arms.push_back(mesh.nodes[index(node)]);
       centre(part.arms);
       parts_.push_back(std::move(part));
     }
@@ -89,26 +92,28 @@ class RegionResiduals {
  private:
   struct Part {
     std::string name;
-    std::vector<int> nodes{};         ///< of its elements; none is prescribed
+    std::vector<int> nodes{};         ///< of its elements; none is prescribed. First those that no other region has
     std::vector<Vector<Dim>> arms{};  ///< of these nodes, over the region's radius
-    std::vector<int> own_nodes{};     ///< those that belong to no other region
+    std::size_t own = 0;              ///< how many no other region has
 
     /// 0 for a region without loads, such as a block before it is placed.
     double residual(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
-      Vector<Dim> load = Vector<Dim>::Zero();
-      for (int const node : own_nodes) load += loads.template segment<Dim>(Dim * node);
-      double const scale = load.norm();
-      if (scale == 0.0) return 0.0;
-      Vector<Dim> force = Vector<Dim>::Zero();
+      double const scale = resultant(loads, own);
+      return scale == 0.0 ? 0.0 : resultant(unbalanced, nodes.size()) / scale;
+    }
+
+    /// Of the first so many nodes' forces: sum and couple, the latter over the region's radius.
+    double resultant(Eigen::VectorXd const& forces, std::size_t first) const {
+      Vector<Dim> sum = Vector<Dim>::Zero();
       Tensor<Dim> turning = Tensor<Dim>::Zero();
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        auto const at_node = unbalanced.template segment<Dim>(Dim * nodes[k]);
-        force += at_node;
-        turning += arms[k] * at_node.transpose();
+      for (std::size_t k = 0; k < first; ++k) {
+        auto const force = forces.template segment<Dim>(Dim * nodes[k]);
+        sum += force;
+        turning += arms[k] * force.transpose();
       }
-      // Twice the couple's squared length is that of the skew tensor.
+      // Of a skew tensor the squared length is twice that of its vector.
       double const couple = (turning - turning.transpose()).squaredNorm() / 2.0;
-      return std::sqrt(force.squaredNorm() + couple) / scale;
+      return std::sqrt(sum.squaredNorm() + couple);
     }
   };
 
