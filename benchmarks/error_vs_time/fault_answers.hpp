@@ -80,8 +80,7 @@ scarp::Measured run_fault(SceneType const& scene, Executor& executor, double mos
   auto const& grid = problem.discretisation();
   auto const& mesh = grid.mesh();
   auto const profile = scarp::surface_profile(mesh, rest.of(mesh), grid.positions());
-  auto const survey =
-      scarp::rupture_survey(mesh, rest.of(mesh), grid.positions(), offset_at(scene.fault, report.load));
+  auto const survey = scarp::rupture_survey(mesh, rest.of(mesh), grid.positions(), offset_at(scene.fault, report.load));
   measured.answer("surface profile", settlements(profile, report.load));
   measured.answer("outcrop", survey.surface.outcrop_x);
   measured.answer("x50", survey.surface.surface_x50);

@@ -157,7 +157,8 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   }
   json["vertical_stress_error"] = rest.vertical_error;
   add_rupture(json, survey, offset.tip - survey.depth / std::tan(scene.fault.dip));
-  json["settlement_foot_over_throw"] = offset.share(scarp::settlement_at(profile, profile.front().x_initial + from_side));
+  json["settlement_foot_over_throw"] =
+      offset.share(scarp::settlement_at(profile, profile.front().x_initial + from_side));
   json["settlement_hanging_over_throw"] =
       offset.share(scarp::settlement_at(profile, profile.back().x_initial - from_side));
   add_footing(json, scene, problem);
