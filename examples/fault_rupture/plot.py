@@ -123,6 +123,23 @@ def status_note(grid):
     return "".join(f", {count} elements {name}" for name, count in counts.items() if count)
 
 
+def draw_bands(axes, summary, depth):
+    """Where half of the offset has passed at three levels and at the surface, in places before the fault moved; widths across."""
+    places = [(band.get("band_x50"), band["height_over_depth"] * depth, band.get("band_across"))
+              for band in summary.get("bands") or []]
+    places.append((summary.get("surface_x50"), depth, None))
+    places = [place for place in places if figures.finite(place[0]) is not None]
+    if not places:
+        return
+    axes.plot([x for x, _, _ in places], [y for _, y, _ in places], "o--", color=VERMILION, markersize=4, linewidth=1.0,
+              label="half of the offset (before the fault moved), and the band's width across")
+    for x, y, width in places:
+        if figures.finite(width) is not None:
+            axes.annotate(f"{width:.1f} m", (x, y), xytext=(8, -3), textcoords="offset points", color=VERMILION,
+                          path_effects=[withStroke(linewidth=2.0, foreground="white")])
+    axes.legend(loc="lower left", fontsize=7)
+
+
 def deformation(folder):
     throw, grid, path = read_steps(folder, [1.0])[0]
     strain = deviatoric_percent(grid, path)
@@ -140,6 +157,7 @@ def deformation(folder):
     upper.set_title(f"largest strain {np.nanmax(strain):.3g} %{status_note(grid)}", loc="right", fontsize=7.5)
     draw_settlement(fig, lower, grid, path)
     lower.set(xlabel="x [m]", ylabel="y [m]")
+    draw_bands(lower, figures.read_summary(folder), layer_depth(folder))
     lower.set_title("Vertical displacement", loc="left")
     return fig
 
