@@ -104,8 +104,8 @@ Outcome contrast(double factor) {
   auto const rigid = tilted(std::max(10.0 * factor, 1e6));
   double const apart = relative(found.motion.tilt, rigid.motion.tilt);
   // What a block of 10 m x 1 m bends falls with the contrast. Runs in which steps were refused take finer ones on a
-  // path that depends on them: up to 0.8 % of the tilt was measured between runs with and without.
-  auto outcome = at_most(30.0 / factor + 1e-2, apart,
+  // path that depends on them: up to 1.4 % of the tilt was measured between runs with and without.
+  auto outcome = at_most(30.0 / factor + 2e-2, apart,
                          "difference of the tilt from that at ten times this, at least 1e6", words(found));
   outcome.as_expected &= found.run.verdict.acceptable() && rigid.run.verdict.acceptable() &&
                          std::abs(found.motion.tilt) > 1e-4 && found.watch.linear_residual < 1e-8;

@@ -106,7 +106,7 @@ def check_bad_input():
                                   ("a mesh without soil", mesh.replace('"soil"', '"rock"'), "soil"),
                                   ("a mesh that is cut off", mesh[:len(mesh) // 2], "m.msh")):
         check_refusal(FAULT, title, "--mesh", "m.msh", named, {"m.msh": changed}, {"--size"})
-    check_refusal(FAULT, "a file beside a mesh of its own", "--mesh", "m.msh", "--mesh excludes --size", {"m.msh": mesh})
+    check_refusal(FAULT, "a file beside a mesh of its own", "--mesh", "m.msh", "--size excludes --mesh", {"m.msh": mesh})
     check_refusal(FAULT, "a file without a node at the tip", "--tip", "0.3", "put a node there", {"m.msh": mesh},
                   {"--size"}, {"--mesh": "m.msh"})
     check_refusal(BIAXIAL, "a window wider than the test", "--smoothing", "0.05", "window")
