@@ -10,7 +10,7 @@
 namespace {
 
 std::filesystem::path gmsh_sample(std::string const& name) {
-  return std::filesystem::path(__FILE__).parent_path().parent_path() / "reference" / "gmsh" / name;
+  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "reference" / "gmsh" / name;
 }
 
 }  // namespace

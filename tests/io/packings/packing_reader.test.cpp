@@ -37,7 +37,7 @@ constexpr double density = 2650.0;  // [kg/m3]
 constexpr double thickness = 0.2;   // [m]
 
 std::filesystem::path reference(char const* name) {
-  return std::filesystem::path(__FILE__).parent_path().parent_path() / "reference" / name;
+  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "reference" / name;
 }
 
 scarp::LinearFrictional law() { return {.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55}; }

@@ -41,7 +41,7 @@ constexpr std::array scatter_at_friction_015{Point{0.0025, 0.0130, 2.4e-5}, Poin
                                              Point{0.03, 0.1961, 1.153e-3}};
 
 std::filesystem::path reference(std::string const& name) {
-  return std::filesystem::path(__FILE__).parent_path().parent_path() / "reference" / "sudodem" / name;
+  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "reference" / "sudodem" / name;
 }
 
 /// The packing of the file at rest under the pressure, the cell rectangular. The file holds no shear forces: they grow again
