@@ -45,8 +45,7 @@ class StepAtTip {
     if (before == 0 || before + (on_line ? 1 : 2) >= lines.size()) {
       refuse(
           "the fault tip is at x = {} m (in the outermost facet of the bottom, {} to {} m, whose end moves with the "
-          "side): move "
-          "the tip inwards or make the mesh finer there",
+          "side): move the tip inwards or make the mesh finer there",
           tip, lines[before], lines[before + 1]);
     }
     add(lines, before, on_line ? 1.0 : 1.0 - share);
