@@ -4,8 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "scarp/solver/sparse_lu_definitions.hpp"
-
 namespace samples {
 
 Eigen::VectorXd eigenvalues(Eigen::MatrixXd const& symmetric) {

@@ -10,6 +10,7 @@
 #include "scarp/bvp/kinematics.hpp"
 #include "scarp/bvp/point_by_point.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
@@ -17,10 +18,11 @@ namespace scarp {
 /// nodal forces and stiffness. Knows no material; keeps only the committed positions of the nodes.
 /// Degree of freedom = dim * node + axis; point = (number of an element's material points) * element + its own number,
 /// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
-/// gives the same bits.
+/// gives the same bits. Members that cost much to compile are defined outside, so that a library can keep them.
 template <ReferenceElement Element, Kinematics Motion = UpdatedLagrangian, class Scheme = FullIntegration>
-  requires Integration<Scheme, Element>
-class Discretisation {
+class SCARP_EXPORT Discretisation {
+  static_assert(Integration<Scheme, Element>, "this scheme does not fit the element: see bvp/integration.hpp");
+
  public:
   using ElementType = Element;
   static constexpr bool follows_motion = Motion::follows_motion;
@@ -29,13 +31,7 @@ class Discretisation {
 
   /// thickness [m] out of the plane; in 3D it is 1
   /// \throws InputError for an invalid mesh or thickness
-  explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0)
-      : mesh_((validate(mesh), std::move(mesh))), thickness_(thickness), positions_(mesh_.nodes), sparsity_(mesh_) {
-    require_positive("thickness", thickness);
-    if (dim == 3 && thickness != 1.0) {
-      refuse("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
-    }
-  }
+  explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0);
 
   Mesh<Element> const& mesh() const { return mesh_; }
   double thickness() const { return thickness_; }
@@ -52,123 +48,37 @@ class Discretisation {
   std::vector<Vector<dim>> const& positions() const { return positions_; }
 
   /// Where a point is in the committed configuration; surface_level [m] is the height of the ground surface.
-  Site<dim> site(int point, double surface_level) const {
-    int const element = point / points_per_element;
-    auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions_);
-    Vector<dim> const position = rows.transpose() * Element::shape(local_point(point).xi);
-    return {point, mesh_.element_region[detail::index(element)], position, surface_level - position(dim - 1)};
-  }
+  Site<Element::dim> site(int point, double surface_level) const;
 
   /// Displacement gradient of the increment at every point, for the material.
   /// increment [m], shape (dof_count); out: shape (point_count), always filled
   /// \return the first element whose Jacobian is not positive (or NaN) after the increment, if there is one
-  std::optional<int> gradients(Eigen::VectorXd const& increment, std::span<Gradient<dim>> out) const {
-    require_length("displacement increment", increment.size(), dof_count());
-    require_length("gradients", std::ssize(out), point_count());
-    std::optional<int> inverted;
-    for_each_element(reference(), [&](int element, Shapes const& shapes) {
-      auto const gradients = Scheme::template gradients<Motion>(shapes, element_part(increment, element));
-      for (std::size_t p = 0; p < gradients.size(); ++p) {
-        out[first_point(element) + p] = Motion::template seen<dim>(gradients[p]);
-        if (Motion::follows_motion && !inverted && !((Tensor<dim>::Identity() + gradients[p]).determinant() > 0.0)) {
-          inverted = element;
-        }
-      }
-    });
-    return inverted;
-  }
+  std::optional<int> gradients(Eigen::VectorXd const& increment, std::span<Gradient<dim>> out) const;
 
   /// \f$ f_{a} = \int \sigma \nabla N_a\,dv \f$ [N] as Scheme sums it; out: shape (dof_count), overwritten
   /// stresses [Pa] at the end of the increment, shape (point_count)
   void internal_force(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
-                      Eigen::VectorXd& out) const {
-    require_length("displacement increment", increment.size(), dof_count());
-    require_length("stresses", std::ssize(stresses), point_count());
-    out.setZero(dof_count());
-    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
-      Corners<Element, dim> const forces = Scheme::forces(shapes, of_element(stresses, element));
-      auto const& nodes = mesh_.elements[detail::index(element)];
-      for (int a = 0; a < Element::nodes; ++a) {
-        out.template segment<dim>(dim * nodes[detail::index(a)]) += forces.row(a).transpose();
-      }
-    });
-  }
+                      Eigen::VectorXd& out) const;
 
   /// Derivative of the internal force [N/m] with respect to a further displacement from the end of the increment.
   /// tangents [Pa]: change of the co-rotated Cauchy stress with the strain of that further displacement
   /// out: overwritten; its memory is used again when it comes from an earlier call
   void stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
-                 std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const {
-    require_length("displacement increment", increment.size(), dof_count());
-    require_length("stresses", std::ssize(stresses), point_count());
-    require_length("tangents", std::ssize(tangents), point_count());
-    sparsity_.reset(out);
-    double* const values = out.valuePtr();
-    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
-      ElementMatrix<Element> const matrix =
-          Scheme::template stiffness<Motion>(shapes, of_element(stresses, element), of_element(tangents, element));
-      int const* const to = sparsity_.addresses().data() + element * matrix.size();
-      for (int entry = 0; entry < matrix.size(); ++entry) {
-        values[to[entry]] += matrix(entry);
-      }
-    });
-  }
+                 std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const;
 
   Eigen::SparseMatrix<double> stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
-                                        std::span<VoigtTangent<dim> const> tangents) const {
-    Eigen::SparseMatrix<double> matrix;
-    stiffness(increment, stresses, tangents, matrix);
-    return matrix;
-  }
+                                        std::span<VoigtTangent<dim> const> tangents) const;
 
   /// Engineering strains of all points for a small further displacement from the end of the increment, as Scheme forms
   /// them; row = voigt_size * point + component, shape (voigt_size * point_count, dof_count)
-  Eigen::SparseMatrix<double> strain_operator(Eigen::VectorXd const& increment) const {
-    require_length("displacement increment", increment.size(), dof_count());
-    std::vector<Eigen::Triplet<double>> entries;
-    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
-      auto const& nodes = mesh_.elements[detail::index(element)];
-      for (int a = 0; a < Element::nodes; ++a) {
-        for (int axis = 0; axis < dim; ++axis) {
-          Corners<Element, dim> move = Corners<Element, dim>::Zero();
-          move(a, axis) = 1.0;
-          auto const gradients = Scheme::template gradients<SmallStrain>(shapes, move);
-          for (int p = 0; p < points_per_element; ++p) {
-            auto const strain = to_engineering_strain<dim, double>(gradients[detail::index(p)]);
-            int const row = voigt_size<dim> * (points_per_element * element + p);
-            for (int k = 0; k < voigt_size<dim>; ++k) {
-              entries.emplace_back(row + k, dim * nodes[detail::index(a)] + axis, strain(k));
-            }
-          }
-        }
-      }
-    });
-    Eigen::SparseMatrix<double> strains(voigt_size<dim> * point_count(), dof_count());
-    strains.setFromTriplets(entries.begin(), entries.end());
-    return strains;
-  }
+  Eigen::SparseMatrix<double> strain_operator(Eigen::VectorXd const& increment) const;
 
   /// Volume [m3] of each point, thickness included, in the configuration that forces are balanced in.
-  std::vector<double> volumes(Eigen::VectorXd const& increment) const {
-    require_length("displacement increment", increment.size(), dof_count());
-    std::vector<double> volumes(detail::index(point_count()));
-    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
-      for (std::size_t p = 0; p < shapes.size(); ++p) {
-        volumes[first_point(element) + p] = shapes[p].volume;
-      }
-    });
-    return volumes;
-  }
+  std::vector<double> volumes(Eigen::VectorXd const& increment) const;
 
   /// Makes the configuration at the end of the increment the committed one.
   /// \throws InputError when the increment is not finite; nothing has moved then
-  void commit(Eigen::VectorXd const& increment) {
-    require_length("displacement increment", increment.size(), dof_count());
-    if (!increment.allFinite()) {
-      refuse("the displacement increment is not finite (a diverged step must not be committed): cut the load step");
-    }
-    positions_ = moved(increment);
-  }
+  void commit(Eigen::VectorXd const& increment);
 
   /// Puts the committed positions [m] back to ones that were saved.
   void restore(std::vector<Vector<dim>> positions) {
@@ -261,5 +171,136 @@ class Discretisation {
   std::vector<Vector<dim>> positions_;
   Sparsity sparsity_;
 };
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, double thickness)
+    : mesh_((validate(mesh), std::move(mesh))), thickness_(thickness), positions_(mesh_.nodes), sparsity_(mesh_) {
+  require_positive("thickness", thickness);
+  if (dim == 3 && thickness != 1.0) {
+    refuse("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
+  }
+}
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+Site<Element::dim> Discretisation<Element, Motion, Scheme>::site(int point, double surface_level) const {
+  int const element = point / points_per_element;
+  auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions_);
+  Vector<dim> const position = rows.transpose() * Element::shape(local_point(point).xi);
+  return {point, mesh_.element_region[detail::index(element)], position, surface_level - position(dim - 1)};
+}
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::VectorXd const& increment,
+                                                                      std::span<Gradient<dim>> out) const {
+  require_length("displacement increment", increment.size(), dof_count());
+  require_length("gradients", std::ssize(out), point_count());
+  std::optional<int> inverted;
+  for_each_element(reference(), [&](int element, Shapes const& shapes) {
+    auto const gradients = Scheme::template gradients<Motion>(shapes, element_part(increment, element));
+    for (std::size_t p = 0; p < gradients.size(); ++p) {
+      out[first_point(element) + p] = Motion::template seen<dim>(gradients[p]);
+      if (Motion::follows_motion && !inverted && !((Tensor<dim>::Identity() + gradients[p]).determinant() > 0.0)) {
+        inverted = element;
+      }
+    }
+  });
+  return inverted;
+}
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+
+void Discretisation<Element, Motion, Scheme>::internal_force(Eigen::VectorXd const& increment,
+                                                             std::span<VoigtStress<dim> const> stresses,
+                                                             Eigen::VectorXd& out) const {
+  require_length("displacement increment", increment.size(), dof_count());
+  require_length("stresses", std::ssize(stresses), point_count());
+  out.setZero(dof_count());
+  for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+    Corners<Element, dim> const forces = Scheme::forces(shapes, of_element(stresses, element));
+    auto const& nodes = mesh_.elements[detail::index(element)];
+    for (int a = 0; a < Element::nodes; ++a) {
+      out.template segment<dim>(dim * nodes[detail::index(a)]) += forces.row(a).transpose();
+    }
+  });
+}
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+
+void Discretisation<Element, Motion, Scheme>::stiffness(Eigen::VectorXd const& increment,
+                                                        std::span<VoigtStress<dim> const> stresses,
+                                                        std::span<VoigtTangent<dim> const> tangents,
+                                                        Eigen::SparseMatrix<double>& out) const {
+  require_length("displacement increment", increment.size(), dof_count());
+  require_length("stresses", std::ssize(stresses), point_count());
+  require_length("tangents", std::ssize(tangents), point_count());
+  sparsity_.reset(out);
+  double* const values = out.valuePtr();
+  for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+    ElementMatrix<Element> const matrix =
+        Scheme::template stiffness<Motion>(shapes, of_element(stresses, element), of_element(tangents, element));
+    int const* const to = sparsity_.addresses().data() + element * matrix.size();
+    for (int entry = 0; entry < matrix.size(); ++entry) {
+      values[to[entry]] += matrix(entry);
+    }
+  });
+}
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::stiffness(
+    Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
+    std::span<VoigtTangent<dim> const> tangents) const {
+  Eigen::SparseMatrix<double> matrix;
+  stiffness(increment, stresses, tangents, matrix);
+  return matrix;
+}
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::strain_operator(
+    Eigen::VectorXd const& increment) const {
+  require_length("displacement increment", increment.size(), dof_count());
+  std::vector<Eigen::Triplet<double>> entries;
+  for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+    auto const& nodes = mesh_.elements[detail::index(element)];
+    for (int a = 0; a < Element::nodes; ++a) {
+      for (int axis = 0; axis < dim; ++axis) {
+        Corners<Element, dim> move = Corners<Element, dim>::Zero();
+        move(a, axis) = 1.0;
+        auto const gradients = Scheme::template gradients<SmallStrain>(shapes, move);
+        for (int p = 0; p < points_per_element; ++p) {
+          auto const strain = to_engineering_strain<dim, double>(gradients[detail::index(p)]);
+          int const row = voigt_size<dim> * (points_per_element * element + p);
+          for (int k = 0; k < voigt_size<dim>; ++k) {
+            entries.emplace_back(row + k, dim * nodes[detail::index(a)] + axis, strain(k));
+          }
+        }
+      }
+    }
+  });
+  Eigen::SparseMatrix<double> strains(voigt_size<dim> * point_count(), dof_count());
+  strains.setFromTriplets(entries.begin(), entries.end());
+  return strains;
+}
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::VectorXd const& increment) const {
+  require_length("displacement increment", increment.size(), dof_count());
+  std::vector<double> volumes(detail::index(point_count()));
+  for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+    for (std::size_t p = 0; p < shapes.size(); ++p) {
+      volumes[first_point(element) + p] = shapes[p].volume;
+    }
+  });
+  return volumes;
+}
+
+template <ReferenceElement Element, Kinematics Motion, class Scheme>
+
+void Discretisation<Element, Motion, Scheme>::commit(Eigen::VectorXd const& increment) {
+  require_length("displacement increment", increment.size(), dof_count());
+  if (!increment.allFinite()) {
+    refuse("the displacement increment is not finite (a diverged step must not be committed): cut the load step");
+  }
+  positions_ = moved(increment);
+}
 
 }  // namespace scarp

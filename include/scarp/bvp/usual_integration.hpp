@@ -6,6 +6,12 @@
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/mid_sides.hpp"
+#ifdef SCARP_PRECOMPILED
+#include "scarp/element/quad4.hpp"
+#include "scarp/element/quad8.hpp"
+#include "scarp/element/tri3.hpp"
+#include "scarp/element/tri6.hpp"
+#endif
 
 namespace scarp {
 
@@ -19,5 +25,12 @@ using UsualIntegration = std::conditional_t<!GivesReducedQuadrature<Element>, Fu
 /// Updated Lagrangian elements with that integration.
 template <ReferenceElement Element>
 using UsualGrid = Discretisation<Element, UpdatedLagrangian, UsualIntegration<Element>>;
+
+#ifdef SCARP_PRECOMPILED
+extern template class Discretisation<Tri3, UpdatedLagrangian, UsualIntegration<Tri3>>;
+extern template class Discretisation<Tri6, UpdatedLagrangian, UsualIntegration<Tri6>>;
+extern template class Discretisation<Quad4, UpdatedLagrangian, UsualIntegration<Quad4>>;
+extern template class Discretisation<Quad8, UpdatedLagrangian, UsualIntegration<Quad8>>;
+#endif
 
 }  // namespace scarp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/contact/contact_law.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/core/select.hpp"
 
 namespace scarp {
@@ -28,5 +29,8 @@ struct Frictionless {
 
 static_assert(ContactLaw<Frictionless>);
 static_assert(TellsStoredEnergy<Frictionless>);
+
+template <>
+inline constexpr bool is_precompiled<Frictionless> = detail::has_library;
 
 }  // namespace scarp

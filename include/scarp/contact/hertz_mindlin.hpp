@@ -6,6 +6,7 @@
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/coulomb.hpp"
 #include "scarp/contact/detail/hertz_damping.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/core/select.hpp"
 
 namespace scarp {
@@ -114,5 +115,8 @@ static_assert(ContactLaw<HertzMindlin<>>);
 static_assert(ContactLaw<HertzMindlin<HertzRestitution>>);
 static_assert(Frictional<HertzMindlin<>>);
 static_assert(TellsStoredEnergy<HertzMindlin<>>);
+
+template <>
+inline constexpr bool is_precompiled<HertzMindlin<>> = detail::has_library;
 
 }  // namespace scarp

@@ -3,6 +3,7 @@
 
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/coulomb.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/core/select.hpp"
 
 namespace scarp {
@@ -44,5 +45,8 @@ struct LinearFrictional {
 static_assert(ContactLaw<LinearFrictional>);
 static_assert(Frictional<LinearFrictional>);
 static_assert(TellsStoredEnergy<LinearFrictional>);
+
+template <>
+inline constexpr bool is_precompiled<LinearFrictional> = detail::has_library;
 
 }  // namespace scarp

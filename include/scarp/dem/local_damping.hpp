@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scarp/core/constant.hpp"
+#include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
@@ -23,5 +24,8 @@ struct LocalDamping {
     return constant<T>(1.0 - drag) * velocity + damped * mobility;
   }
 };
+
+template <>
+inline constexpr bool is_precompiled<LocalDamping> = detail::has_library;
 
 }  // namespace scarp

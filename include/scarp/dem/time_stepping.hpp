@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scarp/core/index.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/dem/critical_step.hpp"
 #include "scarp/dem/detail/pair_loop.hpp"
 #include "scarp/dem/local_damping.hpp"
@@ -27,11 +28,35 @@ struct StepObservation {
   double kinetic_energy = 0.0;  ///< of fluctuations, mean of before and after the move
 };
 
+namespace detail {
+
+/// The kernel of a stepper in a library: `TimeStepper` of the same names. Defined by dem/detail/library_kernel.hpp.
+template <class Stepper>
+struct SCARP_EXPORT LibraryKernel {
+  using PackingType = typename Stepper::PackingType;
+  using Law = typename Stepper::Law;
+  static constexpr int dim = PackingType::dim;
+
+  static Verdict refresh(Stepper const& stepper, PackingType& packing, Law const& law);
+  template <Observe what>
+  static Verdict step(Stepper& stepper, PackingType& packing, Law const& law, Tensor<dim> const& strain_step,
+                      StepObservation<dim>* observed);
+  static Verdict observe(Stepper& stepper, PackingType& packing, Law const& law, StepObservation<dim>& observed);
+};
+
+template <class PackingType, class Damping>
+inline constexpr bool kernel_is_precompiled =
+    is_precompiled<typename PackingType::Shape>&& is_precompiled<typename PackingType::Law>&& is_precompiled<Damping>&&
+        std::is_same_v<typename PackingType::Scalar, double>;
+
+}  // namespace detail
+
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient. Holds the scratch memory, so one
 /// stepper serves many packings in turn but only one thread.
-template <class PackingType, class Damping = LocalDamping>
+template <class PackingOf, class Damping = LocalDamping>
 class TimeStepper {
  public:
+  using PackingType = PackingOf;
   static constexpr int dim = PackingType::dim;
   using Shape = typename PackingType::Shape;
   using Law = typename PackingType::Law;
@@ -48,6 +73,50 @@ class TimeStepper {
   /// Makes the pair list where there is none or it has become too old, and the critical step with it.
   /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary ones
   Verdict refresh(PackingType& packing, Law const& law) const {
+    if constexpr (in_library) {
+      return Library::refresh(*this, packing, law);
+    } else {
+      return refresh_here(packing, law);
+    }
+  }
+
+  /// One time step while the cell follows the displacement gradient `strain_step` (velocity gradient x time step).
+  /// When it observes, `observed` receives the state before the move.
+  template <Observe what = Observe::nothing>
+  Verdict step(PackingType& packing, Law const& law, Tensor<dim> const& strain_step,
+               StepObservation<dim>* observed = nullptr) {
+    if constexpr (in_library) {
+      return Library::template step<what>(*this, packing, law, strain_step, observed);
+    } else {
+      return step_here<what>(packing, law, strain_step, observed);
+    }
+  }
+
+  /// Stress and balance of the packing as it stands; no grain moves, but contacts are brought up to date, which the next
+  /// step would do in the same way, and an old pair list is renewed.
+  Verdict observe(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
+    if constexpr (in_library) {
+      return Library::observe(*this, packing, law, observed);
+    } else {
+      return observe_here(packing, law, observed);
+    }
+  }
+
+  /// Takes the grains' velocities away, after the contacts have answered to the last move.
+  Verdict stop(PackingType& packing, Law const& law) {
+    StepObservation<dim> unused;
+    Verdict const verdict = observe(packing, law, unused);
+    packing.rest();
+    return verdict;
+  }
+
+ private:
+  using Layout = RowLayout<Shape, Law>;
+  using Library = detail::LibraryKernel<TimeStepper>;
+  friend Library;
+  static constexpr bool in_library = detail::kernel_is_precompiled<PackingType, Damping>;
+
+  Verdict refresh_here(PackingType& packing, Law const& law) const {
     if constexpr (Frictional<Law>) {
       double const friction = Law(law).friction_coefficient();
       if (!(std::isfinite(friction) && friction >= 0.0)) return {Status::failed, Reason::not_finite};
@@ -58,12 +127,10 @@ class TimeStepper {
     return verdict;
   }
 
-  /// One time step while the cell follows the displacement gradient `strain_step` (velocity gradient x time step).
-  /// When it observes, `observed` receives the state before the move.
-  template <Observe what = Observe::nothing>
-  Verdict step(PackingType& packing, Law const& law, Tensor<dim> const& strain_step,
-               StepObservation<dim>* observed = nullptr) {
-    if (Verdict const verdict = refresh(packing, law); !verdict.acceptable()) return verdict;
+  template <Observe what>
+  Verdict step_here(PackingType& packing, Law const& law, Tensor<dim> const& strain_step,
+                    StepObservation<dim>* observed) {
+    if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
     double const time_step = time_step_share * packing.pairs.critical_step;
     ContactSums<dim> const sums = pair_forces<what>(packing, law, scratch_);
     if constexpr (what != Observe::nothing) *observed = observe(packing, sums);
@@ -79,24 +146,11 @@ class TimeStepper {
     return {};
   }
 
-  /// Stress and balance of the packing as it stands; no grain moves, but contacts are brought up to date, which the next
-  /// step would do in the same way, and an old pair list is renewed.
-  Verdict observe(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
-    if (Verdict const verdict = refresh(packing, law); !verdict.acceptable()) return verdict;
+  Verdict observe_here(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
+    if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
     observed = observe(packing, pair_forces<Observe::balance>(packing, law, scratch_));
     return {};
   }
-
-  /// Takes the grains' velocities away, after the contacts have answered to the last move.
-  Verdict stop(PackingType& packing, Law const& law) {
-    StepObservation<dim> unused;
-    Verdict const verdict = observe(packing, law, unused);
-    packing.rest();
-    return verdict;
-  }
-
- private:
-  using Layout = RowLayout<Shape, Law>;
 
   StepObservation<dim> observe(PackingType const& packing, ContactSums<dim> const& sums) const {
     StepObservation<dim> seen{.stress = sums.stress(packing.volume()),

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "scarp/core/precompiled.hpp"
 #include "scarp/shape/detail/round_grain.hpp"
 
 namespace scarp {
@@ -14,5 +15,8 @@ struct Disc : RoundGrain<2> {
 };
 
 static_assert(ParticleShape<Disc>);
+
+template <>
+inline constexpr bool is_precompiled<Disc> = detail::has_library;
 
 }  // namespace scarp

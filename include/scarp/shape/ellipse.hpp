@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scarp/core/precompiled.hpp"
 #include "scarp/shape/support_touch.hpp"
 
 namespace scarp {
@@ -96,5 +97,8 @@ struct Ellipse {
 };
 
 static_assert(ParticleShape<Ellipse>);
+
+template <>
+inline constexpr bool is_precompiled<Ellipse> = detail::has_library;
 
 }  // namespace scarp

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "scarp/core/precompiled.hpp"
 #include "scarp/shape/detail/round_grain.hpp"
 
 namespace scarp {
@@ -15,5 +16,8 @@ struct Sphere : RoundGrain<3> {
 };
 
 static_assert(ParticleShape<Sphere>);
+
+template <>
+inline constexpr bool is_precompiled<Sphere> = detail::has_library;
 
 }  // namespace scarp

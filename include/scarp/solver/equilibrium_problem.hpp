@@ -13,18 +13,20 @@
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/detail/point_answers.hpp"
+#include "scarp/solver/incremental_problem.hpp"
 
 namespace scarp {
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
 template <class DiscretisationType, MaterialField Materials, class Executor, class Attached = NoAttachment>
-class EquilibriumProblem {
+class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::dim> {
  public:
   static constexpr int dim = DiscretisationType::dim;
   static constexpr bool follows_motion = DiscretisationType::follows_motion;
   static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
   static constexpr bool averages = AveragesGradients<Materials>;
+  static constexpr bool advances_trials = AdvancesTrials<Materials>;
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
   /// \throws InputError for sizes that do not fit together
@@ -48,7 +50,7 @@ class EquilibriumProblem {
     aim(0.0);
   }
 
-  int dof_count() const {
+  int dof_count() const override {
     if constexpr (is_bare) {
       return discretisation_.dof_count();
     } else {
@@ -57,24 +59,24 @@ class EquilibriumProblem {
   }
 
   /// Sets the load factor whose loads the forces are measured against from now on.
-  void aim(double load) { load_now_ = loads_.at(load); }
+  void aim(double load) override { load_now_ = loads_.at(load); }
 
   DiscretisationType const& discretisation() const { return discretisation_; }
   Materials const& materials() const { return points_.materials(); }
-  Constraints const& constraints() const { return constraints_; }
+  Constraints const& constraints() const override { return constraints_; }
   std::vector<int> const& free_dofs() const { return free_dofs_; }
-  LoadHistory const& loads() const { return loads_; }
+  LoadHistory const& loads() const override { return loads_; }
   Executor& executor() const { return points_.executor(); }
   Attached const& attached() const { return attached_; }
 
   /// Gradients that the points have seen in the last evaluation, and their answers.
-  std::vector<Gradient<dim>> const& gradients() const { return points_.gradients(); }
-  std::vector<Response<dim>> const& responses() const { return points_.responses(); }
+  std::vector<Gradient<dim>> const& gradients() const override { return points_.gradients(); }
+  std::vector<Response<dim>> const& responses() const override { return points_.responses(); }
 
-  std::vector<VoigtStress<dim>> committed_stresses() const { return points_.committed_stresses(); }
+  std::vector<VoigtStress<dim>> committed_stresses() const override { return points_.committed_stresses(); }
 
   /// Largest component of all points' gradients in the last plan or evaluation.
-  double largest_gradient() const {
+  double largest_gradient() const override {
     double largest = 0.0;
     for (auto const& gradient : gradients()) largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
     return largest;
@@ -82,7 +84,7 @@ class EquilibriumProblem {
 
   /// Fixes every point's work for the load step from a predicted increment; the points' gradients are kept.
   /// \param worst_point where given, a point of the element that the increment turns inside out, -1 for none
-  Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) {
+  Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) override {
     if (worst_point) *worst_point = -1;
     if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
     if (auto const inverted = look(increment)) {
@@ -94,22 +96,27 @@ class EquilibriumProblem {
   }
 
   /// Lets every point respond to an increment from its committed state and adds up the forces.
-  Evaluation evaluate(Eigen::VectorXd const& increment) {
+  Evaluation evaluate(Eigen::VectorXd const& increment) override {
     return evaluated(increment, [&](Evaluation& evaluation) { points_.respond(evaluation); });
   }
 
   /// The same, each point going on from its trial state at the increment of the last evaluation: it follows the path of the
   /// iteration and works for the change only.
-  Evaluation advance(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
-    std::vector<Gradient<dim>> const before = gradients();
-    return evaluated(increment, [&](Evaluation& evaluation) {
-      points_.template advance<DiscretisationType::follows_motion>(before, evaluation);
-    });
+  /// \throws InputError where the materials only answer from their committed states
+  Evaluation advance(Eigen::VectorXd const& increment) override {
+    if constexpr (advances_trials) {
+      std::vector<Gradient<dim>> const before = gradients();
+      return evaluated(increment, [&](Evaluation& evaluation) {
+        points_.template advance<DiscretisationType::follows_motion>(before, evaluation);
+      });
+    } else {
+      refuse_to_advance();
+    }
   }
 
   /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
   /// of the last evaluation.
-  Evaluation refine(Eigen::VectorXd const& increment) {
+  Evaluation refine(Eigen::VectorXd const& increment) override {
     Evaluation evaluation;
     points_.refine(evaluation);
     add_up(increment, evaluation);
@@ -117,15 +124,20 @@ class EquilibriumProblem {
   }
 
   /// Lets them work on from their trial states, without further strain.
-  Evaluation rest(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
-    Evaluation evaluation;
-    points_.rest(evaluation);
-    add_up(increment, evaluation);
-    return evaluation;
+  /// \throws InputError where the materials only answer from their committed states
+  Evaluation rest(Eigen::VectorXd const& increment) override {
+    if constexpr (advances_trials) {
+      Evaluation evaluation;
+      points_.rest(evaluation);
+      add_up(increment, evaluation);
+      return evaluation;
+    } else {
+      refuse_to_advance();
+    }
   }
 
   /// Forces of the committed state.
-  Evaluation evaluate_committed() {
+  Evaluation evaluate_committed() override {
     points_.take_committed();
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
@@ -134,7 +146,7 @@ class EquilibriumProblem {
 
   /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
-                        Eigen::SparseMatrix<double>& matrix) const {
+                        Eigen::SparseMatrix<double>& matrix) const override {
     if constexpr (averages) {
       averaged_stiffness(discretisation_, of_nodes(increment), points_.stresses(), tangents, materials(), matrix);
     } else {
@@ -145,20 +157,24 @@ class EquilibriumProblem {
 
   /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment. Whether it could
   /// answer is said by the next evaluation.
-  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) requires(!is_bare) {
+  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) override {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
-    attached_.add_forces(discretisation_.positions(), increment, forces);
+    if constexpr (!is_bare) attached_.add_forces(discretisation_.positions(), increment, forces);
     return forces;
   }
 
   /// Their derivative [N/m] where they were asked for last.
-  Eigen::SparseMatrix<double> attached_stiffness() const requires(!is_bare) {
-    return assembled([&](auto& entries) { attached_.add_stiffness(entries); });
+  Eigen::SparseMatrix<double> attached_stiffness() const override {
+    return assembled([&]([[maybe_unused]] auto& entries) {
+      if constexpr (!is_bare) attached_.add_stiffness(entries);
+    });
   }
 
   /// The same as if nothing there slid.
-  Eigen::SparseMatrix<double> held_stiffness() const requires(!is_bare) {
-    if constexpr (requires(std::vector<Eigen::Triplet<double>> & entries) { attached_.add_held_stiffness(entries); }) {
+  Eigen::SparseMatrix<double> held_stiffness() const override {
+    if constexpr (requires(Attached const& held, std::vector<Eigen::Triplet<double>>& entries) {
+                    held.add_held_stiffness(entries);
+                  }) {
       return assembled([&](auto& entries) { attached_.add_held_stiffness(entries); });
     } else {
       return attached_stiffness();
@@ -166,7 +182,7 @@ class EquilibriumProblem {
   }
 
   /// Largest of all parts' residuals, see `residuals`.
-  double residual(Eigen::VectorXd const& unbalanced) const {
+  double residual(Eigen::VectorXd const& unbalanced) const override {
     double largest = std::max(residual_of_all(unbalanced), regions_.largest(unbalanced, load_now_));
     if constexpr (!is_bare) largest = std::max(largest, residual_beside(unbalanced));
     return largest;
@@ -184,18 +200,20 @@ class EquilibriumProblem {
 
   /// Imbalance of a body beside the mesh relative to its own loads: the reactions of a heavy ground would hide it.
   /// 0 without such a body or loads.
-  double residual_beside(Eigen::VectorXd const& unbalanced) const {
+  double residual_beside(Eigen::VectorXd const& unbalanced) const override {
     return detail::residual_beside(unbalanced, load_now_, free_dofs_, discretisation_.dof_count());
   }
 
+  bool bare() const override { return is_bare; }
+
   /// Tangents of all points' committed states.
-  std::vector<VoigtTangent<dim>> committed_tangents() const { return points_.committed_tangents(); }
+  std::vector<VoigtTangent<dim>> committed_tangents() const override { return points_.committed_tangents(); }
 
   /// Tangents of all points' trial states, which belong to the last evaluation.
-  std::vector<VoigtTangent<dim>> trial_tangents() const { return points_.trial_tangents(); }
+  std::vector<VoigtTangent<dim>> trial_tangents() const override { return points_.trial_tangents(); }
 
   /// Makes the increment and the points' trial states the committed ones.
-  void commit(Eigen::VectorXd const& increment) {
+  void commit(Eigen::VectorXd const& increment) override {
     if constexpr (!is_bare) attached_.commit(discretisation_.positions(), increment);
     discretisation_.commit(of_nodes(increment));
     points_.materials().commit();
@@ -222,6 +240,12 @@ class EquilibriumProblem {
   }
 
  private:
+  [[noreturn]] static void refuse_to_advance() {
+    refuse(
+        "points are to go on from their trial states (these materials answer from committed ones only): give them "
+        "plan_advance and advance, or let points answer FromCommitted");
+  }
+
   static_assert(is_bare || Attachment<Attached, dim>);
 
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {

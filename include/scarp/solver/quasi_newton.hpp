@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <chrono>
-#include <utility>
-#include <vector>
-
-#include "scarp/solver/detail/step_start.hpp"
-#include "scarp/solver/equilibrium_problem.hpp"
-#include "scarp/solver/mixing.hpp"
+#include "scarp/solver/detail/quasi_newton_session.hpp"
 #include "scarp/solver/plain_step.hpp"
 #include "scarp/solver/point_secant.hpp"
-#include "scarp/solver/response_path.hpp"
 #include "scarp/solver/sparse_lu.hpp"
-#include "scarp/solver/step_report.hpp"
-#include "scarp/solver/tangent_rule.hpp"
+#ifdef SCARP_PRECOMPILED
+#include "scarp/solver/consistent_tangent.hpp"
+#endif
 
 namespace scarp {
 
@@ -29,157 +23,26 @@ struct QuasiNewton {
   Rule rule{};
   Mixing mixing{};
 
-  /// The iteration on one problem: factorisation and what the points' tangents have learned.
+  using RuleType = Rule;
+  using MixingType = Mixing;
+  using LinearType = Linear;
+  using PathType = Path;
+
   template <class Problem>
-  class Session {
+  class Session : public QuasiNewtonSession<QuasiNewton, Problem::dim> {
+    static_assert(!advances_trials<Path> || Problem::advances_trials,
+                  "along this path points go on from their trial states: the materials need plan_advance and advance");
+
    public:
-    static constexpr int dim = Problem::dim;
-
-    Session(QuasiNewton const& settings, Problem& problem)
-        : settings_(settings), mixing_(settings.mixing), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
-
-    /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
-    Verdict begin(double load) {
-      problem_.aim(load);
-      provider_ = timed([&] { return problem_.committed_tangents(); });
-      if (first_.empty()) first_ = provider_;
-      if (learned_.empty()) learned_ = provider_;
-      working_.resize(provider_.size());
-      for (std::size_t k = 0; k < working_.size(); ++k) {
-        working_[k] = settings_.rule.template start<dim>(provider_[k], learned_[k]);
-      }
-      return start_.linearise(working_);
-    }
-
-    void describe(StepReport& report) const { start_.describe(report); }
-    Eigen::VectorXd predict(double from, double to) { return start_.predict(from, to); }
-
-    /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
-    void correct(Eigen::VectorXd& increment, StepReport& report) {
-      report.verdict = problem_.plan(increment, &report.worst_point);
-      if (!report.verdict.acceptable()) return;
-      report.largest_gradient = problem_.largest_gradient();
-      mark_ = Clock::now();
-      mixing_.forget();
-      last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
-      last_stresses_ = problem_.committed_stresses();
-      auto& linearised = start_.linearised();
-      double linear_residual = 0.0;
-      Eigen::VectorXd const no_more = Eigen::VectorXd::Zero(increment.size());
-      for (;;) {
-        report.history.emplace_back();
-        report.history.back().linear_residual = linear_residual;
-        report.history.back().material_seconds = report.history.back().seconds = std::exchange(tangent_seconds_, 0.0);
-        Evaluation evaluation =
-            recorded(report, [&] { return Path::evaluate(problem_, increment, report.iterations() == 1); });
-        // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
-        for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
-          learn();  // before the plan changes the answer, which would pass for stiffness
-          evaluation = recorded(report, [&] { return Path::refine(problem_, increment); });
-        }
-        if (report.verdict.status == Status::failed) return;
-        learn();
-        if (evaluation.residual <= settings_.tolerance && report.verdict.acceptable()) return;
-        if (report.iterations() >= settings_.most_iterations || evaluation.residual > settings_.hopeless) {
-          if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
-          return;
-        }
-        Eigen::VectorXd next = increment;
-        report.verdict = linearised.linearise(increment, evaluation.unbalanced, working_);
-        if (report.verdict.acceptable()) report.verdict = linearised.solve(next, no_more);
-        if (!report.verdict.acceptable()) {
-          report.weak_dof = linearised.weak_dof();
-          return;
-        }
-        linear_residual = linearised.linear_residual();
-        Eigen::VectorXd const correction = linearised.system().gather(next - increment);
-        Eigen::VectorXd const force = -linearised.system().gather(evaluation.unbalanced);
-        linearised.system().scatter(mixed(mixing_, linearised.system().gather(increment), correction, force),
-                                    increment);
-      }
-    }
-
-    /// Commits an increment in equilibrium and keeps what the step has learned.
-    void accept(Eigen::VectorXd const& increment) {
-      problem_.commit(increment);
-      learned_ = working_;
-    }
-
-    /// What is remembered from step to step.
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("first tangents", self.first_);
-      visit("learned tangents", self.learned_);
-    }
-
-   private:
-    using Clock = std::chrono::steady_clock;
-
-    /// The points' tangents; their time belongs to the evaluation that follows.
-    template <class AskTangents>
-    auto timed(AskTangents&& ask) {
-      auto const started = Clock::now();
-      auto tangents = ask();
-      tangent_seconds_ += std::chrono::duration<double>(Clock::now() - started).count();
-      return tangents;
-    }
-
-    template <class Evaluate>
-    Evaluation recorded(StepReport& report, Evaluate&& evaluate) {
-      auto const started = Clock::now();
-      Evaluation evaluation = evaluate();
-      auto& record = report.history.back();
-      auto const ended = Clock::now();
-      record.residual = evaluation.residual;
-      record.inner_steps += evaluation.inner_steps;
-      record.material_seconds += std::chrono::duration<double>(ended - started).count();
-      record.seconds += std::chrono::duration<double>(ended - mark_).count();
-      mark_ = ended;
-      record.verdict = evaluation.verdict;
-      record.worst_point = evaluation.worst_point;
-      record.points = evaluation.points;
-      report.verdict = evaluation.verdict;
-      report.worst_point = evaluation.worst_point;
-      report.parts = evaluation.parts;
-      return evaluation;
-    }
-
-    void learn() {
-      if constexpr (FollowsTrialTangent<Rule, dim>) {
-        auto const trial = timed([&] { return problem_.trial_tangents(); });
-        mark_ = Clock::now();
-        for (std::size_t k = 0; k < working_.size(); ++k)
-          working_[k] = settings_.rule.template at_trial<dim>(trial[k], first_[k]);
-      } else {
-        learn_from_answers();
-      }
-    }
-
-    void learn_from_answers() {
-      for (std::size_t k = 0; k < working_.size(); ++k) {
-        Gradient<dim> const& gradient = problem_.gradients()[k];
-        VoigtStress<dim> const& stress = problem_.responses()[k].stress;
-        working_[k] = settings_.rule.template update<dim>(
-            working_[k], provider_[k], to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
-            stress - last_stresses_[k]);
-        last_gradients_[k] = gradient;
-        last_stresses_[k] = stress;
-      }
-    }
-
-    QuasiNewton const& settings_;
-    Mixing mixing_;
-    Problem& problem_;
-    StepStart<Problem, Linear> start_;
-    Clock::time_point mark_{};              ///< end of the last answer of the points in this step
-    double tangent_seconds_ = 0.0;          ///< that no evaluation has been told yet
-    std::vector<VoigtTangent<dim>> first_;  ///< of the state that the session began with
-    std::vector<VoigtTangent<dim>> provider_;
-    std::vector<VoigtTangent<dim>> working_;
-    std::vector<VoigtTangent<dim>> learned_;
-    std::vector<Gradient<dim>> last_gradients_;
-    std::vector<VoigtStress<dim>> last_stresses_;
+    using QuasiNewtonSession<QuasiNewton, Problem::dim>::QuasiNewtonSession;
   };
 };
+
+#ifdef SCARP_PRECOMPILED
+extern template class QuasiNewtonSession<QuasiNewton<>, 2>;
+extern template class QuasiNewtonSession<QuasiNewton<>, 3>;
+extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, 2>;
+extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, 3>;
+#endif
 
 }  // namespace scarp

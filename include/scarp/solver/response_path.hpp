@@ -27,6 +27,12 @@ concept ResponsePath = requires(detail::AnsweringProblem& problem, Eigen::Vector
   { Path::refine(problem, increment) } -> std::same_as<Evaluation>;
 };
 
+/// Whether points go on from their trial states along a path, which not all materials can.
+template <class Path>
+inline constexpr bool advances_trials = requires {
+  requires Path::advances_trials;
+};
+
 /// Every iteration takes the points along the straight path from their committed states to the iterate: the answer is a function of
 /// the iterate alone.
 struct FromCommitted {
@@ -44,6 +50,8 @@ struct FromCommitted {
 /// is not balanced works on where it is. Less work, and a disturbance shrinks with the corrections; but the answer belongs to the
 /// path that the iteration took.
 struct AlongIterates {
+  static constexpr bool advances_trials = true;
+
   template <class Problem>
   static Evaluation evaluate(Problem& problem, Eigen::VectorXd const& increment, bool first) {
     return first ? problem.evaluate(increment) : problem.advance(increment);

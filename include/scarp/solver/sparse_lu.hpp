@@ -3,14 +3,15 @@
 
 #include <Eigen/SparseLU>
 
+#include "scarp/core/precompiled.hpp"
 #include "scarp/solver/linear_solver.hpp"
 
 namespace scarp {
 
 /// Direct solver for unsymmetric sparse systems (Eigen's supernodal LU with column ordering).
-/// It takes longest to compile of all that a scene needs. A program of many sources can define SCARP_SPARSE_LU_ELSEWHERE for
+/// It takes longest to compile of all that a scene needs. A program of many sources can define SCARP_PRECOMPILED for
 /// them and include sparse_lu_definitions.hpp in one.
-class SparseLu {
+class SCARP_EXPORT SparseLu {
  public:
   Verdict factorize(SparseMatrix const& matrix);
   Eigen::VectorXd solve(Eigen::VectorXd const& right) const;
@@ -26,6 +27,6 @@ static_assert(LinearSolver<SparseLu>);
 
 }  // namespace scarp
 
-#ifndef SCARP_SPARSE_LU_ELSEWHERE
+#ifndef SCARP_PRECOMPILED
 #include "scarp/solver/sparse_lu_definitions.hpp"
 #endif

@@ -3,7 +3,7 @@
 
 #include "scarp/solver/sparse_lu.hpp"
 
-#ifdef SCARP_SPARSE_LU_ELSEWHERE
+#ifdef SCARP_PRECOMPILED
 #define SCARP_SPARSE_LU_INLINE
 #else
 #define SCARP_SPARSE_LU_INLINE inline

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "scarp/core/precompiled.hpp"
+#include "scarp/solver/detail/step_start.hpp"
+#include "scarp/solver/mixing.hpp"
+#include "scarp/solver/response_path.hpp"
+#include "scarp/solver/step_report.hpp"
+#include "scarp/solver/tangent_rule.hpp"
+
+namespace scarp {
+
+/// The iteration of a `QuasiNewton` on one problem: factorisation and what the points' tangents have learned. Its members
+/// are defined outside so that a library can keep them.
+template <class Settings, int Dim>
+class SCARP_EXPORT QuasiNewtonSession {
+ public:
+  using Path = typename Settings::PathType;
+  static constexpr int dim = Dim;
+
+  QuasiNewtonSession(Settings const& settings, IncrementalProblem<Dim>& problem)
+      : settings_(settings), mixing_(settings.mixing), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
+
+  /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
+  Verdict begin(double load);
+  void describe(StepReport& report) const { start_.describe(report); }
+  Eigen::VectorXd predict(double from, double to);
+
+  /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
+  void correct(Eigen::VectorXd& increment, StepReport& report);
+
+  /// Commits an increment in equilibrium and keeps what the step has learned.
+  void accept(Eigen::VectorXd const& increment);
+
+  /// What is remembered from step to step.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("first tangents", self.first_);
+    visit("learned tangents", self.learned_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Rule = typename Settings::RuleType;
+  using Mixing = typename Settings::MixingType;
+  using Linear = typename Settings::LinearType;
+  enum class Question { first, further, refined };
+
+  Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, Question question);
+  std::vector<VoigtTangent<Dim>> timed_tangents(bool of_trial_states);
+  void learn();
+  void learn_from_answers();
+
+  Settings const& settings_;
+  Mixing mixing_;
+  IncrementalProblem<Dim>& problem_;
+  StepStart<Dim, Linear> start_;
+  Clock::time_point mark_{};              ///< end of the last answer of the points in this step
+  double tangent_seconds_ = 0.0;          ///< that no evaluation has been told yet
+  std::vector<VoigtTangent<Dim>> first_;  ///< of the state that the session began with
+  std::vector<VoigtTangent<Dim>> provider_;
+  std::vector<VoigtTangent<Dim>> working_;
+  std::vector<VoigtTangent<Dim>> learned_;
+  std::vector<Gradient<dim>> last_gradients_;
+  std::vector<VoigtStress<dim>> last_stresses_;
+};
+
+template <class Settings, int Dim>
+Verdict QuasiNewtonSession<Settings, Dim>::begin(double load) {
+  problem_.aim(load);
+  provider_ = timed_tangents(false);
+  if (first_.empty()) first_ = provider_;
+  if (learned_.empty()) learned_ = provider_;
+  working_.resize(provider_.size());
+  for (std::size_t k = 0; k < working_.size(); ++k) {
+    working_[k] = settings_.rule.template start<dim>(provider_[k], learned_[k]);
+  }
+  return start_.linearise(working_);
+}
+
+template <class Settings, int Dim>
+Eigen::VectorXd QuasiNewtonSession<Settings, Dim>::predict(double from, double to) {
+  return start_.predict(from, to);
+}
+
+template <class Settings, int Dim>
+void QuasiNewtonSession<Settings, Dim>::correct(Eigen::VectorXd& increment, StepReport& report) {
+  report.verdict = problem_.plan(increment, &report.worst_point);
+  if (!report.verdict.acceptable()) return;
+  report.largest_gradient = problem_.largest_gradient();
+  mark_ = Clock::now();
+  mixing_.forget();
+  last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
+  last_stresses_ = problem_.committed_stresses();
+  auto& linearised = start_.linearised();
+  double linear_residual = 0.0;
+  Eigen::VectorXd const no_more = Eigen::VectorXd::Zero(increment.size());
+  for (;;) {
+    report.history.emplace_back();
+    report.history.back().linear_residual = linear_residual;
+    report.history.back().material_seconds = report.history.back().seconds = std::exchange(tangent_seconds_, 0.0);
+    Evaluation evaluation = recorded(report, increment, report.iterations() == 1 ? Question::first : Question::further);
+    // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
+    for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
+      learn();  // before the plan changes the answer, which would pass for stiffness
+      evaluation = recorded(report, increment, Question::refined);
+    }
+    if (report.verdict.status == Status::failed) return;
+    learn();
+    if (evaluation.residual <= settings_.tolerance && report.verdict.acceptable()) return;
+    if (report.iterations() >= settings_.most_iterations || evaluation.residual > settings_.hopeless) {
+      if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
+      return;
+    }
+    Eigen::VectorXd next = increment;
+    report.verdict = linearised.linearise(increment, evaluation.unbalanced, working_);
+    if (report.verdict.acceptable()) report.verdict = linearised.solve(next, no_more);
+    if (!report.verdict.acceptable()) {
+      report.weak_dof = linearised.weak_dof();
+      return;
+    }
+    linear_residual = linearised.linear_residual();
+    Eigen::VectorXd const correction = linearised.system().gather(next - increment);
+    Eigen::VectorXd const force = -linearised.system().gather(evaluation.unbalanced);
+    linearised.system().scatter(mixed(mixing_, linearised.system().gather(increment), correction, force), increment);
+  }
+}
+
+template <class Settings, int Dim>
+void QuasiNewtonSession<Settings, Dim>::accept(Eigen::VectorXd const& increment) {
+  problem_.commit(increment);
+  learned_ = working_;
+}
+
+/// Asks all points and adds what it took to the report.
+template <class Settings, int Dim>
+Evaluation QuasiNewtonSession<Settings, Dim>::recorded(StepReport& report, Eigen::VectorXd const& increment,
+                                                       Question question) {
+  auto const started = Clock::now();
+  Evaluation evaluation = question == Question::refined
+                              ? Path::refine(problem_, increment)
+                              : Path::evaluate(problem_, increment, question == Question::first);
+  auto& record = report.history.back();
+  auto const ended = Clock::now();
+  record.residual = evaluation.residual;
+  record.inner_steps += evaluation.inner_steps;
+  record.material_seconds += std::chrono::duration<double>(ended - started).count();
+  record.seconds += std::chrono::duration<double>(ended - mark_).count();
+  mark_ = ended;
+  record.verdict = evaluation.verdict;
+  record.worst_point = evaluation.worst_point;
+  record.points = evaluation.points;
+  report.verdict = evaluation.verdict;
+  report.worst_point = evaluation.worst_point;
+  report.parts = evaluation.parts;
+  return evaluation;
+}
+
+/// The points' tangents; their time belongs to the evaluation that follows.
+template <class Settings, int Dim>
+std::vector<VoigtTangent<Dim>> QuasiNewtonSession<Settings, Dim>::timed_tangents(bool of_trial_states) {
+  auto const started = Clock::now();
+  auto tangents = of_trial_states ? problem_.trial_tangents() : problem_.committed_tangents();
+  tangent_seconds_ += std::chrono::duration<double>(Clock::now() - started).count();
+  return tangents;
+}
+
+template <class Settings, int Dim>
+void QuasiNewtonSession<Settings, Dim>::learn() {
+  if constexpr (FollowsTrialTangent<Rule, dim>) {
+    auto const trial = timed_tangents(true);
+    mark_ = Clock::now();
+    for (std::size_t k = 0; k < working_.size(); ++k)
+      working_[k] = settings_.rule.template at_trial<dim>(trial[k], first_[k]);
+  } else {
+    learn_from_answers();
+  }
+}
+
+template <class Settings, int Dim>
+void QuasiNewtonSession<Settings, Dim>::learn_from_answers() {
+  if constexpr (LearnsFromAnswers<Rule, dim>) {
+    for (std::size_t k = 0; k < working_.size(); ++k) {
+      Gradient<dim> const& gradient = problem_.gradients()[k];
+      VoigtStress<dim> const& stress = problem_.responses()[k].stress;
+      working_[k] = settings_.rule.template update<dim>(
+          working_[k], provider_[k], to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
+          stress - last_stresses_[k]);
+      last_gradients_[k] = gradient;
+      last_stresses_[k] = stress;
+    }
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "scarp/bvp/constraints.hpp"
+#include "scarp/bvp/load_history.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/solver/detail/evaluation.hpp"
+
+namespace scarp {
+
+/// What a solver asks of a boundary-value problem in increments, whatever its elements, materials, loads and executor are:
+/// a solver is compiled once for each dimension, and one virtual call is nothing beside an evaluation of all points.
+/// `EquilibriumProblem` says what each member means.
+template <int Dim>
+class IncrementalProblem {
+ public:
+  static constexpr int dim = Dim;
+
+  virtual ~IncrementalProblem() = default;
+
+  virtual int dof_count() const = 0;
+  virtual Constraints const& constraints() const = 0;
+  virtual LoadHistory const& loads() const = 0;
+  virtual std::vector<Gradient<Dim>> const& gradients() const = 0;
+  virtual std::vector<Response<Dim>> const& responses() const = 0;
+  virtual std::vector<VoigtStress<Dim>> committed_stresses() const = 0;
+  virtual std::vector<VoigtTangent<Dim>> committed_tangents() const = 0;
+  virtual std::vector<VoigtTangent<Dim>> trial_tangents() const = 0;
+  virtual double largest_gradient() const = 0;
+
+  virtual void aim(double load) = 0;
+  virtual Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) = 0;
+  virtual Evaluation evaluate(Eigen::VectorXd const& increment) = 0;
+  virtual Evaluation advance(Eigen::VectorXd const& increment) = 0;
+  virtual Evaluation refine(Eigen::VectorXd const& increment) = 0;
+  virtual Evaluation rest(Eigen::VectorXd const& increment) = 0;
+  virtual Evaluation evaluate_committed() = 0;
+  virtual void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<Dim>> const& tangents,
+                                Eigen::SparseMatrix<double>& matrix) const = 0;
+  virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;
+  virtual double residual_beside(Eigen::VectorXd const& unbalanced) const = 0;
+  virtual void commit(Eigen::VectorXd const& increment) = 0;
+
+  /// Whether nothing is attached to the mesh; only then the members below may not be asked.
+  virtual bool bare() const = 0;
+  virtual Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) = 0;
+  virtual Eigen::SparseMatrix<double> attached_stiffness() const = 0;
+  virtual Eigen::SparseMatrix<double> held_stiffness() const = 0;
+
+ protected:
+  IncrementalProblem() = default;
+  IncrementalProblem(IncrementalProblem const&) = default;
+  IncrementalProblem(IncrementalProblem&&) = default;
+  IncrementalProblem& operator=(IncrementalProblem const&) = default;
+  IncrementalProblem& operator=(IncrementalProblem&&) = default;
+};
+
+}  // namespace scarp
