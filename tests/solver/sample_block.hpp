@@ -9,8 +9,8 @@
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
-#include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
+#include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 
 /// A block that is pulled or pressed, and materials with every bad habit that a solver must survive.

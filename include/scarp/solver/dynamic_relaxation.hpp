@@ -27,8 +27,6 @@ struct DynamicRelaxation {
   class Session {
    public:
     static constexpr int dim = Problem::dim;
-    static_assert(Problem::advances_trials,
-                  "every motion goes on from the points' trial states: the materials need plan_advance and advance");
     static_assert(Problem::is_bare, "what is attached to the ground has no mass: take QuasiNewton");
 
     Session(DynamicRelaxation const& settings, Problem& problem)
@@ -93,7 +91,7 @@ struct DynamicRelaxation {
 
     DynamicRelaxation const& settings_;
     Problem& problem_;
-    StepStart<dim, Linear> start_;
+    StepStart<Problem, Linear> start_;
     Eigen::VectorXd mass_;  ///< of the free degrees of freedom [kg], for a time step of 1 s
   };
 };

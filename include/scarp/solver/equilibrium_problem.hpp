@@ -7,36 +7,40 @@
 #include <optional>
 #include <vector>
 
-#include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/averaged_stiffness.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
+#include "scarp/solver/detail/attachment_part.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/detail/point_answers.hpp"
-#include "scarp/solver/incremental_problem.hpp"
 
 namespace scarp {
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
 template <class DiscretisationType, MaterialField Materials, class Executor, class Attached = NoAttachment>
-class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::dim> {
+class EquilibriumProblem final
+    : public detail::AttachmentPart<EquilibriumProblem<DiscretisationType, Materials, Executor, Attached>,
+                                    DiscretisationType::dim, Attached> {
+  using Part = detail::AttachmentPart<EquilibriumProblem, DiscretisationType::dim, Attached>;
+
  public:
   static constexpr int dim = DiscretisationType::dim;
   static constexpr bool follows_motion = DiscretisationType::follows_motion;
-  static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;
+  using Part::is_bare;
+  /// What solvers see of it.
+  using Interface = std::conditional_t<is_bare, IncrementalProblem<dim>, AttachedProblem<dim>>;
   static constexpr bool averages = AveragesGradients<Materials>;
-  static constexpr bool advances_trials = AdvancesTrials<Materials>;
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
   /// \throws InputError for sizes that do not fit together
   EquilibriumProblem(DiscretisationType discretisation, Materials materials, Constraints constraints, LoadHistory loads,
                      Executor& executor, Attached attached = {})
-      : discretisation_(std::move(discretisation)),
+      : Part(std::move(attached)),
+        discretisation_(std::move(discretisation)),
         points_(std::move(materials), executor),
         constraints_(std::move(constraints)),
         loads_(std::move(loads)),
-        attached_(std::move(attached)),
         free_dofs_(constraints_.free_dofs()),
         regions_(discretisation_.mesh(), constraints_) {
     if (points_.materials().point_count() != discretisation_.point_count()) {
@@ -54,7 +58,7 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
     if constexpr (is_bare) {
       return discretisation_.dof_count();
     } else {
-      return discretisation_.dof_count() + attached_.extra_dofs();
+      return discretisation_.dof_count() + this->attached_.extra_dofs();
     }
   }
 
@@ -67,7 +71,6 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
   std::vector<int> const& free_dofs() const { return free_dofs_; }
   LoadHistory const& loads() const override { return loads_; }
   Executor& executor() const { return points_.executor(); }
-  Attached const& attached() const { return attached_; }
 
   /// Gradients that the points have seen in the last evaluation, and their answers.
   std::vector<Gradient<dim>> const& gradients() const override { return points_.gradients(); }
@@ -102,16 +105,11 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
 
   /// The same, each point going on from its trial state at the increment of the last evaluation: it follows the path of the
   /// iteration and works for the change only.
-  /// \throws InputError where the materials only answer from their committed states
-  Evaluation advance(Eigen::VectorXd const& increment) override {
-    if constexpr (advances_trials) {
-      std::vector<Gradient<dim>> const before = gradients();
-      return evaluated(increment, [&](Evaluation& evaluation) {
-        points_.template advance<DiscretisationType::follows_motion>(before, evaluation);
-      });
-    } else {
-      refuse_to_advance();
-    }
+  Evaluation advance(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
+    std::vector<Gradient<dim>> const before = gradients();
+    return evaluated(increment, [&](Evaluation& evaluation) {
+      points_.template advance<DiscretisationType::follows_motion>(before, evaluation);
+    });
   }
 
   /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
@@ -124,16 +122,11 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
   }
 
   /// Lets them work on from their trial states, without further strain.
-  /// \throws InputError where the materials only answer from their committed states
-  Evaluation rest(Eigen::VectorXd const& increment) override {
-    if constexpr (advances_trials) {
-      Evaluation evaluation;
-      points_.rest(evaluation);
-      add_up(increment, evaluation);
-      return evaluation;
-    } else {
-      refuse_to_advance();
-    }
+  Evaluation rest(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
+    Evaluation evaluation;
+    points_.rest(evaluation);
+    add_up(increment, evaluation);
+    return evaluation;
   }
 
   /// Forces of the committed state.
@@ -153,32 +146,6 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
       discretisation_.stiffness(of_nodes(increment), points_.stresses(), tangents, matrix);
     }
     if constexpr (!is_bare) matrix.conservativeResize(dof_count(), dof_count());
-  }
-
-  /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment. Whether it could
-  /// answer is said by the next evaluation.
-  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) override {
-    Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
-    if constexpr (!is_bare) attached_.add_forces(discretisation_.positions(), increment, forces);
-    return forces;
-  }
-
-  /// Their derivative [N/m] where they were asked for last.
-  Eigen::SparseMatrix<double> attached_stiffness() const override {
-    return assembled([&]([[maybe_unused]] auto& entries) {
-      if constexpr (!is_bare) attached_.add_stiffness(entries);
-    });
-  }
-
-  /// The same as if nothing there slid.
-  Eigen::SparseMatrix<double> held_stiffness() const override {
-    if constexpr (requires(Attached const& held, std::vector<Eigen::Triplet<double>>& entries) {
-                    held.add_held_stiffness(entries);
-                  }) {
-      return assembled([&](auto& entries) { attached_.add_held_stiffness(entries); });
-    } else {
-      return attached_stiffness();
-    }
   }
 
   /// Largest of all parts' residuals, see `residuals`.
@@ -204,8 +171,6 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
     return detail::residual_beside(unbalanced, load_now_, free_dofs_, discretisation_.dof_count());
   }
 
-  bool bare() const override { return is_bare; }
-
   /// Tangents of all points' committed states.
   std::vector<VoigtTangent<dim>> committed_tangents() const override { return points_.committed_tangents(); }
 
@@ -214,7 +179,7 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
 
   /// Makes the increment and the points' trial states the committed ones.
   void commit(Eigen::VectorXd const& increment) override {
-    if constexpr (!is_bare) attached_.commit(discretisation_.positions(), increment);
+    if constexpr (!is_bare) this->attached_.commit(discretisation_.positions(), increment);
     discretisation_.commit(of_nodes(increment));
     points_.materials().commit();
   }
@@ -240,12 +205,6 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
   }
 
  private:
-  [[noreturn]] static void refuse_to_advance() {
-    refuse(
-        "points are to go on from their trial states (these materials answer from committed ones only): give them "
-        "plan_advance and advance, or let points answer FromCommitted");
-  }
-
   static_assert(is_bare || Attachment<Attached, dim>);
 
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {
@@ -258,15 +217,6 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
     } else {
       return Eigen::VectorXd(increment.head(discretisation_.dof_count()));
     }
-  }
-
-  template <class Add>
-  Eigen::SparseMatrix<double> assembled(Add const& add) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    add(entries);
-    Eigen::SparseMatrix<double> matrix(dof_count(), dof_count());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
   }
 
   /// Shows the points an increment.
@@ -297,7 +247,7 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
     discretisation_.internal_force(of_nodes(increment), points_.stresses(), evaluation.unbalanced);
     if constexpr (!is_bare) {
       evaluation.unbalanced.conservativeResizeLike(Eigen::VectorXd::Zero(dof_count()));
-      Verdict const verdict = attached_.add_forces(discretisation_.positions(), increment, evaluation.unbalanced);
+      Verdict const verdict = this->attached_.add_forces(discretisation_.positions(), increment, evaluation.unbalanced);
       if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
     }
     evaluation.unbalanced -= load_now_;
@@ -313,7 +263,6 @@ class EquilibriumProblem final : public IncrementalProblem<DiscretisationType::d
   Constraints constraints_;
   LoadHistory loads_;
   Eigen::VectorXd load_now_;
-  Attached attached_;
   std::vector<int> free_dofs_;
   detail::RegionResiduals<dim> regions_;
 };

@@ -11,13 +11,13 @@
 
 namespace scarp {
 
-/// What a solver asks of a boundary-value problem in increments, whatever its elements, materials, loads and executor are:
-/// a solver is compiled once for each dimension, and one virtual call is nothing beside an evaluation of all points.
-/// `EquilibriumProblem` says what each member means.
+/// What a solver asks of a boundary-value problem in increments, whatever its elements, materials, loads and executor are: a
+/// solver is compiled once for each dimension. `EquilibriumProblem` says what each member means.
 template <int Dim>
 class IncrementalProblem {
  public:
   static constexpr int dim = Dim;
+  static constexpr bool is_bare = true;
 
   virtual ~IncrementalProblem() = default;
 
@@ -34,9 +34,7 @@ class IncrementalProblem {
   virtual void aim(double load) = 0;
   virtual Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) = 0;
   virtual Evaluation evaluate(Eigen::VectorXd const& increment) = 0;
-  virtual Evaluation advance(Eigen::VectorXd const& increment) = 0;
   virtual Evaluation refine(Eigen::VectorXd const& increment) = 0;
-  virtual Evaluation rest(Eigen::VectorXd const& increment) = 0;
   virtual Evaluation evaluate_committed() = 0;
   virtual void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<Dim>> const& tangents,
                                 Eigen::SparseMatrix<double>& matrix) const = 0;
@@ -44,18 +42,23 @@ class IncrementalProblem {
   virtual double residual_beside(Eigen::VectorXd const& unbalanced) const = 0;
   virtual void commit(Eigen::VectorXd const& increment) = 0;
 
-  /// Whether nothing is attached to the mesh; only then the members below may not be asked.
-  virtual bool bare() const = 0;
-  virtual Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) = 0;
-  virtual Eigen::SparseMatrix<double> attached_stiffness() const = 0;
-  virtual Eigen::SparseMatrix<double> held_stiffness() const = 0;
-
  protected:
   IncrementalProblem() = default;
   IncrementalProblem(IncrementalProblem const&) = default;
   IncrementalProblem(IncrementalProblem&&) = default;
   IncrementalProblem& operator=(IncrementalProblem const&) = default;
   IncrementalProblem& operator=(IncrementalProblem&&) = default;
+};
+
+/// The same with something attached to the mesh.
+template <int Dim>
+class AttachedProblem : public IncrementalProblem<Dim> {
+ public:
+  static constexpr bool is_bare = false;
+
+  virtual Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) = 0;
+  virtual Eigen::SparseMatrix<double> attached_stiffness() const = 0;
+  virtual Eigen::SparseMatrix<double> held_stiffness() const = 0;
 };
 
 }  // namespace scarp

@@ -28,21 +28,20 @@ struct QuasiNewton {
   using LinearType = Linear;
   using PathType = Path;
 
+  /// The iteration on one problem. Its type matters only to a path along which points go on from their trial states.
   template <class Problem>
-  class Session : public QuasiNewtonSession<QuasiNewton, Problem::dim> {
-    static_assert(!advances_trials<Path> || Problem::advances_trials,
-                  "along this path points go on from their trial states: the materials need plan_advance and advance");
-
-   public:
-    using QuasiNewtonSession<QuasiNewton, Problem::dim>::QuasiNewtonSession;
-  };
+  using Seen = std::conditional_t<advances_trials<Path>, Problem, typename Problem::Interface>;
+  template <class Problem>
+  using Session = QuasiNewtonSession<QuasiNewton, Seen<Problem>>;
 };
 
 #ifdef SCARP_PRECOMPILED
-extern template class QuasiNewtonSession<QuasiNewton<>, 2>;
-extern template class QuasiNewtonSession<QuasiNewton<>, 3>;
-extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, 2>;
-extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, 3>;
+extern template class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<2>>;
+extern template class QuasiNewtonSession<QuasiNewton<>, AttachedProblem<2>>;
+extern template class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<3>>;
+extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<2>>;
+extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, AttachedProblem<2>>;
+extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<3>>;
 #endif
 
 }  // namespace scarp

@@ -9,8 +9,6 @@
 namespace scarp {
 
 /// Direct solver for unsymmetric sparse systems (Eigen's supernodal LU with column ordering).
-/// It takes longest to compile of all that a scene needs. A program of many sources can define SCARP_PRECOMPILED for
-/// them and include sparse_lu_definitions.hpp in one.
 class SCARP_EXPORT SparseLu {
  public:
   Verdict factorize(SparseMatrix const& matrix);

@@ -78,7 +78,7 @@ class StepAtTip {
           -l * l / 3.0, 0.0, r * r / 3.0,                      //
           l * l * l / 5.0, -(l * l * l + r * r * r) / 60.0, r * r * r / 5.0;
       Eigen::Vector3d const wanted(5.0 / 6.0 * r, r * r / 3.0, (1.0 / 3.0 - 3.0 / 20.0) * r * r * r);
-      Eigen::Vector3d const values = moments.partialPivLu().solve(wanted);
+      Eigen::Vector3d const values = moments.inverse() * wanted;
       part.before = values(0);
       part.at = values(1);
       part.after = values(2);

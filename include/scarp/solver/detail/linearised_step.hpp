@@ -7,36 +7,35 @@
 #include "scarp/core/voigt.hpp"
 #include "scarp/solver/conditioning.hpp"
 #include "scarp/solver/free_system.hpp"
-#include "scarp/solver/incremental_problem.hpp"
 
 namespace scarp {
 
 /// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment keeps its own
 /// forces: contact that opens, closes or slides is followed here, by Newton's method with backtracking, where no material
 /// point is asked. Without attachment this is one linear solve.
-template <int Dim, LinearSolver Linear>
+template <class Problem, LinearSolver Linear>
 class LinearisedStep {
  public:
   static constexpr double singular = 1e15;  ///< condition beyond which no digit of a solution is left
 
   /// accuracy: residual below which the attachment's forces need no further correction
-  LinearisedStep(IncrementalProblem<Dim>& problem, double accuracy)
+  LinearisedStep(Problem& problem, double accuracy)
       : problem_(problem), system_(problem.constraints()), accuracy_(accuracy) {}
 
   /// Linearises about the increment [m] of the problem's last evaluation, whose unbalanced forces [N] are given.
   Verdict linearise(Eigen::VectorXd const& increment, Eigen::VectorXd const& unbalanced,
-                    std::vector<VoigtTangent<Dim>> const& tangents) {
+                    std::vector<VoigtTangent<Problem::dim>> const& tangents) {
     problem_.ground_stiffness(increment, tangents, ground_);
     centre_ = increment;
     ground_forces_ = unbalanced;
-    if (!problem_.bare()) ground_forces_ -= problem_.attached_forces(increment);
+    if constexpr (!Problem::is_bare) ground_forces_ -= problem_.attached_forces(increment);
     return factorize();
   }
 
   /// Moves an increment [m], kept at its prescribed entries, to where forces balance when the loads have grown by `more` [N]
   /// since the linearisation. What cannot be balanced is left to the next linearisation.
   Verdict solve(Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
-    if (problem_.bare()) {
+    if constexpr (Problem::is_bare) {
       return correct(increment, ground_imbalance(increment, more));
     } else {
       return follow_contact(increment, more);
@@ -69,7 +68,7 @@ class LinearisedStep {
   };
 
   Verdict factorize() {
-    if (problem_.bare()) {
+    if constexpr (Problem::is_bare) {
       return factorize(ground_);
     } else {
       return factorize(ground_ + problem_.attached_stiffness());
@@ -156,7 +155,7 @@ class LinearisedStep {
     return now;
   }
 
-  IncrementalProblem<Dim>& problem_;
+  Problem& problem_;
   FreeSystem system_;
   double accuracy_;
   Linear linear_;

@@ -7,6 +7,7 @@
 
 #include "scarp/core/precompiled.hpp"
 #include "scarp/solver/detail/step_start.hpp"
+#include "scarp/solver/incremental_problem.hpp"
 #include "scarp/solver/mixing.hpp"
 #include "scarp/solver/response_path.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -14,15 +15,15 @@
 
 namespace scarp {
 
-/// The iteration of a `QuasiNewton` on one problem: factorisation and what the points' tangents have learned. Its members
-/// are defined outside so that a library can keep them.
-template <class Settings, int Dim>
+/// The iteration of a `QuasiNewton` on one problem, which may be an `IncrementalProblem`: factorisation and what the points'
+/// tangents have learned. Its members are defined outside so that a library can keep them.
+template <class Settings, class Problem>
 class SCARP_EXPORT QuasiNewtonSession {
  public:
   using Path = typename Settings::PathType;
-  static constexpr int dim = Dim;
+  static constexpr int dim = Problem::dim;
 
-  QuasiNewtonSession(Settings const& settings, IncrementalProblem<Dim>& problem)
+  QuasiNewtonSession(Settings const& settings, Problem& problem)
       : settings_(settings), mixing_(settings.mixing), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
 
   /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
@@ -51,26 +52,26 @@ class SCARP_EXPORT QuasiNewtonSession {
   enum class Question { first, further, refined };
 
   Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, Question question);
-  std::vector<VoigtTangent<Dim>> timed_tangents(bool of_trial_states);
+  std::vector<VoigtTangent<Problem::dim>> timed_tangents(bool of_trial_states);
   void learn();
   void learn_from_answers();
 
   Settings const& settings_;
   Mixing mixing_;
-  IncrementalProblem<Dim>& problem_;
-  StepStart<Dim, Linear> start_;
-  Clock::time_point mark_{};              ///< end of the last answer of the points in this step
-  double tangent_seconds_ = 0.0;          ///< that no evaluation has been told yet
-  std::vector<VoigtTangent<Dim>> first_;  ///< of the state that the session began with
-  std::vector<VoigtTangent<Dim>> provider_;
-  std::vector<VoigtTangent<Dim>> working_;
-  std::vector<VoigtTangent<Dim>> learned_;
+  Problem& problem_;
+  StepStart<Problem, Linear> start_;
+  Clock::time_point mark_{};                       ///< end of the last answer of the points in this step
+  double tangent_seconds_ = 0.0;                   ///< that no evaluation has been told yet
+  std::vector<VoigtTangent<Problem::dim>> first_;  ///< of the state that the session began with
+  std::vector<VoigtTangent<Problem::dim>> provider_;
+  std::vector<VoigtTangent<Problem::dim>> working_;
+  std::vector<VoigtTangent<Problem::dim>> learned_;
   std::vector<Gradient<dim>> last_gradients_;
   std::vector<VoigtStress<dim>> last_stresses_;
 };
 
-template <class Settings, int Dim>
-Verdict QuasiNewtonSession<Settings, Dim>::begin(double load) {
+template <class Settings, class Problem>
+Verdict QuasiNewtonSession<Settings, Problem>::begin(double load) {
   problem_.aim(load);
   provider_ = timed_tangents(false);
   if (first_.empty()) first_ = provider_;
@@ -82,13 +83,13 @@ Verdict QuasiNewtonSession<Settings, Dim>::begin(double load) {
   return start_.linearise(working_);
 }
 
-template <class Settings, int Dim>
-Eigen::VectorXd QuasiNewtonSession<Settings, Dim>::predict(double from, double to) {
+template <class Settings, class Problem>
+Eigen::VectorXd QuasiNewtonSession<Settings, Problem>::predict(double from, double to) {
   return start_.predict(from, to);
 }
 
-template <class Settings, int Dim>
-void QuasiNewtonSession<Settings, Dim>::correct(Eigen::VectorXd& increment, StepReport& report) {
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, StepReport& report) {
   report.verdict = problem_.plan(increment, &report.worst_point);
   if (!report.verdict.acceptable()) return;
   report.largest_gradient = problem_.largest_gradient();
@@ -130,16 +131,16 @@ void QuasiNewtonSession<Settings, Dim>::correct(Eigen::VectorXd& increment, Step
   }
 }
 
-template <class Settings, int Dim>
-void QuasiNewtonSession<Settings, Dim>::accept(Eigen::VectorXd const& increment) {
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::accept(Eigen::VectorXd const& increment) {
   problem_.commit(increment);
   learned_ = working_;
 }
 
 /// Asks all points and adds what it took to the report.
-template <class Settings, int Dim>
-Evaluation QuasiNewtonSession<Settings, Dim>::recorded(StepReport& report, Eigen::VectorXd const& increment,
-                                                       Question question) {
+template <class Settings, class Problem>
+Evaluation QuasiNewtonSession<Settings, Problem>::recorded(StepReport& report, Eigen::VectorXd const& increment,
+                                                           Question question) {
   auto const started = Clock::now();
   Evaluation evaluation = question == Question::refined
                               ? Path::refine(problem_, increment)
@@ -161,16 +162,16 @@ Evaluation QuasiNewtonSession<Settings, Dim>::recorded(StepReport& report, Eigen
 }
 
 /// The points' tangents; their time belongs to the evaluation that follows.
-template <class Settings, int Dim>
-std::vector<VoigtTangent<Dim>> QuasiNewtonSession<Settings, Dim>::timed_tangents(bool of_trial_states) {
+template <class Settings, class Problem>
+std::vector<VoigtTangent<Problem::dim>> QuasiNewtonSession<Settings, Problem>::timed_tangents(bool of_trial_states) {
   auto const started = Clock::now();
   auto tangents = of_trial_states ? problem_.trial_tangents() : problem_.committed_tangents();
   tangent_seconds_ += std::chrono::duration<double>(Clock::now() - started).count();
   return tangents;
 }
 
-template <class Settings, int Dim>
-void QuasiNewtonSession<Settings, Dim>::learn() {
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::learn() {
   if constexpr (FollowsTrialTangent<Rule, dim>) {
     auto const trial = timed_tangents(true);
     mark_ = Clock::now();
@@ -181,8 +182,8 @@ void QuasiNewtonSession<Settings, Dim>::learn() {
   }
 }
 
-template <class Settings, int Dim>
-void QuasiNewtonSession<Settings, Dim>::learn_from_answers() {
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::learn_from_answers() {
   if constexpr (LearnsFromAnswers<Rule, dim>) {
     for (std::size_t k = 0; k < working_.size(); ++k) {
       Gradient<dim> const& gradient = problem_.gradients()[k];

@@ -11,14 +11,14 @@ namespace scarp {
 
 /// What a load step begins with, however it is iterated afterwards: the system linearised about the committed state, what is
 /// known of it, and the first guess that follows from it.
-template <int Dim, LinearSolver Linear>
+template <class Problem, LinearSolver Linear>
 class StepStart {
  public:
   /// accuracy: see LinearisedStep
-  StepStart(IncrementalProblem<Dim>& problem, double accuracy) : problem_(problem), linearised_(problem, accuracy) {}
+  StepStart(Problem& problem, double accuracy) : problem_(problem), linearised_(problem, accuracy) {}
 
   /// At the load factor that the problem is aimed at; says which degree of freedom is weak where the system is singular.
-  Verdict linearise(std::vector<VoigtTangent<Dim>> const& tangents) {
+  Verdict linearise(std::vector<VoigtTangent<Problem::dim>> const& tangents) {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
     Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, tangents);
     condition_ = verdict.acceptable() ? linearised_.condition() : 0.0;
@@ -44,11 +44,11 @@ class StepStart {
     return increment;
   }
 
-  LinearisedStep<Dim, Linear>& linearised() { return linearised_; }
+  LinearisedStep<Problem, Linear>& linearised() { return linearised_; }
 
  private:
-  IncrementalProblem<Dim>& problem_;
-  LinearisedStep<Dim, Linear> linearised_;
+  Problem& problem_;
+  LinearisedStep<Problem, Linear> linearised_;
   double condition_ = 0.0;
   int weak_dof_ = -1;
 };

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/attachment.hpp"
+#include "scarp/solver/incremental_problem.hpp"
+
+namespace scarp::detail {
+
+/// What is attached to the mesh of a problem, as its solver asks for it.
+template <class Problem, int Dim, class Attached>
+class AttachmentPart : public AttachedProblem<Dim> {
+ public:
+  explicit AttachmentPart(Attached attached) : attached_(std::move(attached)) {}
+
+  Attached const& attached() const { return attached_; }
+
+  /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment. Whether it could
+  /// answer is said by the next evaluation.
+  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) override {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(this->dof_count());
+    attached_.add_forces(static_cast<Problem const&>(*this).discretisation().positions(), increment, forces);
+    return forces;
+  }
+
+  /// Their derivative [N/m] where they were asked for last.
+  Eigen::SparseMatrix<double> attached_stiffness() const override {
+    return assembled([&](auto& entries) { attached_.add_stiffness(entries); });
+  }
+
+  /// The same as if nothing there slid.
+  Eigen::SparseMatrix<double> held_stiffness() const override {
+    if constexpr (requires(std::vector<Eigen::Triplet<double>> & entries) { attached_.add_held_stiffness(entries); }) {
+      return assembled([&](auto& entries) { attached_.add_held_stiffness(entries); });
+    } else {
+      return attached_stiffness();
+    }
+  }
+
+ protected:
+  Attached attached_;
+
+ private:
+  template <class Add>
+  Eigen::SparseMatrix<double> assembled(Add const& add) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    add(entries);
+    Eigen::SparseMatrix<double> matrix(this->dof_count(), this->dof_count());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+};
+
+template <class Problem, int Dim>
+class AttachmentPart<Problem, Dim, NoAttachment> : public IncrementalProblem<Dim> {
+ public:
+  explicit AttachmentPart(NoAttachment) {}
+
+  NoAttachment attached() const { return {}; }
+};
+
+}  // namespace scarp::detail
