@@ -11,6 +11,7 @@
 #include "scarp/element/tri3.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/conditioning.hpp"
+#include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/sparse_lu.hpp"

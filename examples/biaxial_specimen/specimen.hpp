@@ -13,6 +13,7 @@
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/field_series.hpp"
+#include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 
