@@ -18,4 +18,5 @@
 #include "scarp/core/random.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/core/tensor.hpp"
+#include "scarp/core/version.hpp"
 #include "scarp/core/voigt.hpp"

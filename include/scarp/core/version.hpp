@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string_view>
+
+/// The one place that says which version this is; CMake reads it here. Before 1.0 a new minor number may change names.
+#define SCARP_VERSION "0.2.0"
+
+namespace scarp {
+
+inline constexpr std::string_view version = SCARP_VERSION;
+
+}  // namespace scarp
