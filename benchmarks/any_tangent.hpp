@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "../examples/shared/study/scenes.hpp"
+#include "../examples/shared/study/typed_scenes.hpp"
 
 namespace fault_benchmarks {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "../examples/shared/study/scenes.hpp"
+#include "../examples/shared/study/typed_scenes.hpp"
 #include "scarp/constitutive/lazy.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/measure/cpu_time.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "../../examples/shared/study/scenes.hpp"
+#include "../../examples/shared/study/typed_scenes.hpp"
 
 #include "fault_answers.hpp"
 #include "fault_runs.hpp"

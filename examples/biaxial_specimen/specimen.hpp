@@ -10,6 +10,7 @@
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/following_pressure.hpp"
+#include "scarp/constitutive/material_field.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/field_series.hpp"
@@ -26,7 +27,8 @@ class Specimen {
  public:
   using Grid = scarp::Discretisation<Element>;
   using Lateral = scarp::FollowingPressure<typename Element::Facet>;
-  using Problem = scarp::EquilibriumProblem<Grid, Sand, scarp::ThreadExecutor, Lateral>;
+  using Problem =
+      scarp::EquilibriumProblem<Grid, scarp::ProviderField<scarp::AnyProvider<2>>, scarp::ThreadExecutor, Lateral>;
 
   /// \throws InputError, PreparationError
   Specimen(Choice const& choice, scarp::Mesh<Element> mesh, scarp::ThreadExecutor& executor)
@@ -68,10 +70,12 @@ class Specimen {
     for (int const node : sides_.top) constraints.move(node, 1, -sides_.height);
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, sides_.top_level));
-    Sand sand(choice.grains, choice.confining, sites, executor);
+    scarp::ProviderField<scarp::AnyProvider<2>> materials(
+        sand(choice.grains, choice.confining, grid.point_count(), executor), sites);
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
     Lateral lateral(sides_.lateral, choice.confining, choice.grains.thickness);
-    return {std::move(grid), std::move(sand), std::move(constraints), std::move(loads), executor, std::move(lateral)};
+    return {std::move(grid), std::move(materials), std::move(constraints), std::move(loads),
+            executor,        std::move(lateral)};
   }
 
   Sides<Element> sides_;
@@ -82,7 +86,7 @@ class Specimen {
 template <class Budget>
 struct Watch : scarp::NeverStops {
   Budget& budget;
-  std::optional<scarp::FieldSeries<SandQuantities>> series{};
+  std::optional<scarp::FieldSeries<scarp::RveQuantities>> series{};
   int iterations = 0;
   double residual = 0.0;  ///< of the last accepted attempt
 

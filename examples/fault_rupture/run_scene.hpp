@@ -6,7 +6,6 @@
 
 #include "../shared/budget_report.hpp"
 #include "scarp/budget/error_budget.hpp"
-#include "scarp/io/packings/packing_tables.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/probe.hpp"
@@ -57,9 +56,7 @@ scarp::FootingLog<Structure> footing_log(std::filesystem::path const& folder, St
 template <class Problem, class SceneType>
 scarp::ErrorBudget<Problem> error_budget(Choice const& choice, SceneType const& scene, Problem const& problem,
                                          int probe) {
-  scarp::ErrorSampling sampling{.followed = {probe}, .loose_pressure = 0.25 * scene.surcharge};
-  if constexpr (requires { scene.soil.provider.loose_pressure; })
-    sampling.loose_pressure = scene.soil.provider.loose_pressure;
+  scarp::ErrorSampling const sampling{.followed = {probe}, .loose_pressure = scene.loose_pressure};
   return scarp::ErrorBudget<Problem>(problem, examples::error_bounds(choice.budget), sampling);
 }
 
@@ -86,10 +83,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
                problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
     fs::create_directories(folder / "fields");
     remove_older_results(folder, files.resumes());
-    if constexpr (requires { scene.soil.provider.source.packings; }) {
-      auto const& packings = scene.soil.provider.source.packings;
-      scarp::write_packing_tables(folder, packings[packings.size() / 2], scene.soil.provider.law);
-    }
+    if (scene.write_packing) scene.write_packing(folder);
   }
   double const depth = scene.ground.depth();
   double const to = scene.throw_to;
@@ -148,15 +142,9 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   return report.verdict.reason == scarp::Reason::interrupted ? interrupted : 3;
 }
 
-// Each soil's scenes are compiled in a source of their own.
-extern template int run(Choice const&, SandFreeField const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, SandStickingFooting const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, SandFrictionalFooting const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, MohrCoulombFreeField const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, MohrCoulombStickingFooting const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, MohrCoulombFrictionalFooting const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, ElasticFreeField const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, ElasticStickingFooting const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, ElasticFrictionalFooting const&, scarp::CheckpointFiles&, Moment);
+// Each structure's scene is compiled in a source of its own.
+extern template int run(Choice const&, Scene<scarp::BareGround> const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, Scene<scarp::StickingFooting> const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, Scene<RigidFooting> const&, scarp::CheckpointFiles&, Moment);
 
 }  // namespace fault_rupture

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "../shared/study/scenes.hpp"
-#include "scarp/constitutive/innermost.hpp"
+#include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/observe/floor_share.hpp"
@@ -60,13 +60,11 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
     double const overburden = scene.surcharge + scene.unit_weight * site.depth;
     rest.vertical_error = std::max(rest.vertical_error, std::abs(-stress(1) / overburden - 1.0));
     visit_point(problem, point, [&](auto const& provider, auto const& state) {
-      scarp::visit_innermost(provider, state, [&](auto const&, auto const& own) {
-        if constexpr (requires { own.packing; }) {
-          double const void_ratio = own.packing.void_ratio();
-          rest.void_ratio_min = std::min(rest.void_ratio_min, void_ratio);
-          rest.void_ratio_max = std::max(rest.void_ratio_max, void_ratio);
-        }
-      });
+      for (auto const& [quantity, value] : scarp::RveQuantities{}(provider, state)) {
+        if (quantity != "void_ratio") continue;
+        rest.void_ratio_min = std::min(rest.void_ratio_min, value);
+        rest.void_ratio_max = std::max(rest.void_ratio_max, value);
+      }
     });
   }
   rest.k0 /= points;
@@ -162,7 +160,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["settlement_hanging_over_throw"] =
       offset.share(scarp::settlement_at(profile, profile.back().x_initial - from_side));
   add_footing(json, scene, problem);
-  json["tolerance"] = scene.solver.tolerance;
+  json["tolerance"] = scene.tolerance;
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;
   json["refused_steps"] = run.refused;

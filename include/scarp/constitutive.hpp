@@ -7,6 +7,7 @@
 /// Increments are displacement gradients from the committed state, stress in Pa.
 #pragma once
 
+#include "scarp/constitutive/any_provider.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/dormant.hpp"
@@ -19,6 +20,7 @@
 #include "scarp/constitutive/perturbation_tangent.hpp"
 #include "scarp/constitutive/random_packings.hpp"
 #include "scarp/constitutive/recorded.hpp"
+#include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/constitutive/softening_strength.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/strength.hpp"

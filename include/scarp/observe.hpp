@@ -21,7 +21,6 @@
 #include "scarp/observe/progress.hpp"
 #include "scarp/observe/rupture_measures.hpp"
 #include "scarp/observe/rupture_survey.hpp"
-#include "scarp/observe/rve_quantities.hpp"
 #include "scarp/observe/surface_log.hpp"
 #include "scarp/observe/surface_point.hpp"
 #include "scarp/observe/surface_profile.hpp"

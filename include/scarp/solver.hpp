@@ -16,6 +16,7 @@
 #include "scarp/solver/frozen_tangent.hpp"
 #include "scarp/solver/line_search.hpp"
 #include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/one_of.hpp"
 #include "scarp/solver/plain_step.hpp"
 #include "scarp/solver/point_secant.hpp"
 #include "scarp/solver/quasi_newton.hpp"

@@ -1,33 +1,30 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <numbers>
+#include <utility>
 #include <variant>
 
+#include "any_soil.hpp"
 #include "chosen_ground.hpp"
+#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/sticking_footing.hpp"
-#include "soils.hpp"
 
 namespace fault_rupture {
 
-template <class SoilType, class Structure>
-using Scene = scarp::FaultScene<SoilType, Structure, typename SoilType::Solver, ChosenGround<Element>, ChosenFault>;
 using RigidFooting = scarp::FrictionalFooting<scarp::LinearFrictional>;
 
-struct SandFreeField : Scene<Sand, scarp::BareGround> {};
-struct SandStickingFooting : Scene<Sand, scarp::StickingFooting> {};
-struct SandFrictionalFooting : Scene<Sand, RigidFooting> {};
-struct MohrCoulombFreeField : Scene<FrictionalSoil, scarp::BareGround> {};
-struct MohrCoulombStickingFooting : Scene<FrictionalSoil, scarp::StickingFooting> {};
-struct MohrCoulombFrictionalFooting : Scene<FrictionalSoil, RigidFooting> {};
-struct ElasticFreeField : Scene<ElasticSoil, scarp::BareGround> {};
-struct ElasticStickingFooting : Scene<ElasticSoil, scarp::StickingFooting> {};
-struct ElasticFrictionalFooting : Scene<ElasticSoil, RigidFooting> {};
+/// A scene of the study, compiled once for all soils.
+template <class Structure>
+struct Scene : scarp::FaultScene<scarp::AnyProvider<2>, Structure, AnySolver, ChosenGround<Element>, ChosenFault> {
+  double tolerance = 0.0;         ///< of the force residual
+  double loose_pressure = 0.0;    ///< [Pa], below which a point's balance counts less
+  PackingWriter write_packing{};  ///< nothing for soils without packings
+};
 
-using AnyScene = std::variant<SandFreeField, SandStickingFooting, SandFrictionalFooting, MohrCoulombFreeField,
-                              MohrCoulombStickingFooting, MohrCoulombFrictionalFooting, ElasticFreeField,
-                              ElasticStickingFooting, ElasticFrictionalFooting>;
+using AnyScene = std::variant<Scene<scarp::BareGround>, Scene<scarp::StickingFooting>, Scene<RigidFooting>>;
 
 inline scarp::StripFooting footing_of(Choice const& choice) {
   double const own = choice.scene == Case::heavy ? 91e3 : 37e3;
@@ -45,46 +42,38 @@ inline void set(RigidFooting& structure, Choice const& choice) {
   structure.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = choice.base_friction};
 }
 
-/// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError
+/// Ground, fault, loads and structure; soil and solver are left.
+/// \throws scarp::InputError for choices that do not make a scene
 template <class SceneType>
-SceneType make(Choice const& choice) {
-  using SoilType = decltype(SceneType::soil);
+SceneType without_soil(Choice const& choice) {
   SceneType scene;
   scene.ground = ground_of<Element>(choice);
   scene.fault = {{.dip = choice.dip * std::numbers::pi / 180.0, .tip = choice.tip}, choice.reverse};
   scene.unit_weight = unit_weight;
   scene.surcharge = surcharge;
   scene.throw_to = choice.throw_over_depth * scene.ground.depth();
-  scene.solver.tolerance = choice.tolerance.value_or(SoilType::tolerance(choice));
-  scene.solver.most_iterations = choice.most_iterations;
-  scene.stepping.largest_gradient = choice.largest_gradient.value_or(SoilType::largest_gradient(choice.quick));
   set(scene.structure, choice);
-  if constexpr (std::is_same_v<SoilType, Sand>) {
-    scene.soil = make_sand(choice, scene.soil_depths());
-  } else if constexpr (std::is_same_v<SoilType, FrictionalSoil>) {
-    scene.soil = make_frictional_soil();
-    scene.solver.rule.floor = 1e-4;
-  } else {
-    scene.soil = make_elastic_soil();
-  }
   return scene;
 }
 
-template <class FreeField, class Sticking, class Frictional>
-AnyScene make_with(Choice const& choice) {
-  if (choice.scene == Case::free) return make<FreeField>(choice);
-  if (choice.base == Base::sticking) return make<Sticking>(choice);
-  return make<Frictional>(choice);
+/// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError
+template <class SceneType>
+SceneType make_any(Choice const& choice) {
+  auto scene = without_soil<SceneType>(choice);
+  auto soil = any_soil(choice, scene.soil_depths());
+  scene.soil = std::move(soil.provider);
+  scene.solver = std::move(soil.solver);
+  scene.tolerance = soil.tolerance;
+  scene.loose_pressure = soil.loose_pressure;
+  scene.write_packing = std::move(soil.write_packing);
+  scene.stepping.largest_gradient = soil.largest_gradient;
+  return scene;
 }
 
 inline AnyScene make_scene(Choice const& choice) {
-  switch (choice.soil) {
-    case Soil::dem: return make_with<SandFreeField, SandStickingFooting, SandFrictionalFooting>(choice);
-    case Soil::mohr_coulomb:
-      return make_with<MohrCoulombFreeField, MohrCoulombStickingFooting, MohrCoulombFrictionalFooting>(choice);
-    case Soil::elastic: break;
-  }
-  return make_with<ElasticFreeField, ElasticStickingFooting, ElasticFrictionalFooting>(choice);
+  if (choice.scene == Case::free) return make_any<Scene<scarp::BareGround>>(choice);
+  if (choice.base == Base::sticking) return make_any<Scene<scarp::StickingFooting>>(choice);
+  return make_any<Scene<RigidFooting>>(choice);
 }
 
 }  // namespace fault_rupture

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scarp/fault/level_ground.hpp"
+#include "scarp/io/packings/packing_tables.hpp"
 #include "study_sand.hpp"
 
 namespace fault_rupture {
@@ -13,6 +14,19 @@ namespace {
 
 /// Level ground at the study's K0 of about 0.4.
 scarp::GeostaticStress<2> ground_at_rest() { return {.surcharge = surcharge, .unit_weight = unit_weight, .k0 = 0.4}; }
+
+/// What all soils' scenes share.
+template <class Soil>
+AnySoil solved(Choice const& choice, Soil const& soil, typename Soil::Solver solver) {
+  double const tolerance = choice.tolerance.value_or(Soil::tolerance(choice));
+  solver.tolerance = tolerance;
+  solver.most_iterations = choice.most_iterations;
+  return {.provider = soil,
+          .solver = {solver},
+          .tolerance = tolerance,
+          .largest_gradient = choice.largest_gradient.value_or(Soil::largest_gradient(choice.quick)),
+          .loose_pressure = 0.25 * surcharge};
+}
 
 scarp::IsotropicElasticity soil_elasticity() { return scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25); }
 
@@ -44,5 +58,28 @@ FrictionalSoil make_frictional_soil() {
 }
 
 ElasticSoil make_elastic_soil() { return {{soil_elasticity(), ground_at_rest()}}; }
+
+AnySoil any_soil(Choice const& choice, std::vector<double> depths) {
+  switch (choice.soil) {
+    case Soil::dem: {
+      auto const sand = make_sand(choice, std::move(depths));
+      auto soil = solved(choice, sand, {});
+      soil.loose_pressure = sand.provider.loose_pressure;
+      auto const& packings = sand.provider.source.packings;
+      soil.write_packing = [packing = packings[packings.size() / 2],
+                            law = sand.provider.law](std::filesystem::path const& folder) {
+        scarp::write_packing_tables(folder, packing, law);
+      };
+      return soil;
+    }
+    case Soil::mohr_coulomb: {
+      FrictionalSoil::Solver solver;
+      solver.rule.floor = FrictionalSoil::tangent_floor;
+      return solved(choice, make_frictional_soil(), solver);
+    }
+    case Soil::elastic: break;
+  }
+  return solved(choice, make_elastic_soil(), {});
+}
 
 }  // namespace fault_rupture

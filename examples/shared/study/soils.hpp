@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "choice.hpp"
+#include "any_soil.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
@@ -14,9 +14,6 @@
 #include "scarp/solver/quasi_newton.hpp"
 
 namespace fault_rupture {
-
-inline constexpr double unit_weight = 15.68e3;  ///< [N/m3]
-inline constexpr double surcharge = 4e3;        ///< [Pa]
 
 using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 
@@ -35,6 +32,7 @@ struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, scarp::PackingsByDepth
 /// (Geotechnique 36, 1986), after 15 % of plastic shear; cohesion of 1 kPa; stiffness near that of the packings.
 struct FrictionalSoil : scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength> {
   using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
+  static constexpr double tangent_floor = 1e-4;  ///< of the solver's rule
   static double tolerance(Choice const&) { return 1e-10; }
   static double largest_gradient(bool) { return 0.02; }
 };

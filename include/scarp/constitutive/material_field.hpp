@@ -157,16 +157,12 @@ class ProviderField {
   /// Leaves a point without state, since another process answers for it.
   void forget(int point) { committed_[detail::index(point)] = trial_[detail::index(point)] = no_state(); }
 
-  /// What evolves: the committed states.
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("states", std::span(self.committed_));
-  }
-  void after_loading() { trial_ = committed_; }
-
- private:
-  static State no_state() {
-    if constexpr (std::default_initializable<State>) {
+  /// An empty state, of a point that another process answers for.
+  /// \throws InputError for states that cannot be empty
+  State no_state() const {
+    if constexpr (requires { provider_.no_state(); }) {
+      return provider_.no_state();
+    } else if constexpr (std::default_initializable<State>) {
       return {};
     } else {
       refuse(
@@ -175,6 +171,14 @@ class ProviderField {
     }
   }
 
+  /// What evolves: the committed states.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("states", std::span(self.committed_));
+  }
+  void after_loading() { trial_ = committed_; }
+
+ private:
   Provider provider_;
   std::vector<State> committed_;
   std::vector<State> trial_;

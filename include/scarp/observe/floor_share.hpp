@@ -3,23 +3,10 @@
 
 #include <Eigen/Core>
 
+#include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/run/visit_point.hpp"
 
 namespace scarp {
-
-namespace detail {
-
-/// visit(stress of the floor) where a state, or one that it keeps, has one.
-template <class State, class Visit>
-void visit_floor(State const& state, Visit const& visit) {
-  if constexpr (requires { state.floor_stress; }) {
-    visit(state.floor_stress);
-  } else if constexpr (requires { state.own; }) {
-    visit_floor(state.own, visit);
-  }
-}
-
-}  // namespace detail
 
 /// Share of the stiffness floors (constitutive/stiffness_floor.hpp) in all stress of a problem's committed state:
 /// \f$ \sum v |\sigma_{floor}| / \sum v |\sigma| \f$, 0 where no point is fluid.
@@ -33,7 +20,7 @@ double floor_share(Problem const& problem) {
     double const volume = volumes[static_cast<std::size_t>(point)];
     visit_point(problem, point, [&](auto const& provider, auto const& state) {
       all += volume * provider.stress(state).norm();
-      detail::visit_floor(state, [&](auto const& stress) { floors += volume * stress.norm(); });
+      floors += volume * floor_stress_in<Problem::dim>(state).norm();
     });
   }
   return floors > 0.0 ? floors / all : 0.0;

@@ -12,8 +12,8 @@ namespace scarp {
 
 /// Copy of a point's state, from the process that has it.
 template <SharesPoints Executor, class Field>
-typename Field::State state_elsewhere(Executor const& executor, Field const&, int point) {
-  typename Field::State state;
+typename Field::State state_elsewhere(Executor const& executor, Field const& field, int point) {
+  auto state = field.no_state();
   std::string const bytes = executor.ask(point);
   StateReader reader(bytes);
   reader("state", state);

@@ -24,7 +24,7 @@ struct PackingSurvey {
   void look(Problem const& problem, std::vector<int> const& points) {
     for (int const point : points) {
       problem.materials().visit(point, [&](auto const& field, int local) {
-        PointBalance const found = point_balance(field, local, problem.gradients()[detail::index(point)]);
+        PackingBalance const found = point_balance(field, local, problem.gradients()[detail::index(point)]);
         if (!found.has_packing) return;
         looked_at += 1.0;
         unbalanced_sum += found.unbalanced_ratio;

@@ -4,50 +4,19 @@
 #include <string>
 
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/constitutive/packing_balance.hpp"
 #include "scarp/constitutive/step_doubling.hpp"
 #include "scarp/io/state_bits.hpp"
 
-/// What an error budget asks of a point whose answer has just been committed. A material field that hides its providers
-/// gives functions of these names itself.
+/// What an error budget asks of a point whose answer has just been committed.
 namespace scarp {
 
-/// How well the packing of a point is balanced, and how fast it was strained.
-struct PointBalance {
-  bool has_packing = false;
-  double unbalanced_ratio = 0.0;
-  double kinetic_share = 0.0;
-  double inertial_number = 0.0;
-};
-
-namespace detail {
-
-/// Calls visit(provider, state before, state after, plan) for the packing below adaptors that share its plan.
-template <class Provider, class State, class Plan, class Visit>
-void visit_packing(Provider const& provider, State const& before, State const& after, Plan const& plan,
-                   Visit const& visit) {
-  if constexpr (requires { provider.inertial_number_of(before, Gradient<Provider::dim>(), plan); }) {
-    visit(provider, before, after, plan);
-  } else if constexpr (requires { provider.provider, before.own; }) {
-    visit_packing(provider.provider, before.own, after.own, plan, visit);
-  }
-}
-
-}  // namespace detail
-
-/// increment: that was answered. Packings at less than the provider's loose pressure count by their share of it.
+/// increment: that was answered
 template <class Provider>
-PointBalance point_balance(ProviderField<Provider> const& field, int local, Gradient<Provider::dim> const& increment) {
-  PointBalance balance;
-  detail::visit_packing(field.provider(), field.replaced(local), field.committed(local), field.planned(local),
-                        [&](auto const& provider, auto const& before, auto const& after, auto const& plan) {
-                          if (after.verdict.status == Status::fluid) return;
-                          double const weight = provider.weight_of(after);
-                          balance = {.has_packing = true,
-                                     .unbalanced_ratio = weight * after.unbalanced_ratio,
-                                     .kinetic_share = weight * after.kinetic_share,
-                                     .inertial_number = provider.inertial_number_of(before, increment, plan)};
-                        });
-  return balance;
+PackingBalance point_balance(ProviderField<Provider> const& field, int local,
+                             Gradient<Provider::dim> const& increment) {
+  return packing_balance(field.provider(), field.replaced(local), field.committed(local), increment,
+                         field.planned(local));
 }
 
 /// The committed answer's increment from the state that it began with, with twice the work.
@@ -67,6 +36,9 @@ DoubledAnswer<Provider::dim> followed_answer(ProviderField<Provider> const& fiel
   DoubledAnswer<Provider::dim> answer{{field.provider().stress(field.committed(local)), {}}, 0};
   if constexpr (Described<State>) {
     State state = field.committed(local);
+    if constexpr (requires { state.is_described(); }) {
+      if (!state.is_described()) return answer;
+    }
     if (!bits.empty()) {
       State from = state;
       StateReader reader(bits);

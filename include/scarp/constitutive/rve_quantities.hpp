@@ -33,7 +33,9 @@ struct RveQuantities {
  private:
   template <class Provider>
   static Quantities of(Provider const& provider, typename Provider::State const& state) {
-    if constexpr (requires { state.packing.void_ratio(); }) {
+    if constexpr (requires { provider.quantities(state); }) {
+      return provider.quantities(state);
+    } else if constexpr (requires { state.packing.void_ratio(); }) {
       Quantities quantities{
           {"void_ratio", state.packing.void_ratio()},
           {"contact_fabric", fabric_anisotropy(contact_fabric(state.packing, provider.law))},

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "run_scene.hpp"
+
+namespace fault_rupture {
+template int run(Choice const&, Scene<scarp::StickingFooting> const&, scarp::CheckpointFiles&, Moment);
+}  // namespace fault_rupture

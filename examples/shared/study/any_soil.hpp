@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "choice.hpp"
+#include "scarp/constitutive/any_provider.hpp"
+#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/one_of.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+
+namespace fault_rupture {
+
+inline constexpr double unit_weight = 15.68e3;  ///< [N/m3]
+inline constexpr double surcharge = 4e3;        ///< [Pa]
+
+using AnySolver = scarp::OneOf<scarp::QuasiNewton<>, scarp::QuasiNewton<scarp::ConsistentTangent>>;
+/// Writes one of the soil's packings into a folder.
+using PackingWriter = std::function<void(std::filesystem::path const&)>;
+
+/// A soil of the study and how its scenes are solved.
+struct AnySoil {
+  scarp::AnyProvider<2> provider;
+  AnySolver solver;
+  double tolerance = 0.0;         ///< of the force residual
+  double largest_gradient = 0.0;  ///< of a load step
+  double loose_pressure = 0.0;    ///< [Pa], below which a point's balance counts less
+  PackingWriter write_packing{};  ///< nothing for soils without packings
+};
+
+/// depths [m]: of all points that will be soil
+/// \throws scarp::PreparationError
+AnySoil any_soil(Choice const& choice, std::vector<double> depths);
+
+}  // namespace fault_rupture

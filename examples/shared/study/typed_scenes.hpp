@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scenes.hpp"
+#include "soils.hpp"
+
+/// The study's scenes whose soil has its type, for programs that exchange its parts.
+namespace fault_rupture {
+
+template <class SoilType, class Structure>
+using TypedScene =
+    scarp::FaultScene<SoilType, Structure, typename SoilType::Solver, ChosenGround<Element>, ChosenFault>;
+
+struct SandFreeField : TypedScene<Sand, scarp::BareGround> {};
+struct MohrCoulombFreeField : TypedScene<FrictionalSoil, scarp::BareGround> {};
+struct MohrCoulombFrictionalFooting : TypedScene<FrictionalSoil, RigidFooting> {};
+struct ElasticFreeField : TypedScene<ElasticSoil, scarp::BareGround> {};
+
+/// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError
+template <class SceneType>
+SceneType make(Choice const& choice) {
+  using SoilType = decltype(SceneType::soil);
+  auto scene = without_soil<SceneType>(choice);
+  scene.solver.tolerance = choice.tolerance.value_or(SoilType::tolerance(choice));
+  scene.solver.most_iterations = choice.most_iterations;
+  scene.stepping.largest_gradient = choice.largest_gradient.value_or(SoilType::largest_gradient(choice.quick));
+  if constexpr (std::is_same_v<SoilType, Sand>) {
+    scene.soil = make_sand(choice, scene.soil_depths());
+  } else if constexpr (std::is_same_v<SoilType, FrictionalSoil>) {
+    scene.soil = make_frictional_soil();
+    scene.solver.rule.floor = FrictionalSoil::tangent_floor;
+  } else {
+    scene.soil = make_elastic_soil();
+  }
+  return scene;
+}
+
+}  // namespace fault_rupture
