@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "../shared/study/scenes.hpp"
+#include "any_scene.hpp"
 #include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/io/atomic_file.hpp"

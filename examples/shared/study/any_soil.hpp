@@ -13,9 +13,6 @@
 
 namespace fault_rupture {
 
-inline constexpr double unit_weight = 15.68e3;  ///< [N/m3]
-inline constexpr double surcharge = 4e3;        ///< [Pa]
-
 using AnySolver = scarp::OneOf<scarp::QuasiNewton<>, scarp::QuasiNewton<scarp::ConsistentTangent>>;
 /// Writes one of the soil's packings into a folder.
 using PackingWriter = std::function<void(std::filesystem::path const&)>;

@@ -8,6 +8,10 @@
 
 namespace fault_rupture {
 
+// Of the study's ground.
+inline constexpr double unit_weight = 15.68e3;  ///< [N/m3]
+inline constexpr double surcharge = 4e3;        ///< [Pa]
+
 enum class Case { free, heavy, light };
 enum class Soil { dem, mohr_coulomb, elastic };
 enum class Base { sticking, frictional };

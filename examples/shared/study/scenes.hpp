@@ -2,10 +2,7 @@
 #pragma once
 
 #include <numbers>
-#include <utility>
-#include <variant>
 
-#include "any_soil.hpp"
 #include "chosen_ground.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/free_field_fault.hpp"
@@ -15,16 +12,6 @@
 namespace fault_rupture {
 
 using RigidFooting = scarp::FrictionalFooting<scarp::LinearFrictional>;
-
-/// A scene of the study, compiled once for all soils.
-template <class Structure>
-struct Scene : scarp::FaultScene<scarp::AnyProvider<2>, Structure, AnySolver, ChosenGround<Element>, ChosenFault> {
-  double tolerance = 0.0;         ///< of the force residual
-  double loose_pressure = 0.0;    ///< [Pa], below which a point's balance counts less
-  PackingWriter write_packing{};  ///< nothing for soils without packings
-};
-
-using AnyScene = std::variant<Scene<scarp::BareGround>, Scene<scarp::StickingFooting>, Scene<RigidFooting>>;
 
 inline scarp::StripFooting footing_of(Choice const& choice) {
   double const own = choice.scene == Case::heavy ? 91e3 : 37e3;
@@ -54,26 +41,6 @@ SceneType without_soil(Choice const& choice) {
   scene.throw_to = choice.throw_over_depth * scene.ground.depth();
   set(scene.structure, choice);
   return scene;
-}
-
-/// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError
-template <class SceneType>
-SceneType make_any(Choice const& choice) {
-  auto scene = without_soil<SceneType>(choice);
-  auto soil = any_soil(choice, scene.soil_depths());
-  scene.soil = std::move(soil.provider);
-  scene.solver = std::move(soil.solver);
-  scene.tolerance = soil.tolerance;
-  scene.loose_pressure = soil.loose_pressure;
-  scene.write_packing = std::move(soil.write_packing);
-  scene.stepping.largest_gradient = soil.largest_gradient;
-  return scene;
-}
-
-inline AnyScene make_scene(Choice const& choice) {
-  if (choice.scene == Case::free) return make_any<Scene<scarp::BareGround>>(choice);
-  if (choice.base == Base::sticking) return make_any<Scene<scarp::StickingFooting>>(choice);
-  return make_any<Scene<RigidFooting>>(choice);
 }
 
 }  // namespace fault_rupture

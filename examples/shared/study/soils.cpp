@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "any_soil.hpp"
 #include "scarp/fault/level_ground.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
 #include "study_sand.hpp"

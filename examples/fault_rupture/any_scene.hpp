@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <variant>
+
+#include "../shared/study/any_soil.hpp"
+#include "../shared/study/scenes.hpp"
+
+namespace fault_rupture {
+
+/// A scene of the study, compiled once for all soils.
+template <class Structure>
+struct Scene : scarp::FaultScene<scarp::AnyProvider<2>, Structure, AnySolver, ChosenGround<Element>, ChosenFault> {
+  double tolerance = 0.0;         ///< of the force residual
+  double loose_pressure = 0.0;    ///< [Pa], below which a point's balance counts less
+  PackingWriter write_packing{};  ///< nothing for soils without packings
+};
+
+using AnyScene = std::variant<Scene<scarp::BareGround>, Scene<scarp::StickingFooting>, Scene<RigidFooting>>;
+
+/// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError
+AnyScene make_scene(Choice const& choice);
+
+}  // namespace fault_rupture
