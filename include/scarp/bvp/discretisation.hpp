@@ -19,10 +19,9 @@ namespace scarp {
 /// Degree of freedom = dim * node + axis; point = (number of an element's material points) * element + its own number,
 /// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
 /// gives the same bits. Members that cost much to compile are defined outside, so that a library can keep them.
-template <ReferenceElement Element, Kinematics Motion = UpdatedLagrangian, class Scheme = FullIntegration>
+template <CheckedElement Element, CheckedKinematics Motion = UpdatedLagrangian,
+          CheckedIntegration<Element> Scheme = FullIntegration>
 class SCARP_EXPORT Discretisation {
-  static_assert(Integration<Scheme, Element>, "this scheme does not fit the element: see bvp/integration.hpp");
-
  public:
   using ElementType = Element;
   static constexpr bool follows_motion = Motion::follows_motion;
@@ -172,7 +171,7 @@ class SCARP_EXPORT Discretisation {
   Sparsity sparsity_;
 };
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, double thickness)
     : mesh_((validate(mesh), std::move(mesh))), thickness_(thickness), positions_(mesh_.nodes), sparsity_(mesh_) {
   require_positive("thickness", thickness);
@@ -181,7 +180,7 @@ Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, doub
   }
 }
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 Site<Element::dim> Discretisation<Element, Motion, Scheme>::site(int point, double surface_level) const {
   int const element = point / points_per_element;
   auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions_);
@@ -189,7 +188,7 @@ Site<Element::dim> Discretisation<Element, Motion, Scheme>::site(int point, doub
   return {point, mesh_.element_region[detail::index(element)], position, surface_level - position(dim - 1)};
 }
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::VectorXd const& increment,
                                                                       std::span<Gradient<dim>> out) const {
   require_length("displacement increment", increment.size(), dof_count());
@@ -207,7 +206,7 @@ std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::Vec
   return inverted;
 }
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 
 void Discretisation<Element, Motion, Scheme>::internal_force(Eigen::VectorXd const& increment,
                                                              std::span<VoigtStress<dim> const> stresses,
@@ -224,7 +223,7 @@ void Discretisation<Element, Motion, Scheme>::internal_force(Eigen::VectorXd con
   });
 }
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 
 void Discretisation<Element, Motion, Scheme>::stiffness(Eigen::VectorXd const& increment,
                                                         std::span<VoigtStress<dim> const> stresses,
@@ -245,7 +244,7 @@ void Discretisation<Element, Motion, Scheme>::stiffness(Eigen::VectorXd const& i
   });
 }
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::stiffness(
     Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
     std::span<VoigtTangent<dim> const> tangents) const {
@@ -254,7 +253,7 @@ Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::stiffness(
   return matrix;
 }
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::strain_operator(
     Eigen::VectorXd const& increment) const {
   require_length("displacement increment", increment.size(), dof_count());
@@ -281,7 +280,7 @@ Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::strain_oper
   return strains;
 }
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::VectorXd const& increment) const {
   require_length("displacement increment", increment.size(), dof_count());
   std::vector<double> volumes(detail::index(point_count()));
@@ -293,7 +292,7 @@ std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::Vect
   return volumes;
 }
 
-template <ReferenceElement Element, Kinematics Motion, class Scheme>
+template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
 
 void Discretisation<Element, Motion, Scheme>::commit(Eigen::VectorXd const& increment) {
   require_length("displacement increment", increment.size(), dof_count());

@@ -7,9 +7,12 @@
 
 namespace scarp {
 
-/// Nodal forces [N] of a problem over its load factor: a sum of fixed patterns, each with its course.
+/// Nodal forces [N] of a problem over its load factor: a sum of fixed patterns, each with its course. Without a pattern
+/// it has no size of its own, and a problem takes it for no load at all.
 class LoadHistory {
  public:
+  LoadHistory() = default;
+
   /// The same at every load factor. forces: shape (degrees of freedom)
   template <class Derived>
   LoadHistory(Eigen::MatrixBase<Derived> const& dead_load) {
@@ -25,7 +28,8 @@ class LoadHistory {
     parts_.emplace_back(std::move(forces), std::move(course));
   }
 
-  Eigen::Index size() const { return parts_.front().first.size(); }
+  /// Degrees of freedom of the patterns; zero where there is none.
+  Eigen::Index size() const { return parts_.empty() ? 0 : parts_.front().first.size(); }
 
   Eigen::VectorXd at(double load) const {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size());

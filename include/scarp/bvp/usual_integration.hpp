@@ -18,12 +18,12 @@ namespace scarp {
 /// The integration that an element takes where nobody says otherwise, so that it neither locks nor has free motions
 /// that spread: reduced for quadratic quadrilaterals and hexahedra, the mean dilatation for linear ones, full for
 /// simplices.
-template <ReferenceElement Element>
+template <CheckedElement Element>
 using UsualIntegration = std::conditional_t<!GivesReducedQuadrature<Element>, FullIntegration,
                                             std::conditional_t<HasMidSides<Element>, ReducedIntegration, BBar>>;
 
 /// Updated Lagrangian elements with that integration.
-template <ReferenceElement Element>
+template <CheckedElement Element>
 using UsualGrid = Discretisation<Element, UpdatedLagrangian, UsualIntegration<Element>>;
 
 #ifdef SCARP_PRECOMPILED

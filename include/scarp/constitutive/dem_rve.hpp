@@ -26,11 +26,49 @@ concept PackingSource = requires(Source const& source, Site<PackingType::dim> co
   { source.at(site) } -> std::convertible_to<PackingType>;
 };
 
+/// tangent(packing, law): stiffness [Pa] of a packing as it stands.
+template <class Tangent, class PackingType>
+concept TellsPackingTangent = requires(Tangent const& tangent, PackingType const& packing,
+                                       typename PackingType::Law const& law) {
+  { tangent(packing, law) } -> std::convertible_to<VoigtTangent<PackingType::dim>>;
+};
+
+namespace detail {
+/// What is missing, in words.
+template <class Source, class PackingType>
+struct MissingOfPackingSource {
+  static_assert(
+      PackingSource<Source, PackingType>,
+      "scarp: a source of packings needs `Packing at(Site<dim> const&) const`, of the packing that the DemRve names");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Source, class PackingType>
+concept CheckedPackingSource =
+    PackingSource<Source, PackingType> || detail::MissingOfPackingSource<Source, PackingType>::nothing;
+
+namespace detail {
+/// What is missing, in words.
+template <class Tangent, class PackingType>
+struct MissingOfPackingTangent {
+  static_assert(TellsPackingTangent<Tangent, PackingType>,
+                "scarp: a tangent of packings needs `VoigtTangent<dim> operator()(packing, law) const` [Pa]");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Tangent, class PackingType>
+concept CheckedPackingTangent =
+    TellsPackingTangent<Tangent, PackingType> || detail::MissingOfPackingTangent<Tangent, PackingType>::nothing;
+
 /// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
 /// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the answer is Love and Weber's stress at its end.
 /// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
-template <class PackingType, class Source, class Tangent = ElasticContactTangent, class Damping = LocalDamping>
-  requires PackingSource<Source, PackingType>
+template <class PackingType, CheckedPackingSource<PackingType> Source,
+          CheckedPackingTangent<PackingType> Tangent = ElasticContactTangent, CheckedDamping Damping = LocalDamping>
 struct DemRve {
   static constexpr int dim = PackingType::dim;
   using Law = typename PackingType::Law;

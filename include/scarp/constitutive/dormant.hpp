@@ -3,7 +3,7 @@
 
 #include <concepts>
 
-#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/core/error.hpp"
 
 namespace scarp {
@@ -16,7 +16,7 @@ namespace scarp {
 /// activate(problem, [](Site<2> const& site) { return site.region == 1; });
 /// run.run(...);
 /// \endcode
-template <ConstitutiveProvider Provider>
+template <CheckedProvider Provider>
 struct Dormant {
   static constexpr int dim = Provider::dim;
   using Plan = PlanOf<Provider>;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
@@ -19,7 +19,7 @@ namespace scarp {
 /// Whether a point is asked is fixed by `plan` for a whole load step, so that the answer stays smooth while a solver
 /// iterates. A prediction that has run to twice the bounds by then is `not_converged` with `extrapolated`; its refined
 /// plan asks the provider.
-template <ConstitutiveProvider Provider>
+template <CheckedProvider Provider>
 struct Lazy {
   static constexpr int dim = Provider::dim;
 

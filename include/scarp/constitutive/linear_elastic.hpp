@@ -12,7 +12,7 @@ namespace scarp {
 /// \f$ \sigma_1 = R\,(\sigma_0 + \lambda\,tr(E) I + 2 G E)\,R^T \f$ with rotation R and strain E of the increment. A rotation on
 /// top of any increment turns the answer exactly. 2D means plane strain.
 template <int Dim, class InitialStress = StressFree<Dim>>
-  requires InitialStressField<InitialStress, Dim>
+  requires CheckedInitialStress<InitialStress, Dim>
 struct LinearElastic {
   static constexpr int dim = Dim;
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 
@@ -51,7 +51,7 @@ concept AdvancesTrials = MaterialField<Field> &&
 };
 
 /// Committed and trial states of one provider at a set of points.
-template <ConstitutiveProvider Provider>
+template <CheckedProvider Provider>
 class ProviderField {
  public:
   static_assert(

@@ -15,8 +15,8 @@ namespace scarp {
 /// tension is cut off); strength constant or a function of the plastic shear strain. In two dimensions plane strain with the stress out of the
 /// plane as part of the state. An increment's answer is an implicit Euler step from the committed stress, turned by the
 /// increment's rotation.
-template <int Dim, class InitialStress = StressFree<Dim>, StrengthLaw StrengthType = ConstantStrength>
-  requires InitialStressField<InitialStress, Dim>
+template <int Dim, class InitialStress = StressFree<Dim>, CheckedStrengthLaw StrengthType = ConstantStrength>
+  requires CheckedInitialStress<InitialStress, Dim>
 struct MohrCoulomb {
   static constexpr int dim = Dim;
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 
 namespace scarp {
 
 /// Any provider whose points see means of the increments around them, so that a material that softens has a length of
 /// its own. Named in a scene, `FaultScene<Nonlocal<Soil>, ...>`, it makes the scene's materials `NonlocalMaterials`
 /// (include scene/nonlocal_scene.hpp); its points are those of the provider itself.
-template <ConstitutiveProvider ProviderType>
+template <CheckedProvider ProviderType>
 struct Nonlocal {
   using LocalProvider = ProviderType;
   using State = typename LocalProvider::State;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/core/shared_history.hpp"
 
 namespace scarp {
@@ -37,7 +37,7 @@ struct HistoryRow {
 
 /// Any provider with the history of chosen points: one row for the start and one for every committed increment. Rows belong to
 /// the states, so that those of refused steps vanish with them, and states share the memory of what they have in common.
-template <ConstitutiveProvider Provider>
+template <CheckedProvider Provider>
 struct Recorded {
   static constexpr int dim = Provider::dim;
   using Plan = PlanOf<Provider>;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 
 namespace scarp {
 
@@ -28,7 +28,7 @@ struct DoubledAnswer {
 
 /// Answers an increment again by twice the work: with the refined plan where that is more work, else in two halves.
 /// trial: overwritten with the state that belongs to the answer
-template <ConstitutiveProvider Provider>
+template <CheckedProvider Provider>
 DoubledAnswer<Provider::dim> answer_with_double_work(Provider const& provider, typename Provider::State const& from,
                                                      Gradient<Provider::dim> const& increment,
                                                      PlanOf<Provider> const& plan, typename Provider::State& trial) {

@@ -10,7 +10,7 @@ namespace scarp {
 /// meets an isotropic stiffness; its stress is added to the answer and is dropped when contacts carry again.
 /// `floor_share` tells how much of all stress is not the material's. A point that is not fluid answers as the provider
 /// does, bit for bit.
-template <ConstitutiveProvider Provider>
+template <CheckedProvider Provider>
 struct StiffnessFloor {
   static constexpr int dim = Provider::dim;
   using Plan = PlanOf<Provider>;

@@ -54,6 +54,29 @@ concept StrengthLaw = std::copyable<Law> && requires(Law const& law, double plas
   { Law::changes } -> std::convertible_to<bool>;
 };
 
+namespace detail {
+/// What is missing, in words.
+template <class Law>
+struct MissingOfStrengthLaw {
+  static_assert(std::copyable<Law>, "scarp: a strength law can be copied");
+  static_assert(
+      requires(Law const& law) {
+        { law.at(0.0) } -> std::same_as<Strength>;
+      },
+      "scarp: a strength law needs `Strength at(double plastic_shear) const`");
+  static_assert(
+      requires {
+        { Law::changes } -> std::convertible_to<bool>;
+      },
+      "scarp: a strength law needs `static constexpr bool changes`: whether plastic shear alters it");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Law>
+concept CheckedStrengthLaw = StrengthLaw<Law> || detail::MissingOfStrengthLaw<Law>::nothing;
+
 /// Strength that plastic strain does not change.
 struct ConstantStrength {
   static constexpr bool changes = false;

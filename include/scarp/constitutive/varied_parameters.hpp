@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/core/error.hpp"
 
 namespace scarp {
@@ -18,7 +18,7 @@ namespace scarp {
 /// }};
 /// \endcode
 /// States share their point's provider; a copy of a state does not copy it.
-template <ConstitutiveProvider Provider>
+template <CheckedProvider Provider>
 struct VariedParameters {
   static constexpr int dim = Provider::dim;
   using Plan = PlanOf<Provider>;

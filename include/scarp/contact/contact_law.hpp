@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "scarp/core/constant.hpp"
+#include "scarp/core/pack.hpp"
 
 namespace scarp {
 
@@ -81,6 +82,13 @@ concept RespondsToApproach = requires(Law const& law, Approach<2, double> const&
   { law.respond(approach, memory) } -> std::same_as<ContactForce<2, double>>;
 };
 
+/// The same for packs: the pair loop asks for several contacts at once, in the plane and in space alike.
+template <class Law>
+concept RespondsInPacks = requires(Law const& law, Approach<2, lanes::Pack<double>> const& approach,
+                                   ContactMemory<2, lanes::Pack<double>>& memory) {
+  { law.respond(approach, memory) } -> std::same_as<ContactForce<2, lanes::Pack<double>>>;
+};
+
 template <class Law>
 concept TellsContactStiffness = requires(Law const& law) {
   { law.stiffness(0.0, 0.0) } -> std::same_as<ContactStiffness>;  // at an overlap and a reduced radius [m]
@@ -92,9 +100,16 @@ concept NamesContactNeeds = requires {
   requires Law::needs.scalars <= most_contact_scalars;
 };
 
+/// A law with a friction coefficient needs a shear force that is remembered: without it none would be computed.
 template <class Law>
-concept ContactLaw =
-    std::is_aggregate_v<Law> && NamesContactNeeds<Law> && RespondsToApproach<Law> && TellsContactStiffness<Law>;
+concept RemembersItsShear = !requires(Law & law) {
+  law.friction_coefficient();
+}
+|| Law::needs.shear;
+
+template <class Law>
+concept ContactLaw = std::is_aggregate_v<Law> && NamesContactNeeds<Law> && RemembersItsShear<Law> &&
+    RespondsToApproach<Law> && RespondsInPacks<Law> && TellsContactStiffness<Law>;
 
 /// A law whose friction coefficient can be exchanged, as the preparation of a packing needs.
 template <class Law>
@@ -109,20 +124,31 @@ concept TellsStoredEnergy = ContactLaw<Law> &&
   { law.stored_energy(approach, memory) } -> std::same_as<double>;
 };
 
-/// reach(): the widest gap [m] across which the law still acts, such as a bond that is pulled.
+/// reach(): the widest gap [m] across which the law still acts, such as a bond that is pulled. A law that has none acts on
+/// closed contacts only; say `static_assert(TellsReach<MyLaw>)` beside one that has, so that no misspelling is passed over.
+template <class Law>
+concept TellsReach = requires(Law const& law) {
+  { law.reach() } -> std::convertible_to<double>;
+};
+
 template <class Law>
 double reach_of(Law const& law) {
-  if constexpr (requires { law.reach(); }) {
+  if constexpr (TellsReach<Law>) {
     return law.reach();
   } else {
     return 0.0;
   }
 }
 
-/// damping_ratio(): share of critical damping that the law's dashpots may reach.
+/// damping_ratio(): share of critical damping that the law's dashpots may reach; the time step is the shorter for it.
+template <class Law>
+concept TellsDampingRatio = requires(Law const& law) {
+  { law.damping_ratio() } -> std::convertible_to<double>;
+};
+
 template <class Law>
 double damping_ratio_of(Law const& law) {
-  if constexpr (requires { law.damping_ratio(); }) {
+  if constexpr (TellsDampingRatio<Law>) {
     return law.damping_ratio();
   } else {
     return 0.0;

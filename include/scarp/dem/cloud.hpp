@@ -12,11 +12,34 @@
 
 namespace scarp {
 
+/// sample(random): parameters of one grain [m] of the shape that it names.
+template <class Grading>
+concept SamplesGrains = requires(Grading const& grading, Random& random) {
+  requires ParticleShape<typename Grading::Shape>;
+  { grading.sample(random) } -> std::same_as<SizeOf<typename Grading::Shape>>;
+};
+
+namespace detail {
+/// What is missing, in words.
+template <class Grading>
+struct MissingOfGrading {
+  static_assert(
+      requires { requires CheckedShape<typename Grading::Shape>; },
+      "scarp: a grading names the shape of its grains, `using Shape = ...`");
+  static_assert(SamplesGrains<Grading>, "scarp: a grading needs `SizeOf<Shape> sample(Random&) const` [m]");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Grading>
+concept CheckedGrading = SamplesGrains<Grading> || detail::MissingOfGrading<Grading>::nothing;
+
 /// A loose random cloud in a square or cubic cell, the start of every preparation: grains are placed one by one, largest
 /// first, at random without touching (bounding circles or spheres), plane grains with their axes evenly spread over all
 /// directions. Random sequential addition jams near a filled share of 0.547 for equal discs and 0.384 for equal spheres; the
 /// defaults stay well below.
-template <class Grading>
+template <CheckedGrading Grading>
 struct Cloud {
   using Shape = typename Grading::Shape;
 
@@ -36,7 +59,7 @@ struct Cloud {
       refuse("a packing of {} grains was asked for (nothing can carry stress): give at least one grain", grains);
     require_positive("share of the cell filled by the cloud", filled_share);
     Random random(seed);
-    std::vector<typename Shape::template Size<double>> sizes;
+    std::vector<SizeOf<Shape>> sizes;
     for (int i = 0; i < grains; ++i) sizes.push_back(grading.sample(random));
     std::sort(sizes.begin(), sizes.end(), std::greater<>{});
 

@@ -5,6 +5,7 @@
 
 #include "scarp/core/constant.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/dem/damping.hpp"
 
 namespace scarp {
 
@@ -24,6 +25,8 @@ struct LocalDamping {
     return constant<T>(1.0 - drag) * velocity + damped * mobility;
   }
 };
+
+static_assert(DampsMotion<LocalDamping>);
 
 template <>
 inline constexpr bool is_precompiled<LocalDamping> = detail::has_library;

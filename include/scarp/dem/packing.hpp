@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "scarp/contact/contact_law.hpp"
+#include "scarp/contact/checked_contact_law.hpp"
 #include "scarp/core/tensor.hpp"
 #include "scarp/dem/population.hpp"
 
@@ -14,7 +14,7 @@ namespace scarp {
 /// Pairs of grains closer than a skin, each once. Numbers are *rows*: part p of grain i has row
 /// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
 /// moved by cell x `ghost_shift[g]`. What a shape or law does not remember takes no room.
-template <ParticleShape Shape, ContactLaw Law, class Scalar>
+template <CheckedShape Shape, CheckedContactLaw Law, class Scalar>
 struct NearPairs {
   static constexpr int dim = Shape::dim;
   static constexpr int tangential_count = dim == 2 ? 1 : 3;
@@ -73,7 +73,7 @@ struct LastMove {
 
 /// State of a periodic packing: everything that evolves. Velocities are fluctuations about the affine motion of the
 /// cell; the cell's columns are its base vectors [m]. Positions may lie outside the cell by a lattice vector.
-template <ParticleShape ShapePolicy, ContactLaw LawPolicy, class ScalarType = double>
+template <CheckedShape ShapePolicy, CheckedContactLaw LawPolicy, class ScalarType = double>
 struct Packing {
   using Shape = ShapePolicy;
   using Law = LawPolicy;

@@ -11,13 +11,13 @@
 #include "scarp/core/columns.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/shape/particle_shape.hpp"
+#include "scarp/shape/checked_shape.hpp"
 
 namespace scarp {
 
 /// The grains of a packing as far as they never change: sizes, masses, inertias. One copy serves every state.
 /// `thickness` [m] is the out-of-plane length in 2D and 1 in 3D, so that content x thickness is a volume.
-template <ParticleShape Shape, class Scalar = double>
+template <CheckedShape Shape, class Scalar = double>
 class Population {
  public:
   using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;

@@ -25,15 +25,13 @@ struct Prepared {
 /// density, then relaxation at the law's own friction. The cell may tilt, so that no shear stress is left.
 struct IsotropicPreparation {
   double pressure = 0.0;              ///< [Pa], positive
-  double preparation_friction = 0.1;  ///< 0 gives the densest packing
+  double preparation_friction = 0.1;  ///< 0 gives the densest packing; of no effect on a law without friction
   Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
   Servo relaxation{};
 
   /// \throws InputError for a pressure that is not positive or a negative friction
   template <class PackingType>
-    requires Frictional<typename PackingType::Law> Prepared<PackingType> prepare(PackingType cloud,
-                                                                                 typename PackingType::Law law)
-  const {
+  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law) const {
     require_positive("pressure of the preparation", pressure);
     require_not_negative("preparation friction", preparation_friction);
     constexpr int dim = PackingType::dim;
@@ -41,13 +39,10 @@ struct IsotropicPreparation {
     target.template head<dim>().setConstant(-pressure);
     auto const loading = Loading<dim>::stress(target);
     TimeStepper<PackingType> stepper;
-    double const final_friction = law.friction_coefficient();
-    law.friction_coefficient() = preparation_friction;
-    Verdict verdict = consolidation.reach(stepper, cloud, law, loading);
-    if (verdict.acceptable()) {
-      law.friction_coefficient() = final_friction;
-      verdict = relaxation.reach(stepper, cloud, law, loading);
-    }
+    auto prepared_by = law;
+    if constexpr (Frictional<typename PackingType::Law>) prepared_by.friction_coefficient() = preparation_friction;
+    Verdict verdict = consolidation.reach(stepper, cloud, prepared_by, loading);
+    if (verdict.acceptable()) verdict = relaxation.reach(stepper, cloud, law, loading);
     if (Verdict const stopped = stepper.stop(cloud, law); !stopped.acceptable()) verdict = stopped;
     return {std::move(cloud), verdict};
   }

@@ -13,7 +13,7 @@ struct RadiusGrading {
   double smallest = 0.0;
   double largest = 0.0;
 
-  typename Shape::template Size<double> sample(Random& random) const { return {random.uniform(smallest, largest)}; }
+  SizeOf<Shape> sample(Random& random) const { return {random.uniform(smallest, largest)}; }
 };
 
 }  // namespace scarp

@@ -53,7 +53,7 @@ inline constexpr bool kernel_is_precompiled =
 
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient. Holds the scratch memory, so one
 /// stepper serves many packings in turn but only one thread.
-template <class PackingOf, class Damping = LocalDamping>
+template <class PackingOf, CheckedDamping Damping = LocalDamping>
 class TimeStepper {
  public:
   using PackingType = PackingOf;

@@ -20,6 +20,17 @@ concept HasMidSides = ReferenceCell<Element> && ReferenceCell<typename Element::
   { Element::mid_sides()[0] } -> std::convertible_to<std::array<int, 2>>;
 };
 
+/// An element with nodes beyond its corners, wherever they are. Its first nodes are those of `Linear`, on the same
+/// reference shape; node_places(): local coordinates of all its nodes.
+template <class Element>
+concept PlacesNodes = ReferenceCell<Element> && ReferenceCell<typename Element::Linear> && requires {
+  requires Element::Linear::dim == Element::dim;
+  requires Element::Linear::nodes < Element::nodes;
+  requires std::tuple_size_v<decltype(Element::node_places())>
+  == std::size_t{Element::nodes};
+  { Element::node_places()[0] } -> std::convertible_to<Vector<Element::dim>>;
+};
+
 namespace detail {
 
 /// Quadratic shapes of a simplex from its linear ones L: \f$ N_a = L_a (2 L_a - 1) \f$ at the corners and

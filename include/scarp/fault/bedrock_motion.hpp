@@ -18,6 +18,33 @@ concept BedrockMotion = requires(Motion const& motion) {
   { motion.right() } -> std::same_as<Vector<2>>;
 };
 
+namespace detail {
+/// What is missing, in words.
+template <class Motion>
+struct MissingOfMotion {
+  static_assert(
+      requires(Motion const& motion) {
+        { motion.tip } -> std::convertible_to<double>;
+      },
+      "scarp: a motion of the bedrock needs `double tip` [m]");
+  static_assert(
+      requires(Motion const& motion) {
+        { motion.left() } -> std::same_as<Vector<2>>;
+      },
+      "scarp: a motion of the bedrock needs `Vector<2> left() const`, per unit of throw");
+  static_assert(
+      requires(Motion const& motion) {
+        { motion.right() } -> std::same_as<Vector<2>>;
+      },
+      "scarp: a motion of the bedrock needs `Vector<2> right() const`, per unit of throw");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Motion>
+concept CheckedMotion = BedrockMotion<Motion> || detail::MissingOfMotion<Motion>::nothing;
+
 /// How far both walls have settled at a throw [m], for the measures of the rupture above.
 template <BedrockMotion Motion>
 FaultOffset offset_at(Motion const& motion, double fault_throw) {

@@ -26,11 +26,46 @@ concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid
   structure.attached(grid);
 };
 
+namespace detail {
+/// What is missing, in words.
+template <class Structure, class Grid>
+struct MissingOfStructure {
+  static_assert(
+      requires(Structure const& structure) {
+        { structure.edges() } -> std::same_as<std::vector<double>>;
+      },
+      "scarp: a structure needs `std::vector<double> edges() const` [m]: where it wants nodes on the surface");
+  static_assert(
+      requires(Structure const& structure, Mesh<typename Grid::ElementType>& mesh) { structure.put_on(mesh); },
+      "scarp: a structure needs `void put_on(Mesh<Element>&) const`");
+  static_assert(
+      requires(Structure const& structure) {
+        { structure.extra_dofs() } -> std::same_as<int>;
+        { structure.start() } -> std::same_as<double>;
+      },
+      "scarp: a structure needs `int extra_dofs() const` and `double start() const`, the load factor at which it is "
+      "placed");
+  static_assert(
+      requires(Structure const& structure, Grid const& grid, LoadHistory& loads) {
+        structure.add_loads(grid, 4e3, loads);
+      },
+      "scarp: a structure needs `void add_loads(grid, double surcharge, LoadHistory&) const`");
+  static_assert(
+      requires(Structure const& structure, Grid const& grid) { structure.attached(grid); },
+      "scarp: a structure needs `attached(grid) const`: an attachment, or NoAttachment{}");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Structure, class Grid>
+concept CheckedStructure = StandsOnGround<Structure, Grid> || detail::MissingOfStructure<Structure, Grid>::nothing;
+
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
-template <ConstitutiveProvider Soil, class Structure, class Solver = QuasiNewton<>,
-          Ground GroundType = LayeredGround<Tri3>, BedrockMotion Motion = NormalFault,
+template <CheckedProvider Soil, class Structure, class Solver = QuasiNewton<>,
+          CheckedGround GroundType = LayeredGround<Tri3>, CheckedMotion Motion = NormalFault,
           class GridType = UsualGrid<typename GroundType::Element>>
 struct FaultScene {
   using Grid = GridType;
@@ -49,7 +84,7 @@ struct FaultScene {
   /// The ground with what of the structure is part of the mesh.
   /// \throws InputError for parts that do not fit
   Mesh<typename GroundType::Element> mesh() const {
-    static_assert(StandsOnGround<Structure, Grid>);
+    static_assert(CheckedStructure<Structure, Grid>);
     static_assert(std::same_as<typename GroundType::Element, typename Grid::ElementType>,
                   "the grid is of the ground's element");
     auto made = ground.mesh(structure.edges());

@@ -31,8 +31,8 @@ struct BareGround {
 };
 
 /// Nothing but ground and fault; by default the study's case.
-template <ConstitutiveProvider Soil, class Solver = QuasiNewton<>, Ground GroundType = LayeredGround<Tri3>,
-          BedrockMotion Motion = NormalFault, class Grid = UsualGrid<typename GroundType::Element>>
+template <CheckedProvider Soil, class Solver = QuasiNewton<>, CheckedGround GroundType = LayeredGround<Tri3>,
+          CheckedMotion Motion = NormalFault, class Grid = UsualGrid<typename GroundType::Element>>
 using FreeFieldFault = FaultScene<Soil, BareGround, Solver, GroundType, Motion, Grid>;
 
 }  // namespace scarp

@@ -12,7 +12,7 @@
 namespace scarp {
 
 /// A rigid strip footing on an interface. With the default law, Coulomb friction and no tension, it may slide, tilt and lift.
-template <ContactLaw Law = LinearFrictional>
+template <CheckedContactLaw Law = LinearFrictional>
 struct FrictionalFooting {
   StripFooting footing{};
   Law interface {};  ///< [Pa/m] where grains have [N/m]

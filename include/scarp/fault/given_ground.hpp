@@ -61,7 +61,7 @@ void require_ground(Mesh<Element> const& mesh) {
 /// Ground on a mesh from elsewhere: region "soil", level "surface" and "bottom" across the last axis, upright "left"
 /// and "right", in space "front" and "back" across the second; where a footing stands "footing_base", and with the
 /// region "footing" its "footing_top". `ground_from_file` checks all of this.
-template <ReferenceElement E>
+template <CheckedElement E>
 struct GivenGround {
   using Element = E;
 

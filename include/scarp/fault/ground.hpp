@@ -18,4 +18,29 @@ concept Ground = requires(G const& ground, std::vector<double> const& edges) {
   { ground.surface_level() } -> std::same_as<double>;
 };
 
+namespace detail {
+/// What is missing, in words.
+template <class G>
+struct MissingOfGround {
+  static_assert(
+      requires { requires ReferenceElement<typename G::Element>; },
+      "scarp: a ground names its element, `using Element = ...`");
+  static_assert(
+      requires(G const& ground, std::vector<double> const& edges) {
+        { ground.mesh(edges) } -> std::same_as<Mesh<typename G::Element>>;
+      },
+      "scarp: a ground needs `Mesh<Element> mesh(std::vector<double> const& edges) const`");
+  static_assert(
+      requires(G const& ground) {
+        { ground.surface_level() } -> std::same_as<double>;
+      },
+      "scarp: a ground needs `double surface_level() const` [m]");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class G>
+concept CheckedGround = Ground<G> || detail::MissingOfGround<G>::nothing;
+
 }  // namespace scarp

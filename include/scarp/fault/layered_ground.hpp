@@ -6,7 +6,7 @@
 namespace scarp {
 
 /// Ground on a grid made for it, of any element.
-template <ReferenceElement E = Tri3>
+template <CheckedElement E = Tri3>
 struct LayeredGround {
   using Element = E;
 

@@ -14,7 +14,7 @@ namespace scarp {
 /// boundaries "left" and "right" along x, "bottom" and "top" along the last axis and in 3D "front" and "back" along y.
 /// Interior corners may be moved at random; then nodes on edges are put in their middles, and at last every node goes
 /// where `map` takes it: a smooth map makes a graded or curved mesh.
-template <ReferenceElement Element>
+template <CheckedElement Element>
 struct BoxMesh {
   static constexpr int dim = Element::dim;
 
@@ -46,7 +46,8 @@ struct BoxMesh {
  private:
   using Linear = LinearOf<Element>;
   static_assert(detail::is_simplex<Linear> || detail::is_cube<Linear>,
-                "a box can be divided into elements that are triangles, tetrahedra, quadrilaterals or hexahedra");
+                "scarp: a box is divided into triangles, tetrahedra, quadrilaterals or hexahedra; an element with more "
+                "nodes than corners names these, `using Linear = ...`, and `mid_sides()` or `node_places()`");
   using Place = std::array<int, dim>;  // of a grid node, in cells along each axis
 
   void check() const {

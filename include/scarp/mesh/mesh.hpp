@@ -17,7 +17,7 @@
 namespace scarp {
 
 /// Nodes, elements of one kind, the regions they belong to and named sets of element sides. SI units.
-template <ReferenceElement Element>
+template <CheckedElement Element>
 struct Mesh {
   using ElementType = Element;
   static constexpr int dim = Element::dim;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "scarp/element/mid_sides.hpp"
 #include "scarp/mesh/mesh.hpp"
@@ -15,7 +18,8 @@ template <class Element>
 struct CornerElement {
   using Type = Element;
 };
-template <HasMidSides Element>
+template <class Element>
+  requires(HasMidSides<Element> || PlacesNodes<Element>)
 struct CornerElement<Element> {
   using Type = typename Element::Linear;
 };
@@ -51,9 +55,27 @@ constexpr bool facets_agree() {
   return Linear::facets().size() == Element::facets().size();
 }
 
+/// Gives a mesh the boundaries of the corners' mesh that it was made from.
+template <class Element>
+void name_boundaries(Mesh<typename Element::Linear> const& linear, Mesh<Element>& mesh) {
+  auto const owners = facet_owners(linear);
+  for (auto const& [name, facets] : linear.boundaries) {
+    auto& named = mesh.boundaries[name];
+    for (auto facet : facets) {
+      std::sort(facet.begin(), facet.end());
+      auto const [e, f] = owners.at(facet);
+      auto nodes = Element::facets()[index(f)];
+      for (int& node : nodes) {
+        node = mesh.elements[index(e)][index(node)];
+      }
+      named.push_back(nodes);
+    }
+  }
+}
+
 }  // namespace detail
 
-/// The element without the nodes on its sides; a straight element itself.
+/// The element of the corners alone; a straight element itself.
 template <class Element>
 using LinearOf = typename detail::CornerElement<Element>::Type;
 
@@ -81,19 +103,48 @@ template <ReferenceElement Element>
       }
       mesh.elements.push_back(element);
     }
-    auto const owners = detail::facet_owners(linear);
-    for (auto const& [name, facets] : linear.boundaries) {
-      auto& quadratic = mesh.boundaries[name];
-      for (auto facet : facets) {
-        std::sort(facet.begin(), facet.end());
-        auto const [e, f] = owners.at(facet);
-        auto nodes = Element::facets()[detail::index(f)];
-        for (int& node : nodes) {
-          node = mesh.elements[detail::index(e)][detail::index(node)];
-        }
-        quadratic.push_back(nodes);
+    detail::name_boundaries(linear, mesh);
+    return mesh;
+  }
+
+/// The mesh with the further nodes of an element where its node_places() say, each once: elements share a node that has
+/// the same weights of the same corners. Edges stay straight. Corners keep their numbers, regions and boundaries their
+/// names.
+/// \throws InputError for an invalid mesh, and for an element whose first nodes are not the corners of `Linear`
+template <ReferenceElement Element>
+  requires PlacesNodes<Element> Mesh<Element> with_placed_nodes(Mesh<typename Element::Linear> const& linear) {
+    using Linear = typename Element::Linear;
+    static_assert(detail::facets_agree<Element>(), "the facets of both elements must be in the same order");
+    validate(linear);
+    Mesh<Element> mesh{linear.nodes, {}, linear.element_region, linear.regions, {}};
+    std::array<ShapeValues<Linear>, Element::nodes> weights;
+    for (int a = 0; a < Element::nodes; ++a) {
+      weights[detail::index(a)] = Linear::shape(Element::node_places()[detail::index(a)]);
+      if (a < Linear::nodes && !weights[detail::index(a)].isApprox(ShapeValues<Linear>::Unit(a), 1e-12)) {
+        refuse("node {} of an element is not at the corner of this number (corners come first): mend node_places()", a);
       }
     }
+    constexpr double parts = 1e6;  // two places of one element are further apart than that
+    std::map<std::vector<std::pair<int, long>>, int> placed;
+    for (auto const& corners : linear.elements) {
+      std::array<int, Element::nodes> element{};
+      std::copy(corners.begin(), corners.end(), element.begin());
+      for (std::size_t a = corners.size(); a < element.size(); ++a) {
+        std::vector<std::pair<int, long>> key;
+        Vector<Element::dim> place = Vector<Element::dim>::Zero();
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+          double const weight = weights[a](static_cast<Eigen::Index>(c));
+          place += weight * linear.nodes[detail::index(corners[c])];
+          if (long const rounded = std::lround(weight * parts); rounded != 0) key.emplace_back(corners[c], rounded);
+        }
+        std::sort(key.begin(), key.end());
+        auto const [found, is_new] = placed.try_emplace(key, detail::count(mesh.nodes));
+        if (is_new) mesh.nodes.push_back(place);
+        element[a] = found->second;
+      }
+      mesh.elements.push_back(element);
+    }
+    detail::name_boundaries(linear, mesh);
     return mesh;
   }
 
@@ -103,6 +154,8 @@ template <ReferenceElement Element>
 Mesh<Element> with_nodes_of(Mesh<LinearOf<Element>> linear) {
   if constexpr (HasMidSides<Element>) {
     return with_mid_side_nodes<Element>(linear);
+  } else if constexpr (PlacesNodes<Element>) {
+    return with_placed_nodes<Element>(linear);
   } else {
     validate(linear);
     return linear;

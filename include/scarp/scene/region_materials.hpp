@@ -15,7 +15,7 @@
 namespace scarp {
 
 /// A named region of the mesh and the provider of its points.
-template <ConstitutiveProvider ProviderType>
+template <CheckedProvider ProviderType>
 struct Region {
   using Provider = ProviderType;
 
@@ -27,7 +27,7 @@ template <class Provider>
 Region(std::string, Provider) -> Region<Provider>;
 
 /// The material side of a model of several regions, each with its own type of provider: this is where they meet.
-template <ConstitutiveProvider... Providers>
+template <CheckedProvider... Providers>
 class RegionMaterials {
  public:
   static constexpr int dim = std::common_type_t<std::integral_constant<int, Providers::dim>...>::value;

@@ -27,7 +27,8 @@ using SceneProblem =
     EquilibriumProblem<DiscretisationType, typename SceneMaterials<Providers...>::Type, Executor, Attached>;
 
 /// \throws InputError when the parts do not fit together
-template <class DiscretisationType, class Executor, class Attached = NoAttachment, class... Providers>
+template <class DiscretisationType, CheckedExecutor Executor,
+          CheckedAttachment<DiscretisationType::dim> Attached = NoAttachment, class... Providers>
 SceneProblem<DiscretisationType, Executor, Attached, Providers...> make_problem(
     DiscretisationType discretisation, double surface_level, boost::hana::tuple<Region<Providers>...> const& regions,
     Constraints constraints, LoadHistory loads, Executor& executor, Attached attached = {}) {

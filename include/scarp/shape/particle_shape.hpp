@@ -5,6 +5,8 @@
 #include <concepts>
 #include <cstddef>
 
+#include "scarp/core/pack.hpp"
+
 namespace scarp {
 
 template <int Dim, class T>
@@ -24,6 +26,10 @@ struct Touch {
   Point<Dim, T> arm_first;
   Point<Dim, T> arm_second;
 };
+
+/// Parameters of one grain [m], as a scalar each or as packs of as many grains as a register holds.
+template <class Shape, class T = double>
+using SizeOf = std::array<T, static_cast<std::size_t>(Shape::size_count)>;
 
 /// Everything in the same file and frame: `size` are the shape's parameters of one grain [m], `pose` what the contact
 /// search needs of a grain at its present orientation.
@@ -85,8 +91,19 @@ concept Touches = requires(PoseOf<Shape> const& pose, Point<Shape::dim, double> 
   { Shape::remembers_normal } -> std::convertible_to<bool>;
 };
 
+/// pose, contact_radius and touch also take packs: the pair loop asks for several pairs at once.
+template <class Shape>
+concept TouchesInPacks =
+    requires(SizeOf<Shape, lanes::Pack<double>> const& size,
+             std::array<lanes::Pack<double>, static_cast<std::size_t>(Shape::orientation_count)> const& orientation,
+             PoseOf<Shape, lanes::Pack<double>> const& pose, Point<Shape::dim, lanes::Pack<double>> const& branch) {
+  { part_pose<Shape>(size, orientation, 0) } -> std::same_as<PoseOf<Shape, lanes::Pack<double>>>;
+  { Shape::contact_radius(pose) } -> std::same_as<lanes::Pack<double>>;
+  { Shape::touch(pose, pose, branch, branch) } -> std::same_as<Touch<Shape::dim, lanes::Pack<double>>>;
+};
+
 /// A grain shape: static functions only, templates over the scalar so that packs of lanes pass through.
 template <class Shape>
-concept ParticleShape = HasGrainSize<Shape> && HasPose<Shape> && Touches<Shape>;
+concept ParticleShape = HasGrainSize<Shape> && HasPose<Shape> && Touches<Shape> && TouchesInPacks<Shape>;
 
 }  // namespace scarp

@@ -15,7 +15,7 @@ namespace scarp {
 /// Barnes 1999). A load step begins at the linear prediction; after that every point advances once per motion from its
 /// running trial state, so that a motion costs the work of its own small strain. Iterations of the report are motions: load
 /// stepping that counts them wants `few` and `many` in the hundreds.
-template <LinearSolver Linear = SparseLu>
+template <CheckedLinearSolver Linear = SparseLu>
 struct DynamicRelaxation {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 1000;

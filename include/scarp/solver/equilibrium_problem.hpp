@@ -18,7 +18,8 @@ namespace scarp {
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
-template <class DiscretisationType, MaterialField Materials, class Executor, class Attached = NoAttachment>
+template <class DiscretisationType, MaterialField Materials, CheckedExecutor Executor,
+          CheckedAttachment<DiscretisationType::dim> Attached = NoAttachment>
 class EquilibriumProblem final
     : public detail::AttachmentPart<EquilibriumProblem<DiscretisationType, Materials, Executor, Attached>,
                                     DiscretisationType::dim, Attached> {
@@ -47,6 +48,7 @@ class EquilibriumProblem final
       refuse("materials are given for {} points (the mesh has {}): make one field over all sites",
              points_.materials().point_count(), discretisation_.point_count());
     }
+    if (loads_.size() == 0) loads_ = LoadHistory(Eigen::VectorXd::Zero(dof_count()));
     if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count()) {
       refuse("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
              loads_.size(), constraints_.dof_count(), dof_count());
@@ -205,8 +207,6 @@ class EquilibriumProblem final
   }
 
  private:
-  static_assert(is_bare || Attachment<Attached, dim>);
-
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {
     return detail::residual_of_all(unbalanced, load_now_, free_dofs_, constraints_.prescribed_dofs());
   }

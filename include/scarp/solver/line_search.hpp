@@ -12,7 +12,7 @@ namespace scarp {
 /// point, at the zero of the power along the correction where that lies between (Matthies and Strang 1979); after so many
 /// tries the iteration goes on from where it is, since forces that jump with the grains may grow along any direction. Every try is
 /// an iteration like others: all points answer, and their tangents learn from it.
-template <MixingRule Direction = PlainStep>
+template <CheckedMixing Direction = PlainStep>
 struct LineSearch {
   double worse = 1.2;  ///< growth of the forces, Euclidean norm, that is answered by a shorter step
   int most_tries = 2;  ///< in a row

@@ -24,6 +24,34 @@ concept LinearSolver = std::default_initializable<Solver> &&
 };
 
 namespace detail {
+/// What is missing, in words.
+template <class Solver>
+struct MissingOfLinearSolver {
+  static_assert(std::default_initializable<Solver>, "scarp: a linear solver is made without arguments");
+  static_assert(
+      requires(Solver & solver, SparseMatrix const& matrix) {
+        { solver.factorize(matrix) } -> std::same_as<Verdict>;
+      },
+      "scarp: a linear solver needs `Verdict factorize(SparseMatrix const&)`");
+  static_assert(
+      requires(Solver const& solver, Eigen::VectorXd const& right) {
+        { solver.solve(right) } -> std::same_as<Eigen::VectorXd>;
+      },
+      "scarp: a linear solver needs `Eigen::VectorXd solve(Eigen::VectorXd const&) const`");
+  static_assert(
+      requires(Solver const& solver, Eigen::VectorXd const& right) {
+        { solver.solve_transposed(right) } -> std::same_as<Eigen::VectorXd>;
+      },
+      "scarp: a linear solver needs `Eigen::VectorXd solve_transposed(Eigen::VectorXd const&) const`");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Solver>
+concept CheckedLinearSolver = LinearSolver<Solver> || detail::MissingOfLinearSolver<Solver>::nothing;
+
+namespace detail {
 
 /// What all direct solvers of Eigen's kind have in common: the ordering is kept as long as the matrix keeps its pattern.
 class PatternMemory {

@@ -18,6 +18,29 @@ concept ObservesSteps = requires(Observer& observer, Problem const& problem, Ste
   { observer.wants_stop() } -> std::convertible_to<bool>;
 };
 
+namespace detail {
+/// What is missing, in words.
+template <class Observer, class Problem>
+struct MissingOfObserver {
+  static_assert(
+      requires(Observer & observer, Problem const& problem, StepReport const& report) {
+        observer.attempted(problem, report);
+      },
+      "scarp: an observer needs `void attempted(problem const&, StepReport const&)`, called after every attempt at a "
+      "step");
+  static_assert(
+      requires(Observer & observer) {
+        { observer.wants_stop() } -> std::convertible_to<bool>;
+      },
+      "scarp: an observer needs `bool wants_stop()`");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Observer, class Problem>
+concept CheckedObserver = ObservesSteps<Observer, Problem> || detail::MissingOfObserver<Observer, Problem>::nothing;
+
 struct NoObserver {
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}
@@ -105,8 +128,8 @@ struct LoadStepping {
 
   /// One step without growth of the load: brings a prepared state into equilibrium, or says why not.
   template <class Solver, class Problem, class Observer>
-    requires ObservesSteps<Observer, Problem> RunReport settle(Solver const& solver, Problem& problem, double load,
-                                                               Observer& observer)
+    requires CheckedObserver<Observer, Problem> RunReport settle(Solver const& solver, Problem& problem, double load,
+                                                                 Observer& observer)
   const {
     typename Solver::template Session<Problem> session(solver, problem);
     RunReport run;
@@ -133,8 +156,8 @@ struct LoadStepping {
   /// From load factor `from` to `to`, not below it. The problem's committed state must belong to `from`.
   /// \throws InputError for increments that are not finite and positive, load factors that are not finite or fall
   template <class Solver, class Problem, class Observer>
-    requires ObservesSteps<Observer, Problem> RunReport run(Solver const& solver, Problem& problem, double from,
-                                                            double to, Observer& observer)
+    requires CheckedObserver<Observer, Problem> RunReport run(Solver const& solver, Problem& problem, double from,
+                                                              double to, Observer& observer)
   const {
     typename Solver::template Session<Problem> session(solver, problem);
     return advance(session, problem, from, to, observer);
@@ -142,8 +165,8 @@ struct LoadStepping {
 
   /// The same with a solver's session on this problem, which keeps what it has learned from one call to the next.
   template <class Session, class Problem, class Observer>
-    requires ObservesSteps<Observer, Problem> RunReport advance(Session& session, Problem& problem, double from,
-                                                                double to, Observer& observer)
+    requires CheckedObserver<Observer, Problem> RunReport advance(Session& session, Problem& problem, double from,
+                                                                  double to, Observer& observer)
   const {
     require_positive("first load increment", first);
     require_positive("smallest load increment", smallest);

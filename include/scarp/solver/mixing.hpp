@@ -26,6 +26,25 @@ concept MixingRule = std::copyable<Mixing> &&
   {mixing.forget()};
 };
 
+namespace detail {
+/// What is missing, in words.
+template <class Mixing>
+struct MissingOfMixing {
+  static_assert(std::copyable<Mixing>, "scarp: a mixing rule can be copied");
+  static_assert(
+      MixesCorrections<Mixing> || MixesForces<Mixing>,
+      "scarp: a mixing rule needs `Eigen::VectorXd next(point, correction)` or `next(point, correction, force)`");
+  static_assert(
+      requires(Mixing & mixing) { mixing.forget(); },
+      "scarp: a mixing rule needs `void forget()`: a new iteration starts");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Mixing>
+concept CheckedMixing = MixingRule<Mixing> || detail::MissingOfMixing<Mixing>::nothing;
+
 template <MixingRule Mixing>
 Eigen::VectorXd mixed(Mixing& mixing, Eigen::VectorXd const& point, Eigen::VectorXd const& correction,
                       Eigen::VectorXd const& force) {

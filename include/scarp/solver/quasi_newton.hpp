@@ -13,8 +13,8 @@ namespace scarp {
 
 /// Newton-type iteration for one load step. The path says from which states the points answer an iterate (their committed
 /// ones), the tangent rule what their tangents become on the way, the mixing what the correction becomes.
-template <TangentRule<2> Rule = PointSecant, MixingRule Mixing = PlainStep, LinearSolver Linear = SparseLu,
-          ResponsePath Path = FromCommitted>
+template <CheckedTangentRule<2> Rule = PointSecant, CheckedMixing Mixing = PlainStep,
+          CheckedLinearSolver Linear = SparseLu, CheckedResponsePath Path = FromCommitted>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 30;

@@ -27,6 +27,28 @@ concept ResponsePath = requires(detail::AnsweringProblem& problem, Eigen::Vector
   { Path::refine(problem, increment) } -> std::same_as<Evaluation>;
 };
 
+namespace detail {
+/// What is missing, in words.
+template <class Path>
+struct MissingOfResponsePath {
+  static_assert(
+      requires(AnsweringProblem & problem, Eigen::VectorXd const& move) {
+        { Path::evaluate(problem, move, true) } -> std::same_as<Evaluation>;
+      },
+      "scarp: a response path needs `static Evaluation evaluate(problem, increment, bool first)`");
+  static_assert(
+      requires(AnsweringProblem & problem, Eigen::VectorXd const& move) {
+        { Path::refine(problem, move) } -> std::same_as<Evaluation>;
+      },
+      "scarp: a response path needs `static Evaluation refine(problem, increment)`");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Path>
+concept CheckedResponsePath = ResponsePath<Path> || detail::MissingOfResponsePath<Path>::nothing;
+
 /// Whether points go on from their trial states along a path, which not all materials can.
 template <class Path>
 inline constexpr bool advances_trials = requires {

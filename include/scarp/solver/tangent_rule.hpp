@@ -30,4 +30,22 @@ concept FollowsTrialTangent = requires(Rule const& rule, VoigtTangent<Dim> const
 template <class Rule, int Dim>
 concept TangentRule = StartsTangent<Rule, Dim> &&(LearnsFromAnswers<Rule, Dim> || FollowsTrialTangent<Rule, Dim>);
 
+namespace detail {
+/// What is missing, in words.
+template <class Rule, int Dim>
+struct MissingOfTangentRule {
+  static_assert(StartsTangent<Rule, Dim>,
+                "scarp: a tangent rule needs `template <int Dim> VoigtTangent<Dim> start(VoigtTangent<Dim> const& "
+                "provider, VoigtTangent<Dim> const& learned) const`");
+  static_assert(LearnsFromAnswers<Rule, Dim> || FollowsTrialTangent<Rule, Dim>,
+                "scarp: a tangent rule needs `update<Dim>(tangent, provider, strain, stress) const` or "
+                "`at_trial<Dim>(trial, first) const`, which return a VoigtTangent<Dim>");
+  static constexpr bool nothing = false;
+};
+}  // namespace detail
+
+/// The same; of a type that is none the compiler says in words what is missing.
+template <class Rule, int Dim>
+concept CheckedTangentRule = TangentRule<Rule, Dim> || detail::MissingOfTangentRule<Rule, Dim>::nothing;
+
 }  // namespace scarp

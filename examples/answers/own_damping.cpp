@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+// What does a damping of one's own take? Viscous drag on all grains, in a packing that answers as a material.
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/shape/disc.hpp"
+
+#include "lattice.hpp"
+
+/// \f$ \dot v = f/m - c\,v \f$ by the trapezoidal rule; `share` = c times the time step, without a unit.
+struct ViscousDrag {
+  double share = 0.05;
+
+  /// One component of a velocity [m/s] or spin [1/s]; mobility = time step / inertia. T: a pack of several grains.
+  template <class T>
+  T next_velocity(T const& velocity, T const& force, T const& mobility) const {
+    using scarp::constant;
+    return (constant<T>(1.0 - share / 2.0) * velocity + force * mobility) * constant<T>(1.0 / (1.0 + share / 2.0));
+  }
+};
+static_assert(scarp::DampsMotion<ViscousDrag>);
+
+int main() {
+  using Grains = scarp::Packing<scarp::Disc, scarp::LinearFrictional>;
+  using Source = scarp::SamePacking<Grains>;
+  scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.5};
+  ViscousDrag const drag{};
+  double const radius = 5e-3;
+
+  // Grains that do not touch only feel the drag.
+  auto loose = answers::lattice<Grains>({radius}, {0.011, 0.011});
+  loose.velocity(5, 0) = 1e-3;
+  scarp::TimeStepper<Grains, ViscousDrag> stepper{.damping = drag};
+  bool good = true;
+  for (int step = 0; step < 20; ++step) good &= stepper.step(loose, law, scarp::Tensor<2>::Zero()).acceptable();
+  double const rate = (1.0 - drag.share / 2.0) / (1.0 + drag.share / 2.0);
+  good &= answers::agree("velocity after 20 steps [m/s]", loose.velocity(5, 0), 1e-3 * std::pow(rate, 20), 1e-12);
+
+  // As a material: C11 = k_n of the square lattice, per thickness of 1 m, whatever the damping is.
+  double const spacing = 2.0 * radius - 1e-6, strain = 1e-4;
+  scarp::DemRve<Grains, Source, scarp::ElasticContactTangent, ViscousDrag> const soil{
+      .law = law, .source = {answers::lattice<Grains>({radius}, {spacing, spacing})}, .damping = drag};
+  auto const start = soil.initial_state({});
+  auto trial = start;
+  scarp::Gradient<2> const increment{{-strain, 0.0}, {0.0, 0.0}};
+  auto const answer = soil.respond(start, increment, trial);
+  double const modulus = (start.stress(0) - answer.stress(0)) / strain;
+  good &= answer.verdict.acceptable();
+  return answers::agree("modulus of a lattice [Pa]", modulus, law.normal_stiffness, 1e-3) && good ? 0 : 1;
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+// What does a contact law of one's own take? A spring that stiffens, with friction, in packings of any shape.
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/contact/coulomb.hpp"
+#include "scarp/core/select.hpp"
+#include "scarp/shape/disc.hpp"
+
+#include "lattice.hpp"
+
+/// \f$ F_n = k\,u^{3/2},\; |F_t| \le \mu F_n \f$ with a linear shear spring; k [N/m^1.5], k_t [N/m].
+struct Stiffening {
+  static constexpr scarp::ContactNeeds needs{.shear = true};  // without it no slip is computed and nothing rubs
+
+  double coefficient = 0.0;
+  double tangential_stiffness = 0.0;
+  double friction = 0.0;
+
+  // T is a double, or a pack of as many contacts as a register holds: no `if` on it, but lanes::select and its like.
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>& memory) const {
+    using scarp::constant;
+    using std::sqrt;
+    T const closed = scarp::lanes::at_least(approach.overlap, constant<T>(0));
+    T const normal = constant<T>(coefficient) * closed * sqrt(closed);
+    T const lost = scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip, constant<T>(tangential_stiffness),
+                                                constant<T>(friction) * normal);
+    return {.normal = normal, .shear = memory.shear, .dissipated = lost};
+  }
+  scarp::ContactStiffness stiffness(double overlap, double) const {
+    return {.normal = 1.5 * coefficient * std::sqrt(std::max(overlap, 0.0)), .tangential = tangential_stiffness};
+  }
+  double& friction_coefficient() { return friction; }
+};
+static_assert(scarp::Frictional<Stiffening>);
+
+int main() {
+  using Grains = scarp::Packing<scarp::Disc, Stiffening>;
+  Stiffening const law{.coefficient = 1e9, .tangential_stiffness = 5e6, .friction = 0.5};
+  double const radius = 5e-3, overlap = 1e-5, spacing = 2.0 * radius - overlap;
+  scarp::SamePacking<Grains> const source{answers::lattice<Grains>({radius}, {spacing, spacing})};
+  scarp::DemRve<Grains, scarp::SamePacking<Grains>> const soil{.law = law, .source = source};
+  auto const start = soil.initial_state({});
+  // One contact of length d along each axis in each cell d x d x 1: stress = force / d.
+  double const normal = law.coefficient * overlap * std::sqrt(overlap);
+  bool good = answers::agree("normal stress [Pa]", -start.stress(0), normal / spacing, 1e-9);
+  // Pure shear e: along each axis neighbours slip by e d, which the spring answers up to mu F_n.
+  auto const shear_after = [&](double strain) {
+    auto trial = start;
+    scarp::Gradient<2> const increment{{0.0, strain}, {strain, 0.0}};
+    return soil.respond(start, increment, trial).stress(2);
+  };
+  good &= answers::agree("shear stress, sticking [Pa]", shear_after(2e-5), law.tangential_stiffness * 2e-5, 1e-4);
+  good &= answers::agree("shear stress, sliding [Pa]", shear_after(1e-3), law.friction * normal / spacing, 2e-2);
+  return good ? 0 : 1;
+}

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSL-1.0
+// Wrong types, each in a namespace of its own; many are sound ones of the library of which a member is hidden by a number.
+// The first error that a compiler reports of a namespace must have the words behind `first:`; g++, which goes on after a
+// failed assertion, must also say the others.
+#include "headers.hpp"
+
+using namespace scarp;
+
+using Discs = Packing<Disc, Frictionless>;
+using Grid = Discretisation<Quad4>;
+using Elastic = LinearElastic<2>;
+
+// first: a shape needs `static constexpr int` dim
+namespace case_1 {
+struct Wrong {};
+Packing<Wrong, Frictionless> packing;
+}  // namespace case_1
+
+// first: a shape needs `static double content(
+// also: gyration_squared(
+// also: bounding_radius(
+// also: eccentricity(
+// also: least_curvature_radius(
+// also: contact_radius(
+// also: remembers_normal
+// also: a shape needs `static std::array<T, pose_count> pose(
+namespace case_2 {
+struct Wrong {
+  static constexpr int dim = 2, size_count = 1, orientation_count = 0, pose_count = 1;
+};
+Packing<Wrong, Frictionless> packing;
+}  // namespace case_2
+
+// first: a shape needs `static Touch<dim, T> touch(
+namespace case_3 {
+struct Wrong : Disc {
+  static constexpr int touch = 0;
+};
+Packing<Wrong, Frictionless> packing;
+}  // namespace case_3
+
+// first: a shape is asked for several pairs at once
+namespace case_4 {
+struct Wrong : Disc {
+  static double contact_radius(std::array<double, 1> const& pose) { return pose[0]; }
+};
+Packing<Wrong, Frictionless> packing;
+}  // namespace case_4
+
+// first: a contact law needs `static constexpr ContactNeeds needs
+// also: a contact law needs `template <int Dim, class T>
+// also: a contact law needs `ContactStiffness
+namespace case_5 {
+struct Wrong {};
+Packing<Disc, Wrong> packing;
+}  // namespace case_5
+
+// first: needs `.shear = true`
+namespace case_6 {
+struct Wrong : LinearFrictional {
+  static constexpr ContactNeeds needs{};
+};
+Packing<Disc, Wrong> packing;
+}  // namespace case_6
+
+// first: a contact law is asked for several contacts at once
+namespace case_7 {
+struct Wrong : Frictionless {
+  ContactForce<2, double> respond(Approach<2, double> const&, ContactMemory<2, double>&) const { return {1.0}; }
+};
+Packing<Disc, Wrong> packing;
+}  // namespace case_7
+
+// within: so_it_takes_lanes_select_for_if
+namespace case_8 {
+struct Wrong : Frictionless {
+  template <int Dim, class T>
+  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
+    if (approach.overlap < constant<T>(0)) return {constant<T>(0)};
+    return {approach.overlap};
+  }
+};
+Packing<Disc, Wrong> packing;
+}  // namespace case_8
+
+// first: an element needs `static constexpr int` dim
+namespace case_9 {
+struct Wrong {};
+Mesh<Wrong> mesh;
+}  // namespace case_9
+
+// first: an element needs `static ShapeValues<E>
+// also: shape_gradients(
+// also: quadrature()
+// also: `using Facet
+// also: vtk_cell_type
+namespace case_10 {
+struct Wrong {
+  static constexpr int dim = 2, nodes = 4;
+};
+Mesh<Wrong> mesh;
+}  // namespace case_10
+
+// first: an element needs `static constexpr facets()`
+namespace case_11 {
+struct Wrong : Quad4 {
+  static constexpr int facets = 0;
+};
+BoxMesh<Wrong> box;
+}  // namespace case_11
+
+// first: a provider needs `static constexpr int dim`, 2 or 3
+// also: a type `State`
+namespace case_12 {
+struct Wrong {};
+auto const region = Region{"soil", Wrong{}};
+}  // namespace case_12
+
+// first: a provider needs `State initial_state(
+// also: Response<dim> respond(
+// also: stress(State
+// also: tangent(State
+namespace case_13 {
+struct Wrong {
+  static constexpr int dim = 2;
+  struct State {};
+};
+auto const region = Region{"soil", Wrong{}};
+}  // namespace case_13
+
+// first: a provider needs `VoigtTangent<dim> tangent(
+namespace case_14 {
+struct Wrong : Elastic {
+  static constexpr int tangent = 0;
+};
+auto const region = Region{"soil", Wrong{}};
+}  // namespace case_14
+
+// first: kinematics need `static constexpr bool follows_motion`
+// also: seen(
+// also: flux_change(
+namespace case_15 {
+struct Wrong {};
+Discretisation<Quad4, Wrong>* grid;
+}  // namespace case_15
+
+// first: this integration does not fit the element
+namespace case_16 {
+Discretisation<Tri3, UpdatedLagrangian, ReducedIntegration>* grid;
+}  // namespace case_16
+
+// first: an attachment needs `int extra_dofs()
+// also: add_forces(
+// also: add_stiffness(
+// also: commit(
+namespace case_17 {
+struct Wrong {};
+EquilibriumProblem<Grid, ProviderField<Elastic>, SerialExecutor, Wrong>* problem;
+}  // namespace case_17
+
+// first: an executor needs `for_each(
+namespace case_18 {
+struct Wrong {};
+EquilibriumProblem<Grid, ProviderField<Elastic>, Wrong>* problem;
+}  // namespace case_18
+
+// first: an observer needs `void attempted(
+// also: wants_stop(
+namespace case_19 {
+struct Wrong {};
+void watched(EquilibriumProblem<Grid, ProviderField<Elastic>, SerialExecutor>& problem, Wrong& wrong) {
+  LoadStepping{}.settle(QuasiNewton<>{}, problem, 0.0, wrong);
+}
+}  // namespace case_19
+
+// first: a tangent rule needs `template <int Dim> VoigtTangent<Dim> start(
+// also: a tangent rule needs `update<Dim>
+namespace case_20 {
+struct Wrong {};
+QuasiNewton<Wrong> solver;
+}  // namespace case_20
+
+// first: a mixing rule needs `Eigen::VectorXd next(
+// also: forget()
+namespace case_21 {
+struct Wrong {};
+QuasiNewton<PointSecant, Wrong> solver;
+}  // namespace case_21
+
+// first: a linear solver needs `Verdict factorize(
+// also: solve(
+// also: solve_transposed(
+namespace case_22 {
+struct Wrong {};
+QuasiNewton<PointSecant, PlainStep, Wrong> solver;
+}  // namespace case_22
+
+// first: a response path needs `static Evaluation evaluate(
+// also: refine(
+namespace case_23 {
+struct Wrong {};
+QuasiNewton<PointSecant, PlainStep, SparseLu, Wrong> solver;
+}  // namespace case_23
+
+// first: an initial stress needs
+namespace case_24 {
+struct Wrong {};
+LinearElastic<2, Wrong> soil;
+}  // namespace case_24
+
+// first: a strength law needs `Strength at(
+// also: changes
+namespace case_25 {
+struct Wrong {};
+MohrCoulomb<2, StressFree<2>, Wrong> soil;
+}  // namespace case_25
+
+// first: a source of packings needs
+namespace case_26 {
+struct Wrong {};
+DemRve<Discs, Wrong> rve;
+}  // namespace case_26
+
+// first: a tangent of packings needs
+namespace case_27 {
+struct Wrong {};
+DemRve<Discs, SamePacking<Discs>, Wrong> rve;
+}  // namespace case_27
+
+// first: a damping needs
+namespace case_28 {
+struct Wrong {};
+DemRve<Discs, SamePacking<Discs>, ElasticContactTangent, Wrong> rve;
+}  // namespace case_28
+
+// first: a damping is asked for several grains at once
+namespace case_29 {
+struct Wrong {
+  double next_velocity(double velocity, double force, double mobility) const { return velocity + force * mobility; }
+};
+TimeStepper<Discs, Wrong> stepper;
+}  // namespace case_29
+
+// first: a recipe of packings needs
+namespace case_30 {
+struct Wrong {};
+RandomPackings<Wrong> packings;
+}  // namespace case_30
+
+// first: a grading needs
+namespace case_31 {
+struct Wrong {
+  using Shape = Disc;
+};
+Cloud<Wrong> cloud;
+}  // namespace case_31
+
+// first: a ground names its element
+// also: mesh(
+// also: surface_level(
+namespace case_32 {
+struct Wrong {};
+FreeFieldFault<Elastic, QuasiNewton<>, Wrong> scene;
+}  // namespace case_32
+
+// first: a motion of the bedrock needs `double tip`
+// also: left()
+// also: right()
+namespace case_33 {
+struct Wrong {};
+FreeFieldFault<Elastic, QuasiNewton<>, LayeredGround<Tri3>, Wrong> scene;
+}  // namespace case_33
+
+// first: a structure needs `std::vector<double> edges()
+// also: put_on(
+// also: extra_dofs()
+// also: add_loads(
+// also: attached(
+namespace case_34 {
+struct Wrong {};
+auto const mesh = FaultScene<Elastic, Wrong>{}.mesh();
+}  // namespace case_34
+
+// first: a body on a mesh needs `int extra_dofs()
+namespace case_35 {
+struct Wrong {};
+Interface<LinearFrictional, Wrong>* interface;
+}  // namespace case_35

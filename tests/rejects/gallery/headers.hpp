@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/bvp/interface.hpp"
+#include "scarp/bvp/standing_body.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/constitutive/random_packings.hpp"
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/contact/frictionless.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/dem/disc_grading.hpp"
+#include "scarp/element/quad4.hpp"
+#include "scarp/fault/free_field_fault.hpp"
+#include "scarp/mesh/box_mesh.hpp"
