@@ -17,7 +17,8 @@ PackingType lattice(scarp::SizeOf<typename PackingType::Shape> const& size,
                     scarp::Vector<PackingType::dim> const& spacing, int side = 4) {
   constexpr int dim = PackingType::dim;
   using Population = scarp::Population<typename PackingType::Shape>;
-  std::size_t const grains = dim == 2 ? static_cast<std::size_t>(side * side) : static_cast<std::size_t>(side * side * side);
+  std::size_t const grains =
+      dim == 2 ? static_cast<std::size_t>(side * side) : static_cast<std::size_t>(side * side * side);
   PackingType packing;
   packing.population = std::make_shared<Population const>(std::vector(grains, size), 2650.0, 1.0);
   packing.cell = (side * spacing).asDiagonal();

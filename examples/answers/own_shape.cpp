@@ -34,7 +34,8 @@ struct Oval {
   template <class T>
   static std::array<T, 3> pose(std::array<T, 2> const& size, std::array<T, 2> const& axis) {
     T const excess = size[0] * size[1];
-    return {size[0], excess * (axis[0] * axis[0] - axis[1] * axis[1]), excess * (axis[0] * axis[1] + axis[0] * axis[1])};
+    return {size[0], excess * (axis[0] * axis[0] - axis[1] * axis[1]),
+            excess * (axis[0] * axis[1] + axis[0] * axis[1])};
   }
   template <class T>
   static T contact_radius(std::array<T, 3> const& pose) {

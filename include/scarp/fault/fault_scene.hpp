@@ -66,7 +66,7 @@ concept CheckedStructure = StandsOnGround<Structure, Grid> || detail::MissingOfS
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
 template <CheckedProvider Soil, class Structure, class Solver = QuasiNewton<>,
           CheckedGround GroundType = LayeredGround<Tri3>, CheckedMotion Motion = NormalFault,
-          class GridType = UsualGrid<typename GroundType::Element>>
+          class GridType = UsualGridOf<GroundType>>
 struct FaultScene {
   using Grid = GridType;
   static constexpr int dim = Grid::dim;

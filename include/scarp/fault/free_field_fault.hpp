@@ -32,7 +32,7 @@ struct BareGround {
 
 /// Nothing but ground and fault; by default the study's case.
 template <CheckedProvider Soil, class Solver = QuasiNewton<>, CheckedGround GroundType = LayeredGround<Tri3>,
-          CheckedMotion Motion = NormalFault, class Grid = UsualGrid<typename GroundType::Element>>
+          CheckedMotion Motion = NormalFault, class Grid = UsualGridOf<GroundType>>
 using FreeFieldFault = FaultScene<Soil, BareGround, Solver, GroundType, Motion, Grid>;
 
 }  // namespace scarp

@@ -4,6 +4,8 @@
 #include <concepts>
 #include <vector>
 
+#include "scarp/bvp/usual_integration.hpp"
+#include "scarp/element/tri3.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {
@@ -42,5 +44,23 @@ struct MissingOfGround {
 /// The same; of a type that is none the compiler says in words what is missing.
 template <class G>
 concept CheckedGround = Ground<G> || detail::MissingOfGround<G>::nothing;
+
+namespace detail {
+
+template <class G>
+struct ElementOfGround {
+  using Type = Tri3;  // of what is no ground: `CheckedGround` says so
+};
+template <class G>
+  requires requires { typename G::Element; }
+struct ElementOfGround<G> {
+  using Type = typename G::Element;
+};
+
+}  // namespace detail
+
+/// The grid that a ground takes where nobody says otherwise.
+template <class G>
+using UsualGridOf = UsualGrid<typename detail::ElementOfGround<G>::Type>;
 
 }  // namespace scarp

@@ -89,7 +89,7 @@ struct Wrong {};
 Mesh<Wrong> mesh;
 }  // namespace case_9
 
-// first: an element needs `static ShapeValues<E>
+// first: an element needs `static ShapeValues<Element> shape(
 // also: shape_gradients(
 // also: quadrature()
 // also: `using Facet

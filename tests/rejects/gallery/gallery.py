@@ -59,7 +59,7 @@ def fault_of(case, lines, clang, show):
     kind, words = case.first
     if kind == "first" and words not in told:
         return f"does not begin with '{words}'", lines[begin:begin + 15]
-    if kind == "within" and not any(words in line for line in lines[begin:begin + 10]):
+    if kind == "within" and not any(words in line for line in lines[max(begin - 6, 0):begin + 10]):
         return f"does not say '{words}' at once", lines[begin:begin + 15]
     missing = [] if clang else [words for words in case.also if not any(words in lines[at] for at in errors)]
     return (f"has no error about {missing}", []) if missing else None

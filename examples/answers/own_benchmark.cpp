@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+// What does a kernel of one's own cost beside the built-in ones? Time per near pair and DEM step of three laws.
+#include "scarp/contact/frictionless.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/core/select.hpp"
+#include "scarp/dem/time_stepping.hpp"
+#include "scarp/measure/cpu_time.hpp"
+#include "scarp/shape/disc.hpp"
+
+#include "lattice.hpp"
+
+/// As scarp::Frictionless, to have something known to compare with.
+struct OwnSpring {
+  static constexpr scarp::ContactNeeds needs{};
+  double normal_stiffness = 0.0;
+
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach, scarp::ContactMemory<Dim, T>&) const {
+    auto const zero = scarp::constant<T>(0);
+    return {.normal = scarp::lanes::at_least(scarp::constant<T>(normal_stiffness) * approach.overlap, zero)};
+  }
+  scarp::ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
+};
+
+/// Stress along x [Pa] after a shear of 400 grains; prints what a step costs.
+template <class Law>
+double shear(char const* name, Law const& law) {
+  using Grains = scarp::Packing<scarp::Disc, Law>;
+  auto packing = answers::lattice<Grains>({5e-3}, {0.00999, 0.00999}, 20);
+  scarp::TimeStepper<Grains> stepper;
+  scarp::Tensor<2> const strain{{0.0, 1e-7}, {1e-7, 0.0}};
+  constexpr int steps = 2000;
+  scarp::CpuTime const clock;
+  for (int step = 0; step < steps; ++step) {
+    if (!stepper.step(packing, law, strain).acceptable()) return std::nan("");
+  }
+  double const pairs = static_cast<double>(packing.pairs.count());
+  fmt::print("{:<18} {:6.2f} ns per near pair and step, {} near pairs\n", name, 1e9 * clock.seconds() / steps / pairs,
+             pairs);
+  scarp::StepObservation<2> seen;
+  stepper.observe(packing, law, seen);
+  return seen.stress(0, 0);
+}
+
+int main() {
+  double const built_in = shear("Frictionless", scarp::Frictionless{.normal_stiffness = 6e6});
+  shear("LinearFrictional",
+        scarp::LinearFrictional{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.5});
+  double const own = shear("own spring", OwnSpring{.normal_stiffness = 6e6});
+  // The same formula: sums may be fused otherwise, the last digits grow over 2000 steps of a symmetric lattice.
+  return answers::agree("stress by one's own law [Pa]", own, built_in, 1e-9) ? 0 : 1;
+}
