@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // How does every point get another packing? By a source: a lattice whose overlap grows with depth and varies at random.
+#include "scarp/bvp/usual_integration.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/core/correlated_field.hpp"
@@ -34,7 +35,7 @@ static_assert(scarp::PackingSource<LatticeByDepth, Grains>);
 int main() {
   double const height = 2.0;
   auto const mesh = scarp::BoxMesh<scarp::Quad4>{.lengths = {4.0, height}, .cells = {4, 2}}.generate();
-  scarp::Discretisation<scarp::Quad4> const grid(mesh);
+  scarp::UsualGrid<scarp::Quad4> const grid(mesh);
   LatticeByDepth const source;
   scarp::DemRve<Grains, LatticeByDepth> const sand{.law = law, .source = source};
   auto const soils = boost::hana::make_tuple(scarp::Region{"soil", sand});

@@ -30,7 +30,8 @@ int main() {
   // Grains that do not touch only feel the drag.
   auto loose = answers::lattice<Grains>({radius}, {0.011, 0.011});
   loose.velocity(5, 0) = 1e-3;
-  scarp::TimeStepper<Grains, ViscousDrag> stepper{.damping = drag};
+  scarp::TimeStepper<Grains, ViscousDrag> stepper;
+  stepper.damping = drag;
   bool good = true;
   for (int step = 0; step < 20; ++step) good &= stepper.step(loose, law, scarp::Tensor<2>::Zero()).acceptable();
   double const rate = (1.0 - drag.share / 2.0) / (1.0 + drag.share / 2.0);

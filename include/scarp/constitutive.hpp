@@ -8,6 +8,7 @@
 #pragma once
 
 #include "scarp/constitutive/any_provider.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/dormant.hpp"

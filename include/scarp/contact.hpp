@@ -8,9 +8,11 @@
 #pragma once
 
 #include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/checked_contact_law.hpp"
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/coulomb.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/contact/law_checks.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/contact/rolling_resistance.hpp"

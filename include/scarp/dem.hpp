@@ -12,6 +12,7 @@
 #include "scarp/dem/clump_grading.hpp"
 #include "scarp/dem/contacts.hpp"
 #include "scarp/dem/critical_step.hpp"
+#include "scarp/dem/damping.hpp"
 #include "scarp/dem/disc_grading.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/ellipse_grading.hpp"

@@ -7,6 +7,7 @@
 /// Nodes are numbered as in VTK.
 #pragma once
 
+#include "scarp/element/checked_element.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/element/map.hpp"

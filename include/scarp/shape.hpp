@@ -7,6 +7,7 @@
 /// Masses and contact laws live elsewhere.
 #pragma once
 
+#include "scarp/shape/checked_shape.hpp"
 #include "scarp/shape/clump.hpp"
 #include "scarp/shape/clump_templates.hpp"
 #include "scarp/shape/disc.hpp"

@@ -17,12 +17,6 @@ struct Eulerian {
   static constexpr bool follows_motion = true;
 };
 static_assert(!scarp::Kinematics<Eulerian>, "a policy that only tells its configuration must be refused");
-template <class Element, class Motion>
-concept MakesDiscretisation = requires {
-  typename scarp::Discretisation<Element, Motion>;
-};
-static_assert(MakesDiscretisation<scarp::Tri3, scarp::SmallStrain> && !MakesDiscretisation<scarp::Tri3, Eulerian>);
-static_assert(!MakesDiscretisation<scarp::Line2, scarp::SmallStrain>);
 
 }  // namespace
 

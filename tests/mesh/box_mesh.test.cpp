@@ -14,12 +14,6 @@
 
 namespace {
 
-template <class Element>
-concept CanBeMeshed = requires(scarp::BoxMesh<Element> box) {
-  box.generate();
-};
-static_assert(!CanBeMeshed<scarp::Line2>);
-
 #define ALL_ELEMENTS \
   scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
 

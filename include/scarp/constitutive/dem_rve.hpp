@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/contact/law_checks.hpp"
 #include "scarp/core/logarithm.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
@@ -113,6 +114,7 @@ struct DemRve {
              site.index);
     }
     require_positive("normal stiffness of the contact law", spring_modulus(state.packing, law));
+    require_consistent(law, state.packing.population->largest_radius());
     Stepper stepper = make_stepper();
     state.verdict = observe(stepper, state);
     return state;

@@ -43,7 +43,7 @@ template <CheckedGrading Grading>
 struct Cloud {
   using Shape = typename Grading::Shape;
 
-  Grading grading;
+  Grading grading{};
   int grains = 0;
   double density = 0.0;                            ///< [kg/m3]
   double thickness = Shape::dim == 2 ? 0.0 : 1.0;  ///< out of plane [m]; in space it stays 1

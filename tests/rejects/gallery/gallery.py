@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""gallery.py COMPILER INCLUDE...: what a compiler says of the wrong types of gallery.cpp.
+"""gallery.py COMPILER INCLUDE;INCLUDE...: what a compiler says of the wrong types of gallery.cpp.
 
 Each is refused, and the compiler's first error names in words what is missing. --lines prints that error of each.
 """
@@ -70,7 +70,7 @@ def main(compiler, folders, show):
     assert len(cases) > 30, "the cases of gallery.cpp were not found"
     version = subprocess.run([compiler, "--version"], capture_output=True, text=True, check=True).stdout
     clang = "clang" in version
-    command = [compiler, "-std=c++20", "-w", "-fsyntax-only", *[f"-I{folder}" for folder in folders], source]
+    command = [compiler, "-std=c++20", "-w", "-fsyntax-only", *[f"-I{folder}" for folder in folders.split(";")], source]
     if clang:
         command.insert(1, "-ferror-limit=0")
     lines = subprocess.run(command, capture_output=True, text=True).stderr.splitlines()
@@ -86,4 +86,4 @@ def main(compiler, folders, show):
 if __name__ == "__main__":
     shown = "--lines" in sys.argv
     arguments = [argument for argument in sys.argv[1:] if argument != "--lines"]
-    sys.exit(main(arguments[0], arguments[1:], shown))
+    sys.exit(main(arguments[0], arguments[1], shown))

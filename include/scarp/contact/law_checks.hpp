@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/contact/contact_law.hpp"
+#include "scarp/core/error.hpp"
+
+namespace scarp {
+
+/// Refuses a law whose members contradict each other, which compiles but gives wrong forces: a stiffness against a motion
+/// that `needs` does not name, a force across a gap without reach().
+/// radius [m]: of a grain, for the size of overlap and gap that are tried, 1e-6 of it
+/// \throws InputError
+template <ContactLaw Law>
+void require_consistent(Law const& law, double radius) {
+  double const depth = 1e-6 * radius;
+  ContactStiffness const stiffness = law.stiffness(depth, radius / 2.0);
+  if (!Law::needs.shear && stiffness.tangential != 0.0) {
+    refuse(
+        "the contact law tells a tangential stiffness of {} N/m (its needs do not name .shear, so no shear force would "
+        "act): add `.shear = true` to its needs, or tell no tangential stiffness",
+        stiffness.tangential);
+  }
+  if (!Law::needs.moment && stiffness.rolling != 0.0) {
+    refuse(
+        "the contact law tells a rolling stiffness of {} N m/rad (its needs do not name .moment, so no moment would "
+        "act): add `.moment = true` to its needs, or tell no rolling stiffness",
+        stiffness.rolling);
+  }
+  if (reach_of(law) > 0.0) return;
+  ContactMemory<2, double> memory;
+  if constexpr (requires { Law::bond(memory); }) Law::bond(memory);
+  Approach<2, double> const apart{.overlap = -depth, .slip = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
+  double const force = law.respond(apart, memory).normal;
+  if (force != 0.0) {
+    refuse(
+        "the contact law has a force of {} N across a gap of {} m (it has no reach(), so pairs that far apart would be "
+        "left out): give it `double reach() const` [m], or no force without overlap",
+        force, depth);
+  }
+}
+
+}  // namespace scarp
