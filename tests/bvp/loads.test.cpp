@@ -5,6 +5,7 @@
 
 #include "approx.hpp"
 #include "bvp/sample_problems.hpp"
+#include "scarp/bvp/load_history.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 
@@ -101,4 +102,13 @@ TEST_CASE("loads stay when the mesh moves") {
 TEST_CASE("a traction on an unknown boundary is refused") {
   scarp::Discretisation<scarp::Tri3> const disc(scarp::RectangleMesh{}.generate());
   CHECK_THROWS_AS(scarp::traction(disc, "roof", {0.0, -1.0}), scarp::InputError);
+}
+
+TEST_CASE("a load history without loads takes the size of the first one") {
+  scarp::LoadHistory loads;
+  CHECK(loads.size() == 0);
+  loads.add(Eigen::VectorXd::Ones(4), {});
+  CHECK(loads.size() == 4);
+  CHECK_THROWS_AS(loads.add(Eigen::VectorXd::Ones(3), {}), scarp::InputError);
+  CHECK(loads.at(2.0).sum() == 8.0);
 }

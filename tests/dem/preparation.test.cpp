@@ -171,3 +171,14 @@ TEST_CASE("one-dimensional compression meets its stresses with an earth pressure
   }
   CHECK_THROWS_AS(scarp::OneDimensionalCompression{}.compress(start.packing, law, {-1.0}), scarp::InputError);
 }
+
+TEST_CASE("a law without friction is prepared as it is") {
+  scarp::Frictionless const smooth{.normal_stiffness = 6e6};
+  auto const prepared = scarp::IsotropicPreparation{.pressure = samples::pressure}.prepare(
+      samples::loose_cloud<samples::SmoothDiscs>(60, 3), smooth);
+  REQUIRE(prepared.verdict == Verdict{});
+  auto const state = scarp::balance(prepared.packing, smooth);
+  // The servo's own tolerance, 1e-4 of the pressure, with as much again for the last move after its check.
+  CHECK(std::abs(state.stress(0, 0) / samples::pressure + 1.0) < 2e-4);
+  CHECK(std::abs(state.stress(1, 1) / samples::pressure + 1.0) < 2e-4);
+}
