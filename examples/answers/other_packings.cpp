@@ -6,7 +6,6 @@
 #include "scarp/core/correlated_field.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/scene/scene.hpp"
 #include "scarp/shape/disc.hpp"
 
 #include "lattice.hpp"
@@ -38,15 +37,11 @@ int main() {
   scarp::UsualGrid<scarp::Quad4> const grid(mesh);
   LatticeByDepth const source;
   scarp::DemRve<Grains, LatticeByDepth> const sand{.law = law, .source = source};
-  auto const soils = boost::hana::make_tuple(scarp::Region{"soil", sand});
-  scarp::SerialExecutor serial;
-  auto const problem = scarp::make_problem(grid, height, soils, scarp::Constraints(mesh), {}, serial);
-
   bool good = true;
   double lowest = 1e300, highest = 0.0;  // of what the random field makes of gamma z
   for (int point = 0; point < grid.point_count(); ++point) {
-    auto const site = grid.site(point, height);
-    double const found = -problem.materials().committed_stress(point)(1);
+    auto const site = grid.site(point, height);  // a scene with Region{"soil", sand} makes its states likewise
+    double const found = -sand.stress(sand.initial_state(site))(1);
     double const share = found / (source.unit_weight * site.depth);
     lowest = std::min(lowest, share);
     highest = std::max(highest, share);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/contact/contact_law.hpp"
+#include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
@@ -31,14 +32,16 @@ struct MissingOfContactLaw {
 };
 
 /// Compiles the law's answer for several contacts at once, before the pair loop does: what cannot be compiled, an `if`
-/// on an overlap say, is then reported with this short name and not from within the loop.
+/// on an overlap say, is then reported with this short name, by clang with the comment below, and not from within the loop.
 template <class Law>
 constexpr bool a_law_answers_many_contacts_at_once_so_it_takes_lanes_select_for_if() {
-  using T = lanes::Pack<double>;
-  [[maybe_unused]] ContactForce<2, T> (*const answer)(Law const&, Approach<2, T> const&, ContactMemory<2, T>&) =
-      [](Law const& law, Approach<2, T> const& approach, ContactMemory<2, T>& memory) {
-        return law.respond(approach, memory);
-      };
+  if constexpr (!is_precompiled<Law>) {
+    using T = lanes::Pack<double>;
+    [[maybe_unused]] auto const answer = [](Law const& law, Approach<2, T> const& approach,
+                                            ContactMemory<2, T>& memory) {
+      return law.respond(approach, memory);  // many_contacts_at_once: lanes::select in the place of `if`
+    };
+  }
   return true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/precompiled.hpp"
 #include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {
@@ -90,10 +91,24 @@ struct MissingOfShape<Shape, true> {
   static constexpr bool nothing = false;
 };
 
+/// Compiles the shape for several pairs at once, before the pair loop does: what cannot be compiled, an `if` on a distance
+/// say, is then reported with this short name, by clang with the comment below, and not from within the loop.
+template <class Shape>
+constexpr bool a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if() {
+  if constexpr (!is_precompiled<Shape>) {
+    using T = lanes::Pack<double>;
+    [[maybe_unused]] auto const meet = [](PoseOf<Shape, T> const& pose, Point<Shape::dim, T> const& branch) {
+      return Shape::touch(pose, pose, branch, branch);  // many_pairs_at_once: lanes::select in the place of `if`
+    };
+  }
+  return true;
+}
+
 }  // namespace detail
 
 /// A `ParticleShape`; of one that is none the compiler says in words what is missing.
 template <class Shape>
-concept CheckedShape = ParticleShape<Shape> || detail::MissingOfShape<Shape>::nothing;
+concept CheckedShape = (ParticleShape<Shape> || detail::MissingOfShape<Shape>::nothing) &&
+                       detail::a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if<Shape>();
 
 }  // namespace scarp

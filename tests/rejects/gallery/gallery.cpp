@@ -71,7 +71,7 @@ struct Wrong : Frictionless {
 Packing<Disc, Wrong> packing;
 }  // namespace case_7
 
-// within: so_it_takes_lanes_select_for_if
+// within: many_contacts_at_once
 namespace case_8 {
 struct Wrong : Frictionless {
   template <int Dim, class T>
@@ -286,3 +286,16 @@ namespace case_35 {
 struct Wrong {};
 Interface<LinearFrictional, Wrong>* interface;
 }  // namespace case_35
+
+// within: many_pairs_at_once
+namespace case_36 {
+struct Wrong : Disc {
+  template <class T>
+  static Touch<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second, Point<2, T> const& branch,
+                           Point<2, T> const& normal) {
+    if (branch[0] < constant<T>(0)) return Disc::touch(second, first, branch, normal);
+    return Disc::touch(first, second, branch, normal);
+  }
+};
+Packing<Wrong, Frictionless> packing;
+}  // namespace case_36
