@@ -19,8 +19,9 @@ namespace scarp {
 /// that spread: reduced for quadratic quadrilaterals and hexahedra, the mean dilatation for linear ones, full for
 /// simplices.
 template <CheckedElement Element>
-using UsualIntegration = std::conditional_t<!GivesReducedQuadrature<Element>, FullIntegration,
-                                            std::conditional_t<HasMidSides<Element>, ReducedIntegration, BBar>>;
+using UsualIntegration =
+    std::conditional_t<!GivesReducedQuadrature<Element>, FullIntegration,
+                       std::conditional_t<HasMidSides<Element> || PlacesNodes<Element>, ReducedIntegration, BBar>>;
 
 /// Updated Lagrangian elements with that integration.
 template <CheckedElement Element>
