@@ -17,14 +17,8 @@ struct DepthBlind {
   VoigtStress<2> at() const { return VoigtStress<2>::Zero(); }
 };
 
-template <class InitialStress>
-concept MakesElastic = requires {
-  typename scarp::LinearElastic<2, InitialStress>;
-};
-
 static_assert(!scarp::InitialStressField<DepthBlind, 2>, "a field that does not take the depth must be refused");
 static_assert(!scarp::InitialStressField<scarp::StressFree<3>, 2>, "a field of the wrong dimension must be refused");
-static_assert(MakesElastic<scarp::GeostaticStress<2>> && !MakesElastic<DepthBlind>);
 
 struct Forgetful : Elastic {
   using State = void;

@@ -11,13 +11,6 @@ namespace {
 
 using Mesh = scarp::Mesh<scarp::Tri3>;
 
-struct NotAnElement {};
-template <class Element>
-concept MakesMesh = requires {
-  typename scarp::Mesh<Element>;
-};
-static_assert(MakesMesh<scarp::Tri3> && !MakesMesh<NotAnElement> && !MakesMesh<scarp::Line2>);
-
 /// Unit square of two triangles.
 Mesh square() {
   Mesh mesh;
