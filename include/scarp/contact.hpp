@@ -7,8 +7,8 @@
 /// The same source serves a number and a pack of numbers.
 #pragma once
 
-#include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/checked_contact_law.hpp"
+#include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/coulomb.hpp"
 #include "scarp/contact/frictionless.hpp"
