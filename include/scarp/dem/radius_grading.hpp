@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/core/random.hpp"
+#include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {
 

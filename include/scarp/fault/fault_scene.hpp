@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/bvp/usual_integration.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/fault/layered_ground.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scarp/bvp/discretisation.hpp"
+#include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/index.hpp"
 
