@@ -8,6 +8,7 @@
 #include "../shared/budget_report.hpp"
 #include "../shared/command_line.hpp"
 #include "../shared/packing_input.hpp"
+#include "../shared/version_option.hpp"
 #include "run.hpp"
 #include "scarp/io/gmsh/gmsh_element_type.hpp"
 
@@ -117,6 +118,7 @@ int main(int argc, char** argv) {
   Choice choice;
   std::string output = "output/biaxial_specimen";
   CLI::App app("Compresses a rectangular body of packings between smooth platens under constant lateral pressure.");
+  examples::declare_version(app);
   declare_specimen(app, choice);
   declare_grains(app, choice.grains);
   declare_test(app, choice);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../shared/command_line.hpp"
+#include "../shared/version_option.hpp"
 #include "membrane.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/quad8.hpp"
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
   int finest = 64;
   cook_membrane::Panel panel;
   CLI::App app{"Corner deflection of Cook's membrane in plane strain against mesh size"};
+  examples::declare_version(app);
   app.add_option("--finest", finest, "cells along each side of the finest mesh (a power of two)")
       ->check(CLI::Range(8, 256));
   app.add_option("--poisson", panel.poisson, "Poisson's ratio")->check(examples::number_from(0.0, true, 0.499999));

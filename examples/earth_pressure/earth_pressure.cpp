@@ -2,6 +2,7 @@
 // Rankine's earth pressures on a smooth wall, the steepest endless slope, the highest vertical cut in clay.
 #include <CLI/CLI.hpp>
 
+#include "../shared/version_option.hpp"
 #include "cut.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
   double gate = 1.0;
   double cut_gate = 2.0;
   CLI::App app{"Earth pressure, endless slope and vertical cut against mesh size and run time"};
+  examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(2, 6));
   app.add_option("--gate", gate, "largest error in per cent of wall forces and slopes")->check(CLI::Range(1e-6, 100.0));
   app.add_option("--cut-gate", cut_gate, "largest error in per cent of the vertical cut; twice as much on two meshes")

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "../shared/command_line.hpp"
+#include "../shared/version_option.hpp"
 #include "run_scene.hpp"
 
 namespace {
@@ -151,6 +152,7 @@ int main(int argc, char** argv) {
   if (quick) make_quick(choice);
   CLI::App app(
       "Fault rupture below level ground or a footing: finite elements, with a discrete-element packing in each.");
+  examples::declare_version(app);
   app.option_defaults()->always_capture_default();
   std::string element = fault_rupture::element_name;
   declare_options(app, choice, element, quick);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "../shared/command_line.hpp"
+#include "../shared/version_option.hpp"
 #include "manufactured.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/hex20.hpp"
@@ -71,6 +72,7 @@ bool table(Choice const& choice) {
 int main(int argc, char** argv) {
   Choice choice;
   CLI::App app{"L2 and H1 errors of all elements for a manufactured solution of linear elasticity"};
+  examples::declare_version(app);
   app.add_option("--levels", choice.levels, "meshes in the plane, each twice as fine; one fewer in space")
       ->check(CLI::Range(4, 6));
   app.add_option("--distortion", choice.distortion, "random moves of corners, as a part of the cell's size")

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "../shared/version_option.hpp"
 #include "band.hpp"
 #include "fault.hpp"
 #include "scarp/io/csv.hpp"
@@ -111,6 +112,7 @@ bool print_specimens(Choice const& choice) {
 int main(int argc, char** argv) {
   Choice choice;
   CLI::App app{"Shear band in a biaxial specimen of softening soil against mesh and intrinsic length"};
+  examples::declare_version(app);
   app.option_defaults()->always_capture_default();
   app.add_option("--cells", choice.cells, "across the width, one number for each mesh")->delimiter(',');
   app.add_option("--lengths", choice.lengths, "intrinsic lengths [m]")->delimiter(',');

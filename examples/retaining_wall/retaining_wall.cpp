@@ -6,6 +6,7 @@
 #include <map>
 
 #include "../shared/command_line.hpp"
+#include "../shared/version_option.hpp"
 #include "report.hpp"
 
 namespace {
@@ -37,6 +38,7 @@ void declare_options(CLI::App& app, Choice& choice) {
 int main(int argc, char** argv) {
   Choice choice;
   CLI::App app("Moves a smooth retaining wall away from level ground and into it.");
+  examples::declare_version(app);
   app.option_defaults()->always_capture_default();
   declare_options(app, choice);
   CLI11_PARSE(app, argc, argv);

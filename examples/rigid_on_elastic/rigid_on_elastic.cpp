@@ -2,6 +2,7 @@
 // Rigid footings on springs and on elastic ground, blocks that become rigid, blocks that slide down an incline.
 #include <CLI/CLI.hpp>
 
+#include "../shared/version_option.hpp"
 #include "block.hpp"
 
 namespace {
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
   int levels = 3;
   double gate = 0.1;
   CLI::App app{"Rigid and stiff footings on springs, on elastic ground and on an incline"};
+  examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(1, 5));
   app.add_option("--slide-gate", gate, "largest error in per cent of the tangent at which a block slides")
       ->check(CLI::Range(1e-6, 100.0));

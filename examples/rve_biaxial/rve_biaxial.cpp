@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "../shared/command_line.hpp"
+#include "../shared/version_option.hpp"
 #include "report.hpp"
 #include "tables.hpp"
 
@@ -124,6 +125,7 @@ void require_success(std::vector<rve_biaxial::Result> const& results, Options co
 
 int main(int argc, char** argv) {
   CLI::App app("Drained biaxial compression of the study's RVE");
+  examples::declare_version(app);
   Options options;
   try {
     declare_options(app, options);

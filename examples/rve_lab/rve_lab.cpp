@@ -3,6 +3,7 @@
 #include <exception>
 #include <iostream>
 
+#include "../shared/version_option.hpp"
 #include "options.hpp"
 #include "preparation.hpp"
 #include "replay.hpp"
@@ -63,6 +64,7 @@ void shear(Test& choice, CLI::App const& app) {
 
 int main(int argc, char** argv) {
   CLI::App app("A laboratory for packings; SUBCOMMAND --help shows its options");
+  examples::declare_version(app);
   app.option_defaults()->always_capture_default();
   app.set_config("--config", "", "file with sections like [shear] and lines `option = value`");
   app.allow_config_extras(CLI::config_extras_mode::error);

@@ -2,6 +2,7 @@
 // How near do finite elements come to Prandtl's and Reissner's bearing capacity factors? Rigid strip footings on Mohr-Coulomb soil.
 #include <CLI/CLI.hpp>
 
+#include "../shared/version_option.hpp"
 #include "footing.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/quad8.hpp"
@@ -72,6 +73,7 @@ bool elements(Choice const& choice) {
 int main(int argc, char** argv) {
   Choice choice;
   CLI::App app{"Bearing capacity factors Nc and Nq against mesh size and run time"};
+  examples::declare_version(app);
   app.add_option("--levels", choice.levels, "meshes, each with cells of half the size")->check(CLI::Range(1, 5));
   app.add_option("--only", choice.only, "angles of friction in degrees, a,b,c")
       ->delimiter(',')

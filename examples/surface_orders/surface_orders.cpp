@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "../shared/version_option.hpp"
 #include "elastic_ground.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
@@ -63,6 +64,7 @@ bool table(Choice const& choice) {
 int main(int argc, char** argv) {
   Choice choice;
   CLI::App app{"Errors of the surface of elastic ground over a fault, against quadratic elements four times finer"};
+  examples::declare_version(app);
   app.add_option("--rows", choice.rows, "of the finest mesh, a power of two")->check(CLI::IsMember({8, 16, 32}));
   app.add_option(
          "--poisson", choice.poisson,

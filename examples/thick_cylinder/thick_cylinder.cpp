@@ -2,6 +2,7 @@
 // Lame's stiffness and the limit pressure of a thick cylinder; the plastic ring round an opening in the ground (Salencon).
 #include <CLI/CLI.hpp>
 
+#include "../shared/version_option.hpp"
 #include "cylinder.hpp"
 #include "opening.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
   double cylinder_gate = 0.5;
   double opening_gate = 2.0;
   CLI::App app{"Thick cylinder and circular opening against mesh size and run time"};
+  examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(2, 6));
   app.add_option("--cylinder-gate", cylinder_gate, "largest error in per cent of stiffness and limit pressure")
       ->check(CLI::Range(1e-6, 100.0));

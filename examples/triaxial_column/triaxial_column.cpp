@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "../shared/command_line.hpp"
+#include "../shared/version_option.hpp"
 #include "column_test.hpp"
 #include "rve_test.hpp"
 #include "scarp/element/hex8.hpp"
@@ -61,6 +62,7 @@ double compare(char const* name, Packing const& packing, std::vector<Row> const&
 int main(int argc, char** argv) {
   Choice choice;
   CLI::App app{"Triaxial compression of a column of packings, beside the same test on one packing"};
+  examples::declare_version(app);
   app.add_option("--grains", choice.grains, "spheres in a packing")->check(CLI::Range(30, 2000));
   app.add_option("--seed", choice.seed, "of the packing");
   app.add_option("--strain", choice.strain, "shortening at the end")->check(examples::number_from(0.0, false, 0.2));

@@ -8,6 +8,7 @@
 /// Units are SI everywhere, stress is Cauchy and positive in tension.
 #pragma once
 
+#include "scarp/core/build_info.hpp"
 #include "scarp/core/correlated_field.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/geo.hpp"

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "scarp/core/build_info.hpp"
+
+namespace examples {
+
+/// What --version prints. Inline and with the caller's own build, because flags belong to a source.
+inline std::string version_text(scarp::BuildInfo const& build) {
+  std::string text = "scarp " + std::string(scarp::version) + "\nprogram: " + scarp::described(build);
+#ifdef SCARP_PRECOMPILED
+  text += "\nscarp::precompiled: " + scarp::described(scarp::library_build());
+#endif
+  if (auto const note = scarp::slow_build_note(build); !note.empty()) text.append("\n").append(note);
+  return text;
+}
+
+/// Option --version: prints version, compiler and instruction set, and ends the program with 0.
+inline void declare_version(CLI::App& app) {
+  constexpr auto build = scarp::build_info();
+  app.set_version_flag(
+      "--version", [build] { return version_text(build); }, "version, compiler and instruction set");
+}
+
+}  // namespace examples

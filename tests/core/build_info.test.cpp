@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/core/build_info.hpp"
+
+#include <doctest/doctest.h>
+
+#include "scarp/core/pack.hpp"
+
+using scarp::BuildInfo;
+
+TEST_CASE("the build's lanes are those of the packs") {
+  CHECK(scarp::build_info().lanes == static_cast<int>(scarp::lanes::lane_count<double>));
+}
+
+TEST_CASE("a build is described in one line") {
+  BuildInfo const info{.compiler = "g++",
+                       .compiler_version = "12.2.0",
+                       .instruction_set = "x86-64-v2",
+                       .beyond = "AVX",
+                       .lanes = 4,
+                       .optimised = true};
+  CHECK(scarp::described(info) == "g++ 12.2.0, optimised, x86-64-v2 with AVX, 4 lanes in a pack");
+  CHECK(scarp::slow_build_note(info).empty());
+}
+
+TEST_CASE("a build without optimisation says so") {
+  BuildInfo const info{.compiler = "g++", .instruction_set = "riscv64", .lanes = 1};
+  CHECK(scarp::described(info) == "g++, NOT optimised, riscv64, 1 lane in a pack");
+  CHECK(scarp::slow_build_note(info).find("without optimisation") != std::string_view::npos);
+}
