@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "scarp/core/one_version.hpp"
+
 namespace scarp {
 
 /// Wrong input at a boundary of the library; the text reads "problem (why): suggestion".

@@ -4,6 +4,8 @@
 #include <concepts>
 #include <cstddef>
 
+#include "scarp/core/one_version.hpp"
+
 namespace scarp::detail {
 
 /// A node, element, point, grain or row number as an index into a standard container; the number is not negative.

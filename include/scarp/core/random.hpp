@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "scarp/core/one_version.hpp"
+
 namespace scarp {
 
 /// xoshiro256++ seeded by splitmix64: the same numbers with every compiler and standard library.

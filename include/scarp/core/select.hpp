@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <experimental/simd>
 
+#include "scarp/core/one_version.hpp"
+
 namespace scarp::lanes {
 
 /// `yes` where the condition holds, `no` elsewhere; both are always computed. Numbers take a bool, packs a mask.

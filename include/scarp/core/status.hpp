@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "scarp/core/one_version.hpp"
+
 namespace scarp {
 
 /// How an answer was reached. Anything but `ok` and `fluid` must not be committed.

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "scarp/core/one_version.hpp"
+
 namespace scarp {
 
 template <int Dim, class Scalar = double>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scarp/core/build_info.hpp"
 
+#include "scarp/core/one_version.hpp"
 #include "scarp/core/precompiled.hpp"
 
 SCARP_EXPORT scarp::BuildInfo scarp::library_build() { return build_info(); }
+
+SCARP_EXPORT int scarp::detail::version_of_library() { return version_number(); }

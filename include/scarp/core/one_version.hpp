@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "scarp/core/version.hpp"
+
+/// Two versions of scarp in one program must not share functions in silence: those of the same name but different body are
+/// merged by the linker, and by the loader between shared libraries, without a word. Every source that includes scarp asks
+/// at the start of the program whether that has happened to it. Names and meaning in this header stay the same for ever.
+namespace scarp::detail {
+
+/// Major and minor number as one; versions that differ in the last number alone have the same layouts and may meet.
+consteval int version_number(std::string_view text = version) {
+  int parts[2] = {0, 0};
+  int dots = 0;
+  for (char const letter : text) {
+    if (letter == '.') {
+      if (++dots == 2) break;
+    } else {
+      parts[dots] = 10 * parts[dots] + (letter - '0');
+    }
+  }
+  return 1000 * parts[0] + parts[1];
+}
+
+/// Of the headers that the functions in use come from, if several have been merged. Read at run time: no compiler may know
+/// the answer beforehand.
+[[gnu::noinline]] inline int version_of_functions() {
+  int volatile number = version_number();
+  return number;
+}
+
+#ifdef SCARP_PRECOMPILED
+/// Of the headers that `scarp::precompiled` was compiled with.
+int version_of_library();
+#endif
+
+struct OneVersion {
+  explicit OneVersion(int own) {
+    if (version_of_functions() != own) refuse(own, version_of_functions(), "functions of the same names");
+#ifdef SCARP_PRECOMPILED
+    if (version_of_library() != own) refuse(own, version_of_library(), "scarp::precompiled");
+#endif
+  }
+
+  [[noreturn]] static void refuse(int own, int other, char const* what) {
+    std::fprintf(
+        stderr,
+        "scarp: a source compiled with version %d.%d meets version %d.%d (%s): compile the whole program with one "
+        "version, or hide the symbols of its libraries (-fvisibility=hidden -fvisibility-inlines-hidden)\n",
+        own / 1000, own % 1000, other / 1000, other % 1000, what);
+    std::abort();
+  }
+};
+
+namespace {
+[[maybe_unused]] OneVersion const one_version(version_number());
+}
+
+}  // namespace scarp::detail

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Sources compiled with two versions of scarp stop a program at its start where their functions have been merged, by the
+linker or by the loader, and nowhere else. Whoever includes a room takes part. Environment: see compiled_symbols.py."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from compiled_symbols import compiler, root
+
+include = root / "include"
+PART = """
+#include "scarp/core/one_version.hpp"
+[[gnu::visibility("default")]] int NAME() { return 0; }
+"""
+SOURCES = {
+    "program.cpp": '#include "scarp/core/one_version.hpp"\nint part();\nint main() { return part(); }\n',
+    "plain.cpp": "int part();\nint other_part();\nint main() { return part() + other_part(); }\n",
+    "part.cpp": PART.replace("NAME", "part"),
+    "other_part.cpp": PART.replace("NAME", "other_part"),
+    "library.cpp": '#include "scarp/core/one_version.hpp"\n'
+                   "int scarp::detail::version_of_library() { return version_number(); }\n",
+}
+HIDDEN = ["-fvisibility=hidden", "-fvisibility-inlines-hidden"]
+PRECOMPILED = ["-DSCARP_PRECOMPILED"]
+
+
+class Scratch:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        for name, text in SOURCES.items():
+            (self.folder / name).write_text(text)
+        own = re.search(r'SCARP_VERSION "(\d+)[.](\d+)[.](\d+)"', (include / "scarp/core/version.hpp").read_text())
+        major, minor, last = map(int, own.groups())
+        self.own, self.patch, self.next = f"{major}.{minor}.{last}", f"{major}.{minor}.{last + 1}", f"{major}.{minor + 1}.0"
+        self.made = 0
+
+    def headers(self, version):
+        """As they would be in that version: only its number differs."""
+        folder = self.folder / version
+        if not folder.exists():
+            (folder / "scarp/core").mkdir(parents=True)
+            for name in ("version.hpp", "one_version.hpp"):
+                text = (include / "scarp/core" / name).read_text()
+                (folder / "scarp/core" / name).write_text(text.replace(f'"{self.own}"', f'"{version}"'))
+        return folder
+
+    def compile(self, what, *flags):
+        self.made += 1
+        made = self.folder / f"made{self.made}"
+        subprocess.run([compiler, "-std=c++20", "-O2", *flags, *map(str, what), "-o", str(made)], check=True)
+        return made
+
+    def object(self, source, version, *flags):
+        return self.compile([self.folder / source], "-c", f"-I{self.headers(version)}", *flags).rename(
+            self.folder / f"object{self.made}.o")
+
+    def library(self, source, version, *flags):
+        return self.compile([self.folder / source], "-shared", "-fPIC", f"-I{self.headers(version)}", *flags)
+
+
+def run(program):
+    done = subprocess.run([str(program)], capture_output=True, text=True)
+    return done.returncode, done.stderr
+
+
+def faults(scratch):
+    def in_one_link(version):
+        return [scratch.object("program.cpp", scratch.own), scratch.object("part.cpp", version)]
+
+    def of_two_libraries(*flags):
+        return [scratch.object("plain.cpp", scratch.own), scratch.library("part.cpp", scratch.own, *flags),
+                scratch.library("other_part.cpp", scratch.next, *flags)]
+
+    def with_library(version):
+        return [scratch.object("program.cpp", scratch.own, *PRECOMPILED),
+                scratch.object("part.cpp", scratch.own, *PRECOMPILED),
+                scratch.object("library.cpp", version, *PRECOMPILED, *HIDDEN)]
+
+    def two_minors(said):
+        return all(re.search(rf"version {re.escape(number.rpartition('.')[0])}\b", said)
+                   for number in (scratch.own, scratch.next))
+
+    for title, parts, may_run in (("one version", in_one_link(scratch.own), True),
+                                  ("last number differs", in_one_link(scratch.patch), True),
+                                  ("two versions in one link", in_one_link(scratch.next), False),
+                                  ("two shared libraries", of_two_libraries(), False),
+                                  ("two shared libraries, hidden symbols", of_two_libraries(*HIDDEN), True),
+                                  ("a fitting scarp::precompiled", with_library(scratch.own), True),
+                                  ("scarp::precompiled of another version", with_library(scratch.next), False)):
+        code, said = run(scratch.compile(parts, f"-Wl,-rpath,{scratch.folder}"))
+        if may_run and (code, said) != (0, ""):
+            yield f"{title}: ended with {code}: {said}"
+        if not may_run and (code == 0 or not two_minors(said)):
+            yield f"{title}: was not refused: {code}, {said}"
+
+
+def reached(header, seen):
+    if header not in seen:
+        seen.add(header)
+        for other in re.findall(r'#include "(scarp/[^"]+)"', (include / header).read_text()):
+            reached(other, seen)
+    return seen
+
+
+with tempfile.TemporaryDirectory() as folder:
+    found = list(faults(Scratch(folder)))
+for room in sorted(include.glob("scarp/*.hpp")):
+    if "scarp/core/one_version.hpp" not in reached(f"scarp/{room.name}", set()):
+        found.append(f"scarp/{room.name} does not include core/one_version.hpp, not even by way of others")
+sys.exit("\n".join(found) or None)
