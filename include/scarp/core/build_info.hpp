@@ -10,12 +10,12 @@ namespace scarp {
 
 /// How a source was compiled. Flags decide more than anything else about the speed of the kernels (`docs/compile.md`).
 struct BuildInfo {
-  std::string_view compiler;
-  std::string_view compiler_version;
-  std::string_view instruction_set;  ///< a level of x86-64, or the architecture
-  std::string_view beyond;           ///< instructions that the level does not promise, or nothing
-  int lanes;                         ///< double-precision numbers in one pack of the kernels
-  bool optimised;
+  std::string_view compiler = {};
+  std::string_view compiler_version = {};
+  std::string_view instruction_set = {};  ///< a level of x86-64, or the architecture
+  std::string_view beyond = {};           ///< instructions that the level does not promise, or nothing
+  int lanes = 1;                          ///< double-precision numbers in one pack of the kernels
+  bool optimised = false;
 };
 
 /// Of the source that asks: sources of one program may have different flags. For sources that link `scarp::precompiled`
@@ -39,8 +39,6 @@ consteval BuildInfo build_info() {
   info.lanes = 4;
 #elif defined(__SSE2__) || defined(__ARM_NEON)
   info.lanes = 2;
-#else
-  info.lanes = 1;
 #endif
 
   // The levels of the System V ABI, as far as compilers say which of their instructions they use.
@@ -89,7 +87,7 @@ inline std::string described(BuildInfo const& info) {
 constexpr std::string_view slow_build_note(BuildInfo const& info) {
   return info.optimised
              ? ""
-             : "compiled without optimisation: about a hundred times slower than it could be, times mean nothing"
+             : "compiled without optimisation: the kernels are about a hundred times slower, times mean nothing"
                " (configure with -D CMAKE_BUILD_TYPE=Release)";
 }
 
