@@ -8,7 +8,8 @@
 
 namespace examples {
 
-/// What --version prints. Inline and with the caller's own build, because flags belong to a source.
+/// What --version prints.
+/// build: of the source that has `main`; flags belong to a source
 inline std::string version_text(scarp::BuildInfo const& build) {
   std::string text = "scarp " + std::string(scarp::version) + "\nprogram: " + scarp::described(build);
 #ifdef SCARP_PRECOMPILED
