@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/core/geo.hpp"
 #include "scarp/io/pvd.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/observe/observers.hpp"
-#include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/run/visit_point.hpp"
 
 namespace scarp {
