@@ -8,6 +8,8 @@
 #include <tuple>
 
 #include "dem/sample_packings.hpp"
+#include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/homogenise/balance.hpp"
 
 namespace {
@@ -89,7 +91,49 @@ PackingType random_heap(scarp::Random& random, int grains, double ratio, double 
   return samples::place<PackingType>(cell, sizes, places, angles);
 }
 
+/// The same grains at rest, with contacts of another law that have not met yet.
+template <class Law, class PackingType>
+auto with_law(PackingType const& grains) {
+  scarp::Packing<typename PackingType::Shape, Law> same;
+  same.population = grains.population;
+  same.cell = grains.cell;
+  same.position = grains.position;
+  same.orientation = grains.orientation;
+  same.rest();
+  return same;
+}
+
+/// The list that a stepper makes of these grains for a law.
+template <class Law, class PackingType>
+auto list_for(PackingType const& grains, Law const& law) {
+  auto same = with_law<Law>(grains);
+  scarp::TimeStepper<decltype(same)> const stepper;
+  REQUIRE(stepper.refresh(same, law).acceptable());
+  return std::pair{same.pairs.first, same.pairs.second};
+}
+
 }  // namespace
+
+TEST_CASE_TEMPLATE(
+    "the list is that of the grains, whatever their law; only a law that acts across a gap has a longer one",
+    PackingType, Discs, Ellipses) {
+  auto const& grains = samples::consolidated<PackingType>(80).packing;
+  auto const law = samples::study_law();
+  auto const listed = list_for(grains, law);
+  REQUIRE(listed.first.size() > 80);
+  CHECK(list_for(grains, scarp::Frictionless{.normal_stiffness = 6e6}) == listed);
+  CHECK(list_for(grains, scarp::HertzMindlin<>::of(1e9, 0.3, 0.5)) == listed);
+
+  using Bond = scarp::CohesiveBond<scarp::LinearFrictional>;
+  CHECK(list_for(grains, Bond{.law = law}) == listed);
+  Bond const pulled{.law = law, .tensile_strength = 0.1 * law.normal_stiffness * grains.population->largest_radius()};
+  auto const longer = list_for(grains, pulled);
+  CHECK(longer.first.size() > listed.first.size());
+  // The reach of 0.1 radii is as another skin of that width.
+  auto wider = with_law<scarp::LinearFrictional>(grains);
+  REQUIRE(scarp::rebuild_pairs(wider, 0.1 * grains.population->largest_radius() + pulled.reach()).acceptable());
+  CHECK(longer == std::pair{wider.pairs.first, wider.pairs.second});
+}
 
 TEST_CASE_TEMPLATE("the list holds every near pair of all images once", PackingType, Discs, Ellipses) {
   scarp::Random random(17);

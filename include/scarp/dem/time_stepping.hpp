@@ -65,7 +65,7 @@ class TimeStepper {
 
   Damping damping{};
   /// Gap up to which pairs are listed, as a share of the largest radius: a wider skin lists more pairs, a thinner one is
-  /// rebuilt more often.
+  /// rebuilt more often. Of the law only its reach comes on top, so that laws that act in touch share one list.
   double skin_ratio = 0.1;
 
   double time_step_share = usual_time_step_share;  ///< of the lower bound of the critical step
