@@ -5,10 +5,35 @@ Environment: CXX (default c++), SCARP_INCLUDES (further include folders, separat
 """
 import os
 import pathlib
+import re
 import subprocess
 
 root = pathlib.Path(__file__).resolve().parent.parent
 compiler = os.environ.get("CXX", "c++")
+
+# What a program may do without, by names that only it has; a program that has it must show one of them (benchmarks/absence/run,
+# tests/absence.test.py), or a name here is out of date.
+features = {
+    "nanoflann": re.compile(r"nanoflann"),
+    "DEM": re.compile(r"TimeStepper|rebuild_pairs|pair_forces|PairScratch|scarp::Packing"),
+    "SparseLU": re.compile(r"SparseLU|SparseLu"),
+    "VTU": re.compile(r"write_vtu|VtuField|PvdSeries|FieldSeries"),
+    "Gmsh": re.compile(r"[Gg]msh"),
+    "fabric": re.compile(r"(contact|particle)_fabric"),
+    "interface": re.compile(r"scarp::Interface<|RigidFooting|MeshedFooting|InterfacePoint"),
+    "length": re.compile(r"Nonlocal"),
+    "MPI": re.compile(r"MPI_|ompi_|RankExecutor"),
+    "checkpoint": re.compile(r"Checkpoint|StateWriter|StateReader"),
+}
+
+
+def features_of(symbols):
+    """Names of the features that these lines of `nm -C` show."""
+    return {name for name, pattern in features.items() if any(pattern.search(line) for line in symbols)}
+
+
+def symbols_of(binary):
+    return subprocess.run(["nm", "-C", str(binary)], check=True, capture_output=True, text=True).stdout.splitlines()
 
 
 def include_folders():
@@ -26,7 +51,7 @@ def object_symbols(folder, name, source):
     compiled = folder / f"{name}.o"
     command = [compiler, "-std=c++20", "-O0", *include_folders(), "-c", str(written), "-o", str(compiled)]
     subprocess.run(command, check=True)
-    return subprocess.run(["nm", "-C", str(compiled)], check=True, capture_output=True, text=True).stdout.splitlines()
+    return symbols_of(compiled)
 
 
 def included_headers(folder, name):

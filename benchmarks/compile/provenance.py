@@ -23,7 +23,13 @@ def processor():
     return found.group(1) if found else platform.machine()
 
 
-def provenance(command):
+def head_of(command, names, flags=()):
+    """Command, day, commit, processor, these compilers and their flags."""
     commit = subprocess.run(["git", "-C", str(root), "describe", "--always", "--dirty"], capture_output=True, text=True)
+    with_flags = f" `{' '.join(flags)}`" if flags else ""
     return (f"`{command}`, {datetime.date.today()}, commit {commit.stdout.strip() or 'unknown'}, {processor()}; "
-            f"{'; '.join(map(version_of, compilers()))}.")
+            f"{'; '.join(map(version_of, names))}{with_flags}.")
+
+
+def provenance(command):
+    return head_of(command, compilers())

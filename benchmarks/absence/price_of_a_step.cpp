@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSL-1.0
+// One DEM step of the same hundred round grains as discs or ellipses, with friction or without, watched or not: the same
+// places, near pairs and contacts for all, so that what differs between two of them is the price of a feature. benchmarks/absence/run
+// counts the instructions of measured_steps and measured_list.
+//   price_of_a_step disc|ellipse smooth|frictional nothing|balance|energy
+//   price_of_a_step states     bytes of a point's state, by material
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/contact/frictionless.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/dem/cloud.hpp"
+#include "scarp/dem/disc_grading.hpp"
+#include "scarp/dem/preparation.hpp"
+#include "scarp/shape/ellipse.hpp"
+
+namespace {
+
+constexpr int steps = 400;  // too few for a new list of near pairs
+
+scarp::LinearFrictional const rough{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
+
+template <class Law>
+Law law_of() {
+  if constexpr (std::is_same_v<Law, scarp::LinearFrictional>) {
+    return rough;
+  } else {
+    return {.normal_stiffness = rough.normal_stiffness};
+  }
+}
+
+/// Discs in a balance that needs no friction, so that it is one for every law.
+scarp::Packing<scarp::Disc, scarp::LinearFrictional> balanced_discs() {
+  using Discs = scarp::Packing<scarp::Disc, scarp::LinearFrictional>;
+  scarp::Cloud<scarp::DiscGrading> const cloud{
+      .grading = {.smallest = 4e-3, .largest = 6e-3}, .grains = 100, .density = 2650.0, .thickness = 0.2};
+  auto law = rough;
+  law.friction = 0.0;
+  auto prepared =
+      scarp::IsotropicPreparation{.pressure = 1e5, .preparation_friction = 0.0}.prepare(cloud.make<Discs>(), law);
+  if (!prepared.verdict.acceptable()) scarp::refuse("the discs found no balance: change the seed");
+  return prepared.packing;
+}
+
+/// The same places of grains of another shape and law; ellipses are round.
+template <class Grains, class Discs>
+Grains as(Discs const& discs) {
+  Grains grains;
+  std::vector<typename Grains::Shape::template Size<double>> sizes;
+  for (std::size_t i = 0; i < discs.grain_count(); ++i) {
+    auto const size = discs.population->size(i);
+    if constexpr (std::is_same_v<typename Grains::Shape, scarp::Disc>) {
+      sizes.push_back(size);
+    } else {
+      sizes.push_back({size[0], size[0]});
+    }
+  }
+  using PopulationType = scarp::Population<typename Grains::Shape, double>;
+  grains.population = std::make_shared<PopulationType const>(sizes, 2650.0, 0.2);
+  grains.cell = discs.cell;
+  grains.position = discs.position;
+  grains.orientation.resize(sizes.size());
+  if constexpr (Grains::Shape::orientation_count == 2) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) grains.orientation(i, 0) = 1.0;
+  }
+  grains.rest();
+  return grains;
+}
+
+template <scarp::Observe what, class Grains>
+[[gnu::noinline]] bool measured_steps(scarp::TimeStepper<Grains>& stepper, Grains& grains,
+                                      typename Grains::Law const& law, scarp::StepObservation<2>& seen) {
+  scarp::Tensor<2> shear = scarp::Tensor<2>::Zero();
+  shear(0, 1) = 1e-7;
+  for (int step = 0; step < steps; ++step) {
+    if (!stepper.template step<what>(grains, law, shear, &seen).acceptable()) return false;
+  }
+  return true;
+}
+
+template <class Grains>
+[[gnu::noinline]] bool measured_list(scarp::TimeStepper<Grains> const& stepper, Grains& grains,
+                                     typename Grains::Law const& law) {
+  return stepper.refresh(grains, law).acceptable();
+}
+
+template <class Shape, class Law, scarp::Observe what>
+int measure() {
+  using Grains = scarp::Packing<Shape, Law>;
+  auto grains = as<Grains>(balanced_discs());
+  auto const law = law_of<Law>();
+  scarp::TimeStepper<Grains> stepper;
+  scarp::StepObservation<2> seen;
+  // A first list, contacts and scratch memory, so that the measured list renews one, as in a run.
+  if (!stepper.observe(grains, law, seen).acceptable()) return 1;
+  grains.pairs.drift = 2.0 * grains.pairs.skin;
+  if (!measured_list(stepper, grains, law)) return 1;
+  auto const listed = grains.pairs.first;
+  if (!measured_steps<what>(stepper, grains, law, seen)) return 1;
+  bool const same_list = listed == grains.pairs.first && grains.pairs.drift <= grains.pairs.skin;
+  if (!same_list || !stepper.observe(grains, law, seen).acceptable()) return 1;
+  fmt::print("{{\"steps\": {}, \"near_pairs\": {}, \"contacts\": {}, \"grains\": {}, \"sizeof\": {}, \"bytes\": {}}}\n",
+             steps, grains.pairs.count(), seen.contacts, grains.grain_count(), sizeof(Grains),
+             scarp::state_bytes(grains));
+  return 0;
+}
+
+template <class Shape, class Law>
+int measure(std::string_view watched) {
+  if (watched == "nothing") return measure<Shape, Law, scarp::Observe::nothing>();
+  if (watched == "balance") return measure<Shape, Law, scarp::Observe::balance>();
+  if (watched == "energy") return measure<Shape, Law, scarp::Observe::energy>();
+  return 2;
+}
+
+template <class Shape>
+int measure(std::string_view law, std::string_view watched) {
+  if (law == "smooth") return measure<Shape, scarp::Frictionless>(watched);
+  if (law == "frictional") return measure<Shape, scarp::LinearFrictional>(watched);
+  return 2;
+}
+
+template <class State>
+void tell_state(char const* material, State const& state) {
+  std::size_t whole = sizeof(State);
+  if constexpr (requires { state.packing; }) whole += scarp::state_bytes(state.packing) - sizeof(state.packing);
+  fmt::print("{{\"material\": \"{}\", \"sizeof\": {}, \"bytes\": {}}}\n", material, sizeof(State), whole);
+}
+
+template <class Grains>
+void tell_packing(char const* material) {
+  scarp::DemRve<Grains, scarp::SamePacking<Grains>> sand;
+  sand.law = law_of<typename Grains::Law>();
+  sand.source.packing = as<Grains>(balanced_discs());
+  tell_state(material, sand.initial_state({}));
+}
+
+int states() {
+  tell_state("linear elastic", scarp::LinearElastic<2>::State{});
+  tell_state("Mohr-Coulomb", scarp::MohrCoulomb<2>::State{});
+  tell_packing<scarp::Packing<scarp::Disc, scarp::Frictionless>>("frictionless discs");
+  tell_packing<scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>>("frictional ellipses");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "states") return states();
+  if (argc == 4 && std::string_view(argv[1]) == "disc") return measure<scarp::Disc>(argv[2], argv[3]);
+  if (argc == 4 && std::string_view(argv[1]) == "ellipse") return measure<scarp::Ellipse>(argv[2], argv[3]);
+  fmt::print(stderr, "usage: price_of_a_step states, or disc|ellipse smooth|frictional nothing|balance|energy\n");
+  return 2;
+}
