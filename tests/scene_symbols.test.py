@@ -12,7 +12,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from compiled_symbols import included_headers, object_symbols
+from compiled_symbols import features_of, included_headers, object_symbols
 
 DISCRETE = re.compile(r"TimeStepper|rebuild_pairs|nanoflann|pair_forces|PairScratch|Packing|fabric|Servo")
 OUTDATED = "the names that this test looks for are out of date"
@@ -85,4 +85,8 @@ with tempfile.TemporaryDirectory() as scratch:
     # With an observer that asks for them they are there, or the check above could not fail.
     for name in ("contact_fabric", "particle_fabric", "write_vtu", "PvdSeries"):
         expect(any(name in line for line in watched), f"an observed scene lacks {name}: {OUTDATED}")
+    wanted = {"elastic": set(), "sand": {"DEM", "nanoflann"}, "watched": {"DEM", "nanoflann", "VTU", "fabric"}}
+    for (name, features), symbols in zip(wanted.items(), (elastic, sand, watched)):
+        found = features_of(symbols)
+        expect(found == features, f"the scene '{name}' contains {sorted(found)} (it names {sorted(features)})")
 print("an elastic scene contains no discrete elements; one of packings without observer no fabric and no files")
