@@ -54,6 +54,11 @@ class Program:
         folder.mkdir()
         subprocess.run([str(self.binary)], check=True, cwd=folder, stdout=subprocess.DEVNULL)
 
+    def told(self, *arguments):
+        """What it prints, a JSON object in each line."""
+        printed = subprocess.run([str(self.binary), *arguments], check=True, capture_output=True, text=True).stdout
+        return [json.loads(line) for line in printed.splitlines()]
+
     def counted(self, function, *arguments):
         """What it prints, and how many instructions it spends in `function`."""
         folder = self.binary.with_suffix(f".{function}-{'-'.join(arguments)}")
