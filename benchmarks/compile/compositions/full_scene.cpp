@@ -2,7 +2,10 @@
 // The study's scene with all that may be part of it: a footing that may slide and lift, an intrinsic length, observers,
 // checkpoints, and ranks where there is an MPI. Each can be left out (-D WITHOUT_FOOTING and so on): benchmarks/absence/run.
 //   full_scene FOLDER
+#include <fmt/format.h>
 #include <malloc.h>
+
+#include <filesystem>
 
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
