@@ -86,12 +86,11 @@ auto observers(Scene const& scene, std::filesystem::path const& folder) {
 }
 #endif
 
-#ifndef WITHOUT_CHECKPOINTS
-struct NoNotes {
+/// What a program has to save of itself, and as an observer of nothing.
+struct Nothing : scarp::NoObserver {
   template <class Self, class Visit>
   static void members(Self&, Visit&&) {}
 };
-#endif
 
 /// All but the preparation; what benchmarks/absence/run counts the instructions of.
 template <class Problem, class Watching>
@@ -103,7 +102,7 @@ template <class Problem, class Watching>
   if (report.verdict.acceptable()) report = joined(report, scene.rupture(problem, watching));
   return report;
 #else
-  NoNotes notes;
+  Nothing notes;
   scarp::CheckpointFiles files({.folder = folder / "states", .every_attempts = 1}, "the full scene\n");
   scarp::CheckpointedRun run(files, watching, notes);
   run.stage([&] { return scene.settle(problem, run); });
@@ -137,7 +136,7 @@ int main(int argc, char** argv) {
   auto problem = scene.problem(executor);
   std::size_t const heap = heap_bytes() - before;
 #if defined(WITHOUT_OBSERVERS)
-  scarp::NoObserver watching;
+  Nothing watching;
 #elif defined(HAS_RANKS)
   scarp::OnFirstRank watching(executor, [&] { return observers(scene, folder); });
 #else
