@@ -48,12 +48,6 @@ class Program:
         text = subprocess.run([*self.command, "-E", "-P", str(source)], check=True, capture_output=True).stdout
         self.lines = text.count(b"\n")
 
-    def ends_well(self):
-        """Runs it, in a folder of its own."""
-        folder = self.binary.with_suffix(".folder")
-        folder.mkdir()
-        subprocess.run([str(self.binary)], check=True, cwd=folder, stdout=subprocess.DEVNULL)
-
     def told(self, *arguments):
         """What it prints, a JSON object in each line."""
         printed = subprocess.run([str(self.binary), *arguments], check=True, capture_output=True, text=True).stdout
