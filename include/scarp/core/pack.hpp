@@ -1,138 +1,134 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
+#include <concepts>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <experimental/simd>
+#include <type_traits>
+#include <utility>
 
-#if defined(__clang__) && defined(__AVX512F__)
-#error \
-    "scarp: clang for AVX-512 makes masked assignments of libstdc++'s packs set all lanes or none: add -mno-avx512f or use g++"
-#endif
+#include "scarp/core/mask.hpp"
 
 namespace scarp::lanes {
 
+/// Types whose every value a pack of such scalars holds unchanged; plain integers are let in for the sake of `2 * pack`.
+template <class Number, class Scalar>
+concept FitsInto = std::same_as<Number, int> || std::same_as<Number, Scalar> ||
+    (std::same_as<Number, float>&& std::same_as<Scalar, double>);
+
+/// Scalars side by side in the compiler's own vector; laws and shapes accept it in place of one. The width is part of the
+/// type, because sources for different instruction sets may be linked together.
+template <class Scalar, std::size_t Width>
+struct BasicPack {
+  using value_type = Scalar;
+  using Vector = VectorOf<Scalar, Width>;
+  using Mask = BasicMask<Scalar, Width>;
+
+  Vector vector;
+
+  /// One scalar of a pack that may be assigned to.
+  class Lane {
+   public:
+    [[gnu::always_inline]] Lane(BasicPack& pack, std::size_t lane) : pack_(pack), lane_(lane) {}
+    Lane(Lane const&) = default;
+    [[gnu::always_inline]] operator Scalar() const { return pack_.vector[lane_]; }
+    [[gnu::always_inline]] Lane& operator=(Scalar value) {
+      pack_.vector[lane_] = value;
+      return *this;
+    }
+    [[gnu::always_inline]] Lane& operator=(Lane const& other) { return *this = Scalar(other); }
+
+   private:
+    BasicPack& pack_;
+    std::size_t lane_;
+  };
+
+  static constexpr std::size_t size() { return Width; }
+
+  BasicPack() = default;
+  [[gnu::always_inline]] explicit BasicPack(Vector const& lanes) : vector(lanes) {}
+  /// The same number in every lane.
+  template <FitsInto<Scalar> Number>
+  [[gnu::always_inline]] BasicPack(Number number)
+      : vector(filled(static_cast<Scalar>(number), std::make_index_sequence<Width>())) {}
+  /// generator(lane) in each lane, whose number is a constant that converts to std::size_t.
+  template <class Generator>
+    requires std::is_invocable_r_v<Scalar, Generator&, std::integral_constant<std::size_t, 0>>
+  [[gnu::always_inline]] explicit BasicPack(Generator&& generator)
+      : vector(generated(generator, std::make_index_sequence<Width>())) {}
+
+  [[gnu::always_inline]] Scalar operator[](std::size_t lane) const { return vector[lane]; }
+  [[gnu::always_inline]] Lane operator[](std::size_t lane) { return {*this, lane}; }
+
+  [[gnu::always_inline]] BasicPack operator+() const { return *this; }
+  [[gnu::always_inline]] BasicPack operator-() const { return BasicPack(-vector); }
+
+  [[gnu::always_inline]] friend BasicPack operator+(BasicPack const& a, BasicPack const& b) {
+    return BasicPack(a.vector + b.vector);
+  }
+  [[gnu::always_inline]] friend BasicPack operator-(BasicPack const& a, BasicPack const& b) {
+    return BasicPack(a.vector - b.vector);
+  }
+  [[gnu::always_inline]] friend BasicPack operator*(BasicPack const& a, BasicPack const& b) {
+    return BasicPack(a.vector * b.vector);
+  }
+  [[gnu::always_inline]] friend BasicPack operator/(BasicPack const& a, BasicPack const& b) {
+    return BasicPack(a.vector / b.vector);
+  }
+  [[gnu::always_inline]] BasicPack& operator+=(BasicPack const& other) { return *this = *this + other; }
+  [[gnu::always_inline]] BasicPack& operator-=(BasicPack const& other) { return *this = *this - other; }
+  [[gnu::always_inline]] BasicPack& operator*=(BasicPack const& other) { return *this = *this * other; }
+  [[gnu::always_inline]] BasicPack& operator/=(BasicPack const& other) { return *this = *this / other; }
+
+  [[gnu::always_inline]] friend Mask operator==(BasicPack const& a, BasicPack const& b) {
+    return Mask(a.vector == b.vector);
+  }
+  [[gnu::always_inline]] friend Mask operator!=(BasicPack const& a, BasicPack const& b) {
+    return Mask(a.vector != b.vector);
+  }
+  [[gnu::always_inline]] friend Mask operator<(BasicPack const& a, BasicPack const& b) {
+    return Mask(a.vector < b.vector);
+  }
+  [[gnu::always_inline]] friend Mask operator<=(BasicPack const& a, BasicPack const& b) {
+    return Mask(a.vector <= b.vector);
+  }
+  [[gnu::always_inline]] friend Mask operator>(BasicPack const& a, BasicPack const& b) {
+    return Mask(a.vector > b.vector);
+  }
+  [[gnu::always_inline]] friend Mask operator>=(BasicPack const& a, BasicPack const& b) {
+    return Mask(a.vector >= b.vector);
+  }
+
+ private:
+  template <std::size_t... Lanes>
+  [[gnu::always_inline]] static Vector filled(Scalar value, std::index_sequence<Lanes...>) {
+    return Vector{(static_cast<void>(Lanes), value)...};
+  }
+  template <class Generator, std::size_t... Lanes>
+  [[gnu::always_inline]] static Vector generated(Generator& generator, std::index_sequence<Lanes...>) {
+    return Vector{static_cast<Scalar>(generator(std::integral_constant<std::size_t, Lanes>()))...};
+  }
+};
+
 /// As many scalars as one vector register of the target holds, at most eight: rows of more lanes cannot be read as quads.
 template <class Scalar>
-inline constexpr std::size_t lane_count = std::min<std::size_t>(std::experimental::native_simd<Scalar>::size(), 8);
-
-/// That many scalars; laws and shapes accept it in place of one.
-template <class Scalar>
-using Pack = std::experimental::simd<Scalar, std::experimental::simd_abi::deduce_t<Scalar, lane_count<Scalar>>>;
+inline constexpr std::size_t lane_count = register_bytes / sizeof(Scalar) < 8 ? register_bytes / sizeof(Scalar) : 8;
 
 template <class Scalar>
-Pack<Scalar> load(Scalar const* from) {
-  return Pack<Scalar>(from, std::experimental::element_aligned);
+using Pack = BasicPack<Scalar, lane_count<Scalar>>;
+
+/// From and to any address of a scalar.
+template <class Scalar, std::size_t Width = lane_count<Scalar>>
+[[gnu::always_inline]] inline BasicPack<Scalar, Width> load(Scalar const* from) {
+  BasicPack<Scalar, Width> values;
+  std::memcpy(&values.vector, from, sizeof(values.vector));
+  return values;
 }
-
-template <class Scalar>
-void store(Pack<Scalar> const& values, Scalar* to) {
-  values.copy_to(to, std::experimental::element_aligned);
-}
-
-/// The compiler's own vector of `Count` scalars, for which it has shuffles.
-template <class Scalar, std::size_t Count>
-struct RawVector {
-  using type [[gnu::vector_size(Count * sizeof(Scalar))]] = Scalar;
-};
-
-/// A quad: four scalars that lie side by side, such as half a grain's row.
-template <class Scalar>
-struct FourScalars {
-  using Vector = typename RawVector<Scalar, 4>::type;
-
-  Vector value;
-
-  static FourScalars read(Scalar const* from) {
-    FourScalars quad;
-    std::memcpy(&quad.value, from, sizeof(Vector));
-    return quad;
-  }
-  void write(Scalar* to) const { std::memcpy(to, &value, sizeof(Vector)); }
-};
-
-namespace detail {
-
-/// Transposes 4 x 4 blocks: entry j of block k of the result's vector i is entry i of block k of the argument's vector j.
-template <class Vector>
-std::array<Vector, 4> transpose_blocks(std::array<Vector, 4> const& rows) {
-  auto const& [a, b, c, d] = rows;
-  if constexpr (sizeof(Vector) / sizeof(a[0]) == 4) {
-    auto const ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-    auto const ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    auto const cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-    auto const cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    return {__builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5), __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5),
-            __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7), __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7)};
-  } else {
-    auto const ab_even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-    auto const ab_odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-    auto const cd_even = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
-    auto const cd_odd = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
-    return {__builtin_shufflevector(ab_even, cd_even, 0, 1, 8, 9, 4, 5, 12, 13),
-            __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 8, 9, 4, 5, 12, 13),
-            __builtin_shufflevector(ab_even, cd_even, 2, 3, 10, 11, 6, 7, 14, 15),
-            __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 10, 11, 6, 7, 14, 15)};
-  }
-}
-
-}  // namespace detail
-
-/// Four neighbouring numbers of one row per lane, as four packs: pack c holds row_of(lane)[c]. Where registers hold four or
-/// eight lanes the rows are read whole and transposed in registers, which takes half the loads of a gather.
-template <class Scalar, class RowOf>
-std::array<Pack<Scalar>, 4> load_quads(RowOf const& row_of) {
-  constexpr std::size_t width = Pack<Scalar>::size();
-  std::array<Pack<Scalar>, 4> packs;
-  if constexpr (width == 4 || width == 8) {
-    using Vector = typename RawVector<Scalar, width>::type;
-    std::array<Vector, 4> rows;
-    for (std::size_t j = 0; j < 4; ++j) {
-      if constexpr (width == 4) {
-        rows[j] = FourScalars<Scalar>::read(row_of(j)).value;
-      } else {
-        rows[j] = __builtin_shufflevector(FourScalars<Scalar>::read(row_of(j)).value,
-                                          FourScalars<Scalar>::read(row_of(j + 4)).value, 0, 1, 2, 3, 4, 5, 6, 7);
-      }
-    }
-    auto const columns = detail::transpose_blocks(rows);
-    for (std::size_t c = 0; c < 4; ++c) packs[c] = std::bit_cast<Pack<Scalar>>(columns[c]);
-  } else {
-    for (std::size_t c = 0; c < 4; ++c) {
-      packs[c] = Pack<Scalar>([&](auto lane) { return row_of(static_cast<std::size_t>(lane))[c]; });
-    }
-  }
-  return packs;
-}
-
-/// The reverse in registers: quad k holds lane k of the four packs.
-template <class Scalar>
-std::array<FourScalars<Scalar>, Pack<Scalar>::size()> to_quads(std::array<Pack<Scalar>, 4> const& packs) {
-  constexpr std::size_t width = Pack<Scalar>::size();
-  std::array<FourScalars<Scalar>, width> quads;
-  if constexpr (width == 4 || width == 8) {
-    using Vector = typename RawVector<Scalar, width>::type;
-    std::array<Vector, 4> columns;
-    for (std::size_t c = 0; c < 4; ++c) columns[c] = std::bit_cast<Vector>(packs[c]);
-    auto const rows = detail::transpose_blocks(columns);
-    for (std::size_t j = 0; j < 4; ++j) {
-      if constexpr (width == 4) {
-        quads[j].value = rows[j];
-      } else {
-        quads[j].value = __builtin_shufflevector(rows[j], rows[j], 0, 1, 2, 3);
-        quads[j + 4].value = __builtin_shufflevector(rows[j], rows[j], 4, 5, 6, 7);
-      }
-    }
-  } else {
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      for (std::size_t c = 0; c < 4; ++c) quads[lane].value[c] = packs[c][lane];
-    }
-  }
-  return quads;
+template <class Scalar, std::size_t Width>
+[[gnu::always_inline]] inline void store(BasicPack<Scalar, Width> const& values, Scalar* to) {
+  std::memcpy(to, &values.vector, sizeof(values.vector));
 }
 
 }  // namespace scarp::lanes
+
+#include "scarp/core/pack_math.hpp"

@@ -4,7 +4,8 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <experimental/simd>
+
+#include "scarp/core/pack.hpp"
 
 #include "scarp/core/one_version.hpp"
 
@@ -15,20 +16,18 @@ template <class T>
 T select(bool condition, T const& yes, T const& no) {
   return condition ? yes : no;
 }
-template <class Scalar, class Abi>
-std::experimental::simd<Scalar, Abi> select(std::experimental::simd_mask<Scalar, Abi> const& condition,
-                                            std::experimental::simd<Scalar, Abi> const& yes,
-                                            std::experimental::simd<Scalar, Abi> const& no) {
-  auto chosen = no;
-  where(condition, chosen) = yes;
-  return chosen;
+template <class Scalar, std::size_t Width>
+[[gnu::always_inline]] inline BasicPack<Scalar, Width> select(BasicMask<Scalar, Width> const& condition,
+                                                              BasicPack<Scalar, Width> const& yes,
+                                                              BasicPack<Scalar, Width> const& no) {
+  return BasicPack<Scalar, Width>(condition.vector ? yes.vector : no.vector);
 }
-template <class Scalar, class Abi, std::size_t Size>
-auto select(std::experimental::simd_mask<Scalar, Abi> const& condition,
-            std::array<std::experimental::simd<Scalar, Abi>, Size> const& yes,
-            std::array<std::experimental::simd<Scalar, Abi>, Size> const& no) {
+template <class Scalar, std::size_t Width, std::size_t Size>
+std::array<BasicPack<Scalar, Width>, Size> select(BasicMask<Scalar, Width> const& condition,
+                                                  std::array<BasicPack<Scalar, Width>, Size> const& yes,
+                                                  std::array<BasicPack<Scalar, Width>, Size> const& no) {
   auto chosen = no;
-  for (std::size_t k = 0; k < Size; ++k) where(condition, chosen[k]) = yes[k];
+  for (std::size_t k = 0; k < Size; ++k) chosen[k] = select(condition, yes[k], no[k]);
   return chosen;
 }
 
@@ -37,9 +36,9 @@ template <std::floating_point T>
 T at_least(T const& value, T const& floor) {
   return value < floor ? floor : value;
 }
-template <class Scalar, class Abi>
-std::experimental::simd<Scalar, Abi> at_least(std::experimental::simd<Scalar, Abi> const& value,
-                                              std::experimental::simd<Scalar, Abi> const& floor) {
+template <class Scalar, std::size_t Width>
+[[gnu::always_inline]] inline BasicPack<Scalar, Width> at_least(BasicPack<Scalar, Width> const& value,
+                                                                BasicPack<Scalar, Width> const& floor) {
   return select(value < floor, floor, value);
 }
 
@@ -48,9 +47,9 @@ template <std::floating_point T>
 T at_most(T const& value, T const& ceiling) {
   return ceiling < value ? ceiling : value;
 }
-template <class Scalar, class Abi>
-std::experimental::simd<Scalar, Abi> at_most(std::experimental::simd<Scalar, Abi> const& value,
-                                             std::experimental::simd<Scalar, Abi> const& ceiling) {
+template <class Scalar, std::size_t Width>
+[[gnu::always_inline]] inline BasicPack<Scalar, Width> at_most(BasicPack<Scalar, Width> const& value,
+                                                               BasicPack<Scalar, Width> const& ceiling) {
   return select(ceiling < value, ceiling, value);
 }
 

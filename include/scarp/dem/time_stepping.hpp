@@ -189,7 +189,6 @@ class TimeStepper {
     Lanes const after = damping.next_velocity(before, force, inverse_inertia * dt);
     lanes::store(after, velocities);
     if constexpr (what == Observe::energy) {
-      using std::experimental::max;
       Lanes const inertia = Lanes(Scalar(1)) / max(inverse_inertia, tiny<Lanes>());  // padding never moves
       damped += (before + after) * Lanes(Scalar(0.5)) * (force * dt - (after - before) * inertia);
       kinetic += (before * before + after * after) * inertia * Lanes(Scalar(0.25));
@@ -248,7 +247,6 @@ class TimeStepper {
         turning += spin * spin;
         if constexpr (Shape::orientation_count == 2) turn_axes(packing, start, spin * dt, strain_step);
       }
-      using std::experimental::max;
       fastest = max(fastest, speed);
       fastest_spin = max(fastest_spin, turning);
       everything += speed + turning;

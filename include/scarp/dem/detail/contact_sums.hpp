@@ -40,10 +40,10 @@ template <int Dim, class Lanes>
 struct LaneSums {
   std::array<Lanes, static_cast<std::size_t>(Dim* Dim)> moment{};
   Lanes force{};
+  Lanes contacts{};
   Lanes deepest{};
   Lanes stored{};
   Lanes dissipated{};
-  double contacts = 0.0;
 
   ContactSums<Dim> total() const {
     ContactSums<Dim> sums;
@@ -51,7 +51,7 @@ struct LaneSums {
       for (int b = 0; b < Dim; ++b) sums.moment(a, b) = lane_sum(moment[detail::index(a * Dim + b)]);
     }
     sums.force = lane_sum(force);
-    sums.contacts = contacts;
+    sums.contacts = lane_sum(contacts);
     sums.deepest = static_cast<double>(hmax(deepest));
     sums.stored = lane_sum(stored);
     sums.dissipated = lane_sum(dissipated);

@@ -5,7 +5,7 @@
 
 #include "scarp/core/aligned_vector.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/pack.hpp"
+#include "scarp/core/quads.hpp"
 #include "scarp/dem/packing.hpp"
 
 namespace scarp {

@@ -104,8 +104,8 @@ class PairResponse {
 
     if constexpr (what != Observe::nothing) {
       sums_.force += sqrt(dot(force, force));
-      sums_.contacts += static_cast<double>(popcount(answer.normal != Lanes(Scalar(0))));
-      sums_.deepest = std::experimental::max(sums_.deepest, touch.overlap / approach.reduced_radius);
+      sums_.contacts += lanes::select(answer.normal != constant<Lanes>(0), constant<Lanes>(1), constant<Lanes>(0));
+      sums_.deepest = max(sums_.deepest, touch.overlap / approach.reduced_radius);
       for (std::size_t a = 0; a < axes; ++a) {
         for (std::size_t b = 0; b < axes; ++b) sums_.moment[a * axes + b] += force[a] * branch[b];
       }

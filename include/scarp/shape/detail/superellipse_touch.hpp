@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "scarp/core/constant.hpp"
-#include "scarp/core/pack.hpp"
+#include "scarp/core/select.hpp"
 #include "scarp/shape/support_touch.hpp"
 
 namespace scarp {
@@ -27,7 +27,6 @@ SuperellipseSupport<T> superellipse_support(std::array<T, 6> const& pose, Point<
   using std::max;
   using std::min;
   using std::pow;
-  using std::experimental::where;
   auto const& [c, s, rx, ry, q, inverse_q] = pose;
   T const one = constant<T>(1);
   T const nx = c * normal[0] + s * normal[1];
@@ -47,9 +46,9 @@ SuperellipseSupport<T> superellipse_support(std::array<T, 6> const& pose, Point<
   T share_y = share_x * power / ratio;
   T tangent = copysign(ratio, nx * ny) * rx / ry;
   T const swapped = share_x;
-  where(nearer_y, share_x) = share_y;
-  where(nearer_y, share_y) = swapped;
-  where(nearer_y, tangent) = -copysign(ratio, nx * ny) * ry / rx;
+  share_x = lanes::select(nearer_y, share_y, share_x);
+  share_y = lanes::select(nearer_y, swapped, share_y);
+  tangent = lanes::select(nearer_y, -copysign(ratio, nx * ny) * ry / rx, tangent);
   T const x = rx * copysign(share_x, nx);
   T const y = ry * copysign(share_y, ny);
 
@@ -77,9 +76,6 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
   using std::min;
   using std::pow;
   using std::sqrt;
-  using std::experimental::any_of;
-  using std::experimental::none_of;
-  using std::experimental::where;
   constexpr int most_evaluations = 40;
   constexpr double largest_step = 0.5;  // radians
   constexpr double small_step = 1e-4;   // radians; the expansions' error in the normal is of second order in it
@@ -92,8 +88,8 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
   Point<2, T> start = normal;
   auto const astray = normal[0] * branch[0] + normal[1] * branch[1] < constant<T>(0) ||
                       normal[0] * normal[0] + normal[1] * normal[1] < constant<T>(0.25);
-  where(astray, start[0]) = branch[0];
-  where(astray, start[1]) = branch[1];
+  start[0] = lanes::select(astray, branch[0], start[0]);
+  start[1] = lanes::select(astray, branch[1], start[1]);
   T const inverse_length = one / sqrt(start[0] * start[0] + start[1] * start[1]);
   for (T& component : start) component *= inverse_length;
   // A rotation by the angle whose half has this tangent.
@@ -122,19 +118,19 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
 
     T tilt = a.tilt;
     T bend = a.bend;
-    where(b.curvature_radius > a.curvature_radius, tilt) = b.tilt;
-    where(b.curvature_radius > a.curvature_radius, bend) = b.bend;
+    tilt = lanes::select(b.curvature_radius > a.curvature_radius, b.tilt, tilt);
+    bend = lanes::select(b.curvature_radius > a.curvature_radius, b.bend, bend);
     T const swing = newton / (tilt * bend);
     T step = newton;
     auto const bends = bend > one && abs(swing) > constant<T>(1e-3);
-    if (any_of(bends)) {
+    if (lanes::any_of(bends)) {
       T const stretch = one + swing;
-      where(bends, step) = tilt * (copysign(pow(abs(stretch), bend), stretch) - one);
+      step = lanes::select(bends, tilt * (copysign(pow(abs(stretch), bend), stretch) - one), step);
     }
     step = max(min(step, constant<T>(largest_step)), constant<T>(-largest_step));
 
     auto const rough = abs(step) > constant<T>(small_step) || abs(step * slope) > constant<T>(small_gain) * size;
-    if (evaluation == most_evaluations || none_of(rough)) {
+    if (evaluation == most_evaluations || lanes::none_of(rough)) {
       T const overlap = depth + half * slope * step;
       T const shift = half * (a.slope - b.slope + newton * (a.curvature_radius - b.curvature_radius));
       T const level = half * (a.value - b.value);
@@ -142,13 +138,13 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
                                half * branch[1] + level * n[1] + shift * t[1]};
       return {overlap, turned(n, half * step), middle, {middle[0] - branch[0], middle[1] - branch[1]}};
     }
-    where(slope > constant<T>(0), high) = at;
-    where(!(slope > constant<T>(0)), low) = at;
+    high = lanes::select(slope > constant<T>(0), at, high);
+    low = lanes::select(!(slope > constant<T>(0)), at, low);
     T next = (at + half * step) / (one - at * half * step);
     auto const leaps = slope * slope_before < -half * slope_before * slope_before;
-    where(leaps || !(next > low && next < high), next) = half * (low + high);
+    next = lanes::select(leaps || !(next > low && next < high), half * (low + high), next);
     slope_before = slope;
-    where(rough, at) = next;
+    at = lanes::select(rough, next, at);
   }
 }
 
