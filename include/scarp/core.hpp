@@ -3,8 +3,8 @@
 /// Small tensors and their Voigt form, geometry of strains, random numbers and fields, errors and verdicts.
 /// Everything else stands on this room; it knows neither grains nor elements.
 /// A verdict (`status.hpp`) is a value that every level passes up; wrong input throws `InputError` (`error.hpp`).
-/// `select.hpp` and `pack.hpp` (namespace `lanes`) let laws and shapes work on several pairs at once; `index.hpp` numbers
-/// containers.
+/// `select.hpp` and `pack.hpp` (namespace `lanes`) let laws and shapes work on several pairs at once: numbers side by side,
+/// their functions (`pack_math.hpp`) and conditions (`mask.hpp`). `index.hpp` numbers containers.
 /// Units are SI everywhere, stress is Cauchy and positive in tension.
 #pragma once
 

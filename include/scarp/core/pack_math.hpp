@@ -36,7 +36,7 @@ template <class Scalar, std::size_t Width>
 /// By the register's own instruction, also where the compiler must set errno for single numbers.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> sqrt(BasicPack<Scalar, Width> const& x) {
-  using Pack = BasicPack<Scalar, Width>;
+  using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
   [[maybe_unused]] constexpr std::size_t bytes = Width * sizeof(Scalar);
   [[maybe_unused]] constexpr bool is_double = sizeof(Scalar) == 8;
 #if defined(__AVX512F__) && defined(__clang__)
