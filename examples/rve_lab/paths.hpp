@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/listed.hpp"
 #include "scarp/dem/loading_paths.hpp"
 
 namespace rve_lab {
@@ -69,7 +70,7 @@ inline PathKind const& path_named(std::string_view name) {
     if (path.name == name) return path;
   }
   scarp::refuse("there is no path '{}' (the laboratory knows {}): choose one of these", name,
-                fmt::join(path_names(), ", "));
+                scarp::listed(path_names(), ", "));
 }
 
 /// Steps between two rows.

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <set>
 #include <string>
 
+#include "scarp/core/listed.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {
@@ -25,8 +25,8 @@ std::string describe_dof(Mesh<Element> const& mesh, int dof) {
     if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
       regions.insert(mesh.regions[detail::index(mesh.element_region[detail::index(e)])]);
   }
-  return fmt::format("node {} at ({:.6g}), axis {}, region {}", node, fmt::join(mesh.nodes[detail::index(node)], ", "),
-                     dof % dim, fmt::join(regions, " and "));
+  return fmt::format("node {} at ({}), axis {}, region {}", node,
+                     listed(mesh.nodes[detail::index(node)], ", ", "{:.6g}"), dof % dim, listed(regions, " and "));
 }
 
 }  // namespace scarp

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "scarp/bvp/discretisation.hpp"
+#include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
@@ -61,8 +62,8 @@ Eigen::VectorXd varying_body_force(Discretisation<Element, Motion, Scheme> const
 /// \f$ f_a = \int N_a t\,dA \f$. A dead load: it follows neither the size nor the direction of the deformed boundary.
 /// \throws InputError for an unknown boundary
 template <class Element, class Motion, class Scheme>
-Eigen::VectorXd traction(Discretisation<Element, Motion, Scheme> const& discretisation, std::string_view boundary_name,
-                         Vector<Element::dim> const& per_area) {
+SCARP_EXPORT Eigen::VectorXd traction(Discretisation<Element, Motion, Scheme> const& discretisation,
+                                      std::string_view boundary_name, Vector<Element::dim> const& per_area) {
   using Facet = typename Element::Facet;
   constexpr int dim = Element::dim;
   auto const& mesh = discretisation.mesh();

@@ -8,6 +8,7 @@
 #include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
@@ -52,7 +53,7 @@ concept AdvancesTrials = MaterialField<Field> &&
 
 /// Committed and trial states of one provider at a set of points.
 template <CheckedProvider Provider>
-class ProviderField {
+class SCARP_EXPORT ProviderField {
  public:
   static_assert(
       !requires { typename Provider::LocalProvider; },

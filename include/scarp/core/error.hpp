@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "scarp/core/one_version.hpp"
 
@@ -19,10 +18,16 @@ class InputError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+namespace detail {
+[[noreturn]] inline void throw_input_error(fmt::string_view text, fmt::format_args arguments) {
+  throw InputError(fmt::vformat(text, arguments));
+}
+}  // namespace detail
+
 /// \throws InputError always, with the formatted text
 template <class... Arguments>
 [[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
-  throw InputError(fmt::format(text, std::forward<Arguments>(arguments)...));
+  detail::throw_input_error(text, fmt::make_format_args(arguments...));
 }
 
 /// \throws InputError unless value is finite and above zero

@@ -4,6 +4,7 @@
 #include <concepts>
 
 #include "scarp/bvp/constraints.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/fault/detail/step_at_tip.hpp"
 #include "scarp/observe/fault_offset.hpp"
 
@@ -53,7 +54,7 @@ FaultOffset offset_at(Motion const& motion, double fault_throw) {
 
 /// \throws InputError when no corner of the bottom lies at the tip of a fault
 template <class Element>
-void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
+SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
   auto const lines = detail::bottom_corners(mesh);
   double nearest = std::numeric_limits<double>::infinity();
   for (double const line : lines) {
@@ -73,8 +74,8 @@ void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
 /// \throws InputError for parameters that the motion refuses, a tip outside the bottom, or a mesh without these
 /// boundaries
 template <BedrockMotion Motion, class Element>
-Constraints bedrock_constraints(Mesh<Element> const& mesh, Motion const& motion, int extra_dofs = 0,
-                                TimeFunction const& course = {}) {
+SCARP_EXPORT Constraints bedrock_constraints(Mesh<Element> const& mesh, Motion const& motion, int extra_dofs = 0,
+                                             TimeFunction const& course = {}) {
   constexpr int dim = Element::dim;
   Vector<2> const left = motion.left();
   Vector<2> const right = motion.right();

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/core/precompiled.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/detail/grid_slab.hpp"
 #include "scarp/fault/detail/layer_checks.hpp"
@@ -40,14 +41,7 @@ struct FaultMesh {
   /// \throws InputError for sizes that are not positive or finite, a tip or an edge outside the layer, a jitter out of
   /// range, a pattern that the elements cannot follow, and lines closer to each other than a quarter of `size`
   template <ReferenceElement Element = Tri3>
-  Mesh<Element> generate(std::vector<double> const& edges = {}) const {
-    check<Element>(edges);
-    std::vector<Vector<2>> nodes;
-    auto const numbers =
-        add_grid_nodes(nodes, graded_lines(columns(), fixed_columns(edges)), graded_lines(rows(), {0.0, depth}));
-    jitter_grid(nodes, numbers, jitter, seed);
-    return with_nodes_of<Element>(corner_mesh<LinearOf<Element>>(std::move(nodes), numbers));
-  }
+  SCARP_EXPORT Mesh<Element> generate(std::vector<double> const& edges = {}) const;
 
   /// Number of elements that generate() makes.
   /// \throws InputError as generate() does
@@ -161,5 +155,15 @@ struct FaultMesh {
     }
   }
 };
+
+template <ReferenceElement Element>
+Mesh<Element> FaultMesh::generate(std::vector<double> const& edges) const {
+  check<Element>(edges);
+  std::vector<Vector<2>> nodes;
+  auto const numbers =
+      add_grid_nodes(nodes, graded_lines(columns(), fixed_columns(edges)), graded_lines(rows(), {0.0, depth}));
+  jitter_grid(nodes, numbers, jitter, seed);
+  return with_nodes_of<Element>(corner_mesh<LinearOf<Element>>(std::move(nodes), numbers));
+}
 
 }  // namespace scarp

@@ -4,6 +4,7 @@
 #include "scarp/bvp/usual_integration.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/element/tri3.hpp"
+#include "scarp/fault/detail/precompiled_ground.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/fault/layered_ground.hpp"
 #include "scarp/fault/normal_fault.hpp"

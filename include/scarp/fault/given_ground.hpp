@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "scarp/core/listed.hpp"
 #include "scarp/fault/detail/ground_outline.hpp"
 #include "scarp/fault/detail/surface_corners.hpp"
 #include "scarp/fault/ground_levels.hpp"
@@ -28,7 +29,7 @@ void require_ground_groups(Mesh<Element> const& mesh) {
         "the mesh has elements in the regions {} (a ground has 'soil' and, where a block stands on it, 'footing'; "
         "elements "
         "in no physical group are the region 'mesh'): name the physical groups so",
-        fmt::join(used, ", "));
+        listed(used));
   }
   std::vector<std::string> wanted;
   for (auto const& part : outline_parts(mesh)) wanted.push_back(part.name);
@@ -42,7 +43,7 @@ void require_ground_groups(Mesh<Element> const& mesh) {
   for (auto const& name : wanted) {
     if (std::find(there.begin(), there.end(), name) != there.end()) continue;
     refuse("the mesh has no side in a boundary '{}' (it has: {}): put the sides there in a physical group of this name",
-           name, there.empty() ? "none" : fmt::format("{}", fmt::join(there, ", ")));
+           name, there.empty() ? "none" : listed(there));
   }
 }
 

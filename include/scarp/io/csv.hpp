@@ -2,7 +2,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <concepts>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/listed.hpp"
 #include "scarp/io/detail/appended_file.hpp"
 
 namespace scarp {
@@ -73,7 +73,7 @@ class CsvFormat {
 
   std::string row(std::span<double const> values) const {
     require_width(values.size());
-    return fmt::format("{}\n", fmt::join(values, ","));
+    return listed(values, ",") + "\n";
   }
 
  private:

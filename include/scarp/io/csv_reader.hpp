@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "scarp/core/index.hpp"
+#include "scarp/core/listed.hpp"
 #include "scarp/io/detail/csv_lines.hpp"
 #include "scarp/io/read_file.hpp"
 
@@ -75,7 +76,7 @@ class CsvColumns {
     auto const place = find(name);
     if (!place) {
       refuse("'{}' has no column '{}' (line {} names {}): add it or rename one", file_, name, header_.number,
-             fmt::join(header_.cells, ", "));
+             listed(header_.cells));
     }
     return *place;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/listed.hpp"
 #include "scarp/element/map.hpp"
 
 namespace scarp {
@@ -45,7 +46,7 @@ void validate_sizes(Mesh<Element> const& mesh) {
     int const region = mesh.element_region[index(e)];
     if (region < 0 || region >= count(mesh.regions)) {
       refuse("element {} has the region number {} (the mesh names {} regions: {}): name it in regions", e, region,
-             mesh.regions.size(), fmt::join(mesh.regions, ", "));
+             mesh.regions.size(), listed(mesh.regions));
     }
   }
 }
@@ -64,12 +65,11 @@ void validate_nodes(Mesh<Element> const& mesh) {
   }
   for (int n = 0; n < count(mesh.nodes); ++n) {
     if (!mesh.nodes[index(n)].allFinite()) {
-      refuse("node {} is at ({}) (not a finite position): check the coordinates", n,
-             fmt::join(mesh.nodes[index(n)], ", "));
+      refuse("node {} is at ({}) (not a finite position): check the coordinates", n, listed(mesh.nodes[index(n)]));
     }
     if (!used[index(n)]) {
       refuse("node {} at ({}) belongs to no element (its equations would be singular): remove it", n,
-             fmt::join(mesh.nodes[index(n)], ", "));
+             listed(mesh.nodes[index(n)]));
     }
   }
 }
@@ -94,7 +94,7 @@ void validate_jacobians(Mesh<Element> const& mesh) {
       refuse(
           "element {} (nodes {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way round): "
           "reorder or move its nodes",
-          e, fmt::join(mesh.elements[index(e)], ", "), *determinant, Element::dim);
+          e, listed(mesh.elements[index(e)]), *determinant, Element::dim);
     }
   }
 }
@@ -119,7 +119,7 @@ void validate_boundaries(Mesh<Element> const& mesh) {
     for (auto const& facet : facets) {
       if (!std::binary_search(sides.begin(), sides.end(), sorted(facet))) {
         refuse("boundary '{}' holds the facet ({}) (no element has this side): check its node numbers", name,
-               fmt::join(facet, ", "));
+               listed(facet));
       }
     }
   }
@@ -146,7 +146,7 @@ std::vector<std::array<int, Element::facet_nodes>> const& boundary(Mesh<Element>
     for (auto const& entry : mesh.boundaries) {
       known.push_back(entry.first);
     }
-    refuse("there is no boundary '{}' (the mesh has: {}): use one of these names", name, fmt::join(known, ", "));
+    refuse("there is no boundary '{}' (the mesh has: {}): use one of these names", name, listed(known));
   }
   return found->second;
 }
@@ -169,7 +169,7 @@ template <class Element>
 int region_number(Mesh<Element> const& mesh, std::string_view name) {
   auto const found = std::find(mesh.regions.begin(), mesh.regions.end(), name);
   if (found == mesh.regions.end()) {
-    refuse("there is no region '{}' (the mesh has: {}): use one of these names", name, fmt::join(mesh.regions, ", "));
+    refuse("there is no region '{}' (the mesh has: {}): use one of these names", name, listed(mesh.regions));
   }
   return static_cast<int>(found - mesh.regions.begin());
 }

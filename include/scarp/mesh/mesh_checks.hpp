@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "scarp/core/listed.hpp"
 #include "scarp/mesh/detail/place_index.hpp"
 #include "scarp/mesh/mid_side_nodes.hpp"
 #include "scarp/mesh/outer_facets.hpp"
@@ -32,7 +33,7 @@ void require_no_duplicate_nodes(Mesh<Element> const& mesh) {
   refuse(
       "nodes {} and {} are both at ({}) (the elements there would come apart; {} nodes in all are at the place of "
       "another): merge them, in Gmsh by 'Coherence Mesh'",
-      first.first, first.second, fmt::join(mesh.nodes[detail::index(first.first)], ", "), found);
+      first.first, first.second, listed(mesh.nodes[detail::index(first.first)]), found);
 }
 
 namespace detail {
@@ -112,7 +113,7 @@ void require_no_hanging_nodes(Mesh<Element> const& mesh) {
       refuse(
           "node {} at ({}) hangs: it is a corner inside a side of element {} (nodes {}), which would slide along it: "
           "divide that element, or mesh the parts with common nodes",
-          node, fmt::join(place, ", "), side.element, fmt::join(mesh.elements[detail::index(side.element)], ", "));
+          node, listed(place), side.element, listed(mesh.elements[detail::index(side.element)]));
     });
   }
 }

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/precompiled.hpp"
+#ifdef SCARP_PRECOMPILED
+#include "scarp/element/quad4.hpp"
+#include "scarp/element/quad8.hpp"
+#include "scarp/element/tri3.hpp"
+#include "scarp/element/tri6.hpp"
+#endif
 #include "scarp/observe/level_profile.hpp"
 #include "scarp/observe/rupture_measures.hpp"
 
@@ -47,8 +54,8 @@ struct RuptureSurvey {
 /// \throws InputError for positions of another mesh and a mesh without these boundaries
 template <class Element>
   requires(Element::dim == 2)
-RuptureSurvey rupture_survey(Mesh<Element> const& mesh, std::vector<Vector<2>> const& rest,
-                             std::vector<Vector<2>> const& positions, FaultOffset const& fault) {
+SCARP_EXPORT RuptureSurvey rupture_survey(Mesh<Element> const& mesh, std::vector<Vector<2>> const& rest,
+                                          std::vector<Vector<2>> const& positions, FaultOffset const& fault) {
   auto const profile = surface_profile(mesh, rest, positions);
   auto const level_at_tip = [&](std::vector<std::string> const& boundaries) {
     double level = std::numeric_limits<double>::quiet_NaN();
@@ -73,5 +80,15 @@ RuptureSurvey rupture_survey(Mesh<Element> const& mesh, std::vector<Vector<2>> c
   };
   return {depth, rupture_measures(profile, fault, depth), {band(0.25), band(0.5), band(0.75)}};
 }
+
+#ifdef SCARP_PRECOMPILED
+/// DECLARE: `extern template`, or `template` in the library.
+#define SCARP_SURVEY(DECLARE, ELEMENT)                                                      \
+  DECLARE RuptureSurvey rupture_survey(Mesh<ELEMENT> const&, std::vector<Vector<2>> const&, \
+                                       std::vector<Vector<2>> const&, FaultOffset const&);
+#define SCARP_SURVEYS(DECLARE) \
+  SCARP_SURVEY(DECLARE, Tri3) SCARP_SURVEY(DECLARE, Tri6) SCARP_SURVEY(DECLARE, Quad4) SCARP_SURVEY(DECLARE, Quad8)
+SCARP_SURVEYS(extern template)
+#endif
 
 }  // namespace scarp

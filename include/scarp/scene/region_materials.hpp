@@ -12,6 +12,7 @@
 #include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
@@ -29,7 +30,7 @@ Region(std::string, Provider) -> Region<Provider>;
 
 /// The material side of a model of several regions, each with its own type of provider: this is where they meet.
 template <CheckedProvider... Providers>
-class RegionMaterials {
+class SCARP_EXPORT RegionMaterials {
  public:
   static constexpr int dim = std::common_type_t<std::integral_constant<int, Providers::dim>...>::value;
   static_assert(((Providers::dim == dim) && ...), "all regions of a scene have the same dimension");

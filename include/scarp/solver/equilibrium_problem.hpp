@@ -10,6 +10,7 @@
 #include "scarp/bvp/averaged_stiffness.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/solver/detail/attachment_part.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/detail/point_answers.hpp"
@@ -20,7 +21,7 @@ namespace scarp {
 /// perhaps something attached to the mesh.
 template <class DiscretisationType, MaterialField Materials, CheckedExecutor Executor,
           CheckedAttachment<DiscretisationType::dim> Attached = NoAttachment>
-class EquilibriumProblem final
+class SCARP_EXPORT EquilibriumProblem final
     : public detail::AttachmentPart<EquilibriumProblem<DiscretisationType, Materials, Executor, Attached>,
                                     DiscretisationType::dim, Attached> {
   using Part = detail::AttachmentPart<EquilibriumProblem, DiscretisationType::dim, Attached>;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/core/listed.hpp"
 #include "scarp/mesh/outer_facets.hpp"
 
 namespace scarp::detail {
@@ -61,7 +62,7 @@ void require_straight_outline(Mesh<Element> const& mesh) {
       refuse(
           "the boundary '{}' passes through ({}), but the soil {} at {} = {} m (it must be straight, level below and "
           "above, upright beside): mesh a layer with level surface and bottom and upright ends",
-          part.name, fmt::join(place, ", "), part.upper ? "ends" : "begins", "xyz"[part.axis], end);
+          part.name, listed(place), part.upper ? "ends" : "begins", "xyz"[part.axis], end);
     }
   }
 }
@@ -89,7 +90,7 @@ void require_closed_outline(Mesh<Element> const& mesh) {
       refuse(
           "the side with its middle at ({}) is in '{}' and in '{}' (loads and motions would count twice): put it in "
           "one physical group, once",
-          fmt::join(middle(side), ", "), found->second, part.name);
+          listed(middle(side)), found->second, part.name);
     }
   }
   int const soil = region_number(mesh, "soil");
@@ -104,7 +105,7 @@ void require_closed_outline(Mesh<Element> const& mesh) {
         "the side with its middle at ({}) bounds the soil but is in none of {} ({} such sides: a hole, a crack or a "
         "part "
         "of the outline without physical group): close it or put it in its group",
-        fmt::join(middle(first), ", "), fmt::join(names, ", "), open);
+        listed(middle(first)), listed(names), open);
   }
   for (auto const& [side, name] : part_of) {
     if (name == "footing_base") continue;  // a block stands on it
@@ -112,7 +113,7 @@ void require_closed_outline(Mesh<Element> const& mesh) {
         "the side with its middle at ({}) is in '{}' but lies between two elements (a boundary bounds the soil): take "
         "it "
         "out of the group{}",
-        fmt::join(middle(side), ", "), name, name == "surface" ? ", below a footing into 'footing_base'" : "");
+        listed(middle(side)), name, name == "surface" ? ", below a footing into 'footing_base'" : "");
   }
 }
 

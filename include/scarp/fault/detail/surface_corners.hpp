@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scarp/core/listed.hpp"
 #include "scarp/mesh/mid_side_nodes.hpp"
 
 namespace scarp::detail {
@@ -34,9 +35,9 @@ inline void require_corner(std::vector<double> const& corners, double edge, doub
   if (!by_distance.empty() && std::abs(by_distance.front() - edge) <= same) return;
   by_distance.resize(std::min<std::size_t>(by_distance.size(), 2));
   refuse(
-      "the edge of a structure at x = {} m is at no corner node of the surface (the nearest are at {:.7g} m): move the "
+      "the edge of a structure at x = {} m is at no corner node of the surface (the nearest are at {} m): move the "
       "edge there, or mesh the ground with a node below the edge",
-      edge, fmt::join(by_distance, " and "));
+      edge, listed(by_distance, " and ", "{:.7g}"));
 }
 
 }  // namespace scarp::detail

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,8 @@
 #include <limits>
 #include <string>
 #include <vector>
+
+#include "scarp/core/listed.hpp"
 
 namespace scarp {
 
@@ -34,7 +35,7 @@ struct ObservedOrder {
 
   std::string text() const {
     if (estimates.empty()) return "-";
-    if (!holds()) return fmt::format("no order ({:.1f})", fmt::join(estimates, ", "));
+    if (!holds()) return fmt::format("no order ({})", listed(estimates, ", ", "{:.1f}"));
     return fmt::format("{:.2f}{}", mean(), estimates.size() == 1 ? " (one estimate)" : "");
   }
 

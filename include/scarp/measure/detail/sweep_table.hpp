@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/listed.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/measure/detail/observed_order.hpp"
@@ -61,7 +62,7 @@ struct SweepTable {
     for (std::size_t k = 0; k < answers.size(); ++k) {
       if (answers[k] == answer) return k;
     }
-    refuse("sweep '{}' has no answer '{}' (it has: {}): choose one of these", name, answer, fmt::join(answers, ", "));
+    refuse("sweep '{}' has no answer '{}' (it has: {}): choose one of these", name, answer, listed(answers));
   }
 
   /// Rows that no other beats in cost and error at once, cheapest first; see pareto_front.

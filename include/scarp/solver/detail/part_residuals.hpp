@@ -8,6 +8,7 @@
 
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/core/tensor.hpp"
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/solver/part_residual.hpp"
@@ -47,7 +48,7 @@ inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd
 /// known to no more digits than its strains, but they have no sum; and a sum does not change with the size of the
 /// elements.
 template <int Dim>
-class RegionResiduals {
+class SCARP_EXPORT RegionResiduals {
  public:
   template <class Element>
   RegionResiduals(Mesh<Element> const& mesh, Constraints const& constraints) {

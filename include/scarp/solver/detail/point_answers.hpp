@@ -8,6 +8,7 @@
 
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/solver/detail/evaluation.hpp"
 #include "scarp/solver/executor.hpp"
 
@@ -16,7 +17,7 @@ namespace scarp {
 /// The material points of a problem: the gradients that they see, their answers, and who computes these. Where points are
 /// shared out among processes, each asks its own and all know all answers.
 template <MaterialField Materials, class Executor>
-class PointAnswers {
+class SCARP_EXPORT PointAnswers {
  public:
   static constexpr int dim = Materials::dim;
   static constexpr bool averages = AveragesGradients<Materials>;

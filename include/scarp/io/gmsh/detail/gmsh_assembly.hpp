@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/listed.hpp"
 #include "scarp/io/gmsh/detail/gmsh_boundaries.hpp"
 
 namespace scarp::detail {
@@ -95,8 +96,8 @@ void refuse_inverted_elements(GmshContent const& content, std::vector<GmshPick> 
       refuse(
           "element {} of '{}' (its nodes there: {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way "
           "round): {}",
-          pick.tag, content.file, fmt::join(std::span(pick.nodes, index(Element::nodes)), ", "), *determinant,
-          Element::dim, advice);
+          pick.tag, content.file, listed(std::span(pick.nodes, index(Element::nodes))), *determinant, Element::dim,
+          advice);
     }
   }
 }

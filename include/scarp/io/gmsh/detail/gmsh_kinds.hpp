@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/core/listed.hpp"
 #include "scarp/io/gmsh/detail/gmsh_content.hpp"
 
 namespace scarp::detail {
@@ -28,7 +29,7 @@ inline std::string shown_gmsh_kinds(std::map<int, std::size_t> const& kinds) {
   for (auto const& [type, elements] : kinds) {
     parts.push_back(fmt::format("{} x type {} ({})", elements, type, find_gmsh_type(type)->name));
   }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return listed(parts);
 }
 
 /// What to do about elements that are not of the type that is wanted.

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/fault/detail/precompiled_ground.hpp"
+
+namespace scarp {
+SCARP_GROUND(template, Tri3)
+SCARP_GROUND(template, Tri6)
+SCARP_GROUND(template, Quad4)
+SCARP_GROUND(template, Quad8)
+SCARP_ELASTIC_GROUND(template)
+}  // namespace scarp
