@@ -207,7 +207,6 @@ std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::Vec
 }
 
 template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
-
 void Discretisation<Element, Motion, Scheme>::internal_force(Eigen::VectorXd const& increment,
                                                              std::span<VoigtStress<dim> const> stresses,
                                                              Eigen::VectorXd& out) const {
@@ -224,7 +223,6 @@ void Discretisation<Element, Motion, Scheme>::internal_force(Eigen::VectorXd con
 }
 
 template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
-
 void Discretisation<Element, Motion, Scheme>::stiffness(Eigen::VectorXd const& increment,
                                                         std::span<VoigtStress<dim> const> stresses,
                                                         std::span<VoigtTangent<dim> const> tangents,
@@ -293,7 +291,6 @@ std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::Vect
 }
 
 template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
-
 void Discretisation<Element, Motion, Scheme>::commit(Eigen::VectorXd const& increment) {
   require_length("displacement increment", increment.size(), dof_count());
   if (!increment.allFinite()) {

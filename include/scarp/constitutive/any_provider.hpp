@@ -12,8 +12,7 @@
 namespace scarp {
 
 /// Any provider, chosen while a program runs, its type hidden from scenes, solvers and observers: they are compiled once for
-/// all materials, and no faster or slower for it, since a virtual call stands before an answer, not within one. The answers
-/// are the provider's own, bit for bit.
+/// all materials. A virtual call stands before an answer, none within it. The answers are the provider's own, bit for bit.
 /// \code
 /// scarp::AnyProvider<2> soil = stiff ? scarp::AnyProvider<2>(elastic) : scarp::AnyProvider<2>(packings);
 /// \endcode
