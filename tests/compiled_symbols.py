@@ -11,8 +11,8 @@ import subprocess
 root = pathlib.Path(__file__).resolve().parent.parent
 compiler = os.environ.get("CXX", "c++")
 
-# What a program may do without, by names that only it has; a program that has it must show one of them (benchmarks/absence/run,
-# tests/absence.test.py), or a name here is out of date.
+# What a program may do without, by names that only it has; a program that has it must show one of them (benchmarks/absence/run),
+# or a name here is out of date.
 features = {
     "nanoflann": re.compile(r"nanoflann"),
     "DEM": re.compile(r"TimeStepper|rebuild_pairs|pair_forces|PairScratch|scarp::Packing"),
