@@ -23,7 +23,8 @@ features = {
     "interface": re.compile(r"scarp::Interface<|RigidFooting|MeshedFooting|InterfacePoint"),
     "length": re.compile(r"Nonlocal"),
     "MPI": re.compile(r"MPI_|ompi_|RankExecutor"),
-    "checkpoint": re.compile(r"Checkpoint|StateWriter|StateReader"),
+    "checkpoint": re.compile(r"Checkpoint"),
+    "saved states": re.compile(r"StateWriter|StateReader"),  # of checkpoints and of ranks
 }
 
 

@@ -12,6 +12,7 @@ int main() {
   scene.soil = {.elasticity = scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25),
                 .strength = {{.cohesion = 1e3, .friction = 0.5}},
                 .initial = {.surcharge = 4e3, .unit_weight = 15.68e3, .k0 = 0.4}};
+  scene.solver.rule.floor = 1e-4;  // of the elastic stiffness: a point that flows has none
   scene.throw_to = 0.05;
   scarp::ThreadExecutor executor;
   scarp::NoObserver nobody;

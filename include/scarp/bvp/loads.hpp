@@ -4,6 +4,7 @@
 #include <concepts>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/core/precompiled.hpp"
@@ -12,26 +13,37 @@ namespace scarp {
 
 /// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
 /// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
-/// force_of_region(number of a region): b [N/m3], shape (dim)
+/// per_volume: b [N/m3] of every region of the mesh
+template <class Element, class Motion, class Scheme>
+SCARP_EXPORT Eigen::VectorXd body_force(Discretisation<Element, Motion, Scheme> const& discretisation,
+                                        std::vector<Vector<Element::dim>> const& per_volume) {
+  constexpr int dim = Element::dim;
+  auto const& mesh = discretisation.mesh();
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
+  for (int e = 0; e < detail::count(mesh.elements); ++e) {
+    auto const& nodes = mesh.elements[detail::index(e)];
+    auto const& force = per_volume[detail::index(mesh.element_region[detail::index(e)])];
+    auto const rows = corners<Element, dim>(nodes, mesh.nodes);
+    for (auto const& where : Element::quadrature()) {
+      ShapeValues<Element> const shape = Element::shape(where.xi);
+      double const volume = discretisation.thickness() * where.weight * measure<Element, dim>(rows, where.xi);
+      for (int a = 0; a < Element::nodes; ++a) {
+        forces.template segment<dim>(dim * nodes[detail::index(a)]) += shape(a) * volume * force;
+      }
+    }
+  }
+  return forces;
+}
+
+/// The same with force_of_region(number of a region): b [N/m3], shape (dim).
 template <class Element, class Motion, class Scheme, class ForceOfRegion>
   requires std::convertible_to<std::invoke_result_t<ForceOfRegion const&, int>, Vector<Element::dim>> Eigen::VectorXd
   body_force(Discretisation<Element, Motion, Scheme> const& discretisation, ForceOfRegion const& force_of_region) {
-    constexpr int dim = Element::dim;
-    auto const& mesh = discretisation.mesh();
-    Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
-    for (int e = 0; e < detail::count(mesh.elements); ++e) {
-      auto const& nodes = mesh.elements[detail::index(e)];
-      Vector<dim> const per_volume = force_of_region(mesh.element_region[detail::index(e)]);
-      auto const rows = corners<Element, dim>(nodes, mesh.nodes);
-      for (auto const& where : Element::quadrature()) {
-        ShapeValues<Element> const shape = Element::shape(where.xi);
-        double const volume = discretisation.thickness() * where.weight * measure<Element, dim>(rows, where.xi);
-        for (int a = 0; a < Element::nodes; ++a) {
-          forces.template segment<dim>(dim * nodes[detail::index(a)]) += shape(a) * volume * per_volume;
-        }
-      }
+    std::vector<Vector<Element::dim>> per_volume;
+    for (int region = 0; region < detail::count(discretisation.mesh().regions); ++region) {
+      per_volume.push_back(force_of_region(region));
     }
-    return forces;
+    return body_force(discretisation, per_volume);
   }
 
 /// As body_force, for a force per volume that varies within the elements; integrated exactly up to degree 4.

@@ -56,12 +56,12 @@ ShapeGradients<Element> quadratic_simplex_gradients(Vector<Element::dim> const& 
   auto const linear = Element::Linear::shape(xi);
   auto const slopes = Element::Linear::shape_gradients(xi);
   ShapeGradients<Element> gradients;
-  for (int a = 0; a < linear.size(); ++a) {
-    gradients.row(a) = (4.0 * linear(a) - 1.0) * slopes.row(a);
-  }
-  for (int m = 0; m < count(mid_sides); ++m) {
-    auto const [a, b] = mid_sides[index(m)];
-    gradients.row(linear.size() + m) = 4.0 * (linear(a) * slopes.row(b) + linear(b) * slopes.row(a));
+  for (int axis = 0; axis < Element::dim; ++axis) {
+    for (int a = 0; a < linear.size(); ++a) gradients(a, axis) = (4.0 * linear(a) - 1.0) * slopes(a, axis);
+    for (int m = 0; m < count(mid_sides); ++m) {
+      auto const [a, b] = mid_sides[index(m)];
+      gradients(linear.size() + m, axis) = 4.0 * (linear(a) * slopes(b, axis) + linear(b) * slopes(a, axis));
+    }
   }
   return gradients;
 }
@@ -75,7 +75,7 @@ ShapeValues<Element> serendipity(Vector<Element::dim> const& xi) {
   constexpr auto mid_sides = Element::mid_sides();
   auto const linear = Element::Linear::shape(xi);
   ShapeValues<Element> shape;
-  shape.template head<Element::Linear::nodes>() = linear;
+  for (int a = 0; a < linear.size(); ++a) shape(a) = linear(a);
   for (int m = 0; m < count(mid_sides); ++m) {
     auto const [a, b] = mid_sides[index(m)];
     double const along = xi(Element::mid_side_axes()[index(m)]);
@@ -93,15 +93,17 @@ ShapeGradients<Element> serendipity_gradients(Vector<Element::dim> const& xi) {
   auto const linear = Element::Linear::shape(xi);
   auto const slopes = Element::Linear::shape_gradients(xi);
   ShapeGradients<Element> gradients;
-  gradients.template topRows<Element::Linear::nodes>() = slopes;
-  for (int m = 0; m < count(mid_sides); ++m) {
-    auto const [a, b] = mid_sides[index(m)];
-    int const axis = Element::mid_side_axes()[index(m)];
-    Eigen::Matrix<double, 1, Element::dim> middle = (1.0 - xi(axis) * xi(axis)) * (slopes.row(a) + slopes.row(b));
-    middle(axis) -= 2.0 * xi(axis) * (linear(a) + linear(b));
-    gradients.row(linear.size() + m) = middle;
-    gradients.row(a) -= middle / 2.0;
-    gradients.row(b) -= middle / 2.0;
+  for (int axis = 0; axis < Element::dim; ++axis) {
+    for (int a = 0; a < linear.size(); ++a) gradients(a, axis) = slopes(a, axis);
+    for (int m = 0; m < count(mid_sides); ++m) {
+      auto const [a, b] = mid_sides[index(m)];
+      int const along = Element::mid_side_axes()[index(m)];
+      double middle = (1.0 - xi(along) * xi(along)) * (slopes(a, axis) + slopes(b, axis));
+      if (axis == along) middle -= 2.0 * xi(along) * (linear(a) + linear(b));
+      gradients(linear.size() + m, axis) = middle;
+      gradients(a, axis) -= middle / 2.0;
+      gradients(b, axis) -= middle / 2.0;
+    }
   }
   return gradients;
 }

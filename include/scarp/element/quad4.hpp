@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/index.hpp"
 #include "scarp/element/detail/gauss_rule.hpp"
 #include "scarp/element/line2.hpp"
 
@@ -19,15 +20,21 @@ struct Quad4 {
   static constexpr std::array<int, 4> gmsh_order{0, 1, 2, 3};
 
   static ShapeValues<Quad4> shape(Vector<2> const& xi) {
-    Signs const c = signs();
-    return (1.0 + c.col(0).array() * xi(0)) * (1.0 + c.col(1).array() * xi(1)) / 4.0;
+    ShapeValues<Quad4> shape;
+    for (int a = 0; a < nodes; ++a) {
+      auto const [c, d] = signs[detail::index(a)];
+      shape(a) = (1.0 + c * xi(0)) * (1.0 + d * xi(1)) / 4.0;
+    }
+    return shape;
   }
 
   static ShapeGradients<Quad4> shape_gradients(Vector<2> const& xi) {
-    Signs const c = signs();
     ShapeGradients<Quad4> gradients;
-    gradients.col(0) = c.col(0).array() * (1.0 + c.col(1).array() * xi(1)) / 4.0;
-    gradients.col(1) = c.col(1).array() * (1.0 + c.col(0).array() * xi(0)) / 4.0;
+    for (int a = 0; a < nodes; ++a) {
+      auto const [c, d] = signs[detail::index(a)];
+      gradients(a, 0) = c * (1.0 + d * xi(1)) / 4.0;
+      gradients(a, 1) = d * (1.0 + c * xi(0)) / 4.0;
+    }
     return gradients;
   }
 
@@ -45,13 +52,8 @@ struct Quad4 {
   static constexpr std::array<std::array<int, 2>, 4> facets() { return {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}; }
 
  private:
-  using Signs = Eigen::Matrix<double, 4, 2>;
-
-  static Signs signs() {
-    Signs c;
-    c << -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0;
-    return c;
-  }
+  /// Of the nodes' coordinates.
+  static constexpr std::array<std::array<double, 2>, 4> signs{{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
 };
 
 static_assert(ReferenceElement<Quad4> && GivesReducedQuadrature<Quad4> && HasGmshType<Quad4>);

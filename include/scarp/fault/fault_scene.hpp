@@ -63,6 +63,20 @@ struct MissingOfStructure {
 template <class Structure, class Grid>
 concept CheckedStructure = StandsOnGround<Structure, Grid> || detail::MissingOfStructure<Structure, Grid>::nothing;
 
+namespace detail {
+/// What a fault scene gives to solvers.
+template <class Scene, class Executor>
+struct ProblemOfFault {
+  using Structure = decltype(Scene::structure);
+  using Grid = typename Scene::Grid;
+  static_assert(CheckedStructure<Structure, Grid>);
+  using Regions = decltype(std::declval<Structure const&>().regions(Region{"soil", std::declval<Scene>().soil}));
+  using Attached = decltype(std::declval<Structure const&>().attached(std::declval<Grid const&>()));
+  using Type = decltype(make_problem(std::declval<Grid>(), 0.0, std::declval<Regions>(), std::declval<Constraints>(),
+                                     std::declval<LoadHistory>(), std::declval<Executor&>(), std::declval<Attached>()));
+};
+}  // namespace detail
+
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
@@ -85,15 +99,7 @@ struct FaultScene {
 
   /// The ground with what of the structure is part of the mesh.
   /// \throws InputError for parts that do not fit
-  Mesh<typename GroundType::Element> mesh() const {
-    static_assert(CheckedStructure<Structure, Grid>);
-    static_assert(std::same_as<typename GroundType::Element, typename Grid::ElementType>,
-                  "the grid is of the ground's element");
-    auto made = ground.mesh(structure.edges());
-    structure.put_on(made);
-    require_node_at_tip(made, fault.tip);
-    return made;
-  }
+  Mesh<typename GroundType::Element> mesh() const;
 
   /// Depths of all points of the soil [m], for those who prepare it.
   /// \throws InputError for parts that do not fit
@@ -110,25 +116,7 @@ struct FaultScene {
 
   /// \throws InputError for parts that do not fit
   template <class Executor>
-  auto problem(Executor& executor) const {
-    require_not_negative("unit weight", unit_weight);
-    require_not_negative("surcharge", surcharge);
-    require_positive("throw", throw_to);
-    Grid grid(mesh());
-    Constraints constraints = bedrock_constraints(grid.mesh(), fault, structure.extra_dofs(), TimeFunction::after(0.0));
-    int const soil_region = region_number(grid.mesh(), "soil");
-    Vector<dim> const down = -Vector<dim>::Unit(dim - 1);
-    Eigen::VectorXd dead =
-        body_force(grid, [&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
-    dead += traction(grid, "surface", surcharge * down);
-    dead.conservativeResizeLike(Eigen::VectorXd::Zero(grid.dof_count() + structure.extra_dofs()));
-    LoadHistory loads(std::move(dead));
-    structure.add_loads(grid, surcharge, loads);
-    auto attached = structure.attached(grid);
-    auto const regions = structure.regions(Region{"soil", soil});
-    return make_problem(std::move(grid), ground.surface_level(), regions, std::move(constraints), std::move(loads),
-                        executor, std::move(attached));
-  }
+  typename detail::ProblemOfFault<FaultScene, Executor>::Type problem(Executor& executor) const;
 
   /// First stage: the ground as prepared is brought into equilibrium.
   template <class ProblemType, class Observer>
@@ -150,5 +138,42 @@ struct FaultScene {
     return stepping.run(solver, problem, 0.0, throw_to, observer);
   }
 };
+
+// Outside of the class, so that a library can keep them.
+
+template <CheckedProvider Soil, class Structure, class Solver, CheckedGround GroundType, CheckedMotion Motion,
+          class GridType>
+Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::mesh() const {
+  static_assert(CheckedStructure<Structure, Grid>);
+  static_assert(std::same_as<typename GroundType::Element, typename Grid::ElementType>,
+                "the grid is of the ground's element");
+  auto made = ground.mesh(structure.edges());
+  structure.put_on(made);
+  require_node_at_tip(made, fault.tip);
+  return made;
+}
+
+template <CheckedProvider Soil, class Structure, class Solver, CheckedGround GroundType, CheckedMotion Motion,
+          class GridType>
+template <class Executor>
+typename detail::ProblemOfFault<FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>, Executor>::Type
+FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Executor& executor) const {
+  require_not_negative("unit weight", unit_weight);
+  require_not_negative("surcharge", surcharge);
+  require_positive("throw", throw_to);
+  Grid grid(mesh());
+  Constraints constraints = bedrock_constraints(grid.mesh(), fault, structure.extra_dofs(), TimeFunction::after(0.0));
+  int const soil_region = region_number(grid.mesh(), "soil");
+  Vector<dim> const down = -Vector<dim>::Unit(dim - 1);
+  Eigen::VectorXd dead =
+      body_force(grid, [&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
+  dead += traction(grid, "surface", surcharge * down);
+  dead.conservativeResizeLike(Eigen::VectorXd::Zero(grid.dof_count() + structure.extra_dofs()));
+  LoadHistory loads(std::move(dead));
+  structure.add_loads(grid, surcharge, loads);
+  auto attached = structure.attached(grid);
+  return make_problem(std::move(grid), ground.surface_level(), structure.regions(Region{"soil", soil}),
+                      std::move(constraints), std::move(loads), executor, std::move(attached));
+}
 
 }  // namespace scarp

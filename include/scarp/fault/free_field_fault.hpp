@@ -36,4 +36,16 @@ template <CheckedProvider Soil, class Solver = QuasiNewton<>, CheckedGround Grou
           CheckedMotion Motion = NormalFault, class Grid = UsualGridOf<GroundType>>
 using FreeFieldFault = FaultScene<Soil, BareGround, Solver, GroundType, Motion, Grid>;
 
+#ifdef SCARP_PRECOMPILED
+/// The elastic free field as a whole. DECLARE: `extern template`, or `template` in the library.
+#define SCARP_ELASTIC_FREE_FIELD(DECLARE)                                 \
+  DECLARE Mesh<Tri3> FreeFieldFault<detail::ElasticGround>::mesh() const; \
+  DECLARE detail::ElasticProblem FreeFieldFault<detail::ElasticGround>::problem(ThreadExecutor&) const;
+
+namespace detail {
+using ElasticProblem = EquilibriumProblem<UsualGrid<Tri3>, RegionMaterials<ElasticGround>, ThreadExecutor>;
+}
+SCARP_ELASTIC_FREE_FIELD(extern template)
+#endif
+
 }  // namespace scarp

@@ -36,9 +36,12 @@ class JsonObject {
     } else if constexpr (std::convertible_to<Value const&, std::string_view>) {
       return quoted(value);
     } else if constexpr (std::ranges::range<Value>) {
-      std::string list;
-      for (auto const& item : value) list += (list.empty() ? "" : ",") + json(item);
-      return '[' + list + ']';
+      std::string list = "[";
+      for (auto const& item : value) {
+        if (list.size() > 1) list += ',';
+        list += json(item);
+      }
+      return list + ']';
     } else if constexpr (std::floating_point<Value>) {
       return std::isfinite(value) ? fmt::format("{}", value) : "null";
     } else {

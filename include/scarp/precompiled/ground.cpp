@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/fault/detail/precompiled_ground.hpp"
+#include "scarp/fault/free_field_fault.hpp"
 
 namespace scarp {
 SCARP_GROUND(template, Tri3)
@@ -7,4 +7,5 @@ SCARP_GROUND(template, Tri6)
 SCARP_GROUND(template, Quad4)
 SCARP_GROUND(template, Quad8)
 SCARP_ELASTIC_GROUND(template)
+SCARP_ELASTIC_FREE_FIELD(template)
 }  // namespace scarp

@@ -25,14 +25,17 @@ class ThreadExecutor {
     if (threads < 0)
       refuse("{} threads were asked for (at least one must work): give a positive number, or 0 for all", threads);
     if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    for (int k = 1; k < threads; ++k) team_.emplace_back([this](std::stop_token const& stop) { serve(stop); });
+    for (int k = 1; k < threads; ++k) team_.emplace_back([this] { serve(); });
   }
 
   ThreadExecutor(ThreadExecutor const&) = delete;
   ThreadExecutor& operator=(ThreadExecutor const&) = delete;
 
   ~ThreadExecutor() {
-    for (auto& member : team_) member.request_stop();
+    {
+      std::lock_guard const lock(mutex_);
+      over_ = true;
+    }
     begin_.notify_all();
   }
 
@@ -70,11 +73,12 @@ class ThreadExecutor {
     }
   }
 
-  void serve(std::stop_token const& stop) {
+  void serve() {
     for (long seen = 0;;) {
       {
         std::unique_lock lock(mutex_);
-        if (!begin_.wait(lock, stop, [&] { return round_ != seen; })) return;
+        begin_.wait(lock, [&] { return over_ || round_ != seen; });
+        if (over_) return;
         seen = round_;
       }
       work();
@@ -84,13 +88,14 @@ class ThreadExecutor {
   }
 
   std::mutex mutex_;
-  std::condition_variable_any begin_;
+  std::condition_variable begin_;
   std::condition_variable end_;
   std::function<void(int)> task_;
   int count_ = 0;
   std::atomic<int> next_ = 0;
   int busy_ = 0;
   long round_ = 0;
+  bool over_ = false;
   std::exception_ptr failure_;
   std::vector<std::jthread> team_;
 };

@@ -9,6 +9,7 @@
 
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/core/tensor.hpp"
 
 namespace scarp::detail {
@@ -96,38 +97,53 @@ class MohrCoulombReturn {
     return true;
   }
 
+  /// With exactly these planes active. Outside of the class, so that a library can keep it.
   template <int Count>
-  PrincipalReturn attempt(std::array<int, Count> const& active, Vector<3> const& trial, double slack) const {
-    Eigen::Matrix<double, 3, Count> normals;
-    Eigen::Matrix<double, 3, Count> flows;
-    Eigen::Matrix<double, Count, 1> excess;
-    for (int k = 0; k < Count; ++k) {
-      auto const& chosen = plane(active[detail::index(k)]);
-      normals.col(k) = chosen.normal;
-      flows.col(k) = chosen.flow;
-      excess(k) = chosen.normal.dot(trial) - chosen.limit;
-    }
-    using Square = Eigen::Matrix<double, Count, Count>;
-    Square const coupling = normals.transpose() * stiffness_ * flows;
-    // Planes whose flows oppose one plastic strain only, such as all three of a frictionless prism, are no corner.
-    double const size = coupling.diagonal().prod();
-    if (!(std::abs(coupling.determinant()) > 1e-10 * std::abs(size))) return {};
-    Square const inverse = coupling.inverse();
-    Eigen::Matrix<double, Count, 1> const multipliers = inverse * excess;
-    if (!((multipliers.array() * stiffness_(0, 0)).minCoeff() >= -slack)) return {};
-    PrincipalReturn result;
-    result.plastic_strain = flows * multipliers;
-    result.stress = trial - stiffness_ * result.plastic_strain;
-    if (!admissible(result.stress, slack)) return {};
-    result.tangent = stiffness_ - stiffness_ * flows * inverse * normals.transpose() * stiffness_;
-    result.planes = Count;
-    result.found = true;
-    return result;
-  }
+  PrincipalReturn attempt(std::array<int, Count> const& active, Vector<3> const& trial, double slack) const;
 
   Tensor<3> stiffness_;  // between principal strains and stresses
   std::array<YieldPlane, 6> planes_;
   int count_ = 0;
 };
+
+template <int Count>
+SCARP_EXPORT PrincipalReturn MohrCoulombReturn::attempt(std::array<int, Count> const& active, Vector<3> const& trial,
+                                                        double slack) const {
+  Eigen::Matrix<double, 3, Count> normals;
+  Eigen::Matrix<double, 3, Count> flows;
+  Eigen::Matrix<double, Count, 1> excess;
+  for (int k = 0; k < Count; ++k) {
+    auto const& chosen = plane(active[detail::index(k)]);
+    normals.col(k) = chosen.normal;
+    flows.col(k) = chosen.flow;
+    excess(k) = chosen.normal.dot(trial) - chosen.limit;
+  }
+  using Square = Eigen::Matrix<double, Count, Count>;
+  Square const coupling = normals.transpose() * stiffness_ * flows;
+  // Planes whose flows oppose one plastic strain only, such as all three of a frictionless prism, are no corner.
+  double const size = coupling.diagonal().prod();
+  if (!(std::abs(coupling.determinant()) > 1e-10 * std::abs(size))) return {};
+  Square const inverse = coupling.inverse();
+  Eigen::Matrix<double, Count, 1> const multipliers = inverse * excess;
+  if (!((multipliers.array() * stiffness_(0, 0)).minCoeff() >= -slack)) return {};
+  PrincipalReturn result;
+  result.plastic_strain = flows * multipliers;
+  result.stress = trial - stiffness_ * result.plastic_strain;
+  if (!admissible(result.stress, slack)) return {};
+  result.tangent = stiffness_ - stiffness_ * flows * inverse * normals.transpose() * stiffness_;
+  result.planes = Count;
+  result.found = true;
+  return result;
+}
+
+/// DECLARE: `extern template`, or `template` in the library.
+#define SCARP_MOHR_COULOMB(DECLARE, COUNT)                                                                           \
+  DECLARE PrincipalReturn MohrCoulombReturn::attempt<COUNT>(std::array<int, COUNT> const&, Vector<3> const&, double) \
+      const;
+#ifdef SCARP_PRECOMPILED
+SCARP_MOHR_COULOMB(extern template, 1)
+SCARP_MOHR_COULOMB(extern template, 2)
+SCARP_MOHR_COULOMB(extern template, 3)
+#endif
 
 }  // namespace scarp::detail

@@ -17,6 +17,7 @@
   DECLARE Mesh<ELEMENT> FaultMesh::generate<ELEMENT>(std::vector<double> const&) const;                        \
   DECLARE void require_node_at_tip(Mesh<ELEMENT> const&, double);                                              \
   DECLARE Constraints bedrock_constraints(Mesh<ELEMENT> const&, NormalFault const&, int, TimeFunction const&); \
+  DECLARE Eigen::VectorXd body_force(UsualGrid<ELEMENT> const&, std::vector<Vector<2>> const&);                \
   DECLARE Eigen::VectorXd traction(UsualGrid<ELEMENT> const&, std::string_view, Vector<2> const&);             \
   DECLARE detail::RegionResiduals<2>::RegionResiduals(Mesh<ELEMENT> const&, Constraints const&);
 #define SCARP_ELASTIC_GROUND(DECLARE)                                                 \

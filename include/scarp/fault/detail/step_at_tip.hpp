@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -72,16 +71,10 @@ class StepAtTip {
     Part part{weight, lines[line], l, r, 0.0, r / (l + r), 1.0};
     if (is_quadratic_) {
       // Integrals over a facet of its shapes times 1, x, x^2, x from the tip's node: middle 2/3, 1/3, 1/5; node at the
-      // tip 1/6, 0, -1/60; node at the other end 1/6, 1/6, 3/20. Unknown: before, at, after.
-      Eigen::Matrix3d moments;
-      moments << 2.0 / 3.0 * l, (l + r) / 6.0, 2.0 / 3.0 * r,  //
-          -l * l / 3.0, 0.0, r * r / 3.0,                      //
-          l * l * l / 5.0, -(l * l * l + r * r * r) / 60.0, r * r * r / 5.0;
-      Eigen::Vector3d const wanted(5.0 / 6.0 * r, r * r / 3.0, (1.0 / 3.0 - 3.0 / 20.0) * r * r * r);
-      Eigen::Vector3d const values = moments.inverse() * wanted;
-      part.before = values(0);
-      part.at = values(1);
-      part.after = values(2);
+      // tip 1/6, 0, -1/60; node at the other end 1/6, 1/6, 3/20. The three unknowns follow in closed form.
+      part.before = r * r * (l - r) / (4.0 * std::pow(l + r, 3));
+      part.at -= 4.0 * part.before * l / r;
+      part.after += part.before * l * l / (r * r);
     }
     parts_.push_back(part);
   }
