@@ -13,7 +13,7 @@ int main() {
                 .strength = {{.cohesion = 1e3, .friction = 0.5}},
                 .initial = {.surcharge = 4e3, .unit_weight = 15.68e3, .k0 = 0.4}};
   scene.solver.rule.floor = 1e-4;  // of the elastic stiffness: a point that flows has none
-  scene.throw_to = 0.05;
+  scene.throw_to = 0.02;
   scarp::ThreadExecutor executor;
   scarp::NoObserver nobody;
   auto problem = scene.problem(executor);
