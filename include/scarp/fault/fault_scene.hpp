@@ -3,6 +3,7 @@
 
 #include "scarp/bvp/usual_integration.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/detail/precompiled_ground.hpp"
 #include "scarp/fault/ground.hpp"
@@ -83,7 +84,7 @@ struct ProblemOfFault {
 template <CheckedProvider Soil, class Structure, class Solver = QuasiNewton<>,
           CheckedGround GroundType = LayeredGround<Tri3>, CheckedMotion Motion = NormalFault,
           class GridType = UsualGridOf<GroundType>>
-struct FaultScene {
+struct SCARP_EXPORT FaultScene {
   using Grid = GridType;
   static constexpr int dim = Grid::dim;
 
