@@ -306,3 +306,46 @@ TEST_CASE("a strength that cannot be is refused") {
     CHECK_THROWS_AS(soil.initial_state({}), scarp::InputError);
   }
 }
+
+TEST_CASE("friction may soften to none: a cut-off holds on the way and no strength is NaN") {
+  scarp::SofteningStrength const strength{.peak = {.cohesion = 20e3, .friction = 0.35},
+                                          .residual = {.cohesion = 10e3, .friction = 0.0},
+                                          .strain_to_residual = 0.1};
+  for (double const shear : {0.0, 1e-6, 0.05, 0.0999, 0.1, 1.0}) {
+    Strength const now = strength.at(shear);
+    CAPTURE(shear);
+    CHECK(std::isfinite(now.cohesion));
+    CHECK(now.cut_off() > 0.0);  // fails for NaN
+  }
+  CHECK(strength.at(0.0).cut_off() == strength.peak.cut_off());
+  CHECK(strength.at(0.05).cut_off() <= strength.peak.cut_off());
+  CHECK(std::isinf(strength.at(0.1).cut_off()));
+  scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
+      scarp::IsotropicElasticity::from_young_poisson(10e6, 0.3), strength, {}};
+  auto state = clay.initial_state({});
+  scarp::Gradient<2> shear = scarp::Gradient<2>::Zero();
+  shear(0, 1) = shear(1, 0) = 5e-4;
+  for (int step = 0; step < 300; ++step) {
+    auto trial = state;
+    REQUIRE(clay.respond(state, shear, trial).verdict.acceptable());
+    state = trial;
+  }
+  CHECK(state.stress(5) == samples::Approx(10e3).epsilon(1e-9));
+}
+
+TEST_CASE("a residual strength that cannot be is refused as the peak is") {
+  scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> soil{
+      scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3), {}, {}};
+  scarp::SofteningStrength const sound{.peak = {.cohesion = 1e3, .friction = 0.5, .dilation = 0.1},
+                                       .residual = {.cohesion = 1e3, .friction = 0.45}};
+  soil.strength = sound;
+  CHECK_NOTHROW(soil.initial_state({}));
+  soil.strength.residual.friction = 25.0;  // degrees
+  CHECK_THROWS_AS(soil.initial_state({}), scarp::InputError);
+  soil.strength = sound;
+  soil.strength.residual.dilation = 0.5;
+  CHECK_THROWS_AS(soil.initial_state({}), scarp::InputError);
+  soil.strength = sound;
+  soil.strength.strain_to_residual = 0.0;
+  CHECK_THROWS_AS(soil.initial_state({}), scarp::InputError);
+}

@@ -77,6 +77,8 @@ TEST_CASE("every iteration and every attempt is a line of JSON beside the table"
   CHECK(text_of(folder / "convergence.jsonl") == lines);
   std::string const table = text_of(folder / "convergence.csv");
   CHECK(std::count(table.begin(), table.end(), '\n') == 4);  // header and three iterations
+  CHECK(table.find(",dem_steps,seconds,seconds_in_points\n") != std::string::npos);
+  CHECK(table.find(",64,2,1.5\n") != std::string::npos);  // in the words of the lines
 }
 
 TEST_CASE("the slowest points are those with the most work, equal ones by number") {

@@ -188,6 +188,26 @@ TEST_CASE("the prediction's largest gradient limits every step before it is trie
   for (auto const& report : witness.reports) CHECK(report.largest_gradient <= 1.001 * 2e-3);
 }
 
+TEST_CASE("a prediction that turns elements inside out is cut before it is tried") {
+  using MovingBlock = sample::Block<Softening, scarp::UpdatedLagrangian>;
+  struct FirstAttempt {
+    scarp::StepReport seen{};
+    bool ended = false;
+    void attempted(MovingBlock::Problem const&, scarp::StepReport const& report) {
+      seen = report;
+      ended = true;
+    }
+    bool wants_stop() const { return ended; }
+  } first;
+  scarp::SerialExecutor serial;
+  auto problem = MovingBlock::make({}, serial);
+  auto steps = stepping();
+  steps.largest = steps.first = 10.0;  // [m]: the block of 1 m would become narrower by four times its width
+  steps.run(scarp::QuasiNewton<>{}, problem, 0.0, 10.0, first);
+  CHECK(first.seen.verdict == Verdict{});
+  CHECK(first.seen.largest_gradient <= 1.001 * steps.largest_gradient);
+}
+
 TEST_CASE("a body that nothing holds is not called balanced") {
   scarp::SerialExecutor serial;
   auto const held = SoftBlock::make({}, serial);

@@ -40,7 +40,7 @@ struct MohrCoulomb {
   /// The stress out of the plane starts as the horizontal one in it.
   /// \throws InputError for a strength or elasticity that cannot be
   State initial_state(Site<Dim> const& site) const {
-    require_sound(strength.at(0.0));
+    require_sound(strength);
     static_cast<void>(IsotropicElasticity::from_lame(elasticity.lame_lambda, elasticity.shear_modulus));
     VoigtStress<Dim> const start = initial.at(site.depth);
     Tensor<3> stress = Tensor<3>::Zero();

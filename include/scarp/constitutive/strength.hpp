@@ -88,4 +88,12 @@ struct ConstantStrength {
 
 static_assert(StrengthLaw<ConstantStrength>);
 
+/// As far as the ends of a law tell; one that can be wrong in between has an overload of its own.
+/// \throws InputError for a strength that cannot be
+template <StrengthLaw Law>
+void require_sound(Law const& law) {
+  require_sound(law.at(0.0));
+  if constexpr (Law::changes) require_sound(law.at(std::numeric_limits<double>::infinity()));
+}
+
 }  // namespace scarp

@@ -74,9 +74,10 @@ class StateWriter {
   }
   template <class T>
   void operator()(std::string_view name, std::shared_ptr<T const> const& shared) {
+    if (!shared) return (*this)(name, detail::no_number);
     auto const [known, is_new] = numbers_.try_emplace(shared.get(), static_cast<std::uint32_t>(numbers_.size()));
-    (*this)(name, shared ? known->second : detail::no_number);
-    if (shared && is_new) T::members(*shared, *this);
+    (*this)(name, known->second);
+    if (is_new) T::members(*shared, *this);
   }
   template <class First, class Second>
   void operator()(std::string_view, std::pair<First, Second> const& both) {
@@ -180,8 +181,11 @@ class StateReader {
     (*this)(name, number);
     shared.reset();
     if (number == detail::no_number) return;
-    if (number == shared_.size()) shared_.emplace_back(typeid(T), T::restored(*this));
-    if (number >= shared_.size() || shared_[number].first != typeid(T)) {
+    if (number == shared_.size()) {
+      shared_.emplace_back(typeid(T), nullptr);  // its parts have higher numbers, as they had for the writer
+      shared_[number].second = T::restored(*this);
+    }
+    if (number >= shared_.size() || shared_[number].first != typeid(T) || !shared_[number].second) {
       refuse("'{}' is number {} of the shared parts (there is none of this kind): save it again", name, number);
     }
     shared = std::static_pointer_cast<T const>(shared_[number].second);

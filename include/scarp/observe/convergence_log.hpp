@@ -21,7 +21,7 @@ class ConvergenceLog : public NeverStops {
   ConvergenceLog(std::filesystem::path const& file, double load_unit, CsvStart start = CsvStart::anew)
       : table_(file,
                {"step", "throw_over_depth", "iteration", "residual", "accepted", "reason", "largest_gradient",
-                "dem_steps", "seconds"},
+                "dem_steps", "seconds", "seconds_in_points"},
                start),
         lines_(std::filesystem::path(file).replace_extension(".jsonl"), start == CsvStart::resumed),
         load_unit_(load_unit) {}
@@ -35,7 +35,8 @@ class ConvergenceLog : public NeverStops {
       ++iteration;
       bool const accepted = report.verdict.acceptable() && iteration == report.iterations();
       table_.add(report.step, report.load / load_unit_, iteration, record.residual, accepted ? 1 : 0,
-                 name(report.verdict.reason), report.largest_gradient, record.inner_steps, record.material_seconds);
+                 name(report.verdict.reason), report.largest_gradient, record.inner_steps, record.seconds,
+                 record.material_seconds);
       lines_.add(line_of(report, record, iteration, before));
       before = record.residual;
     }

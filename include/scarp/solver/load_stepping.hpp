@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "scarp/core/error.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -233,10 +234,13 @@ struct LoadStepping {
   template <class Session, class Problem>
   Eigen::VectorXd limited_prediction(Session& session, Problem& problem, double load, double to,
                                      double& increment) const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
     for (;;) {
       Eigen::VectorXd const displacement = session.predict(load, end_of(load, to, increment));
-      problem.plan(displacement);
-      double const ratio = problem.largest_gradient() / largest_gradient;
+      Verdict const planned = problem.plan(displacement);
+      if (planned.reason == Reason::not_finite) return displacement;
+      // Of a prediction that turns an element inside out the problem knows no gradient.
+      double const ratio = planned.acceptable() ? problem.largest_gradient() / largest_gradient : infinite;
       // Part of a prediction may come from the present imbalance, which no smaller increment takes away.
       if (!(ratio > 1.001) || increment < 2.0 * smallest) return displacement;
       increment = std::max(increment * std::max(1.0 / ratio, 0.3), smallest);
