@@ -3,6 +3,7 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/dem/packing.hpp"
+#include "scarp/shape/settled_touch.hpp"
 
 namespace scarp {
 
@@ -48,27 +49,6 @@ Point<PackingType::dim, double> row_position(PackingType const& packing, std::si
     }
   }
   return place;
-}
-
-/// Touch of a pair with the normal iterated until it stands still.
-template <class Shape, class Pose>
-Touch<Shape::dim, double> settled_touch(Pose const& first, Pose const& second, Point<Shape::dim, double> const& branch,
-                                        Point<Shape::dim, double> const& start) {
-  auto touch = Shape::touch(first, second, branch, start);
-  if constexpr (Shape::remembers_normal) {
-    constexpr int most_iterations = 30;  // quadratic convergence: a handful is usual
-    constexpr double still = 1e-28;      // squared change of a unit vector, near round-off
-    for (int k = 0; k < most_iterations; ++k) {
-      auto const before = touch.normal;
-      touch = Shape::touch(first, second, branch, before);
-      double change = 0.0;
-      for (std::size_t a = 0; a < before.size(); ++a) {
-        change += (touch.normal[a] - before[a]) * (touch.normal[a] - before[a]);
-      }
-      if (change < still) break;
-    }
-  }
-  return touch;
 }
 
 }  // namespace scarp

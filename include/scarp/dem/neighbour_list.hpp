@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -115,14 +116,14 @@ std::vector<PoseOf<typename PackingType::Shape>> row_poses(PackingType const& pa
   return poses;
 }
 
-/// All pairs whose gap is below `reach` [m], sorted by (first, second). What a law remembers does not matter: compiled once
-/// for each shape.
+/// All pairs whose gap is below `reach` [m], sorted by (first, second); nothing where a touch is not found. What a law
+/// remembers does not matter: compiled once for each shape.
 template <class Shape, class Scalar, class Normals>
-std::vector<NearPair<Shape::dim>> find_near_pairs(Population<Shape, Scalar> const& population,
-                                                  std::vector<PoseOf<Shape>> const& poses,
-                                                  GrainsAndImages<Shape::dim> const& all,
-                                                  std::vector<FormerPair<Shape::dim>> const& former,
-                                                  Normals const& remembered, double reach) {
+std::optional<std::vector<NearPair<Shape::dim>>> find_near_pairs(Population<Shape, Scalar> const& population,
+                                                                 std::vector<PoseOf<Shape>> const& poses,
+                                                                 GrainsAndImages<Shape::dim> const& all,
+                                                                 std::vector<FormerPair<Shape::dim>> const& former,
+                                                                 Normals const& remembered, double reach) {
   constexpr int dim = Shape::dim;
   constexpr int parts = part_count<Shape>();
   std::size_t const grains = population.count();
@@ -159,6 +160,7 @@ std::vector<NearPair<Shape::dim>> find_near_pairs(Population<Shape, Scalar> cons
           auto const start = start_normal<Shape>(remembered, known, branch, std::sqrt(squared));
           auto const touch = settled_touch<Shape>(poses[row], poses[partner_row], branch, start);
           if (touch.overlap < -reach) continue;
+          if (touch.unsettled != 0.0) return std::nullopt;
           found.push_back({name.first, static_cast<std::int32_t>(point) * parts + other, touch.normal, known});
         }
       }
@@ -256,7 +258,8 @@ bool cell_is_wide_enough(PackingType const& packing, double reach) {
 /// over normals and memories of pairs that stay. The list is good until gaps have shrunk by the skin; `law_reach` is the gap
 /// across which the contact law acts. Reduces the cell and wraps positions on the way. Deterministic.
 /// \return failed / cell_collapsed for a cell too thin for its grains, failed / not_finite for positions that are no
-/// numbers, failed / lost_grain for one that is more than a million cells away
+/// numbers, failed / lost_grain for one that is more than a million cells away, failed / unsettled_touch where the shape
+/// does not find how two grains touch
 template <class PackingType>
 Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0) {
   constexpr int dim = PackingType::dim;
@@ -278,8 +281,10 @@ Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0)
                                                 packing.row_count(), renaming);
   auto const all =
       detail::grains_and_images<dim>(packing.cell, places, 2.0 * packing.population->largest_radius() + reach);
-  auto const found = detail::interleaved(
-      detail::find_near_pairs(*packing.population, detail::row_poses(packing), all, former, pairs.normal, reach));
+  auto const sorted =
+      detail::find_near_pairs(*packing.population, detail::row_poses(packing), all, former, pairs.normal, reach);
+  if (!sorted) return {Status::failed, Reason::unsettled_touch};
+  auto const found = detail::interleaved(*sorted);
   decltype(packing.pairs) next;
   next.skin = skin;
   detail::write_members<part_count<typename PackingType::Shape>()>(next, found, all, packing.row_count());

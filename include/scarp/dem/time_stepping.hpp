@@ -133,6 +133,7 @@ class TimeStepper {
     if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
     double const time_step = time_step_share * packing.pairs.critical_step;
     ContactSums<dim> const sums = pair_forces<what>(packing, law, scratch_);
+    if (!sums.settled) return {Status::failed, Reason::unsettled_touch};
     if constexpr (what != Observe::nothing) *observed = observe(packing, sums);
     Tensor<dim> const cell_step = exponential(strain_step);
     auto const energies = move_grains<what>(packing, cell_step, time_step, strain_step);
@@ -148,7 +149,9 @@ class TimeStepper {
 
   Verdict observe_here(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
     if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
-    observed = observe(packing, pair_forces<Observe::balance>(packing, law, scratch_));
+    auto const sums = pair_forces<Observe::balance>(packing, law, scratch_);
+    if (!sums.settled) return {Status::failed, Reason::unsettled_touch};
+    observed = observe(packing, sums);
     return {};
   }
 

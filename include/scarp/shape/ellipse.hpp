@@ -48,6 +48,12 @@ struct Ellipse {
     return sqrt(sqrt(pose[0] * pose[2] - pose[1] * pose[1]));
   }
 
+  /// Least radius of curvature b^2/a: a disc of that radius rolls along the inside of the boundary.
+  static double inner_radius(std::array<double, 3> const& pose) {
+    double const larger = (pose[0] + pose[2]) / 2.0 + std::hypot((pose[0] - pose[2]) / 2.0, pose[1]);
+    return (pose[0] * pose[2] - pose[1] * pose[1]) / (larger * std::sqrt(larger));
+  }
+
   template <class T>
   static Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& normal) {
     using std::sqrt;

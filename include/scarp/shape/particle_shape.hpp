@@ -18,13 +18,16 @@ inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 
 /// How two grains meet. `overlap` [m] is the least translation that parts them, positive when they touch; `normal` is the
 /// unit vector of that translation, from the first grain to the second; the arms [m] reach from each centre to the
-/// contact point, the middle between the two support points.
+/// contact point, the middle between the two support points. `unsettled` tells by what angle
+/// the search for the normal turned it last [rad], infinite where it found none: a touch that is far from its end is
+/// searched anew.
 template <int Dim, class T>
 struct Touch {
   T overlap;
   Point<Dim, T> normal;
   Point<Dim, T> arm_first;
   Point<Dim, T> arm_second;
+  T unsettled{};
 };
 
 /// Parameters of one grain [m], as a scalar each or as packs of as many grains as a register holds.

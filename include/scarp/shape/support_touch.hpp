@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "scarp/core/constant.hpp"
 #include "scarp/core/select.hpp"
@@ -21,11 +22,11 @@ struct Support {
 /// One Newton step for the normal n that minimises \f$ f(\phi) = h_A(n) + h_B(n) - d \cdot n \f$, from a given start.
 /// \f$ f'' = \rho_A + \rho_B - f \f$. Overlap and arms are carried to the new normal by their own expansions, so that one
 /// evaluation serves both: error in the normal is second order in the correction, in the overlap third order, and both
-/// vanish at rest. Repeat with the returned normal until it stands still for a new pair.
+/// vanish at rest. Repeat with the returned normal until it stands still for a new pair; `unsettled` is the angle of the step.
 /// branch d [m] from the first centre to the second; `normal` a unit vector
 template <class Shape, class Pose, class T>
 Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> const& branch, Point<2, T> const& normal) {
-  using std::sqrt;
+  using std::abs;
   Point<2, T> const tangent{-normal[1], normal[0]};
   auto const [a, b] = Shape::supports(first, second, normal);
   T const along = branch[0] * normal[0] + branch[1] * normal[1];
@@ -49,7 +50,9 @@ Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> con
   T const shift = (a.slope - b.slope + turn * (a.curvature_radius - b.curvature_radius)) * half;
   Point<2, T> const middle{half * branch[0] + level * normal[0] + shift * tangent[0],
                            half * branch[1] + level * normal[1] + shift * tangent[1]};
-  return {overlap, turned, middle, {middle[0] - branch[0], middle[1] - branch[1]}};
+  // Deeper than half the radii of curvature the step may lead away from the least overlap.
+  T const unsettled = lanes::select(curvature > depth, abs(turn), constant<T>(std::numeric_limits<double>::infinity()));
+  return {overlap, turned, middle, {middle[0] - branch[0], middle[1] - branch[1]}, unsettled};
 }
 
 }  // namespace scarp

@@ -30,7 +30,13 @@ struct PairBlock {
   static constexpr std::size_t force = inverse_mass + 1;
   static constexpr std::size_t torque_first = force + axes;
   static constexpr std::size_t torque_second = torque_first + turns;
-  static constexpr std::size_t count = torque_second + turns;
+  // Where the grains touch; only of shapes that search for the normal.
+  static constexpr std::size_t touch_size = Shape::remembers_normal ? 2 + 2 * axes : 0;
+  static constexpr std::size_t overlap = torque_second + turns;
+  static constexpr std::size_t normal = overlap + 1;
+  static constexpr std::size_t arm_first = normal + axes;
+  static constexpr std::size_t unsettled = arm_first + axes;
+  static constexpr std::size_t count = overlap + touch_size;
 
   std::array<std::int32_t, size> first;
   std::array<std::int32_t, size> second;

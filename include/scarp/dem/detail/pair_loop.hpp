@@ -3,6 +3,7 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/dem/detail/pair_block.hpp"
+#include "scarp/shape/settled_touch.hpp"
 
 namespace scarp {
 
@@ -23,6 +24,7 @@ class PairResponse {
     // Dashpots look at the last move however often they are asked, springs only once.
     bool const answered = packing.last_move.answered;
     LastMove<dim> const move = answered && !Law::needs.motion ? LastMove<dim>{} : packing.last_move;
+    settled_angle_ = packing.population->settled_angle();
     unanswered_ = constant<Lanes>(answered ? 0.0 : 1.0);
     step_ = constant<Lanes>(move.duration);
     affine_turn_ = affine_turn<dim, Lanes>(move.gradient);
@@ -31,16 +33,31 @@ class PairResponse {
     }
   }
 
+  /// Where the first `used` pairs of the block touch, which are the pairs `start` and following of the list; searched from
+  /// their last normals. A pass of its own, so that the one for the law has registers enough.
+  void search(Block& block, std::size_t used, std::size_t start) {
+    Lanes unsettled{};
+    for (std::size_t at = 0; at < used; at += Lanes::size()) {
+      Point<dim, Lanes> last;
+      load_rows(pairs_.normal, start + at, last);
+      auto const touch = Shape::touch(pose(block, Block::pose_first, at), pose(block, Block::pose_second, at),
+                                      block.template read<axes>(Block::branch, at), last);
+      store_rows(touch.normal, start + at, pairs_.normal);
+      block.write(Block::overlap, at, touch.overlap);
+      block.write(Block::normal, at, touch.normal);
+      block.write(Block::arm_first, at, touch.arm_first);
+      block.write(Block::unsettled, at, touch.unsettled);
+      unsettled = max(unsettled, touch.unsettled);
+    }
+    if (lanes::any_of(unsettled > constant<Lanes>(settled_angle_))) [[unlikely]]
+      settle(block, used, start);
+  }
+
   /// The pairs `at` and following of the block, which are the pairs `start` and following of the list.
   void answer(Block& block, std::size_t at, std::size_t start) {
     auto const branch = block.template read<axes>(Block::branch, at);
-    auto const pose_first = block.template read<Block::pose_size>(Block::pose_first, at);
-    auto const pose_second = block.template read<Block::pose_size>(Block::pose_second, at);
-    Point<dim, Lanes> start_normal{};
-    if constexpr (Shape::remembers_normal) load_rows(pairs_.normal, start, start_normal);
-    auto const touch = Shape::touch(pose_first, pose_second, branch, start_normal);
+    auto const touch = touch_of(block, at, branch);
     auto const& n = touch.normal;
-    if constexpr (Shape::remembers_normal) store_rows(n, start, pairs_.normal);
 
     Approach<dim, Lanes> approach{.overlap = touch.overlap, .slip = {}};
     ContactMemory<dim, Lanes> memory;
@@ -76,8 +93,8 @@ class PairResponse {
       if constexpr (dim == 3) carry_to_frame(memory.moment, twist, n);
     }
     if constexpr (Law::needs.radius || what != Observe::nothing) {
-      Lanes const radius_first = Shape::contact_radius(pose_first);
-      Lanes const radius_second = Shape::contact_radius(pose_second);
+      Lanes const radius_first = Shape::contact_radius(pose(block, Block::pose_first, at));
+      Lanes const radius_second = Shape::contact_radius(pose(block, Block::pose_second, at));
       approach.reduced_radius = radius_first * radius_second / (radius_first + radius_second);
     }
     if constexpr (Law::needs.scalars > 0) load_rows(pairs_.scalars, start, memory.scalars);
@@ -116,9 +133,58 @@ class PairResponse {
     }
   }
 
-  ContactSums<dim> total() const { return sums_.total(); }
+  ContactSums<dim> total() const {
+    auto sums = sums_.total();
+    sums.settled = settled_;
+    return sums;
+  }
 
  private:
+  PoseOf<Shape, Lanes> pose(Block const& block, std::size_t field, std::size_t at) const {
+    return block.template read<Block::pose_size>(field, at);
+  }
+
+  Touch<dim, Lanes> touch_of(Block const& block, std::size_t at, Point<dim, Lanes> const& branch) const {
+    if constexpr (Shape::remembers_normal) {
+      Touch<dim, Lanes> touch{.overlap = block.template read<1>(Block::overlap, at)[0],
+                              .normal = block.template read<axes>(Block::normal, at),
+                              .arm_first = block.template read<axes>(Block::arm_first, at),
+                              .arm_second = {}};
+      for (std::size_t a = 0; a < axes; ++a) touch.arm_second[a] = touch.arm_first[a] - branch[a];
+      return touch;
+    } else {
+      return Shape::touch(pose(block, Block::pose_first, at), pose(block, Block::pose_second, at), branch, {});
+    }
+  }
+
+  /// Searches the touch of those pairs anew for which one step from the last normal is not enough. Rare, hence out of the
+  /// loop.
+  [[gnu::noinline, gnu::cold]] void settle(Block& block, std::size_t used, std::size_t start) {
+    auto const read = [&]<std::size_t Count>(std::size_t field, std::size_t pair, std::array<double, Count>& values) {
+      for (std::size_t k = 0; k < Count; ++k) values[k] = static_cast<double>(block.fields[field + k][pair]);
+    };
+    for (std::size_t pair = 0; pair < used; ++pair) {
+      if (!(static_cast<double>(block.fields[Block::unsettled][pair]) > settled_angle_)) continue;
+      PoseOf<Shape> first;
+      PoseOf<Shape> second;
+      Point<dim, double> branch;
+      Point<dim, double> normal;
+      read(Block::pose_first, pair, first);
+      read(Block::pose_second, pair, second);
+      read(Block::branch, pair, branch);
+      read(Block::normal, pair, normal);
+      auto const touch = settled_touch<Shape>(first, second, branch, normal);
+      if (!std::isfinite(touch.overlap)) continue;  // of grains that are lost: seen where they move
+      settled_ = settled_ && touch.unsettled == 0.0;
+      block.fields[Block::overlap][pair] = static_cast<Scalar>(touch.overlap);
+      for (std::size_t a = 0; a < axes; ++a) {
+        block.fields[Block::normal + a][pair] = static_cast<Scalar>(touch.normal[a]);
+        block.fields[Block::arm_first + a][pair] = static_cast<Scalar>(touch.arm_first[a]);
+        pairs_.normal(start + pair, static_cast<int>(a)) = static_cast<Scalar>(touch.normal[a]);
+      }
+    }
+  }
+
   /// Rotation during the last move; grains turn with the cell, their spin is a fluctuation about the affine one.
   Turning<dim, Lanes> turn(Block const& block, std::size_t field, std::size_t at) const {
     auto const spin = block.template read<Block::turns>(field, at);
@@ -138,6 +204,8 @@ class PairResponse {
   std::array<Lanes, axes * axes> affine_;
   Turning<dim, Lanes> affine_turn_;
   LaneSums<dim, Lanes> sums_;
+  double settled_angle_;
+  bool settled_ = true;
 };
 
 }  // namespace detail
@@ -172,6 +240,7 @@ template <Observe what, class PackingType, class Law>
     block.name_pairs(pairs.first.data() + start, pairs.second.data() + start, present, nobody);
     std::size_t const used = (present + width - 1) / width * width;
     for (std::size_t at = 0; at < used; at += width) block.gather(rows, at);
+    if constexpr (Shape::remembers_normal) response.search(block, used, start);
     for (std::size_t at = 0; at < used; at += width) response.answer(block, at, start + at);
     for (std::size_t at = 0; at < used; at += width) block.scatter(forces, at);
   }

@@ -81,6 +81,8 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
   constexpr double small_step = 1e-4;   // radians; the expansions' error in the normal is of second order in it
   constexpr double resolution = std::numeric_limits<typename ScalarOf<T>::type>::epsilon();
   constexpr double small_gain = std::max(1e-10, 2.0 * resolution);  // of overlap, relative to the grains
+  constexpr double farthest_turn = 0.05;                            // tangent of half the angle from the start
+  constexpr double deep = 0.02;                                     // of the grains' size
   T const one = constant<T>(1);
   T const half = constant<T>(0.5);
 
@@ -136,7 +138,10 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
       T const level = half * (a.value - b.value);
       Point<2, T> const middle{half * branch[0] + level * n[0] + shift * t[0],
                                half * branch[1] + level * n[1] + shift * t[1]};
-      return {overlap, turned(n, half * step), middle, {middle[0] - branch[0], middle[1] - branch[1]}};
+      // Far from the start, or deep inside, another corner may be the nearer one.
+      auto const doubtful = rough || abs(at) > constant<T>(farthest_turn) || overlap > constant<T>(deep) * size;
+      T const unsettled = lanes::select(doubtful, constant<T>(std::numeric_limits<double>::infinity()), constant<T>(0));
+      return {overlap, turned(n, half * step), middle, {middle[0] - branch[0], middle[1] - branch[1]}, unsettled};
     }
     high = lanes::select(slope > constant<T>(0), at, high);
     low = lanes::select(!(slope > constant<T>(0)), at, low);

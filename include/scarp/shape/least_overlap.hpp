@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "scarp/shape/support_touch.hpp"
+
+namespace scarp {
+
+/// A convex, centrally symmetric plane shape that tells its support function: for one grain, or for both of a pair.
+template <class Shape>
+concept TellsSupport = Shape::dim == 2 && (
+                                              requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
+                                                {
+                                                  Shape::support(pose, normal)
+                                                  } -> std::convertible_to<Support<double>>;
+                                              } ||
+                                              requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
+                                                {
+                                                  Shape::supports(pose, pose, normal)[0]
+                                                  } -> std::convertible_to<Support<double>>;
+                                              });
+
+namespace detail {
+
+/// \f$ f(n) = h_A(n) + h_B(n) - d \cdot n \f$ in one direction, and what it says of all others: with the support point
+/// q = p_A + p_B - d there, f is nowhere less than q . n.
+struct OverlapProbe {
+  Point<2, double> normal;
+  Support<double> first;
+  Support<double> second;
+  double value;
+  double slope;
+  Point<2, double> corner;  ///< q
+
+  double size() const { return first.value + second.value; }
+  bool is_finite() const { return std::isfinite(value + slope); }
+};
+
+inline double across(Point<2, double> const& a, Point<2, double> const& b) { return a[0] * b[1] - a[1] * b[0]; }
+inline double along(Point<2, double> const& a, Point<2, double> const& b) { return a[0] * b[0] + a[1] * b[1]; }
+inline Point<2, double> unit(Point<2, double> const& a) {
+  double const length = std::hypot(a[0], a[1]);
+  return {a[0] / length, a[1] / length};
+}
+
+/// The part of the circle of directions between two probes, counterclockwise.
+struct DirectionArc {
+  std::size_t from;
+  std::size_t to;
+  double bound;            ///< f is nowhere less in between
+  Point<2, double> split;  ///< where the bound is reached
+};
+
+template <TellsSupport Shape>
+class LeastOverlap {
+ public:
+  LeastOverlap(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch)
+      : first_(first), second_(second), branch_(branch) {}
+
+  /// \return whether no other direction can be better by more than 1e-10 of the grains' size
+  bool search() {
+    probes_.clear();
+    arcs_.clear();
+    bool const apart = along(branch_, branch_) > 0.0;
+    Point<2, double> normal = apart ? unit(branch_) : Point<2, double>{1.0, 0.0};
+    constexpr double half = std::numbers::sqrt2 / 2.0;
+    for (std::size_t k = 0; k < 8; ++k) {
+      probes_.push_back(probe(normal));
+      if (!probes_.back().is_finite()) return false;
+      if (probes_[k].value < probes_[best_].value) best_ = k;
+      normal = {half * (normal[0] - normal[1]), half * (normal[0] + normal[1])};
+    }
+    for (std::size_t k = 0; k < 8; ++k) add_arc(k, (k + 1) % 8);
+    constexpr std::size_t most_probes = 500;
+    while (probes_.size() < most_probes) {
+      auto const lowest =
+          std::min_element(arcs_.begin(), arcs_.end(), [](auto const& a, auto const& b) { return a.bound < b.bound; });
+      if (!(lowest->bound < probes_[best_].value - 1e-10 * probes_[best_].size())) return true;
+      DirectionArc const arc = *lowest;
+      arcs_.erase(lowest);
+      probes_.push_back(probe(arc.split));
+      std::size_t const middle = probes_.size() - 1;
+      if (!probes_[middle].is_finite()) return false;
+      if (probes_[middle].value < probes_[best_].value) best_ = middle;
+      add_arc(arc.from, middle);
+      add_arc(middle, arc.to);
+    }
+    return false;
+  }
+
+  /// The best direction, brought to where f' vanishes: Newton's steps within a bracket, halved where they leave it.
+  Touch<2, double> touch() const {
+    OverlapProbe const& start = probes_[best_];
+    OverlapProbe at = start;
+    double low = -widest(start, false);
+    double high = widest(start, true);
+    double turn = 0.0;
+    for (int k = 0; k < 80; ++k) {
+      (at.slope > 0.0 ? high : low) = turn;
+      double const curvature = at.first.curvature_radius + at.second.curvature_radius - at.value;
+      double next = turn - at.slope / curvature;
+      if (!(curvature > 0.0 && next > low && next < high)) next = (low + high) / 2.0;
+      double const step = next - turn;
+      turn = next;
+      at = probe(turned(start.normal, turn));
+      if (std::abs(step) < 1e-15 || at.slope == 0.0) break;
+    }
+    return touch_at(at.value <= start.value ? at : start);
+  }
+
+ private:
+  OverlapProbe probe(Point<2, double> const& n) const {
+    OverlapProbe made{.normal = n, .first = {}, .second = {}, .value = 0.0, .slope = 0.0, .corner = {}};
+    if constexpr (requires { Shape::supports(first_, second_, n); }) {
+      auto const both = Shape::supports(first_, second_, n);
+      made.first = both[0];
+      made.second = both[1];
+    } else {
+      made.first = Shape::support(first_, n);
+      made.second = Shape::support(second_, n);
+    }
+    Point<2, double> const t{-n[1], n[0]};
+    made.value = made.size() - along(branch_, n);
+    made.slope = made.first.slope + made.second.slope - along(branch_, t);
+    made.corner = {made.value * n[0] + made.slope * t[0], made.value * n[1] + made.slope * t[1]};
+    return made;
+  }
+
+  /// Between two probes f is at least the larger of two sinusoids, of which each is the larger at its own end.
+  void add_arc(std::size_t from, std::size_t to) {
+    auto const& a = probes_[from];
+    auto const& b = probes_[to];
+    auto const inside = [](Point<2, double> const& left, Point<2, double> const& n, Point<2, double> const& right) {
+      return across(left, n) > 0.0 && across(n, right) > 0.0;
+    };
+    // Along the edge's normal both are equal.
+    Point<2, double> const edge{b.corner[0] - a.corner[0], b.corner[1] - a.corner[1]};
+    Point<2, double> crossing{edge[1], -edge[0]};
+    double const length = std::hypot(edge[0], edge[1]);
+    bool const is_corner = !(length > 1e-15 * a.size());
+    if (!is_corner) crossing = {crossing[0] / length, crossing[1] / length};
+    Point<2, double> const middle = unit({a.normal[0] + b.normal[0], a.normal[1] + b.normal[1]});
+    if (is_corner || !inside(a.normal, crossing, b.normal)) crossing = middle;
+    DirectionArc arc{from, to, std::max(along(crossing, a.corner), along(crossing, b.corner)), crossing};
+    for (auto const* end : {&a, &b}) {
+      double const distance = std::hypot(end->corner[0], end->corner[1]);
+      if (!(distance > 0.0)) continue;
+      Point<2, double> const away{-end->corner[0] / distance, -end->corner[1] / distance};
+      bool const leads = end == &a ? inside(a.normal, away, crossing) : inside(crossing, away, b.normal);
+      if (leads || (is_corner && inside(a.normal, away, b.normal))) {
+        arc.bound = -distance;
+        arc.split = away;
+      }
+    }
+    if (!(across(a.normal, b.normal) > 1e-14)) arc.bound = std::min(a.value, b.value);  // as fine as directions are
+    arcs_.push_back(arc);
+  }
+
+  /// Angle to the nearest probe on one side of the best one.
+  double widest(OverlapProbe const& start, bool to_the_left) const {
+    double angle = std::numbers::pi / 4.0;
+    for (auto const& arc : arcs_) {
+      if ((to_the_left ? arc.from : arc.to) != best_) continue;
+      auto const& other = probes_[to_the_left ? arc.to : arc.from].normal;
+      angle = std::atan2(std::abs(across(start.normal, other)), along(start.normal, other));
+    }
+    return angle;
+  }
+
+  static Point<2, double> turned(Point<2, double> const& n, double angle) {
+    double const c = std::cos(angle);
+    double const s = std::sin(angle);
+    return {c * n[0] - s * n[1], s * n[0] + c * n[1]};
+  }
+
+  Touch<2, double> touch_at(OverlapProbe const& at) const {
+    auto const& n = at.normal;
+    Point<2, double> const t{-n[1], n[0]};
+    double const radii = at.first.curvature_radius + at.second.curvature_radius;
+    // On a flat side the support point is any of the side: where f' does not vanish it lies between its ends.
+    double const turn = radii - at.value > 0.0 ? -at.slope / (radii - at.value) : 0.0;
+    double const level = (at.first.value - at.second.value) / 2.0;
+    double const shift =
+        (at.first.slope - at.second.slope + turn * (at.first.curvature_radius - at.second.curvature_radius)) / 2.0;
+    Point<2, double> const middle{branch_[0] / 2.0 + level * n[0] + shift * t[0],
+                                  branch_[1] / 2.0 + level * n[1] + shift * t[1]};
+    return {at.value, n, middle, {middle[0] - branch_[0], middle[1] - branch_[1]}};
+  }
+
+  PoseOf<Shape> first_;
+  PoseOf<Shape> second_;
+  Point<2, double> branch_;
+  std::vector<OverlapProbe> probes_;
+  std::vector<DirectionArc> arcs_;
+  std::size_t best_ = 0;
+};
+
+}  // namespace detail
+
+/// The touch of least overlap among all directions, whatever the shapes' curvature: convex polygons within and around the
+/// sum of the two shapes are refined where they leave a better direction possible (the expanding polytope of van den
+/// Bergen, 2001, for support functions), then Newton's method within a bracket. Slow; `unsettled` where the least is not
+/// certain to 1e-10 of the grains' size (grains about one centre) or not finite.
+template <TellsSupport Shape>
+Touch<2, double> least_overlap(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
+                               Point<2, double> const& branch) {
+  detail::LeastOverlap<Shape> search(first, second, branch);
+  bool const certain = search.search();
+  auto touch = search.touch();
+  touch.unsettled = certain && std::isfinite(touch.overlap) ? 0.0 : std::numeric_limits<double>::infinity();
+  return touch;
+}
+
+}  // namespace scarp

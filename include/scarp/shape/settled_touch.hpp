@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <limits>
+
+#include "scarp/shape/least_overlap.hpp"
+
+namespace scarp {
+
+/// inner_radius(pose): of a disc [m] that rolls along the inside of the boundary everywhere (Blaschke).
+template <class Shape>
+concept TellsInnerRadius = requires(PoseOf<Shape> const& pose) {
+  { Shape::inner_radius(pose) } -> std::same_as<double>;
+};
+
+namespace detail {
+
+/// Whether a normal at which the overlap is stationary is that of the least overlap. A gap is: a line parts the grains
+/// there. An overlap less deep than a disc that rolls inside the sum of the shapes is too, since the disc touches the
+/// boundary in no nearer point.
+template <class Shape>
+bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second, double overlap) {
+  if (overlap <= 0.0) return true;
+  if constexpr (TellsInnerRadius<Shape>) {
+    return overlap < Shape::inner_radius(first) + Shape::inner_radius(second);
+  } else {
+    return !TellsSupport<Shape>;
+  }
+}
+
+}  // namespace detail
+
+/// Touch of a pair with the normal iterated until it stands still. Where it does not, or where another direction might have
+/// less overlap, shapes that tell their support function take the slow certain way, `least_overlap`; of others a touch that
+/// does not stand still is `unsettled`.
+template <class Shape>
+Touch<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
+                                        Point<Shape::dim, double> const& branch,
+                                        Point<Shape::dim, double> const& start) {
+  auto touch = Shape::touch(first, second, branch, start);
+  if constexpr (Shape::remembers_normal) {
+    constexpr int most_iterations = 30;  // quadratic convergence: a handful is usual
+    constexpr double still = 1e-28;      // squared change of a unit vector, near round-off
+    bool stands = false;
+    for (int k = 0; k < most_iterations && !stands; ++k) {
+      auto const before = touch.normal;
+      touch = Shape::touch(first, second, branch, before);
+      double change = 0.0;
+      for (std::size_t a = 0; a < before.size(); ++a) {
+        change += (touch.normal[a] - before[a]) * (touch.normal[a] - before[a]);
+      }
+      stands = change < still;
+    }
+    touch.unsettled = stands ? 0.0 : std::numeric_limits<double>::infinity();
+    if constexpr (TellsSupport<Shape>) {
+      if (!stands || !detail::is_certainly_least<Shape>(first, second, touch.overlap))
+        return least_overlap<Shape>(first, second, branch);
+    }
+  }
+  return touch;
+}
+
+}  // namespace scarp
