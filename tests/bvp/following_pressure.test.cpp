@@ -3,8 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/element/line3.hpp"
+#include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/scene/scene.hpp"
 
 namespace {
 
@@ -110,4 +113,19 @@ TEST_CASE("A pressure that is not finite and a thickness of zero are refused") {
   using Lateral = scarp::FollowingPressure<>;
   CHECK_THROWS_AS(Lateral({}, std::nan(""), 1.0), scarp::InputError);
   CHECK_THROWS_AS(Lateral({}, 1.0, 0.0), scarp::InputError);
+}
+
+TEST_CASE("A pressure on a mesh of another thickness is refused") {
+  scarp::SerialExecutor serial;
+  auto const made = [&](double of_mesh, double of_pressure) {
+    scarp::Discretisation<scarp::Tri3> grid(scarp::RectangleMesh{.columns = 1, .rows = 1}.generate(), of_mesh);
+    scarp::Constraints constraints(grid.mesh());
+    auto const region = grid.mesh().regions.front();
+    return scarp::make_problem(std::move(grid), 1.0,
+                               boost::hana::make_tuple(scarp::Region{region, scarp::LinearElastic<2>::from_young_poisson(1e6, 0.3)}),
+                               std::move(constraints), scarp::LoadHistory(), serial,
+                               scarp::FollowingPressure<>({{0, 1}}, 1e3, of_pressure));
+  };
+  CHECK_THROWS_AS(made(0.2, 1.0), scarp::InputError);
+  CHECK_NOTHROW(made(0.2, 0.2));
 }

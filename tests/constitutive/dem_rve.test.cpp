@@ -112,6 +112,12 @@ TEST_CASE("the plan follows strain and rate within its bounds") {
   CHECK(std::abs(provider.plan(committed, gradient) - 100) <= 1);  // analytic: 1e-3 / 1e-5 steps, rounded up
   gradient << 0.0, -0.5, 0.5, 0.0;
   CHECK(provider.plan(committed, gradient) == provider.least_steps);  // a spin strains nothing
+  // The same strain in other axes: the work does not depend on how the mesh lies.
+  gradient << 1e-3, 0.0, 0.0, -1e-3;
+  for (double const angle : {0.3, 0.7853981633974483, 1.2}) {
+    Tensor<2> const turn = scarp::rotation(angle);
+    CHECK(std::abs(provider.plan(committed, turn * gradient * turn.transpose()) - 100) <= 1);
+  }
   provider.inertial_number = 1e-5;
   gradient << 1e-4, 0.0, 0.0, 0.0;
   // Analytic: I = rate d sqrt(rho / p) with rate = strain / (n dt).

@@ -23,7 +23,7 @@ using Ellipses = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 using SmoothDiscs = scarp::Packing<scarp::Disc, scarp::Frictionless>;
 
 inline constexpr double density = 2650.0;  // [kg/m3], the study's grains
-inline constexpr double thickness = 0.2;   // [m]
+inline constexpr double thickness = 0.2;   // [m], of grains in the plane
 inline constexpr double pressure = 2e5;    // [Pa]
 
 inline scarp::LinearFrictional study_law() {

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "approx.hpp"
+#include "scarp/dem/population.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/shape/disc.hpp"
@@ -109,4 +110,9 @@ TEST_CASE("a pack of sphere pairs gives what each pair gives alone") {
       CHECK(std::abs(touch.arm_first[a][lane] - alone.arm_first[a]) < 1e-15);
     }
   }
+}
+
+TEST_CASE("grains in space have no thickness out of a plane") {
+  CHECK_THROWS_AS(scarp::Population<scarp::Sphere>({{1e-3}}, 2650.0, 0.2), scarp::InputError);
+  CHECK_NOTHROW(scarp::Population<scarp::Sphere>({{1e-3}}, 2650.0, 1.0));
 }

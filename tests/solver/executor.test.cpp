@@ -90,3 +90,21 @@ TEST_CASE("a negative number of threads is refused and zero takes what the machi
   scarp::ThreadExecutor const all(0);
   CHECK(all.threads() == std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
 }
+
+TEST_CASE("a task may ask the team for tasks of its own, and two threads may ask it at the same time") {
+  scarp::ThreadExecutor executor(3);
+  std::vector<std::atomic<int>> times(20 * 30);
+  executor.for_each(20, [&](int i) {
+    executor.for_each(30, [&](int k) { ++times[static_cast<std::size_t>(30 * i + k)]; });
+  });
+  for (auto const& count : times) CHECK(count == 1);
+
+  std::atomic<int> all = 0;
+  auto const ask = [&] {
+    for (int round = 0; round < 50; ++round) executor.for_each(40, [&](int) { ++all; });
+  };
+  std::thread other(ask);
+  ask();
+  other.join();
+  CHECK(all == 2 * 50 * 40);
+}

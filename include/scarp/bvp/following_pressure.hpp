@@ -26,7 +26,8 @@ class FollowingPressure {
 
   /// pressure [Pa], positive pushes inwards; thickness [m]
   /// \throws InputError for a pressure that is not finite or a thickness that is not positive
-  FollowingPressure(std::vector<Facet> facets, double pressure, double thickness = 1.0) : facets_(std::move(facets)) {
+  FollowingPressure(std::vector<Facet> facets, double pressure, double thickness = 1.0)
+      : facets_(std::move(facets)), thickness_(thickness) {
     require_finite("pressure", pressure);
     require_positive("thickness", thickness);
     for (auto const& where : FacetType::quadrature()) {
@@ -36,6 +37,7 @@ class FollowingPressure {
   }
 
   static int extra_dofs() { return 0; }
+  double thickness() const { return thickness_; }  ///< [m]
 
   Verdict add_forces(std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment,
                      Eigen::VectorXd& forces) const {
@@ -69,6 +71,7 @@ class FollowingPressure {
   }
 
   std::vector<Facet> facets_;
+  double thickness_;
   Eigen::Matrix<double, FacetType::nodes, FacetType::nodes> coupling_ =
       Eigen::Matrix<double, FacetType::nodes, FacetType::nodes>::Zero();  ///< \f$ p\,t\,G \f$ [N/m]
 };

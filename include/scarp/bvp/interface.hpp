@@ -83,7 +83,7 @@ class Interface {
     committed_.resize(body_.point_count());
     for (std::size_t k = 0; k < committed_.size(); ++k) {
       committed_[k].foot = ground_.nearest(body_.place(k, nodes), nodes);
-      if constexpr (requires(Memory & memory) { Law::bond(memory); }) Law::bond(committed_[k].memory);
+      if constexpr (Bonds<Law>) Law::bond(committed_[k].memory);
     }
     trial_ = committed_;
   }

@@ -6,6 +6,7 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/contact/law_checks.hpp"
+#include "scarp/core/largest_principal.hpp"
 #include "scarp/core/logarithm.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
@@ -94,7 +95,7 @@ struct DemRve {
 
   Law law{};
   Source source{};
-  double strain_per_step = 1e-5;  ///< largest strain component of one DEM step
+  double strain_per_step = 1e-5;  ///< largest principal strain of one DEM step
   double inertial_number =
       5e-3;  ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
   int least_steps = 20;  ///< of one response, however small the increment
@@ -125,7 +126,7 @@ struct DemRve {
   VoigtTangent<dim> tangent(State const& state) const { return tangent_policy(state.packing, law); }
 
   Plan plan(State const& committed, Gradient<dim> const& increment) const {
-    double const largest = ((increment + increment.transpose()) / 2.0).cwiseAbs().maxCoeff();
+    double const largest = largest_strain(increment);
     if (!std::isfinite(largest)) return least_steps;
     // n time steps of dt make the strain rate largest / (n dt).
     double const steps =
@@ -142,8 +143,7 @@ struct DemRve {
 
   /// Inertial number of a response in so many DEM steps.
   double inertial_number_of(State const& committed, Gradient<dim> const& increment, Plan steps) const {
-    double const largest = ((increment + increment.transpose()) / 2.0).cwiseAbs().maxCoeff();
-    return largest * slowness(committed) / (time_step(committed) * steps);
+    return largest_strain(increment) * slowness(committed) / (time_step(committed) * steps);
   }
 
   /// Twice the steps, hence half the rate.
@@ -192,6 +192,10 @@ struct DemRve {
   using Stepper = TimeStepper<PackingType, Damping>;
 
   double time_step(State const& state) const { return time_step_share * state.packing.pairs.critical_step; }
+
+  static double largest_strain(Gradient<dim> const& increment) {
+    return largest_principal<dim>((increment + increment.transpose()) / 2.0);
+  }
 
   /// \f$ d \sqrt{\rho/p} \f$ [s]: the time in which the pressure moves a grain by its size.
   double slowness(State const& state) const {

@@ -140,6 +140,12 @@ double reach_of(Law const& law) {
   }
 }
 
+/// bond(memory): bonds a contact, which the law then lets pull.
+template <class Law>
+concept Bonds = requires(ContactMemory<2, double>& memory) {
+  Law::bond(memory);
+};
+
 /// damping_ratio(): share of critical damping that the law's dashpots may reach; the time step is the shorter for it.
 template <class Law>
 concept TellsDampingRatio = requires(Law const& law) {

@@ -28,7 +28,7 @@ void require_consistent(Law const& law, double radius) {
   }
   if (reach_of(law) > 0.0) return;
   ContactMemory<2, double> memory;
-  if constexpr (requires { Law::bond(memory); }) Law::bond(memory);
+  if constexpr (Bonds<Law>) Law::bond(memory);
   Approach<2, double> const apart{.overlap = -depth, .slip = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
   double const force = law.respond(apart, memory).normal;
   if (force != 0.0) {

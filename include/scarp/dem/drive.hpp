@@ -35,7 +35,8 @@ struct StressFeedback {
         steady[k] = std::clamp(steady[k] + answer / (learning_steps * response_steps), -fastest, fastest);
       }
       double size = std::clamp(answer + steady[k], -fastest, fastest);
-      if (!jammed && control.direction.trace() > 0.0 && missing < nearly_all * control.target) size = -fastest;
+      if (!jammed && control.direction.trace() > 0.0 && control.target < 0.0 && missing < nearly_all * control.target)
+        size = -fastest;
       step += size * control.direction;
     }
     return step;
@@ -96,7 +97,7 @@ class Drive {
   /// \return not_converged / unreachable for a target no packing can carry, failed / not_finite, or what the stepper reports
   template <class Stepper>
   Verdict step(Stepper& stepper) {
-    if (!loading_.reachable()) return {Status::not_converged, Reason::unreachable};
+    if (!loading_.reachable(Bonds<Law>)) return {Status::not_converged, Reason::unreachable};
     if (!looked_ && !loading_.controls.empty()) {
       if (Verdict const verdict = stepper.observe(packing_, law_, seen_); !verdict.acceptable()) return verdict;
     }

@@ -19,8 +19,10 @@ struct StressControl {
   double missing(Tensor<Dim> const& stress) const {
     return target - stress.cwiseProduct(direction).sum() / direction.squaredNorm();
   }
-  /// Grains without cohesion carry pressure only.
-  bool reachable() const { return std::isfinite(target) && (direction.trace() == 0.0 || target < 0.0); }
+  /// Grains without bonds carry pressure only.
+  bool reachable(bool bonded) const {
+    return std::isfinite(target) && (bonded || direction.trace() == 0.0 || target < 0.0);
+  }
 };
 
 /// Control of one stress component in Voigt order, target [Pa].
@@ -57,10 +59,10 @@ struct Loading {
     return other;
   }
 
-  /// Whether cohesionless grains can carry what is asked.
-  bool reachable() const {
+  /// Whether grains, bonded to each other or not, may carry what is asked.
+  bool reachable(bool bonded) const {
     for (auto const& control : controls) {
-      if (!control.reachable()) return false;
+      if (!control.reachable(bonded)) return false;
     }
     return true;
   }

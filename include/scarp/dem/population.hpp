@@ -29,6 +29,9 @@ class Population {
       : density_(density), thickness_(thickness) {
     require_positive("grain density", density);
     require_positive("out-of-plane thickness", thickness);
+    if (Shape::dim == 3 && thickness != 1.0) {
+      refuse("out-of-plane thickness of grains in space is {} m (stresses would be off by it): leave it 1", thickness);
+    }
     if (sizes.empty())
       refuse("a packing of zero grains was asked for (nothing can carry stress): give at least one grain");
     size_.resize(sizes.size(), Scalar(1));

@@ -5,6 +5,7 @@
 #include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/element/tri3.hpp"
+#include "scarp/fault/detail/carried_weight.hpp"
 #include "scarp/fault/detail/precompiled_ground.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/fault/layered_ground.hpp"
@@ -105,17 +106,12 @@ struct SCARP_EXPORT FaultScene {
   /// Depths of all points of the soil [m], for those who prepare it.
   /// \throws InputError for parts that do not fit
   std::vector<double> soil_depths() const {
-    Grid const grid(mesh());
-    int const soil_region = region_number(grid.mesh(), "soil");
     std::vector<double> depths;
-    for (int point = 0; point < grid.point_count(); ++point) {
-      auto const site = grid.site(point, ground.surface_level());
-      if (site.region == soil_region) depths.push_back(site.depth);
-    }
+    for (auto const& site : soil_sites(Grid(mesh()))) depths.push_back(site.depth);
     return depths;
   }
 
-  /// \throws InputError for parts that do not fit
+  /// \throws InputError for parts that do not fit, and for soil that does not carry the weight
   template <class Executor>
   typename detail::ProblemOfFault<FaultScene, Executor>::Type problem(Executor& executor) const;
 
@@ -137,6 +133,17 @@ struct SCARP_EXPORT FaultScene {
   template <class ProblemType, class Observer>
   RunReport rupture(ProblemType& problem, Observer& observer) const {
     return stepping.run(solver, problem, 0.0, throw_to, observer);
+  }
+
+ private:
+  std::vector<Site<dim>> soil_sites(Grid const& grid) const {
+    int const region = region_number(grid.mesh(), "soil");
+    std::vector<Site<dim>> sites;
+    for (int point = 0; point < grid.point_count(); ++point) {
+      auto const site = grid.site(point, ground.surface_level());
+      if (site.region == region) sites.push_back(site);
+    }
+    return sites;
   }
 };
 
@@ -163,6 +170,7 @@ FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Execu
   require_not_negative("surcharge", surcharge);
   require_positive("throw", throw_to);
   Grid grid(mesh());
+  detail::require_carried(soil, soil_sites(grid), unit_weight, surcharge);
   Constraints constraints = bedrock_constraints(grid.mesh(), fault, structure.extra_dofs(), TimeFunction::after(0.0));
   int const soil_region = region_number(grid.mesh(), "soil");
   Vector<dim> const down = -Vector<dim>::Unit(dim - 1);

@@ -16,6 +16,7 @@
 #include <utility>
 
 #if __has_include(<unistd.h>)
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -85,6 +86,20 @@ inline bool flush(std::FILE* file, Durability durability) {
   return done;
 }
 
+/// After a crash of the machine a file is found under its new name only if its folder has reached the disk too.
+inline bool flush_folder(std::filesystem::path const& folder) {
+#if __has_include(<unistd.h>)
+  int const opened = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+  if (opened < 0) return false;
+  bool const done = ::fsync(opened) == 0;
+  ::close(opened);
+  return done;
+#else
+  static_cast<void>(folder);
+  return true;
+#endif
+}
+
 }  // namespace detail
 
 /// Writes a whole file: either all of `content` stands under `path` afterwards, or what was there before.
@@ -112,6 +127,8 @@ inline void write_file(std::filesystem::path const& path, std::string_view conte
     std::filesystem::remove(partial, trouble);
     detail::throw_not_written(path, why);
   }
+  if (durability == Durability::on_disk && !detail::flush_folder(path.parent_path()))
+    detail::throw_not_written(path, std::strerror(errno));
 }
 
 }  // namespace scarp

@@ -54,6 +54,12 @@ class SCARP_EXPORT EquilibriumProblem final
       refuse("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
              loads_.size(), constraints_.dof_count(), dof_count());
     }
+    if constexpr (requires { this->attached_.thickness(); }) {
+      if (this->attached_.thickness() != discretisation_.thickness()) {
+        refuse("what is attached to the mesh is {} m thick out of the plane (the mesh is {} m): give both the same",
+               this->attached_.thickness(), discretisation_.thickness());
+      }
+    }
     aim(0.0);
   }
 
@@ -87,6 +93,9 @@ class SCARP_EXPORT EquilibriumProblem final
     for (auto const& gradient : gradients()) largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
     return largest;
   }
+
+  /// Whether the rotation in a gradient turns the stress that is there.
+  bool turns_stresses() const override { return DiscretisationType::follows_motion; }
 
   /// Fixes every point's work for the load step from a predicted increment; the points' gradients are kept.
   /// \param worst_point where given, a point of the element that the increment turns inside out, -1 for none

@@ -30,6 +30,7 @@ class IncrementalProblem {
   virtual std::vector<VoigtTangent<Dim>> committed_tangents() const = 0;
   virtual std::vector<VoigtTangent<Dim>> trial_tangents() const = 0;
   virtual double largest_gradient() const = 0;
+  virtual bool turns_stresses() const = 0;
 
   virtual void aim(double load) = 0;
   virtual Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) = 0;

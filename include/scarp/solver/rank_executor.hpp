@@ -15,12 +15,18 @@
 
 namespace scarp {
 
-/// MPI for the life of a program. \throws nothing; a program that fails on one rank calls abort, since the others wait for it
+/// MPI for the life of a program; a program that fails on one rank calls abort, since the others wait for it.
+/// \throws InputError for an MPI that cannot run beside threads
 class MpiSession {
  public:
   MpiSession(int& argc, char**& argv) {
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    if (provided < MPI_THREAD_FUNNELED) {
+      MPI_Finalize();
+      refuse(
+          "MPI was asked to run beside threads of its ranks (this one cannot): take an MPI with MPI_THREAD_FUNNELED");
+    }
   }
   MpiSession(MpiSession const&) = delete;
   MpiSession& operator=(MpiSession const&) = delete;

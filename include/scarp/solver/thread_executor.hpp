@@ -41,9 +41,15 @@ class ThreadExecutor {
 
   int threads() const { return detail::count(team_) + 1; }
 
-  /// An exception of a task is rethrown here after all threads have come to rest.
+  /// An exception of a task is rethrown here after all threads have come to rest. Within a task the tasks run one after
+  /// the other on its own thread, since the team is at work; calls of several threads wait for one another.
   template <std::invocable<int> Task>
   void for_each(int count, Task&& task) {
+    if (at_work_for_ == this) {
+      for (int i = 0; i < count; ++i) task(i);
+      return;
+    }
+    std::lock_guard const one_round(rounds_);
     {
       std::lock_guard const lock(mutex_);
       task_ = std::ref(task);
@@ -62,6 +68,7 @@ class ThreadExecutor {
 
  private:
   void work() {
+    ThreadExecutor const* const before = std::exchange(at_work_for_, this);
     for (int i = next_++; i < count_; i = next_++) {
       try {
         task_(i);
@@ -71,6 +78,7 @@ class ThreadExecutor {
         next_ = count_;
       }
     }
+    at_work_for_ = before;
   }
 
   void serve() {
@@ -87,6 +95,9 @@ class ThreadExecutor {
     }
   }
 
+  static inline thread_local ThreadExecutor const* at_work_for_ = nullptr;  ///< of whose round this thread runs a task
+
+  std::mutex rounds_;
   std::mutex mutex_;
   std::condition_variable begin_;
   std::condition_variable end_;

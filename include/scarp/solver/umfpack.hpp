@@ -3,35 +3,43 @@
 
 #include <Eigen/UmfPackSupport>
 
+#include <limits>
+
 #include "scarp/solver/linear_solver.hpp"
 
 namespace scarp {
+
+namespace detail {
+
+/// Eigen's interface, and UMFPACK's own solution of the transposed system from the same factors.
+class UmfpackFactors : public Eigen::UmfPackLU<SparseMatrix> {
+ public:
+  Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const {
+    Eigen::VectorXd solution(right.size());
+    int const status =
+        Eigen::umfpack_solve(UMFPACK_At, mp_matrix.outerIndexPtr(), mp_matrix.innerIndexPtr(), mp_matrix.valuePtr(),
+                             solution.data(), right.data(), m_numeric, m_control.data(), m_umfpackInfo.data());
+    if (status != UMFPACK_OK) solution.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return solution;
+  }
+};
+
+}  // namespace detail
 
 /// Direct solver for unsymmetric systems (SuiteSparse's multifrontal UMFPACK); needs the component `scarp::suitesparse`.
 class Umfpack {
  public:
   Verdict factorize(SparseMatrix const& matrix) {
     matrix_ = matrix;  // which the solver goes on reading when it solves
-    transposed_is_ready_ = false;
     return detail::factorize_with(solver_, pattern_, matrix_);
   }
   Eigen::VectorXd solve(Eigen::VectorXd const& right) const { return solver_.solve(right); }
-  Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const {
-    if (!transposed_is_ready_) {
-      transposed_matrix_ = matrix_.transpose();
-      transposed_.compute(transposed_matrix_);
-    }
-    transposed_is_ready_ = true;
-    return transposed_.solve(right);
-  }
+  Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const { return solver_.solve_transposed(right); }
 
  private:
-  Eigen::UmfPackLU<SparseMatrix> solver_;
+  detail::UmfpackFactors solver_;
   detail::PatternMemory pattern_;
   SparseMatrix matrix_;
-  mutable SparseMatrix transposed_matrix_;
-  mutable Eigen::UmfPackLU<SparseMatrix> transposed_;
-  mutable bool transposed_is_ready_ = false;
 };
 
 static_assert(LinearSolver<Umfpack>);

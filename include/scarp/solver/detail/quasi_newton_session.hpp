@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scarp/core/precompiled.hpp"
+#include "scarp/solver/detail/answer_change.hpp"
 #include "scarp/solver/detail/step_start.hpp"
 #include "scarp/solver/incremental_problem.hpp"
 #include "scarp/solver/mixing.hpp"
@@ -188,9 +189,11 @@ void QuasiNewtonSession<Settings, Problem>::learn_from_answers() {
     for (std::size_t k = 0; k < working_.size(); ++k) {
       Gradient<dim> const& gradient = problem_.gradients()[k];
       VoigtStress<dim> const& stress = problem_.responses()[k].stress;
-      working_[k] = settings_.rule.template update<dim>(
-          working_[k], provider_[k], to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
-          stress - last_stresses_[k]);
+      auto const change = problem_.turns_stresses()
+                              ? unturned_change<dim>(last_gradients_[k], gradient, last_stresses_[k], stress)
+                              : AnswerChange<dim>{to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
+                                                  stress - last_stresses_[k]};
+      working_[k] = settings_.rule.template update<dim>(working_[k], provider_[k], change.strain, change.stress);
       last_gradients_[k] = gradient;
       last_stresses_[k] = stress;
     }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/dem/bonded_packing.hpp"
+
+#include <doctest/doctest.h>
+
+#include "dem/sample_packings.hpp"
+#include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/dem/loading_paths.hpp"
+#include "scarp/dem/servo.hpp"
+
+namespace {
+
+using Bond = scarp::CohesiveBond<scarp::LinearFrictional>;
+
+/// Bonds of the strength [N] of a contact under the samples' pressure, times a factor.
+Bond cement(double factor) {
+  double const strength = factor * samples::pressure * 1e-2 * samples::thickness;
+  return {.law = samples::study_law(), .tensile_strength = strength, .shear_strength = strength};
+}
+
+/// Largest axial stress, positive along the given strain's sign, while the sides are free of stress.
+template <class PackingType>
+double unconfined_peak(PackingType packing, Bond const& law, double rate) {
+  scarp::TimeStepper<PackingType> stepper;
+  REQUIRE(scarp::Servo{.most_steps = 200'000}
+              .reach(stepper, packing, law, scarp::Loading<2>::stress(scarp::VoigtStress<2>::Zero()))
+              .acceptable());
+  auto loading = scarp::drained_compression<2>(std::abs(rate), 0.0);
+  if (rate > 0.0) loading = loading.reversed();
+  scarp::Drive<PackingType> drive(packing, law, loading);
+  double peak = 0.0;
+  double side = 0.0;
+  for (int step = 0; step < 8'000; ++step) {
+    REQUIRE(drive.step(stepper).acceptable());
+    double const axial = drive.seen().stress(1, 1) * (rate > 0.0 ? 1.0 : -1.0);
+    if (axial > peak) side = drive.seen().stress(0, 0);
+    peak = std::max(peak, axial);
+  }
+  CHECK(std::abs(side) < 0.05 * peak);  // the servo lags behind by that at most
+  return peak;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("bonded grains carry tension, and compression without a side pressure, as their bonds are strong",
+                   PackingType, samples::Discs, samples::Ellipses) {
+  auto const& grains = samples::consolidated<PackingType>(80).packing;
+  auto const weak = scarp::bonded(grains, samples::study_law(), cement(1.0));
+  REQUIRE(weak.verdict.acceptable());
+  CHECK(weak.bonds > 80);
+  double const tension = unconfined_peak(weak.packing, cement(1.0), 2e-6);
+  double const compression = unconfined_peak(weak.packing, cement(1.0), -2e-6);
+  MESSAGE("tension " << tension << " Pa, compression " << compression << " Pa");
+  CHECK(tension > 0.05 * samples::pressure);
+  CHECK(compression > 2.0 * tension);  // Mohr-Coulomb with friction: (1 + sin phi)/(1 - sin phi) is above 2
+  auto const strong = scarp::bonded(grains, samples::study_law(), cement(2.0));
+  CHECK(unconfined_peak(strong.packing, cement(2.0), 2e-6) > 1.5 * tension);  // strength of bonds, doubled
+}
+
+TEST_CASE("grains that are bonded in balance stay in balance, with the stress that they had") {
+  auto const& grains = samples::consolidated<samples::Ellipses>(80).packing;
+  auto made = scarp::bonded(grains, samples::study_law(), cement(1.0));
+  REQUIRE(made.verdict.acceptable());
+  scarp::TimeStepper<decltype(made.packing)> stepper;
+  scarp::StepObservation<2> seen;
+  REQUIRE(stepper.observe(made.packing, cement(1.0), seen).acceptable());
+  CHECK(seen.unbalanced_ratio < 1e-3);
+  CHECK(std::abs(-seen.stress.trace() / 2.0 - samples::pressure) < 1e-3 * samples::pressure);
+}
+
+TEST_CASE("a gap that is bonded adds bonds") {
+  auto const& grains = samples::consolidated<samples::Discs>(80).packing;
+  auto const touching = scarp::bonded(grains, samples::study_law(), cement(1.0));
+  auto const wide = scarp::bonded(grains, samples::study_law(), cement(1.0), 5e-4);
+  REQUIRE(wide.verdict.acceptable());
+  CHECK(wide.bonds > touching.bonds + 10);
+  CHECK_THROWS_AS(scarp::bonded(grains, samples::study_law(), cement(1.0), -1.0), scarp::InputError);
+}
+
+TEST_CASE("grains without bonds are not asked for tension, nor for compression without a side pressure") {
+  auto packing = samples::consolidated<samples::Discs>(80).packing;
+  scarp::TimeStepper<samples::Discs> stepper;
+  scarp::Drive<samples::Discs> drive(packing, samples::study_law(), scarp::drained_compression<2>(1e-6, 0.0));
+  CHECK(drive.step(stepper) == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::unreachable});
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/observe/detail/element_fields.hpp"
+
+#include <doctest/doctest.h>
+
+#include "scarp/bvp/constraints.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/element/quad4.hpp"
+#include "scarp/mesh/box_mesh.hpp"
+#include "scarp/scene/scene.hpp"
+
+namespace {
+
+using Soil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
+
+/// The depth of a point's start, read from its stress; only of points in the upper half of an element.
+struct UpperDepth {
+  double unit_weight;
+  scarp::Quantities operator()(Soil const&, Soil::State const& state) const {
+    double const depth = -state.stress(1) / unit_weight;
+    double const within = depth - std::floor(depth);
+    if (within > 0.5) return {};
+    return {{"depth", depth}};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an element's stress is the mean over its points, and so is a quantity over the points that have it") {
+  // A column of three cells of 1 m with four points each, in a stress that grows with depth.
+  constexpr double weight = 10e3;
+  scarp::SerialExecutor serial;
+  scarp::Discretisation<scarp::Quad4> grid(
+      scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, 3.0}, .cells = {1, 3}}.generate());
+  scarp::Constraints constraints(grid.mesh());
+  auto const soil = Soil::from_young_poisson(1e6, 0.3, {.unit_weight = weight, .k0 = 0.5});
+  auto const region = grid.mesh().regions.front();
+  auto problem = scarp::make_problem(grid, 3.0, boost::hana::make_tuple(scarp::Region{region, soil}),
+                                     std::move(constraints), scarp::LoadHistory(), serial);
+  auto const fields = scarp::detail::element_fields(problem, UpperDepth{weight});
+  REQUIRE(fields.stress.size() == 9);
+  for (std::size_t e = 0; e < 3; ++e) {
+    double const middle = 2.5 - static_cast<double>(e);  // cells from the bottom up
+    CHECK(std::abs(fields.stress[3 * e + 1] + weight * middle) < 1e-9 * weight);
+    CHECK(std::abs(fields.stress[3 * e] + 0.5 * weight * middle) < 1e-9 * weight);
+    // Gauss' points lie 1/(2 sqrt 3) above and below the middle.
+    CHECK(std::abs(fields.quantities.at("depth")[e] - (middle - 0.5 / std::sqrt(3.0))) < 1e-9);
+    CHECK(std::abs(fields.volumetric[e]) < 1e-14);
+    CHECK(fields.status[e] == 0);
+  }
+}
