@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/core/error.hpp"
@@ -45,6 +46,8 @@ struct Lazy {
     double missed = 0.0;                            ///< [Pa] by which C missed an answer,
     double reach = 1.0;                             ///< and the strain that it was an answer to, Frobenius norms
     Status status = Status::ok;                     ///< of the last answer
+
+    SCARP_MEMBERS(own, stress, tangent, skipped, missed, reach, status)
   };
 
   Provider provider{};
@@ -67,6 +70,8 @@ struct Lazy {
     // Before the first answer the tangent may be all wrong.
     return {.own = std::move(own), .stress = stress, .tangent = tangent, .missed = tangent.norm()};
   }
+
+  State blank_state(Site<dim> const& site) const { return {.own = scarp::blank_state(provider, site)}; }
 
   VoigtStress<dim> stress(State const& state) const { return state.stress; }
 
