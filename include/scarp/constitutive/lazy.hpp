@@ -39,13 +39,13 @@ struct Lazy {
   };
 
   struct State {
-    typename Provider::State own;                   ///< as it answered last
-    VoigtStress<dim> stress;                        ///< [Pa], answered or predicted
-    VoigtTangent<dim> tangent;                      ///< C [Pa], in the axes of the last answer
-    Gradient<dim> skipped = Gradient<dim>::Zero();  ///< of all increments since
-    double missed = 0.0;                            ///< [Pa] by which C missed an answer,
-    double reach = 1.0;                             ///< and the strain that it was an answer to, Frobenius norms
-    Status status = Status::ok;                     ///< of the last answer
+    typename Provider::State own;                           ///< as it answered last
+    VoigtStress<dim> stress = VoigtStress<dim>::Zero();     ///< [Pa], answered or predicted
+    VoigtTangent<dim> tangent = VoigtTangent<dim>::Zero();  ///< C [Pa], in the axes of the last answer
+    Gradient<dim> skipped = Gradient<dim>::Zero();          ///< of all increments since
+    double missed = 0.0;                                    ///< [Pa] by which C missed an answer,
+    double reach = 1.0;          ///< and the strain that it was an answer to, Frobenius norms
+    Status status = Status::ok;  ///< of the last answer
 
     SCARP_MEMBERS(own, stress, tangent, skipped, missed, reach, status)
   };

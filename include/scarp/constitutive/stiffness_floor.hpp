@@ -20,7 +20,7 @@ struct StiffnessFloor {
 
   struct State {
     typename Provider::State own;
-    IsotropicElasticity elasticity;
+    IsotropicElasticity elasticity{};
     VoigtStress<dim> floor_stress = VoigtStress<dim>::Zero();  ///< [Pa]
     bool fluid = false;
 
