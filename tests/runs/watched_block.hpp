@@ -96,7 +96,7 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
   scarp::ErrorBudget budget(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 3});
   std::filesystem::create_directories(folder / "fields");
   scarp::OnFirstRank observers(executor, [&] {
-    return scarp::Observers(scarp::FieldSeries<scarp::RveQuantities>(folder / "fields", to, 3, 1.0),
+    return scarp::Observers(scarp::FieldSeries<scarp::RveQuantities>(folder, to, 3, 1.0),
                             scarp::RveProbe(folder / "probe.csv", 1, 1.0, start),
                             scarp::ConvergenceLog(folder / "convergence.csv", 1.0, start),
                             scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::Borrowed(budget),
