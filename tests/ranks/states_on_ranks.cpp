@@ -43,10 +43,10 @@ int main(int argc, char** argv) {
   scarp::SerialExecutor serial;
   scarp::RankExecutor executor(serial);
   int number = 0;
-  auto const pull = [&](std::string const& name, auto const& provider, double to) {
+  auto const pull = [&](std::string const& name, auto const& provider, watched::Pull const& wanted) {
     auto const folder = std::filesystem::path(argv[1]) / std::to_string(number++);
-    auto const whole = watched::pull(provider, executor, folder / "whole", to);
-    auto const parts = watched::pull_in_parts(provider, executor, folder / "parts", to);
+    auto const whole = watched::pull(provider, executor, folder / "whole", wanted);
+    auto const parts = watched::pull_in_parts(provider, executor, folder / "parts", wanted);
     if (whole.woken > 0) fmt::print(stderr, "rank {} woke {} points\n", executor.rank(), whole.woken);
     if (executor.rank() != 0) return;
     bool const same = parts.states == whole.states && parts.files == whole.files && parts.budget == whole.budget &&
@@ -58,7 +58,8 @@ int main(int argc, char** argv) {
     watched::for_each_case(pull);
     scarp::DemRve<Discs, scarp::SamePacking<Discs>> const packing{
         .law = samples::study_law(), .source = {samples::triangular_lattice<Discs>(4, 5e-3, 0.998e-2)}};
-    pull("VariedParameters around packings, in the open", nestings::Varied::around(packing), 2e-4);
+    pull("VariedParameters around packings, in the open", nestings::Varied::around(packing),
+         {.to = 2e-4, .tolerance = 3e-2});
   } catch (std::exception const& error) {
     fmt::print(stderr, "rank {}: {}\n", executor.rank(), error.what());
     scarp::MpiSession::abort(1);

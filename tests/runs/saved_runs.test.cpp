@@ -6,12 +6,12 @@
 
 TEST_CASE(
     "what is saved comes back from checkpoints: every adaptor around every adaptor, and all that observers remember") {
-  watched::for_each_case([](std::string const& name, auto const& provider, double to) {
+  watched::for_each_case([](std::string const& name, auto const& provider, watched::Pull const& wanted) {
     CAPTURE(name);
     scarp::SerialExecutor serial;
     ScratchFolder const folder;
-    auto const whole = watched::pull(provider, serial, folder / "whole", to);
-    auto const parts = watched::pull_in_parts(provider, serial, folder / "parts", to);
+    auto const whole = watched::pull(provider, serial, folder / "whole", wanted);
+    auto const parts = watched::pull_in_parts(provider, serial, folder / "parts", wanted);
     CHECK(whole.report.verdict.acceptable());
     CHECK(whole.report.steps > 4);
     CHECK(parts.report.steps == whole.report.steps);

@@ -60,6 +60,11 @@ struct NoNotes {
   static void members(Self&, Visit&&) {}
 };
 
+struct Pull {
+  double to = 4e-3;  ///< [m]
+  double tolerance = 1e-5;
+};
+
 /// What the first process has seen in the end.
 struct Outcome {
   scarp::RunReport report{};
@@ -87,8 +92,9 @@ inline std::string without_times(std::filesystem::path const& file) {
 }
 
 template <class Provider, class Executor>
-Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path const& folder, double to,
+Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path const& folder, Pull const& wanted,
              scarp::CheckpointFiles files = {}, int attempts = 1000) {
+  double const to = wanted.to;
   auto problem = block(provider, executor);
   Outcome outcome;
   outcome.woken = scarp::activate(problem, [](auto const& site) { return site.position.y() < 0.5; });
@@ -104,7 +110,7 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
   });
   NoNotes notes;
   scarp::CheckpointedRun run(files, observers, notes);
-  scarp::QuasiNewton<> const solver{.tolerance = 1e-5};
+  scarp::QuasiNewton<> const solver{.tolerance = wanted.tolerance};
   scarp::LoadStepping const stepping{
       .first = to / 8.0, .smallest = to / 1e4, .largest = to / 4.0, .largest_gradient = 0.1};
   run.stage([&] { return stepping.settle(solver, problem, 0.0, run); });
@@ -113,16 +119,18 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
   if (outcome.report.verdict.reason == scarp::Reason::interrupted) return outcome;
   observers.ended(problem, outcome.report.load);
   scarp::on_first_rank(problem, [&] {
-    scarp::StateWriter writer;
-    writer("positions", problem.discretisation().positions());
+    scarp::StateWriter positions;
+    positions("positions", problem.discretisation().positions());
+    outcome.states = positions.bits();
     for (int point = 0; point < problem.materials().point_count(); ++point) {
       scarp::visit_point(problem, point, [&](auto const& of, auto const& state) {
+        scarp::StateWriter writer;  // of its own: what points share, copies from other processes do not
         writer("state", state);
         writer("stress", of.stress(state));
         writer("tangent", of.tangent(state));
+        outcome.states += writer.bits();
       });
     }
-    outcome.states = writer.bits();
     for (auto const& part : budget.parts()) outcome.budget.push_back(part.value);
     for (auto const& file : std::filesystem::recursive_directory_iterator(folder)) {
       if (file.is_regular_file() && file.path().parent_path().filename() != "states")
@@ -134,20 +142,21 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
 
 /// The same in parts, each by new objects that go on from a checkpoint, one attempt long.
 template <class Provider, class Executor>
-Outcome pull_in_parts(Provider const& provider, Executor& executor, std::filesystem::path const& folder, double to) {
+Outcome pull_in_parts(Provider const& provider, Executor& executor, std::filesystem::path const& folder,
+                      Pull const& wanted) {
   scarp::CheckpointSettings const settings{.folder = folder / "states", .resume = true, .every_seconds = 1e9};
   for (int parts = 0; parts < 100; ++parts) {
-    auto outcome = pull(provider, executor, folder, to, {settings, "a block\n"}, 1);
+    auto outcome = pull(provider, executor, folder, wanted, {settings, "a block\n"}, 1);
     if (outcome.report.verdict.reason != scarp::Reason::interrupted) return outcome;
   }
   return {};
 }
 
-/// visit(name, provider, largest load) for every nesting that can be told to wake, and for packings whose laws differ from point to point.
+/// visit(name, provider, pull) for every nesting that can be told to wake.
 template <class Visit>
 void for_each_case(Visit const& visit) {
   nestings::for_each([&](std::string const& name, auto const& provider) {
-    if (name.find("Dormant") == std::string::npos) visit(name, scarp::AnyProvider<2>(provider), 4e-3);
+    if (name.find("Dormant") == std::string::npos) visit(name, scarp::AnyProvider<2>(provider), Pull{});
   });
   using nestings::Loosening;
   visit("Dormant around VariedParameters, in the open",
