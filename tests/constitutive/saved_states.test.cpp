@@ -15,6 +15,7 @@
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/softening_strength.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/io/state_bits.hpp"
 
@@ -164,6 +165,10 @@ TEST_CASE("what is saved comes back: elasticity and plasticity, in the plane and
 TEST_CASE("what is saved comes back: packings of several shapes and laws") {
   what_is_saved_comes_back(discs());
   what_is_saved_comes_back(rve(samples::study_law(), samples::loose_cloud<samples::Ellipses>(16, 1)));
+  // Dashpots ask how long the last move took.
+  using Damped = scarp::HertzMindlin<scarp::HertzRestitution>;
+  using DampedDiscs = scarp::Packing<scarp::Disc, Damped>;
+  what_is_saved_comes_back(rve(Damped::of(1e8, 0.25, 0.5, {.restitution = 0.3}), lattice<DampedDiscs>()));
   what_is_saved_comes_back(
       rve<Glued>({.law = {samples::study_law(), 10.0, 10.0}, .rolling_stiffness = 10.0, .rolling_friction = 0.1},
                  lattice<Glued>()));

@@ -160,7 +160,7 @@ void for_each_case(Visit const& visit) {
   });
   using nestings::Loosening;
   visit("Dormant around VariedParameters, in the open",
-        nestings::Sleeping::around(nestings::Varied::around(Loosening{})), 4e-3);
+        nestings::Sleeping::around(nestings::Varied::around(Loosening{})), Pull{});
 }
 
 }  // namespace watched
