@@ -10,6 +10,7 @@
 
 #include "any_scene.hpp"
 #include "scarp/constitutive/rve_quantities.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/observe/floor_share.hpp"
@@ -29,16 +30,7 @@ struct AtRest {
   double vertical_error = 0.0;      ///< largest |vertical stress / overburden - 1|
   scarp::GroundAtRest<2> ground{};  ///< with what stands on it
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("k0", self.k0);
-    visit("k0_min", self.k0_min);
-    visit("k0_max", self.k0_max);
-    visit("void_ratio_min", self.void_ratio_min);
-    visit("void_ratio_max", self.void_ratio_max);
-    visit("vertical_error", self.vertical_error);
-    visit("ground", self.ground);
-  }
+  SCARP_MEMBERS(k0, k0_min, k0_max, void_ratio_min, void_ratio_max, vertical_error, ground)
 };
 
 template <class Problem, class SceneType>

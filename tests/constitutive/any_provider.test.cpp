@@ -105,7 +105,7 @@ TEST_CASE("saved states of a hidden provider are read by its own blank one") {
   Any const soil = sand();
   auto const field = walked(soil);
   auto const saved = bits(field.committed(0));
-  auto loaded = soil.no_state();
+  auto loaded = soil.blank_state({});
   scarp::StateReader reader(saved);
   reader("state", loaded);
   CHECK(reader.at_end());

@@ -151,6 +151,13 @@ TEST_CASE("parts of a scene that make no sense are refused") {
   refused([](auto& scene) { scene.fault.tip = 100.0; });
   refused([](auto& scene) { scene.fault.dip = 60.0; });
   refused([](auto& scene) { scene.ground.layer.size = 0.0; });
+  // What the soil was prepared for and what the scene weighs.
+  auto const soil_of = [](double surcharge, double unit_weight) {
+    return sample::ElasticSoil::from_young_poisson(20e6, 0.3, {surcharge, unit_weight, sample::k0});
+  };
+  refused([&](auto& scene) { scene.soil = soil_of(scene.surcharge, 0.98 * scene.unit_weight); });
+  refused([&](auto& scene) { scene.soil = soil_of(0.0, scene.unit_weight); });
+  refused([&](auto& scene) { scene.soil = soil_of(scene.surcharge + 5e3, scene.unit_weight); });
 }
 
 TEST_CASE("ground of packings ruptures to the asked throw") {

@@ -30,10 +30,7 @@ struct Softening {
     scarp::EngineeringStrain<2> strain = scarp::EngineeringStrain<2>::Zero();
     friend bool operator==(State const& a, State const& b) { return a.point == b.point && a.strain == b.strain; }
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("strain", self.strain);
-    }
+    SCARP_MEMBERS_EXCEPT((point), strain)
   };
 
   double reference_strain = infinity;   ///< infinite: linear

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/described.hpp"
+
 namespace scarp {
 
 /// Beyond which numbers a run says that it is outside its error budget. All are relative; docs/error-budget.md gives the reasons.
@@ -18,21 +20,8 @@ struct ErrorBounds {
   double doubling_95 = 5e-2;      ///< of nineteen samples in twenty
   double accumulated = 2e-2;      ///< root of the mean square over the followed points, of their whole paths
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("residual", self.residual);
-    visit("work_gap", self.work_gap);
-    visit("linear_residual", self.linear_residual);
-    visit("condition", self.condition);
-    visit("unbalanced_mean", self.unbalanced_mean);
-    visit("unbalanced_largest", self.unbalanced_largest);
-    visit("kinetic_share", self.kinetic_share);
-    visit("inertial_number", self.inertial_number);
-    visit("held_stress", self.held_stress);
-    visit("doubling_median", self.doubling_median);
-    visit("doubling_95", self.doubling_95);
-    visit("accumulated", self.accumulated);
-  }
+  SCARP_MEMBERS(residual, work_gap, linear_residual, condition, unbalanced_mean, unbalanced_largest, kinetic_share,
+                inertial_number, held_stress, doubling_median, doubling_95, accumulated)
 };
 
 }  // namespace scarp

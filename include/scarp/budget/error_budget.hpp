@@ -9,6 +9,7 @@
 #include "scarp/budget/detail/followed_points.hpp"
 #include "scarp/budget/detail/packing_survey.hpp"
 #include "scarp/budget/error_bounds.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/solver/executor.hpp"
@@ -124,18 +125,8 @@ class ErrorBudget : public NeverStops {
   DoubledSamples const& samples() const { return samples_; }
   FollowedPoints const& followed() const { return followed_; }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("work balance", self.balance_);
-    visit("packings", self.packings_);
-    visit("samples", self.samples_);
-    visit("followed", self.followed_);
-    visit("residual", self.residual_);
-    visit("linear_residual", self.linear_residual_);
-    visit("condition", self.condition_);
-    visit("work", self.work_);
-    visit("answers", self.answers_);
-  }
+  SCARP_MEMBERS_EXCEPT((bounds_, sampling_, seen_), balance_, packings_, samples_, followed_, residual_,
+                       linear_residual_, condition_, work_, answers_)
 
  private:
   long all_work() const { return work_ > 0 ? work_ : answers_; }

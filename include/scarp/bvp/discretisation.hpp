@@ -10,6 +10,7 @@
 #include "scarp/bvp/kinematics.hpp"
 #include "scarp/bvp/point_by_point.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
 
 namespace scarp {
@@ -88,6 +89,7 @@ class SCARP_EXPORT Discretisation {
   /// What evolves: the committed positions.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(mesh_, thickness_, positions_, sparsity_);
     visit("positions of nodes", std::span(self.positions_));
   }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/element/line2.hpp"
 #include "scarp/element/map.hpp"
@@ -27,12 +28,7 @@ class FacetChain {
     double xi = 0.0;
     bool at_end = false;
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("facet", self.facet);
-      visit("xi", self.xi);
-      visit("at_end", self.at_end);
-    }
+    SCARP_MEMBERS(facet, xi, at_end)
   };
 
   /// \throws InputError when there is no facet

@@ -8,6 +8,7 @@
 #include "scarp/bvp/facet_chain.hpp"
 #include "scarp/bvp/interface_point.hpp"
 #include "scarp/contact/checked_contact_law.hpp"
+#include "scarp/core/described.hpp"
 
 namespace scarp {
 
@@ -132,6 +133,7 @@ class Interface {
   /// What evolves: the committed state of body and points.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(law_, body_, ground_, committed_, trial_, couplings_);
     visit("body", self.body_);
     visit("points", std::span(self.committed_));
   }
@@ -148,17 +150,7 @@ class Interface {
     double shear = 0.0;
     Tensor<2> stiffness = Tensor<2>::Zero();  ///< of the stress on the body against its relative motion [Pa/m]
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("foot", self.foot);
-      visit("memory", self.memory);
-      visit("place", self.place);
-      visit("along", self.along);
-      visit("overlap", self.overlap);
-      visit("pressure", self.pressure);
-      visit("shear", self.shear);
-      visit("stiffness", self.stiffness);
-    }
+    SCARP_MEMBERS(foot, memory, place, along, overlap, pressure, shear, stiffness)
   };
 
   /// Out of the ground, which is on the left of its outline.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "scarp/bvp/detail/lever.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 
 namespace scarp {
@@ -47,11 +48,7 @@ class RigidBody {
     angle_ += increment(first + 2) / arm_;
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("reference", self.reference_);
-    visit("rotation", self.angle_);
-  }
+  SCARP_MEMBERS_EXCEPT((arm_), reference_, angle_)
 
  private:
   Tensor<2> turned(double along_arm) const { return scarp::rotation(angle_ + along_arm / arm_); }

@@ -6,6 +6,7 @@
 
 #include "scarp/bvp/facet_chain.hpp"
 #include "scarp/bvp/rigid_body.hpp"
+#include "scarp/core/described.hpp"
 
 namespace scarp {
 
@@ -67,10 +68,7 @@ class RigidFooting {
   }
   void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const& increment) { body_.commit(increment, first_); }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("body", self.body_);
-  }
+  SCARP_MEMBERS_EXCEPT((first_, base_, own_, area_), body_)
 
  private:
   RigidBody body_;
@@ -124,8 +122,7 @@ class MeshedFooting {
   static void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const&) {}
 
   /// Nothing: it moves with the mesh.
-  template <class Self, class Visit>
-  static void members(Self&, Visit&&) {}
+  SCARP_MEMBERS_EXCEPT((base_, at_, area_))
 
  private:
   FacetChain base_;

@@ -42,7 +42,7 @@ class AnyProvider {
 
   /// \throws InputError where there is no provider
   State initial_state(Site<Dim> const& site) const { return held().initial_state(site); }
-  State no_state() const { return held().no_state(); }
+  State blank_state(Site<Dim> const& site) const { return held().blank_state(site); }
 
   Plan plan(State const& committed, Gradient<Dim> const& increment) const {
     return counted(held_->plan(committed, increment));

@@ -6,7 +6,11 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/contact/law_checks.hpp"
+<<<<<<< HEAD
 #include "scarp/core/largest_principal.hpp"
+=======
+#include "scarp/core/described.hpp"
+>>>>>>> wt-state
 #include "scarp/core/logarithm.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
@@ -83,14 +87,7 @@ struct DemRve {
     double kinetic_share = 0.0;                          ///< of moving grains in the pressure
     Verdict verdict{};
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("packing", self.packing);
-      visit("stress", self.stress);
-      visit("unbalanced_ratio", self.unbalanced_ratio);
-      visit("kinetic_share", self.kinetic_share);
-      visit("verdict", self.verdict);
-    }
+    SCARP_MEMBERS(packing, stress, unbalanced_ratio, kinetic_share, verdict)
   };
 
   Law law{};

@@ -3,7 +3,9 @@
 
 #include <concepts>
 
+#include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 
 namespace scarp {
@@ -26,11 +28,7 @@ struct Dormant {
     bool awake = false;
     typename Provider::State own;
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("awake", self.awake);
-      visit("own", self.own);
-    }
+    SCARP_MEMBERS_EXCEPT((site), awake, own)
   };
 
   Provider provider{};
@@ -41,6 +39,8 @@ struct Dormant {
     require_positive("share of a dormant point's stiffness", share);
     return {site, false, provider.initial_state(site)};
   }
+
+  State blank_state(Site<dim> const& site) const { return {site, false, scarp::blank_state(provider, site)}; }
 
   VoigtStress<dim> stress(State const& state) const {
     return state.awake ? provider.stress(state.own) : VoigtStress<dim>(VoigtStress<dim>::Zero());
@@ -73,7 +73,7 @@ struct Dormant {
 /// Wakes the waiting points that are chosen. Between runs only: a solver's session remembers tangents.
 /// materials: what has for_each_committed(visit(state)); other providers' states are passed over
 /// chosen(site): whether a point is to wake, told where it was when its state was made
-/// \return how many have woken
+/// \return how many have woken, of the points of this process
 template <class Materials, class Chosen>
 int activate(Materials& materials, Chosen const& chosen) {
   int woken = 0;

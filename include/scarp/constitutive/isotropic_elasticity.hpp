@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/voigt.hpp"
 
@@ -24,6 +25,8 @@ struct IsotropicElasticity {
     }
     return {lame_lambda, shear_modulus};
   }
+
+  SCARP_MEMBERS(lame_lambda, shear_modulus)
 
   /// \throws InputError unless young > 0 and -1 < poisson < 0.5
   static IsotropicElasticity from_young_poisson(double young, double poisson) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/core/error.hpp"
@@ -38,13 +39,15 @@ struct Lazy {
   };
 
   struct State {
-    typename Provider::State own;                   ///< as it answered last
-    VoigtStress<dim> stress;                        ///< [Pa], answered or predicted
-    VoigtTangent<dim> tangent;                      ///< C [Pa], in the axes of the last answer
-    Gradient<dim> skipped = Gradient<dim>::Zero();  ///< of all increments since
-    double missed = 0.0;                            ///< [Pa] by which C missed an answer,
-    double reach = 1.0;                             ///< and the strain that it was an answer to, Frobenius norms
-    Status status = Status::ok;                     ///< of the last answer
+    typename Provider::State own;                           ///< as it answered last
+    VoigtStress<dim> stress = VoigtStress<dim>::Zero();     ///< [Pa], answered or predicted
+    VoigtTangent<dim> tangent = VoigtTangent<dim>::Zero();  ///< C [Pa], in the axes of the last answer
+    Gradient<dim> skipped = Gradient<dim>::Zero();          ///< of all increments since
+    double missed = 0.0;                                    ///< [Pa] by which C missed an answer,
+    double reach = 1.0;          ///< and the strain that it was an answer to, Frobenius norms
+    Status status = Status::ok;  ///< of the last answer
+
+    SCARP_MEMBERS(own, stress, tangent, skipped, missed, reach, status)
   };
 
   Provider provider{};
@@ -67,6 +70,8 @@ struct Lazy {
     // Before the first answer the tangent may be all wrong.
     return {.own = std::move(own), .stress = stress, .tangent = tangent, .missed = tangent.norm()};
   }
+
+  State blank_state(Site<dim> const& site) const { return {.own = scarp::blank_state(provider, site)}; }
 
   VoigtStress<dim> stress(State const& state) const { return state.stress; }
 

@@ -5,6 +5,7 @@
 #include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/isotropic_elasticity.hpp"
+#include "scarp/core/described.hpp"
 
 namespace scarp {
 
@@ -19,10 +20,7 @@ struct LinearElastic {
   struct State {
     VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("stress", self.stress);
-    }
+    SCARP_MEMBERS(stress)
   };
 
   IsotropicElasticity elasticity{};

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
@@ -67,9 +69,12 @@ class SCARP_EXPORT ProviderField {
   /// owned(number of a point in its mesh): points that are asked here; the others have no state.
   template <std::predicate<int> Owned>
   ProviderField(Provider provider, std::span<Site<dim> const> sites, Owned const& owned)
-      : provider_(std::move(provider)) {
+      : provider_(std::move(provider)), sites_(sites.begin(), sites.end()) {
     committed_.reserve(sites.size());
-    for (auto const& site : sites) committed_.push_back(owned(site.index) ? provider_.initial_state(site) : no_state());
+    for (auto const& site : sites) {
+      here_.push_back(owned(site.index));
+      committed_.push_back(here_.back() ? provider_.initial_state(site) : no_state());
+    }
     trial_ = committed_;
     plans_.resize(sites.size());
   }
@@ -147,23 +152,46 @@ class SCARP_EXPORT ProviderField {
   /// The trial states become the committed ones.
   void commit() { committed_.swap(trial_); }
 
-  /// visit(state) may change a committed state, between load steps.
+  /// visit(state) may change a committed state of this process's points, between load steps.
   template <class Visit>
   void for_each_committed(Visit&& visit) {
-    for (State& state : committed_) visit(state);
+    for (std::size_t k = 0; k < committed_.size(); ++k) {
+      if (here_[k]) visit(committed_[k]);
+    }
   }
 
   /// Another committed state for a point, between load steps.
-  void put(int point, State state) { committed_[detail::index(point)] = std::move(state); }
+  void put(int point, State state) {
+    committed_[detail::index(point)] = std::move(state);
+    here_[detail::index(point)] = true;
+  }
   /// Leaves a point without state, since another process answers for it.
-  void forget(int point) { committed_[detail::index(point)] = trial_[detail::index(point)] = no_state(); }
+  void forget(int point) {
+    committed_[detail::index(point)] = trial_[detail::index(point)] = no_state();
+    here_[detail::index(point)] = false;
+  }
 
-  /// An empty state, of a point that another process answers for.
-  /// \throws InputError for states that cannot be empty
-  State no_state() const {
-    if constexpr (requires { provider_.no_state(); }) {
-      return provider_.no_state();
-    } else if constexpr (std::default_initializable<State>) {
+  /// A state of a point that a saved one can be read into: with what is not saved, since it follows from the provider and the site.
+  /// \throws InputError for states that cannot be made so
+  State blank_state(int point) const { return scarp::blank_state(provider_, sites_[detail::index(point)]); }
+
+  /// What evolves: the committed states. Read in, those of all points are here.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(provider_, sites_, here_, committed_, trial_, plans_);
+    if constexpr (!std::is_const_v<Self>) {
+      for (int point = 0; point < self.point_count(); ++point) {
+        if (!self.here_[detail::index(point)]) self.put(point, self.blank_state(point));
+      }
+    }
+    visit("states", std::span(self.committed_));
+  }
+  void after_loading() { trial_ = committed_; }
+
+ private:
+  /// Of a point that another process answers for.
+  static State no_state() {
+    if constexpr (std::default_initializable<State>) {
       return {};
     } else {
       refuse(
@@ -172,15 +200,9 @@ class SCARP_EXPORT ProviderField {
     }
   }
 
-  /// What evolves: the committed states.
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("states", std::span(self.committed_));
-  }
-  void after_loading() { trial_ = committed_; }
-
- private:
   Provider provider_;
+  std::vector<Site<dim>> sites_;
+  std::vector<bool> here_;  ///< whether this process has the point's state
   std::vector<State> committed_;
   std::vector<State> trial_;
   std::vector<PlanOf<Provider>> plans_;

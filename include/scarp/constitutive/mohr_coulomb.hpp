@@ -6,6 +6,7 @@
 #include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/isotropic_elasticity.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/principal.hpp"
 
@@ -25,12 +26,7 @@ struct MohrCoulomb {
     double plastic_shear = 0.0;                      ///< accumulated difference of the outer principal plastic strains
     VoigtTangent<Dim> tangent = VoigtTangent<Dim>::Zero();  ///< consistent with the increment that led here [Pa]
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("stress", self.stress);
-      visit("plastic_shear", self.plastic_shear);
-      visit("tangent", self.tangent);
-    }
+    SCARP_MEMBERS(stress, plastic_shear, tangent)
   };
 
   IsotropicElasticity elasticity{};

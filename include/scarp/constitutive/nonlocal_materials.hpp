@@ -6,6 +6,7 @@
 
 #include "scarp/constitutive/detail/neighbour_mean.hpp"
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/polar.hpp"
 
@@ -104,6 +105,7 @@ class NonlocalMaterials {
   /// What evolves: the field and tau.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(field_, mean_, fading_, stiffness_, committed_, trial_, by_own_, by_mean_);
     visit("field", self.field_);
     visit("tau", std::span(self.committed_));
   }

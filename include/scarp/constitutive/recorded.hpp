@@ -5,7 +5,9 @@
 #include <functional>
 #include <vector>
 
+#include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/shared_history.hpp"
 
 namespace scarp {
@@ -27,12 +29,7 @@ struct HistoryRow {
   Gradient<Dim> gradient = Gradient<Dim>::Zero();  ///< since the start, of all increments: (I + G_n) ... (I + G_1) - I
   Verdict verdict;
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("stress", self.stress);
-    visit("gradient", self.gradient);
-    visit("verdict", self.verdict);
-  }
+  SCARP_MEMBERS(stress, gradient, verdict)
 };
 
 /// Any provider with the history of chosen points: one row for the start and one for every committed increment. Rows belong to
@@ -46,11 +43,7 @@ struct Recorded {
     typename Provider::State own;
     SharedHistory<HistoryRow<dim>> history;  ///< empty for a point that was not chosen
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("own", self.own);
-      visit("history", self.history);
-    }
+    SCARP_MEMBERS(own, history)
   };
 
   Provider provider{};
@@ -61,6 +54,8 @@ struct Recorded {
     if (!chosen || chosen(site)) state.history.push_back({provider.stress(state.own), Gradient<dim>::Zero(), {}});
     return state;
   }
+
+  State blank_state(Site<dim> const& site) const { return {scarp::blank_state(provider, site), {}}; }
 
   VoigtStress<dim> stress(State const& state) const { return provider.stress(state.own); }
   VoigtTangent<dim> tangent(State const& state) const { return provider.tangent(state.own); }

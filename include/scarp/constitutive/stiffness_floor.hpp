@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/core/described.hpp"
 
 namespace scarp {
 
@@ -18,18 +20,11 @@ struct StiffnessFloor {
 
   struct State {
     typename Provider::State own;
-    IsotropicElasticity elasticity;
+    IsotropicElasticity elasticity{};
     VoigtStress<dim> floor_stress = VoigtStress<dim>::Zero();  ///< [Pa]
     bool fluid = false;
 
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("own", self.own);
-      visit("lame_lambda", self.elasticity.lame_lambda);
-      visit("shear_modulus", self.elasticity.shear_modulus);
-      visit("floor_stress", self.floor_stress);
-      visit("fluid", self.fluid);
-    }
+    SCARP_MEMBERS(own, elasticity, floor_stress, fluid)
   };
 
   Provider provider{};
@@ -51,6 +46,8 @@ struct StiffnessFloor {
     }
     return {std::move(own), elasticity};
   }
+
+  State blank_state(Site<dim> const& site) const { return {.own = scarp::blank_state(provider, site)}; }
 
   VoigtStress<dim> stress(State const& state) const {
     return state.fluid ? VoigtStress<dim>(provider.stress(state.own) + state.floor_stress) : provider.stress(state.own);

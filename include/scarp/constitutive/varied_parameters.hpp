@@ -4,7 +4,9 @@
 #include <functional>
 #include <memory>
 
+#include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 
 namespace scarp {
@@ -28,10 +30,7 @@ struct VariedParameters {
     typename Provider::State own;
 
     /// Without the provider: that one follows from the site.
-    template <class Self, class Visit>
-    static void members(Self& self, Visit&& visit) {
-      visit("own", self.own);
-    }
+    SCARP_MEMBERS_EXCEPT((provider), own)
   };
 
   Provider common{};
@@ -39,11 +38,14 @@ struct VariedParameters {
 
   /// \throws InputError without a function that varies, and whatever that function throws
   State initial_state(Site<dim> const& site) const {
-    if (!vary) {
-      refuse("point {} has no parameters of its own (no function varies the common ones): give `vary`", site.index);
-    }
-    auto own = std::make_shared<Provider const>(vary(common, site));
+    auto own = provider_at(site);
     auto state = own->initial_state(site);
+    return {std::move(own), std::move(state)};
+  }
+
+  State blank_state(Site<dim> const& site) const {
+    auto own = provider_at(site);
+    auto state = scarp::blank_state(*own, site);
     return {std::move(own), std::move(state)};
   }
 
@@ -63,6 +65,14 @@ struct VariedParameters {
                         PlanType const&... plan) const {
     trial.provider = committed.provider;
     return committed.provider->respond(committed.own, increment, trial.own, plan...);
+  }
+
+ private:
+  std::shared_ptr<Provider const> provider_at(Site<dim> const& site) const {
+    if (!vary) {
+      refuse("point {} has no parameters of its own (no function varies the common ones): give `vary`", site.index);
+    }
+    return std::make_shared<Provider const>(vary(common, site));
   }
 };
 

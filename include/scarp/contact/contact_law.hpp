@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "scarp/core/constant.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/pack.hpp"
 
 namespace scarp {
@@ -51,12 +52,7 @@ struct ContactMemory {
   Turning<Dim, T> moment{};    ///< on the second grain [N m]
   std::array<T, most_contact_scalars> scalars{};
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("shear", self.shear);
-    visit("moment", self.moment);
-    visit("scalars", self.scalars);
-  }
+  SCARP_MEMBERS(shear, moment, scalars)
 };
 
 /// Answer of a law. Whatever is not asked for by its caller costs nothing.

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/core/described.hpp"
+
 namespace scarp {
 
 /// A list that only grows, cheap to copy: copies share the rows that they have in common, and none sees what another adds.
@@ -54,6 +56,7 @@ class SharedHistory {
   /// Rows that come back are in memory of their own.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(last_);
     std::vector<Row> rows = self.rows();
     visit("rows", rows);
     if constexpr (!std::is_const_v<Self>) {

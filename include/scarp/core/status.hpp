@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/one_version.hpp"
 
 namespace scarp {
@@ -42,11 +43,7 @@ struct Verdict {
 
   constexpr bool acceptable() const { return status == Status::ok || status == Status::fluid; }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("status", self.status);
-    visit("reason", self.reason);
-  }
+  SCARP_MEMBERS(status, reason)
 
   friend constexpr bool operator==(Verdict const&, Verdict const&) = default;
 };

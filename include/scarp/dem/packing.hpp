@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scarp/contact/checked_contact_law.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/tensor.hpp"
 #include "scarp/dem/population.hpp"
 
@@ -34,21 +35,8 @@ struct NearPairs {
 
   std::size_t count() const { return first.size(); }
 
-  /// Calls visit(name, member) for each member; what is saved and loaded is what is named here.
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("first", self.first);
-    visit("second", self.second);
-    visit("normal", self.normal);
-    visit("shear", self.shear);
-    visit("moment", self.moment);
-    visit("scalars", self.scalars);
-    visit("ghost_owner", self.ghost_owner);
-    visit("ghost_shift", self.ghost_shift);
-    visit("drift", self.drift);
-    visit("skin", self.skin);
-    visit("critical_step", self.critical_step);
-  }
+  /// What is saved and loaded.
+  SCARP_MEMBERS(first, second, normal, shear, moment, scalars, ghost_owner, ghost_shift, drift, skin, critical_step)
 
   friend bool operator==(NearPairs const&, NearPairs const&) = default;
 };
@@ -63,6 +51,7 @@ struct LastMove {
 
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(gradient, duration, answered);
     visit("gradient of the last move", self.gradient);
     visit("duration of the last move", self.duration);
     visit("answer to the last move", self.answered);
@@ -98,18 +87,8 @@ struct Packing {
   /// Volume of voids over volume of grains; overlaps are not subtracted from the grains.
   double void_ratio() const { return cell.determinant() / population->content() - 1.0; }
 
-  /// Calls visit(name, member) for each member.
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("population", self.population);
-    visit("cell", self.cell);
-    visit("position", self.position);
-    visit("velocity", self.velocity);
-    visit("spin", self.spin);
-    visit("orientation", self.orientation);
-    visit("last_move", self.last_move);
-    visit("pairs", self.pairs);
-  }
+  /// What a saved packing consists of.
+  SCARP_MEMBERS(population, cell, position, velocity, spin, orientation, last_move, pairs)
 
   /// No velocities and no last move, as of grains that were just placed. Grains that have moved are stopped by TimeStepper.
   void rest() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scarp/core/columns.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/shape/checked_shape.hpp"
@@ -88,6 +89,8 @@ class Population {
   /// equally many sizes.
   template <class Visit>
   static void members(Population const& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(density_, thickness_, content_, mass_, smallest_radius_, largest_radius_, largest_eccentricity_,
+                      size_, inverse_mass_, inverse_inertia_);
     visit("density", self.density_);
     visit("thickness", self.thickness_);
     visit("content", self.content_);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "scarp/core/described.hpp"
 #include "scarp/fault/footing_motion.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/observers.hpp"
@@ -62,12 +63,7 @@ class FootingLog : public NeverStops {
       base_.add(fault_throw, point.place.x(), point.place.y(), point.area, point.pressure, point.shear, point.gap);
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("motion", self.motion_);
-    visit("base", self.base_);
-    visit("next", self.next_);
-  }
+  SCARP_MEMBERS_EXCEPT((structure_, between_, end_, load_unit_), motion_, base_, next_)
 
  private:
   CsvLog motion_;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/listed.hpp"
 #include "scarp/io/detail/appended_file.hpp"
@@ -132,10 +133,7 @@ class CsvLog {
     file_.add(format_.row(values...));
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("table", self.file_);
-  }
+  SCARP_MEMBERS_EXCEPT((format_), file_)
 
  private:
   static std::filesystem::path const& prepared(std::filesystem::path const& path, detail::CsvFormat const& format,

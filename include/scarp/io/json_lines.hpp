@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "scarp/core/described.hpp"
 #include "scarp/io/detail/appended_file.hpp"
 
 namespace scarp {
@@ -76,10 +77,7 @@ class JsonLog {
   /// \throws FileError when the line cannot be written
   void add(JsonObject const& object) { file_.add(object.text() + '\n'); }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("lines", self.file_);
-  }
+  SCARP_MEMBERS(file_)
 
  private:
   static std::filesystem::path const& prepared(std::filesystem::path const& path, bool resumed) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/detail/xml_text.hpp"
@@ -41,10 +42,7 @@ class PvdSeries {
     write_file(path(), text + "</Collection>\n</VTKFile>\n");
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("entries", self.entries_);
-  }
+  SCARP_MEMBERS_EXCEPT((folder_, name_), entries_)
 
  private:
   std::filesystem::path folder_;

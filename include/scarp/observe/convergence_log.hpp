@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/io/json_lines.hpp"
 #include "scarp/observe/observers.hpp"
@@ -43,12 +44,7 @@ class ConvergenceLog : public NeverStops {
     lines_.add(line_of(report));
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("table", self.table_);
-    visit("lines", self.lines_);
-    visit("attempt", self.attempt_);
-  }
+  SCARP_MEMBERS_EXCEPT((load_unit_), table_, lines_, attempt_)
 
  private:
   JsonObject begun(std::string_view kind, StepReport const& report) const {

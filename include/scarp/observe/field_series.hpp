@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scarp/constitutive/rve_quantities.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/io/pvd.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/observe/detail/element_fields.hpp"
@@ -47,13 +48,7 @@ class FieldSeries : public NeverStops {
     write(problem, load);
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("series", self.series_);
-    visit("next", self.next_);
-    visit("last", self.last_);
-    visit("frame", self.frame_);
-  }
+  SCARP_MEMBERS_EXCEPT((folder_, between_, end_, load_unit_, quantities_), series_, next_, last_, frame_)
 
  private:
   template <class Problem>

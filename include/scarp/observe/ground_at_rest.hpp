@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/observe/observers.hpp"
 
@@ -26,10 +27,7 @@ struct GroundAtRest : NeverStops {
     return positions.empty() ? mesh.nodes : positions;
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("positions at rest", self.positions);
-  }
+  SCARP_MEMBERS(positions)
 };
 
 /// The committed positions of a problem whose fault has not moved yet.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "scarp/core/described.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/field_series.hpp"
 
@@ -57,10 +58,7 @@ class RveProbe : public NeverStops {
              fabric_of_contacts, fabric_of_particles, void_ratio, -stress(0), -stress(1), -stress(2));
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("log", self.log_);
-  }
+  SCARP_MEMBERS_EXCEPT((point_, load_unit_), log_)
 
  private:
   CsvLog log_;

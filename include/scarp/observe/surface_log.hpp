@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/surface_profile.hpp"
@@ -37,13 +38,7 @@ class SurfaceLog : public NeverStops {
     if (load > last_) write(problem, load);
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("log", self.log_);
-    visit("next", self.next_);
-    visit("last", self.last_);
-    visit("rest", self.rest_);
-  }
+  SCARP_MEMBERS_EXCEPT((between_, end_, load_unit_), log_, rest_, next_, last_)
 
  private:
   template <class Problem>

@@ -10,10 +10,10 @@
 
 namespace scarp {
 
-/// Copy of a point's state, from the process that has it.
+/// Copy of a point's state, from the process that has it. local: the point's number in its field
 template <SharesPoints Executor, class Field>
-typename Field::State state_elsewhere(Executor const& executor, Field const& field, int point) {
-  auto state = field.no_state();
+typename Field::State state_elsewhere(Executor const& executor, Field const& field, int point, int local) {
+  auto state = field.blank_state(local);
   std::string const bytes = executor.ask(point);
   StateReader reader(bytes);
   reader("state", state);

@@ -16,7 +16,7 @@ void visit_point(Problem const& problem, int point, Visit const& visit) {
   auto const see = [&](auto const& field, int local) {
     if constexpr (SharesPoints<Executor>) {
       if (!problem.executor().owns(point)) {
-        visit(field.provider(), state_elsewhere(problem.executor(), field, point));
+        visit(field.provider(), state_elsewhere(problem.executor(), field, point, local));
         return;
       }
     }

@@ -11,6 +11,7 @@
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
 #include "scarp/constitutive/material_field.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
 
@@ -119,6 +120,7 @@ class SCARP_EXPORT RegionMaterials {
 
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(where_, fields_);
     boost::hana::for_each(self.fields_, [&](auto& field) { visit("region", field); });
   }
 

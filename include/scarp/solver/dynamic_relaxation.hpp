@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "scarp/core/described.hpp"
 #include "scarp/solver/detail/step_start.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/sparse_lu.hpp"
@@ -75,6 +76,9 @@ struct DynamicRelaxation {
     }
 
     void accept(Eigen::VectorXd const& increment) { problem_.commit(increment); }
+
+    /// Nothing: every step begins at rest, with masses of its own.
+    SCARP_MEMBERS_EXCEPT((settings_, problem_, start_, mass_))
 
    private:
     template <class Evaluate>

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/solver/step_report.hpp"
 
@@ -63,21 +64,8 @@ struct RunReport {
   double material_seconds = 0.0;
   double seconds = 0.0;
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("verdict", self.verdict);
-    visit("last_failure", self.last_failure);
-    visit("worst_point", self.worst_point);
-    visit("weak_dof", self.weak_dof);
-    visit("load", self.load);
-    visit("steps", self.steps);
-    visit("refused", self.refused);
-    visit("iterations", self.iterations);
-    visit("inner_steps", self.inner_steps);
-    visit("largest_residual", self.largest_residual);
-    visit("material_seconds", self.material_seconds);
-    visit("seconds", self.seconds);
-  }
+  SCARP_MEMBERS(verdict, last_failure, worst_point, weak_dof, load, steps, refused, iterations, inner_steps,
+                largest_residual, material_seconds, seconds)
 };
 
 /// Where a run stands between two attempts: with the problem and the session it is all that the rest of the run follows from.
@@ -85,11 +73,7 @@ struct RunState {
   RunReport report;
   double increment = 0.0;  ///< of the load, for the next attempt
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("report", self.report);
-    visit("increment", self.increment);
-  }
+  SCARP_MEMBERS(report, increment)
 };
 
 /// An observer that saves runs and continues saved ones: begins(problem, session, state), before the first attempt, may put back

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/voigt.hpp"
 #include "scarp/solver/step_report.hpp"
 
@@ -41,16 +42,7 @@ class WorkBalance {
   }
   static bool wants_stop() { return false; }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("positions", self.now_.positions);
-    visit("stresses", self.now_.stresses);
-    visit("volumes", self.now_.volumes);
-    visit("forces", self.now_.forces);
-    visit("external", self.external_);
-    visit("internal", self.internal_);
-    visit("turned_over", self.turned_over_);
-  }
+  SCARP_MEMBERS(now_, external_, internal_, turned_over_)
 
  private:
   struct Snapshot {
@@ -59,6 +51,8 @@ class WorkBalance {
     std::vector<double> volumes;
     std::vector<Vector<dim>>
         forces;  ///< external: loads at free degrees of freedom, with the reactions at prescribed ones
+
+    SCARP_MEMBERS(positions, stresses, volumes, forces)
 
     Snapshot() = default;
     Snapshot(Problem const& problem, double load)

@@ -7,6 +7,7 @@
 
 #include "scarp/budget/detail/point_checks.hpp"
 #include "scarp/budget/error_sampling.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 
 namespace scarp {
@@ -44,11 +45,7 @@ struct DoubledSamples {
     return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("differences", self.differences);
-    visit("work", self.work);
-  }
+  SCARP_MEMBERS(differences, work)
 
  private:
   template <class Problem>

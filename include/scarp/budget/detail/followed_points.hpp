@@ -8,6 +8,7 @@
 
 #include "scarp/budget/detail/point_checks.hpp"
 #include "scarp/budget/error_sampling.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "scarp/solver/executor.hpp"
@@ -23,14 +24,7 @@ struct FollowedPoint {
   double farthest = 0.0;    ///< largest so far
   double square_sum = 0.0;  ///< of the differences after all steps
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("point", self.point);
-    visit("bits", self.bits);
-    visit("apart", self.apart);
-    visit("farthest", self.farthest);
-    visit("square_sum", self.square_sum);
-  }
+  SCARP_MEMBERS(point, bits, apart, farthest, square_sum)
 };
 
 struct FollowedPoints {
@@ -99,12 +93,7 @@ struct FollowedPoints {
     return farthest;
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("points", self.points);
-    visit("steps", self.steps);
-    visit("work", self.work);
-  }
+  SCARP_MEMBERS(points, steps, work)
 };
 
 }  // namespace scarp

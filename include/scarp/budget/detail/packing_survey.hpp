@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scarp/budget/detail/point_checks.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/worse_of.hpp"
 
@@ -35,14 +36,7 @@ struct PackingSurvey {
     }
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("looked_at", self.looked_at);
-    visit("unbalanced_sum", self.unbalanced_sum);
-    visit("unbalanced", self.unbalanced);
-    visit("kinetic_share", self.kinetic_share);
-    visit("inertial_number", self.inertial_number);
-  }
+  SCARP_MEMBERS(looked_at, unbalanced_sum, unbalanced, kinetic_share, inertial_number)
 };
 
 }  // namespace scarp

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scarp/constitutive/any_state.hpp"
+#include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/packing_balance.hpp"
 #include "scarp/constitutive/rve_quantities.hpp"
@@ -24,7 +25,7 @@ class HiddenProvider {
 
   virtual ~HiddenProvider() = default;
   virtual State initial_state(Site<Dim> const& site) const = 0;
-  virtual State no_state() const = 0;
+  virtual State blank_state(Site<Dim> const& site) const = 0;
   virtual std::any plan(State const& committed, Gradient<Dim> const& increment) const = 0;
   virtual std::any refined(std::any const& plan) const = 0;
   virtual long work(std::any const& plan) const = 0;
@@ -50,14 +51,8 @@ class HiddenProviderOf final : public HiddenProvider<Provider::dim> {
   State initial_state(Site<dim> const& site) const override {
     return State(std::make_unique<Hidden>(provider_.initial_state(site)));
   }
-  State no_state() const override {
-    if constexpr (std::default_initializable<typename Provider::State>) {
-      return State(std::make_unique<Hidden>());
-    } else {
-      refuse(
-          "points are shared out among processes, but their state cannot be left empty (it has no default "
-          "constructor): give it one");
-    }
+  State blank_state(Site<dim> const& site) const override {
+    return State(std::make_unique<Hidden>(scarp::blank_state(provider_, site)));
   }
   std::any plan(State const& committed, Gradient<dim> const& increment) const override {
     if constexpr (PlansWork<Provider>) {

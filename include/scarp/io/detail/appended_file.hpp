@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
 
@@ -28,10 +29,7 @@ class AppendedFile {
     bytes_ += line.size();
   }
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("bytes of a file", self.bytes_);
-  }
+  SCARP_MEMBERS_EXCEPT((path_, file_), bytes_)
 
   /// Takes the lines off that came after the checkpoint.
   /// \throws InputError when lines from before it are gone, FileError when the file cannot be cut

@@ -28,8 +28,8 @@ void with_all_states(Problem& problem, Task const& task) {
       auto const& executor = problem.executor();
       for (int point = 0; point < problem.materials().point_count(); ++point) {
         if (executor.owns(point)) continue;
-        problem.visit_field(point,
-                            [&](auto& field, int local) { field.put(local, state_elsewhere(executor, field, point)); });
+        problem.visit_field(
+            point, [&](auto& field, int local) { field.put(local, state_elsewhere(executor, field, point, local)); });
       }
     }
     task();

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/solver/detail/answer_change.hpp"
 #include "scarp/solver/detail/step_start.hpp"
@@ -39,11 +40,9 @@ class SCARP_EXPORT QuasiNewtonSession {
   void accept(Eigen::VectorXd const& increment);
 
   /// What is remembered from step to step.
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("first tangents", self.first_);
-    visit("learned tangents", self.learned_);
-  }
+  SCARP_MEMBERS_EXCEPT((settings_, mixing_, problem_, start_, mark_, tangent_seconds_, provider_, working_,
+                        last_gradients_, last_stresses_),
+                       first_, learned_)
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "scarp/constitutive/any_provider.hpp"
+#include "scarp/constitutive/dormant.hpp"
+#include "scarp/constitutive/isotropic_elasticity.hpp"
+#include "scarp/constitutive/lazy.hpp"
+#include "scarp/constitutive/recorded.hpp"
+#include "scarp/constitutive/stiffness_floor.hpp"
+#include "scarp/constitutive/varied_parameters.hpp"
+
+/// Every adaptor around every adaptor, for the laws of what is saved.
+namespace nestings {
+
+/// Elasticity that stiffens along its path, counts as fluid where it is wider than at the start, and plans work.
+struct Loosening {
+  static constexpr int dim = 2;
+  using Plan = int;
+  struct State {
+    scarp::EngineeringStrain<2> strain = scarp::EngineeringStrain<2>::Zero();
+    double path = 0.0;
+
+    SCARP_MEMBERS(strain, path)
+  };
+
+  scarp::IsotropicElasticity elasticity{6e6, 4e6};
+
+  State initial_state(scarp::Site<2> const&) const { return {{-1e-3, -1e-3, 0.0}, 0.0}; }
+  scarp::VoigtTangent<2> tangent(State const& state) const { return (1.0 + state.path) * elasticity.stiffness<2>(); }
+  scarp::VoigtStress<2> stress(State const& state) const { return tangent(state) * state.strain; }
+  Plan plan(State const& committed, scarp::Gradient<2> const& increment) const {
+    return 3 + static_cast<int>(1e4 * (increment.norm() + committed.path));
+  }
+  Plan refined(Plan plan) const { return 2 * plan; }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    return respond(committed, increment, trial, plan(committed, increment));
+  }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial,
+                             Plan plan) const {
+    trial.strain = committed.strain + scarp::to_engineering_strain<2, double>(increment);
+    trial.path = committed.path + increment.norm() * (1.0 + 1.0 / plan);
+    bool const wider = trial.strain(0) + trial.strain(1) > 0.0;
+    return {stress(trial), wider ? scarp::Verdict{scarp::Status::fluid, scarp::Reason::no_contacts} : scarp::Verdict{}};
+  }
+};
+
+static_assert(scarp::PlansWork<Loosening>);
+
+/// Makes a provider another one for each site, whatever is around it.
+template <class Provider>
+void stiffen(Provider& provider, double by) {
+  if constexpr (requires { provider.elasticity; }) {
+    provider.elasticity.lame_lambda *= by;
+    provider.elasticity.shear_modulus *= by;
+  } else if constexpr (requires { provider.law.normal_stiffness; }) {
+    provider.law.normal_stiffness *= by;
+  } else if constexpr (requires { provider.provider; }) {
+    stiffen(provider.provider, by);
+  } else if constexpr (requires { provider.common; }) {
+    stiffen(provider.common, by);
+  }
+}
+
+struct Floored {
+  static constexpr char const* name = "StiffnessFloor";
+  template <class Provider>
+  static auto around(Provider provider) {
+    return scarp::StiffnessFloor<Provider>{std::move(provider), 1e-2};
+  }
+};
+struct Varied {
+  static constexpr char const* name = "VariedParameters";
+  template <class Provider>
+  static auto around(Provider provider) {
+    return scarp::VariedParameters<Provider>{std::move(provider),
+                                             [](Provider const& common, scarp::Site<2> const& site) {
+                                               Provider own = common;
+                                               stiffen(own, 1.0 + 0.01 * (site.index % 5));
+                                               return own;
+                                             }};
+  }
+};
+struct Sleeping {
+  static constexpr char const* name = "Dormant";
+  template <class Provider>
+  static auto around(Provider provider) {
+    return scarp::Dormant<Provider>{std::move(provider)};
+  }
+};
+struct Predicted {
+  static constexpr char const* name = "Lazy";
+  template <class Provider>
+  static auto around(Provider provider) {
+    return scarp::Lazy<Provider>{
+        .provider = std::move(provider), .tolerance = 0.3, .largest_strain = 3e-4, .learning_strain = 1e-9};
+  }
+};
+struct Remembered {
+  static constexpr char const* name = "Recorded";
+  template <class Provider>
+  static auto around(Provider provider) {
+    return scarp::Recorded<Provider>{std::move(provider), scarp::PointNumbers{{0, 3, 4}}};
+  }
+};
+struct Hidden {
+  static constexpr char const* name = "AnyProvider";
+  template <class Provider>
+  static scarp::AnyProvider<2> around(Provider provider) {
+    return provider;
+  }
+};
+
+/// visit(adaptor) for each.
+template <class Visit>
+void for_each_adaptor(Visit const& visit) {
+  visit(Floored{}), visit(Varied{}), visit(Sleeping{}), visit(Predicted{}), visit(Remembered{}), visit(Hidden{});
+}
+
+/// visit(name, provider) for each adaptor around each, another one of its own kind too.
+template <class Visit>
+void for_each(Visit const& visit) {
+  for_each_adaptor([&](auto outer) {
+    for_each_adaptor([&](auto inner) {
+      visit(std::string(outer.name) + " around " + inner.name, outer.around(inner.around(Loosening{})));
+    });
+  });
+}
+
+/// Wakes all that sleeps in a state, as far as its type is seen.
+template <class State>
+void wake(State& state) {
+  if constexpr (requires { state.awake; }) state.awake = true;
+  if constexpr (requires { state.own; }) wake(state.own);
+}
+
+}  // namespace nestings

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is saved comes back: the bits of a state that was read in are those of the one that was saved, and so are its next answers.
+#include <doctest/doctest.h>
+
+#include "constitutive/nestings.hpp"
+#include "constitutive/provider_laws.hpp"
+#include "dem/sample_packings.hpp"
+#include "scarp/constitutive/blank_state.hpp"
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/material_field.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/constitutive/nonlocal_materials.hpp"
+#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/contact/rolling_resistance.hpp"
+#include "scarp/io/state_bits.hpp"
+
+namespace {
+
+using scarp::Gradient;
+using scarp::Site;
+
+template <class T>
+std::string bits_of(T const& value) {
+  scarp::StateWriter writer;
+  writer("value", value);
+  return writer.bits();
+}
+
+template <class T>
+void read(std::string const& bits, T& value) {
+  scarp::StateReader reader(bits);
+  reader("value", value);
+  CHECK(reader.at_end());
+}
+
+/// Squeezed, sheared, then widened until it is fluid.
+template <int Dim>
+std::vector<Gradient<Dim>> path(double size) {
+  std::vector<Gradient<Dim>> all;
+  for (double const part : {0.3, 1.0, -0.4}) all.push_back(provider_laws::ordinary_increment<Dim>(part * size));
+  for (double const part : {-1.0, 2.0, 20.0, 30.0}) all.push_back(part * size * Gradient<Dim>::Identity());
+  all.push_back(provider_laws::ordinary_increment<Dim>(size));
+  return all;
+}
+
+template <class Provider>
+void same_answers(Provider const& provider, typename Provider::State saved, typename Provider::State loaded,
+                  double size) {
+  constexpr int dim = Provider::dim;
+  CHECK(provider.stress(loaded) == provider.stress(saved));
+  CHECK(provider.tangent(loaded) == provider.tangent(saved));
+  for (double const part : {0.5, -1.5}) {
+    auto const increment = provider_laws::ordinary_increment<dim>(part * size);
+    auto trial = saved;
+    auto trial_of_loaded = loaded;
+    auto const expected = provider.respond(saved, increment, trial);
+    auto const answer = provider.respond(loaded, increment, trial_of_loaded);
+    CHECK(answer.stress == expected.stress);
+    CHECK(answer.verdict == expected.verdict);
+    CHECK(bits_of(trial_of_loaded) == bits_of(trial));
+    saved = trial;
+    loaded = trial_of_loaded;
+  }
+}
+
+/// At every station of a path, read into a blank state and into one with another past.
+template <class Provider>
+void what_is_saved_comes_back(Provider const& provider, double size = 2e-4) {
+  constexpr int dim = Provider::dim;
+  static_assert(scarp::Described<typename Provider::State>);
+  Site<dim> site;
+  site.index = 3;
+  site.depth = 5.0;
+  auto state = provider.initial_state(site);
+  nestings::wake(state);
+  auto const start = bits_of(state);
+  for (auto const& increment : path<dim>(size)) {
+    auto const before = state;
+    static_cast<void>(provider.respond(before, increment, state));
+    auto const bits = bits_of(state);
+    auto blank = scarp::blank_state(provider, site);
+    read(bits, blank);
+    CHECK(bits_of(blank) == bits);
+    same_answers(provider, state, blank, size);
+    auto other = before;
+    read(bits, other);
+    CHECK(bits_of(other) == bits);
+    same_answers(provider, state, other, size);
+  }
+  // A law that nothing could break is none: the path has left its mark.
+  bool const asleep = provider.stress(state).isZero(0.0) && bits_of(state) == start;
+  CHECK((bits_of(state) != start || asleep));
+}
+
+/// Points of a field, each read by a field that has none of them.
+template <class Provider>
+void a_field_comes_back(Provider const& provider) {
+  std::vector<Site<2>> sites(6);
+  for (int k = 0; k < 6; ++k)
+    sites[static_cast<std::size_t>(k)] = {.index = k, .position = {0.5 * k, 1.0}, .depth = k + 1.0};
+  scarp::ProviderField<Provider> field(provider, sites);
+  field.for_each_committed([](auto& state) { nestings::wake(state); });
+  auto const increment = provider_laws::ordinary_increment<2>(3e-4);
+  auto const answer = [&](auto& asked, double part) {
+    std::string bits;
+    for (int point = 0; point < asked.point_count(); ++point) {
+      asked.plan(point, part * increment);
+      auto const response = asked.respond(point, part * increment);
+      bits += bits_of(response.stress) + bits_of(response.verdict) + bits_of(asked.trial(point));
+    }
+    return bits;
+  };
+  static_cast<void>(answer(field, 1.0));
+  field.commit();
+  scarp::ProviderField<Provider> elsewhere(provider, sites, [](int) { return false; });
+  int seen = 0;
+  elsewhere.for_each_committed([&](auto const&) { ++seen; });
+  CHECK(seen == 0);
+  read(bits_of(field), elsewhere);
+  CHECK(bits_of(elsewhere) == bits_of(field));
+  CHECK(answer(elsewhere, 0.5) == answer(field, 0.5));
+  for (int point = 0; point < field.point_count(); ++point) {
+    auto sent = elsewhere.blank_state(point);
+    read(bits_of(field.committed(point)), sent);
+    CHECK(field.provider().stress(sent) == field.committed_stress(point));
+  }
+}
+
+using Discs = samples::Discs;
+using Glued = scarp::Packing<scarp::Disc, scarp::RollingResistance<scarp::CohesiveBond<scarp::LinearFrictional>>>;
+
+template <class PackingType>
+PackingType lattice() {
+  return samples::triangular_lattice<PackingType>(4, 5e-3, 0.998e-2);
+}
+
+/// Of few steps: what is asked is that answers are the same, not that they are good.
+template <class PackingType>
+auto rve(typename PackingType::Law const& law, PackingType packing) {
+  return scarp::DemRve<PackingType, scarp::SamePacking<PackingType>>{
+      .law = law, .source = {std::move(packing)}, .least_steps = 5, .most_steps = 20};
+}
+
+auto discs() { return rve(samples::study_law(), lattice<Discs>()); }
+
+}  // namespace
+
+TEST_CASE("what is saved comes back: elasticity and plasticity, in the plane and in space") {
+  auto const elasticity = scarp::IsotropicElasticity::from_lame(3e6, 2e6);
+  scarp::Strength const strength{.cohesion = 5e2, .friction = 0.5, .dilation = 0.1};
+  what_is_saved_comes_back(scarp::LinearElastic<2>{elasticity});
+  what_is_saved_comes_back(scarp::LinearElastic<3>{elasticity});
+  what_is_saved_comes_back(scarp::LinearElastic<2, scarp::GeostaticStress<2>>{elasticity, {1e4, 2e4, 0.5}});
+  what_is_saved_comes_back(scarp::MohrCoulomb<2>{elasticity, {strength}});
+  what_is_saved_comes_back(scarp::MohrCoulomb<3>{elasticity, {strength}});
+  what_is_saved_comes_back(scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength>{
+      elasticity, {.peak = strength, .residual = {.friction = 0.3}}, {1e3, 2e3, 0.5}});
+}
+
+TEST_CASE("what is saved comes back: packings of several shapes and laws") {
+  what_is_saved_comes_back(discs());
+  what_is_saved_comes_back(rve(samples::study_law(), samples::loose_cloud<samples::Ellipses>(16, 1)));
+  // Dashpots ask how long the last move took.
+  using Damped = scarp::HertzMindlin<scarp::HertzRestitution>;
+  using DampedDiscs = scarp::Packing<scarp::Disc, Damped>;
+  what_is_saved_comes_back(rve(Damped::of(1e8, 0.25, 0.5, {.restitution = 0.3}), lattice<DampedDiscs>()));
+  what_is_saved_comes_back(
+      rve<Glued>({.law = {samples::study_law(), 10.0, 10.0}, .rolling_stiffness = 10.0, .rolling_friction = 0.1},
+                 lattice<Glued>()));
+}
+
+TEST_CASE("what is saved comes back: a packing that becomes fluid, within each adaptor") {
+  nestings::for_each_adaptor([](auto adaptor) {
+    CAPTURE(std::string(adaptor.name));
+    what_is_saved_comes_back(adaptor.around(discs()));
+  });
+}
+
+TEST_CASE("what is saved comes back: every adaptor around every adaptor") {
+  nestings::for_each([](std::string const& name, auto const& provider) {
+    CAPTURE(name);
+    what_is_saved_comes_back(provider);
+  });
+}
+
+TEST_CASE("what is saved comes back: fields, also where there was no state of a point") {
+  nestings::for_each([](std::string const& name, auto const& provider) {
+    CAPTURE(name);
+    a_field_comes_back(provider);
+  });
+}
+
+TEST_CASE("what is saved comes back: points that see means of their neighbours") {
+  using Field = scarp::ProviderField<nestings::Loosening>;
+  std::vector<Site<2>> sites(6);
+  for (int k = 0; k < 6; ++k)
+    sites[static_cast<std::size_t>(k)] = {.index = k, .position = {0.5 * k, 1.0}, .depth = 1.0};
+  std::vector<double> const volumes(6, 0.25);
+  std::vector<scarp::Neighbourhood> const wide(6, {.length = 1.2});
+  auto const make = [&] { return scarp::NonlocalMaterials<Field>(Field({}, sites), sites, volumes, wide); };
+  auto const answer = [&](auto& field, double part) {
+    std::vector<Gradient<2>> gradients;
+    for (int k = 0; k < 6; ++k) gradients.push_back(provider_laws::ordinary_increment<2>(part * 1e-4 * (k % 3)));
+    field.average(gradients);
+    std::string bits = bits_of(field.added_stresses());
+    for (int k = 0; k < 6; ++k) {
+      field.plan(k, gradients[static_cast<std::size_t>(k)]);
+      bits += bits_of(field.respond(k, gradients[static_cast<std::size_t>(k)]).stress);
+    }
+    return bits;
+  };
+  auto field = make();
+  static_cast<void>(answer(field, 1.0));
+  field.commit();
+  auto loaded = make();
+  read(bits_of(field), loaded);
+  CHECK(bits_of(loaded) == bits_of(field));
+  CHECK(answer(loaded, 0.5) == answer(field, 0.5));
+}
