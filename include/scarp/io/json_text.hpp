@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <string>
 #include <string_view>
 
@@ -40,11 +42,14 @@ inline std::string take_json_string(std::string_view& text) {
       case 'r': result += '\r'; break;
       case 'b': result += '\b'; break;
       case 'f': result += '\f'; break;
-      case 'u':
-        if (at + 4 < text.size())
-          result += static_cast<char>(std::stoi(std::string(text.substr(at + 3, 2)), nullptr, 16));
+      case 'u': {
+        unsigned code = 0;
+        auto const digits = text.substr(std::min(at + 1, text.size()), 4);
+        std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
+        result += static_cast<char>(code);
         at += 4;
         break;
+      }
       default: result += letter;
     }
   }
