@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
   declare_grains(app, choice.grains);
   declare_test(app, choice);
   declare_results(app, choice, output);
-  CLI11_PARSE(app, argc, argv);
+  if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
     return run_test(choice, output, app);
   } catch (std::exception const& problem) {

@@ -145,7 +145,7 @@ int main(int argc, char** argv) {
   fault_options(*packings, sand);
   packings->add_option("--grains", grains, "in each packing")->check(CLI::Range(1, 100'000));
   packings->add_option("--seed", seed, "of the packing")->check(examples::seed_number());
-  CLI11_PARSE(app, argc, argv);
+  if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
     if (rupture->parsed()) {
       print_fault(fault);

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   app.option_defaults()->always_capture_default();
   examples::Output output{"output/retaining_wall"};
   declare_options(app, choice, output);
-  CLI11_PARSE(app, argc, argv);
+  if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
     scarp::RunFolder folder({.folder = output.folder, .overwrite = output.overwrite},
                             examples::record_of("retaining_wall", app));
