@@ -164,7 +164,7 @@ def check_values(folder):
         refused(f"{title}, a negative seed", [*TINY[title], "--seed=-1"], folder, "--seed")
     refused("a probe beside the ground", [*SOIL, "--probe-a-x", "1000"], folder, "probe A", "1000")
     refused("a probe above the ground", [*SOIL, "--probe-b-y", "26"], folder, "probe B", "26")
-    refused("two sizes", [*SOIL, "--triangles", "500"], folder, "--triangles excludes --size")
+    refused("two sizes", [*SOIL, "--triangles", "500"], folder, "excludes", "--triangles")
     code, said = run(["provider_swap", "--help"], folder)
     expect(code == 0 and "--version" in said and "throw" not in said, f"provider_swap --help: ended with {code}\n{said}")
     code, said = run(["rve_biaxial", "--help"], folder)
