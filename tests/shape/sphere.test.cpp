@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "approx.hpp"
-#include "scarp/dem/population.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/core/random.hpp"
+#include "scarp/dem/population.hpp"
 #include "scarp/shape/disc.hpp"
 
 namespace {
