@@ -47,6 +47,12 @@ typename P::Law law_of() {
   }
 }
 
+/// "Problem (why): suggestion."
+void check_message(std::string_view said) {
+  bool const whole = said.find('(') < said.rfind("): ") && said.rfind("): ") + 5 < said.size();
+  demand(whole, fmt::format("a refusal that says '{}'", said));
+}
+
 /// A reader with valid files; use(bytes) reads and checks what comes of it.
 Game reader(std::string name, std::vector<std::string> samples, std::function<void(std::string const&)> use,
             std::function<void(std::string&, Random&)> mend = {}) {
@@ -57,9 +63,9 @@ Game reader(std::string name, std::vector<std::string> samples, std::function<vo
               use(bytes);
               return Outcome::accepted;
             } catch (InputError const& refusal) {
-              demand(std::string_view(refusal.what()).size() > 10, "a refusal without a message");
+              check_message(refusal.what());
             } catch (scarp::FileError const& refusal) {
-              demand(std::string_view(refusal.what()).size() > 10, "a refusal without a message");
+              check_message(refusal.what());
             }
             return Outcome::refused;
           }};
@@ -272,7 +278,12 @@ Game record_reader() {
     auto const read = scarp::RunRecord::from(bytes);
     demand(scarp::RunRecord::from(read.text()).text() == read.text(), "a record that is another one when written");
     std::ofstream(*folder / "run.json", std::ios::binary) << bytes;
-    scarp::RunFolder(scarp::RunFolderSettings{.folder = folder->path()}, scarp::RunRecord{.program = "another"});
+    try {
+      scarp::RunFolder(scarp::RunFolderSettings{.folder = folder->path()}, scarp::RunRecord{.program = "another"});
+      demand(false, "another run's folder was given away");
+    } catch (scarp::FolderError const& refusal) {
+      check_message(refusal.what());
+    }
   });
 }
 
