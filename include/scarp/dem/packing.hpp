@@ -8,6 +8,7 @@
 #include "scarp/contact/checked_contact_law.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/tensor.hpp"
+#include "scarp/dem/detail/sound_packing.hpp"
 #include "scarp/dem/population.hpp"
 
 namespace scarp {
@@ -89,6 +90,9 @@ struct Packing {
 
   /// What a saved packing consists of.
   SCARP_MEMBERS(population, cell, position, velocity, spin, orientation, last_move, pairs)
+
+  /// \throws InputError for numbers that no packing has
+  void after_loading() const { detail::refuse_unsound(*this); }
 
   /// No velocities and no last move, as of grains that were just placed. Grains that have moved are stopped by TimeStepper.
   void rest() {

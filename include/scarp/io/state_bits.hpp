@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -145,6 +146,13 @@ class StateReader {
     expect(name, sizeof(T));
     take(name, &value, sizeof(T));
   }
+  void operator()(std::string_view name, bool& value) {
+    std::uint8_t stored = 0;
+    expect(name, sizeof(value));
+    take(name, &stored, sizeof(stored));
+    if (stored > 1) refuse("'{}' is {} (it can be 0 or 1): save it again", name, stored);
+    value = stored == 1;
+  }
   void operator()(std::string_view name, std::string& text) {
     expect(name, sizeof(char));
     text.resize(take_length(name, sizeof(char)));
@@ -153,8 +161,18 @@ class StateReader {
   template <class T, class Allocator>
   void operator()(std::string_view name, std::vector<T, Allocator>& values) {
     expect_list<T>(name);
-    values.resize(take_length(name, element_bytes<T>()));
-    elements(name, std::span<T>(values));
+    std::size_t const length = take_length(name, element_bytes<T>());
+    if constexpr (detail::Flat<T>) {
+      values.resize(length);
+      elements(name, std::span<T>(values));
+    } else {
+      // One by one: what a false length promises is never made room for.
+      values.resize(std::min(length, values.size()));
+      for (std::size_t k = 0; k < length; ++k) {
+        if (k == values.size()) values.emplace_back();
+        (*this)(name, values[k]);
+      }
+    }
   }
   /// As many as there are: they belong to a scene that knows their number.
   template <class T>
