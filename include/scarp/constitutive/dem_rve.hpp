@@ -6,11 +6,8 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/contact/law_checks.hpp"
-<<<<<<< HEAD
-#include "scarp/core/largest_principal.hpp"
-=======
 #include "scarp/core/described.hpp"
->>>>>>> wt-state
+#include "scarp/core/largest_principal.hpp"
 #include "scarp/core/logarithm.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
