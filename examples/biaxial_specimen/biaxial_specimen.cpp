@@ -8,6 +8,7 @@
 #include "../shared/budget_report.hpp"
 #include "../shared/command_line.hpp"
 #include "../shared/packing_input.hpp"
+#include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "run.hpp"
 #include "scarp/io/gmsh/gmsh_element_type.hpp"
@@ -51,7 +52,8 @@ void declare_grains(CLI::App& app, biaxial_specimen::Grains& grains) {
             ->check(CLI::Range(1, 10'000)),
         app.add_option("--preparation-friction", grains.preparation_friction, "sets their density")
             ->check(not_negative),
-        app.add_option("--seed", grains.seed, "of the packings and of who draws which")})
+        app.add_option("--seed", grains.seed, "of the packings and of who draws which")
+            ->check(examples::seed_number())})
     of_prepared->excludes(particles)->capture_default_str();
   app.add_option("--density", grains.density, "of the grains [kg/m3]")->check(positive)->capture_default_str();
   app.add_option("--thickness", grains.thickness, "out of plane, of grains and specimen [m]")
@@ -84,9 +86,9 @@ void declare_test(CLI::App& app, Choice& choice) {
   app.add_option("--threads", choice.threads, "0 takes all")->check(CLI::Range(0, 1024));
 }
 
-void declare_results(CLI::App& app, Choice& choice, std::string& output) {
+void declare_results(CLI::App& app, Choice& choice, examples::Output& output) {
   auto const folder = [](std::string const& given) { return examples::refused_folder(given); };
-  auto* const all = app.add_option("--output", output, "folder of all results")->check(folder)->capture_default_str();
+  auto* const all = examples::declare_output(app, output, "folder of all results")->capture_default_str();
   auto* const table = app.add_option("--out", choice.table, "the table alone, instead of --output")->excludes(all);
   app.add_option("--fields", choice.fields, "folder for VTU files beside --out")->check(folder)->needs(table);
   app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
@@ -96,12 +98,7 @@ void declare_results(CLI::App& app, Choice& choice, std::string& output) {
       ->capture_default_str();
 }
 
-int run_test(Choice choice, std::string const& output) {
-  if (choice.table.empty()) {
-    choice.table = (std::filesystem::path(output) / "table.csv").string();
-    choice.fields = output;
-    std::filesystem::create_directories(output);
-  }
+int run_mesh(Choice const& choice) {
   examples::refuse_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
   if (choice.mesh.empty()) return run<scarp::Tri3>(choice);
   switch (scarp::gmsh_element_type(choice.mesh)) {
@@ -112,22 +109,34 @@ int run_test(Choice choice, std::string const& output) {
   }
 }
 
+int run_test(Choice choice, examples::Output const& output, CLI::App const& app) {
+  if (!choice.table.empty()) return run_mesh(choice);
+  scarp::RunFolder own({.folder = output.folder, .overwrite = output.overwrite, .results = {"table.csv"}},
+                       examples::record_of("biaxial_specimen", app));
+  choice.table = (own.path() / "table.csv").string();
+  choice.fields = output.folder;
+  choice.begin = [&] { own.begin(); };
+  int const code = run_mesh(choice);
+  own.end(code == 0 ? "finished" : "exhausted");
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Choice choice;
-  std::string output = "output/biaxial_specimen";
+  examples::Output output{"output/biaxial_specimen"};
   CLI::App app("Compresses a rectangular body of packings between smooth platens under constant lateral pressure.");
   examples::declare_version(app);
   declare_specimen(app, choice);
   declare_grains(app, choice.grains);
   declare_test(app, choice);
   declare_results(app, choice, output);
-  CLI11_PARSE(app, argc, argv);
+  if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
-    return run_test(choice, output);
+    return run_test(choice, output, app);
   } catch (std::exception const& problem) {
-    fmt::print(stderr, "biaxial_specimen: {}\n", problem.what());
+    examples::ended_by(problem, "biaxial_specimen", app);
     return 2;
   }
 }

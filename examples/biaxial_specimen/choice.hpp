@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,7 +42,8 @@ struct Choice {
   int halvings = 4;        ///< of a row's step before the test is given up
   int threads = 0;         ///< 0: all cores
   std::string table{};
-  std::string fields{};  ///< folder, empty for none
+  std::string fields{};           ///< folder, empty for none
+  std::function<void()> begin{};  ///< called before anything is written
   int frames = 20;
   std::vector<std::string> budget{};  ///< bounds of the error budget, part=bound; the others are the usual ones
 };

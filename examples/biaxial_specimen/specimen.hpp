@@ -125,6 +125,7 @@ scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Bud
   scarp::LoadStepping const stepping{
       .first = step, .smallest = 0.99 * std::ldexp(step, -choice.halvings), .largest_gradient = 0.05};
   Watch<Budget> watch{{}, budget};
+  if (choice.begin) choice.begin();
   if (!choice.fields.empty()) {
     std::filesystem::create_directories(std::filesystem::path(choice.fields) / "fields");
     watch.series.emplace(choice.fields, choice.steps * step, std::min(choice.frames, choice.steps), 1.0);

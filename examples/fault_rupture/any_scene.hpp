@@ -18,7 +18,8 @@ struct Scene : scarp::FaultScene<scarp::AnyProvider<2>, Structure, AnySolver, Ch
 
 using AnyScene = std::variant<Scene<scarp::BareGround>, Scene<scarp::StickingFooting>, Scene<RigidFooting>>;
 
-/// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError
-AnyScene make_scene(Choice const& choice);
+/// processes: that share the packings out among them; says on stderr what is prepared where `speaks`
+/// \throws scarp::InputError for choices that do not make a scene or need too much memory, scarp::PreparationError
+AnyScene make_scene(Choice const& choice, int processes = 1, bool speaks = false);
 
 }  // namespace fault_rupture

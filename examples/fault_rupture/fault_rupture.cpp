@@ -3,6 +3,7 @@
 #include <map>
 
 #include "../shared/command_line.hpp"
+#include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "run_scene.hpp"
 
@@ -19,12 +20,13 @@ void make_quick(Choice& choice) {
 
 /// A line for each choice that the results depend on.
 struct ChoiceLines {
-  std::string text;
+  std::map<std::string, std::string> words;  ///< of options
+  std::string text{};
 
   template <class Value>
   void operator()(std::string_view name, Value const& value) {
     if constexpr (std::is_enum_v<Value>) {
-      text += fmt::format("{} = number {}\n", name, static_cast<int>(value));
+      text += fmt::format("{} = {}\n", name, words.at(std::string(name)));
     } else {
       text += fmt::format("{} = {}\n", name, value);
     }
@@ -33,14 +35,14 @@ struct ChoiceLines {
     text += fmt::format("{} = {}\n", name, value ? fmt::format("{}", *value) : "the soil's own");
   }
   void operator()(std::string_view name, std::optional<fault_rupture::MeshPattern> const& value) {
-    text += fmt::format("{} = {}\n", name,
-                        value ? fmt::format("number {}", static_cast<int>(*value)) : "the element's own");
+    text += fmt::format("{} = {}\n", name, value ? words.at(std::string(name)) : "the element's own");
   }
 };
 
 /// \throws scarp::CheckpointError
-scarp::CheckpointFiles checkpoint_files(Choice const& choice) {
-  ChoiceLines lines;
+scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
+  auto const options = examples::all_options(app);
+  ChoiceLines lines{{options.begin(), options.end()}};
   Choice::members(choice, lines);
   lines("element", fault_rupture::element_name);
   // What a file holds and not where it lies.
@@ -50,23 +52,17 @@ scarp::CheckpointFiles checkpoint_files(Choice const& choice) {
   return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
 }
 
-template <class Enum>
-CLI::Validator named(std::map<std::string, Enum> names) {
-  return CLI::CheckedTransformer(std::move(names)).description("");
-}
-
-void declare_options(CLI::App& app, Choice& choice, std::string& element, bool& quick) {
+void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element, bool& quick) {
   using namespace fault_rupture;
+  using examples::add_named;
   using examples::number_from;
-  app.add_option("--case", choice.scene, "free (field), heavy or light footing")
-      ->transform(named<Case>({{"free", Case::free}, {"heavy", Case::heavy}, {"light", Case::light}}))
-      ->default_str("free");
-  app.add_option("--soil", choice.soil, "dem (a packing in every element), mohr_coulomb or elastic")
-      ->transform(named<Soil>({{"dem", Soil::dem}, {"mohr_coulomb", Soil::mohr_coulomb}, {"elastic", Soil::elastic}}))
-      ->default_str("dem");
-  app.add_option("--footing", choice.base, "sticking (elastic block, shares nodes) or frictional (rigid, may lift)")
-      ->transform(named<Base>({{"sticking", Base::sticking}, {"frictional", Base::frictional}}))
-      ->default_str("sticking");
+  add_named<Case>(app, "--case", choice.scene, "free (field), heavy or light footing",
+                  {{"free", Case::free}, {"heavy", Case::heavy}, {"light", Case::light}});
+  add_named<Soil>(app, "--soil", choice.soil, "dem (a packing in every element), mohr_coulomb or elastic",
+                  {{"dem", Soil::dem}, {"mohr_coulomb", Soil::mohr_coulomb}, {"elastic", Soil::elastic}});
+  add_named<Base>(app, "--footing", choice.base,
+                  "sticking (elastic block, shares nodes) or frictional (rigid, may lift)",
+                  {{"sticking", Base::sticking}, {"frictional", Base::frictional}});
   app.add_option("--footing-centre", choice.footing_centre, "x [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--footing-width", choice.footing_width, "[m]")->check(number_from(0.0, false, 1e6));
   app.add_option("--bearing-pressure", choice.bearing_pressure, "[Pa]; 0 takes the case's own, 91 or 37 kPa")
@@ -76,27 +72,28 @@ void declare_options(CLI::App& app, Choice& choice, std::string& element, bool& 
   app.add_flag("--quick", quick, "tiny mesh and few grains; other options still apply")->configurable(false);
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(number_from(0.0, false, 25.0));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
-      ->check(CLI::Range(100, 1'000'000));
+      ->check(CLI::Range(100, 1'000'000))
+      ->excludes("--size");
   app.add_option("--element", element, "compiled in: examples/run builds and runs the program of the one that is named")
       ->check(CLI::IsMember({"tri3", "tri6", "quad4", "quad8"}));
-  app.add_option(
-         "--pattern", choice.pattern,
-         "of the mesh: crossed, left or right (diagonals), quads, or jittered; crossed, or quads for quadrilaterals")
-      ->transform(named<MeshPattern>({{"crossed", MeshPattern::crossed},
-                                      {"left", MeshPattern::left},
-                                      {"right", MeshPattern::right},
-                                      {"quads", MeshPattern::quads},
-                                      {"jittered", MeshPattern::jittered}}));
+  add_named<MeshPattern>(
+      app, "--pattern", choice.pattern,
+      "of the mesh: crossed, left or right (diagonals), quads, or jittered; crossed, or quads for quadrilaterals",
+      {{"crossed", MeshPattern::crossed},
+       {"left", MeshPattern::left},
+       {"right", MeshPattern::right},
+       {"quads", MeshPattern::quads},
+       {"jittered", MeshPattern::jittered}});
   app.add_option("--aspect", choice.aspect, "height of a mesh cell over its width")
       ->check(number_from(0.0, false, 10.0));
-  app.add_option("--mesh-seed", choice.mesh_seed, "of a jittered mesh");
+  app.add_option("--mesh-seed", choice.mesh_seed, "of a jittered mesh")->check(examples::seed_number());
   auto* const file =
       app.add_option("--mesh", choice.mesh, "Gmsh file: region soil; boundaries left, right, bottom, surface")
           ->check(CLI::ExistingFile);
   for (char const* made_mesh : {"--size", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
-  app.add_option("--seed", choice.seed, "of the packing");
+  app.add_option("--seed", choice.seed, "of the packing")->check(examples::seed_number());
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));
@@ -121,7 +118,7 @@ void declare_options(CLI::App& app, Choice& choice, std::string& element, bool& 
   app.add_option("--probe-a-y", choice.probe_a_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--probe-b-x", choice.probe_b_x, "probe B, outside [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--probe-b-y", choice.probe_b_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
-  app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, 0 for none")
+  app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, preparation and all; 0 for none")
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
       ->check([](std::string const& given) { return examples::refused_bound(given); });
@@ -129,21 +126,27 @@ void declare_options(CLI::App& app, Choice& choice, std::string& element, bool& 
       app.add_option("--checkpoint", choice.checkpoint,
                      "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")
           ->check([](std::string const& given) { return given.empty() ? "" : examples::refused_folder(given); });
-  app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there; afresh where there is none")
-      ->needs(folder)
-      ->configurable(false);
+  auto* const resume =
+      app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there; afresh where there is none")
+          ->needs(folder)
+          ->configurable(false);
   app.add_option("--checkpoint-every", choice.checkpoint_every, "seconds between two checkpoints")
       ->check(number_from(0.0, true, 1e9));
-  app.add_option("--output", choice.output, "folder for all results")->check([](std::string const& given) {
-    return examples::refused_folder(given);
-  });
+  examples::declare_output(app, output, "folder for all results");
+  resume->excludes("--overwrite");
   app.set_config("--config", "", "file with lines `option = value`");
   app.allow_config_extras(CLI::config_extras_mode::error);
+}
+
+bool is_same_folder(std::filesystem::path const& one, std::filesystem::path const& other) {
+  std::error_code trouble;
+  return std::filesystem::weakly_canonical(one, trouble) == std::filesystem::weakly_canonical(other, trouble);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  auto const started = std::chrono::steady_clock::now();
   fault_rupture::Session const session(argc, argv);
   Choice choice;
   bool quick = false;
@@ -155,7 +158,8 @@ int main(int argc, char** argv) {
   examples::declare_version(app);
   app.option_defaults()->always_capture_default();
   std::string element = fault_rupture::element_name;
-  declare_options(app, choice, element, quick);
+  examples::Output output{"output/fault_rupture"};
+  declare_options(app, choice, output, element, quick);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
@@ -170,15 +174,23 @@ int main(int argc, char** argv) {
     fault_rupture::give_up(2);
   }
   try {
-    auto const started = std::chrono::steady_clock::now();
-    auto files = checkpoint_files(choice);
-    auto const scene = fault_rupture::make_scene(choice);
-    return std::visit([&](auto const& chosen) { return run(choice, chosen, files, started); }, scene);
-  } catch (scarp::CheckpointError const& error) {
-    fmt::print(stderr, "fault_rupture: {}\n", error.what());
-    fault_rupture::give_up(2);
+    // Folders are for the first rank; when it gives up, the others end with it.
+    bool const first = fault_rupture::rank() == 0;
+    scarp::FolderLock checkpoints;
+    if (first && !choice.checkpoint.empty() && !is_same_folder(choice.checkpoint, output.folder))
+      checkpoints = scarp::FolderLock(choice.checkpoint);
+    auto files = checkpoint_files(choice, app);
+    std::optional<scarp::RunFolder> folder;
+    if (first) {
+      folder.emplace(scarp::RunFolderSettings{.folder = output.folder,
+                                              .overwrite = output.overwrite,
+                                              .results = {"summary.json", "convergence.csv", "fields.pvd"}},
+                     examples::record_of("fault_rupture", app), &files);
+    }
+    auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
+    fault_rupture::Start const start{files, folder ? &*folder : nullptr, started};
+    return std::visit([&](auto const& chosen) { return run(choice, chosen, start); }, scene);
   } catch (std::exception const& error) {
-    fmt::print(stderr, "fault_rupture: {}\n", error.what());
-    fault_rupture::give_up(1);
+    fault_rupture::give_up(examples::ended_by(error, "fault_rupture", app));
   }
 }

@@ -2,5 +2,5 @@
 #include "run_scene.hpp"
 
 namespace fault_rupture {
-template int run(Choice const&, Scene<scarp::BareGround> const&, scarp::CheckpointFiles&, Moment);
+template int run(Choice const&, Scene<scarp::BareGround> const&, Start const&);
 }  // namespace fault_rupture

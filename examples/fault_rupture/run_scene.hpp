@@ -3,8 +3,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <utility>
 
 #include "../shared/budget_report.hpp"
+#include "../shared/run_options.hpp"
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
@@ -21,6 +25,13 @@ namespace fault_rupture {
 
 using Moment = std::chrono::steady_clock::time_point;
 
+/// A run about to begin.
+struct Start {
+  scarp::CheckpointFiles& files;
+  scarp::RunFolder* folder = nullptr;  ///< on the first rank
+  Moment moment{};                     ///< when the program began
+};
+
 /// An older, longer series would be mixed up with the new one, and an old summary would speak for it. A run that goes
 /// on keeps its series.
 inline void remove_older_results(std::filesystem::path const& folder, bool goes_on) {
@@ -35,6 +46,31 @@ inline void remove_older_results(std::filesystem::path const& folder, bool goes_
     if (name.starts_with("step_") && name.ends_with(".vtu")) std::filesystem::remove(file.path());
   }
 }
+
+/// Takes the folder over, once: a new run before it writes its tables, one that goes on at its first attempt, since until then
+/// its checkpoint may be refused.
+struct Takeover : scarp::NeverStops {
+  scarp::RunFolder& folder;
+  std::function<void()> also{};
+  bool goes_on = false;
+  bool done = false;
+
+  Takeover(scarp::RunFolder& own, bool continues, std::function<void()> more)
+      : folder(own), also(std::move(more)), goes_on(continues) {
+    if (!goes_on) take();
+  }
+  void take() {
+    if (std::exchange(done, true)) return;
+    folder.begin();
+    std::filesystem::create_directories(folder.path() / "fields");
+    remove_older_results(folder.path(), goes_on);
+    if (also) also();
+  }
+  template <class Problem>
+  void attempted(Problem const&, scarp::StepReport const&) {
+    take();
+  }
+};
 
 /// An observer that has nothing to see.
 struct NoFooting : scarp::NeverStops {
@@ -63,10 +99,11 @@ scarp::ErrorBudget<Problem> error_budget(Choice const& choice, SceneType const& 
 /// Runs a scene, or goes on with one, and writes its results.
 /// \return exit code of the program
 template <class SceneType>
-int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& files, Moment started) {
+int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   namespace fs = std::filesystem;
+  scarp::CheckpointFiles& files = begun.files;
   auto const elapsed = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun.moment).count();
   };
   scarp::ThreadExecutor threads(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
@@ -76,14 +113,15 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
         choice.checkpoint);
   }
   auto problem = scene.problem(executor);
-  fs::path const folder = choice.output;
+  fs::path const folder = begun.folder != nullptr ? begun.folder->path() : "";
+  std::optional<Takeover> takeover;
   if (is_first_rank(executor)) {
     if (files.resumes()) fmt::print(stderr, "going on from '{}'\n", files.newest().string());
     fmt::print(stderr, "{} {} elements, {} threads, ground made after {:.1f} s\n",
                problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
-    fs::create_directories(folder / "fields");
-    remove_older_results(folder, files.resumes());
-    if (scene.write_packing) scene.write_packing(folder);
+    takeover.emplace(*begun.folder, files.resumes(), [&] {
+      if (scene.write_packing) scene.write_packing(folder);
+    });
   }
   double const depth = scene.ground.depth();
   double const to = scene.throw_to;
@@ -97,13 +135,13 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnFirstRank observers(executor, [&] {
     return scarp::Observers(
-        scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
+        scarp::Borrowed(*takeover), scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
         scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
         scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
         footing_log(folder, scene.structure, to, profiles, depth, start),
         scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth),
-        scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit));
+        scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
   });
 
   AtRest rest;
@@ -123,7 +161,9 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
   if (!report.verdict.acceptable()) observers.ended(problem, report.load);
 
   on_first_rank(problem, [&] {
+    takeover->take();  // also when nothing was left to do
     auto json = summary(choice, scene, problem, rest, report, elapsed());
+    json["run"] = examples::json_of(begun.folder->record());
     json["error_budget"] = examples::json_of(budget.parts());
     scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
     std::string text =
@@ -135,6 +175,7 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
           text;
     }
     scarp::write_file(folder / "summary.txt", text);
+    begun.folder->end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
     fmt::print("{}", text);
   });
   if (report.verdict.acceptable()) return 0;
@@ -143,8 +184,8 @@ int run(Choice const& choice, SceneType const& scene, scarp::CheckpointFiles& fi
 }
 
 // Each structure's scene is compiled in a source of its own.
-extern template int run(Choice const&, Scene<scarp::BareGround> const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, Scene<scarp::StickingFooting> const&, scarp::CheckpointFiles&, Moment);
-extern template int run(Choice const&, Scene<RigidFooting> const&, scarp::CheckpointFiles&, Moment);
+extern template int run(Choice const&, Scene<scarp::BareGround> const&, Start const&);
+extern template int run(Choice const&, Scene<scarp::StickingFooting> const&, Start const&);
+extern template int run(Choice const&, Scene<RigidFooting> const&, Start const&);
 
 }  // namespace fault_rupture

@@ -2,5 +2,5 @@
 #include "run_scene.hpp"
 
 namespace fault_rupture {
-template int run(Choice const&, Scene<scarp::StickingFooting> const&, scarp::CheckpointFiles&, Moment);
+template int run(Choice const&, Scene<scarp::StickingFooting> const&, Start const&);
 }  // namespace fault_rupture

@@ -22,6 +22,11 @@ inline int ranks() {
   MPI_Comm_size(MPI_COMM_WORLD, &count);
   return count;
 }
+inline int rank() {
+  int own = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &own);
+  return own;
+}
 /// Ranks share the machine's processors unless a number is asked for.
 inline int threads_of_a_process(int asked) {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks());
@@ -35,6 +40,7 @@ struct Session {
   Session(int&, char**&) {}
 };
 inline int ranks() { return 1; }
+inline int rank() { return 0; }
 inline int threads_of_a_process(int asked) { return asked; }
 inline Team& make_team(scarp::ThreadExecutor& threads) { return threads; }
 inline int threads_of(Team const& team) { return team.threads(); }

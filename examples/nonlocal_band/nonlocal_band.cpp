@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "band.hpp"
 #include "fault.hpp"
@@ -22,7 +23,7 @@ struct Choice {
   double tolerance = 1e-6;
   int most_iterations = 30;
   double gate = 0.0;
-  std::string output{};
+  scarp::RunFolder* folder = nullptr;  ///< of the results, if they are wanted
 };
 
 /// What a run on one mesh ends with.
@@ -48,8 +49,8 @@ struct Record {
 
 void write(Choice const& choice, Problem const& problem, Record const& record, std::vector<double> const& shears,
            std::string const& name) {
-  std::filesystem::path const folder = choice.output;
-  std::filesystem::create_directories(folder);
+  std::filesystem::path const& folder = choice.folder->path();
+  choice.folder->begin();
   scarp::CsvTable curve({"settlement [m]", "pressure [Pa]", "share of tau"});
   for (auto const& row : record.curve) curve.add(row[0], row[1], row[2]);
   curve.write(folder / ("load_" + name + ".csv"));
@@ -79,7 +80,7 @@ Outcome print_row(Choice const& choice, int cells, double length) {
   if (!record.start.empty()) {
     auto const shears = shear_strains(problem, record.start, problem.discretisation().positions());
     outcome.band = measure(problem, shears);
-    if (!choice.output.empty()) write(choice, problem, record, shears, fmt::format("{}_{}", cells, length));
+    if (choice.folder != nullptr) write(choice, problem, record, shears, fmt::format("{}_{}", cells, length));
   }
   fmt::print("{:6} {:6} {:8.4f} {:9.2f} {:9.2f} {:8.4f} {:8.4f} {:7.2f} {:9.1e} {:6} {:8} {:6} {:8.1f}  {}\n", cells,
              length, last[0], peak / 1e3, last[1] / 1e3, outcome.band.width, outcome.band.spread, outcome.band.angle,
@@ -124,7 +125,8 @@ int main(int argc, char** argv) {
   app.add_option("--tolerance", choice.tolerance, "of the force residual");
   app.add_option("--most-iterations", choice.most_iterations, "of a load step");
   app.add_option("--gate", choice.gate, "largest difference between meshes with a length, as a part; 0 for none");
-  app.add_option("--output", choice.output, "folder for load curves and shear strains");
+  examples::Output output;
+  examples::declare_output(app, output, "folder for load curves and shear strains");
   auto const fault_options = [](CLI::App& command, FaultChoice& fault) {
     command.add_option("--sizes", fault.sizes, "of a mesh cell in the band [m]")->delimiter(',');
     command.add_option("--lengths", fault.lengths, "intrinsic lengths [m]")->delimiter(',');
@@ -142,8 +144,8 @@ int main(int argc, char** argv) {
   auto* const packings = app.add_subcommand("sand", "fault rupture through level ground of packings instead");
   fault_options(*packings, sand);
   packings->add_option("--grains", grains, "in each packing")->check(CLI::Range(1, 100'000));
-  packings->add_option("--seed", seed, "of the packing");
-  CLI11_PARSE(app, argc, argv);
+  packings->add_option("--seed", seed, "of the packing")->check(examples::seed_number());
+  if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
     if (rupture->parsed()) {
       print_fault(fault);
@@ -153,10 +155,18 @@ int main(int argc, char** argv) {
       print_sand(sand, grains, seed);
       return 0;
     }
-    if (print_specimens(choice)) return 0;
+    std::optional<scarp::RunFolder> folder;
+    if (!output.folder.empty()) {
+      folder.emplace(scarp::RunFolderSettings{.folder = output.folder, .overwrite = output.overwrite},
+                     examples::record_of("nonlocal_band", app));
+      choice.folder = &*folder;
+    }
+    bool const good = print_specimens(choice);
+    if (folder) folder->end("finished");
+    if (good) return 0;
     fmt::print(stderr, "nonlocal_band: meshes with a length differ by more than {:g}\n", choice.gate);
   } catch (std::exception const& error) {
-    fmt::print(stderr, "nonlocal_band: {}\n", error.what());
+    return examples::ended_by(error, "nonlocal_band", app);
   }
   return 1;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What changes when every element's elastic law is replaced by a packing of grains? In the program: one template argument.
+#include "../shared/version_option.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
@@ -34,7 +35,9 @@ bool rupture(char const* name, scarp::FreeFieldFault<Soil> const& scene) {
   return balanced && run.verdict.acceptable();
 }
 
-int main() {
+int main(int argc, char** argv) {
+  if (auto const code = examples::ended_without_options(argc, argv, "One scene, first elastic, then of packings"))
+    return *code;
   scarp::FaultMesh const layer{.size = 5.0};
   auto const elastic = Elastic::from_young_poisson(20e6, 0.3, {.surcharge = 4e3, .unit_weight = 15.68e3, .k0 = 0.4});
   scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};

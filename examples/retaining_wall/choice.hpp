@@ -16,7 +16,6 @@ struct Choice {
   double preparation_friction = 0.09;  ///< sets the density, hence the strength
   double strain = 0.03;                ///< wall displacement over the length of the ground, at the end
   int threads = 0;                     ///< 0: all cores
-  std::string output = "output/retaining_wall";
 };
 
 }  // namespace retaining_wall

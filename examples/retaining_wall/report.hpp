@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "../shared/run_options.hpp"
 #include "run.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
@@ -91,9 +92,9 @@ inline nlohmann::ordered_json summary(Outcome const& outcome) {
 }
 
 /// \throws FileError
-inline void write_all(Choice const& choice, std::vector<Outcome> const& outcomes) {
-  std::filesystem::path const folder = choice.output;
-  std::filesystem::create_directories(folder);
+inline void write_all(Choice const& choice, std::vector<Outcome> const& outcomes, scarp::RunFolder& own) {
+  std::filesystem::path const& folder = own.path();
+  own.begin();
   nlohmann::ordered_json json{{"soil", choice.soil == Soil::sand ? "sand" : "mohr_coulomb"}, {"size", choice.size}};
   if (choice.soil == Soil::sand) {
     json["grains"] = choice.grains;
@@ -117,7 +118,9 @@ inline void write_all(Choice const& choice, std::vector<Outcome> const& outcomes
     }
     tests.write(folder / (movement + "_tests.csv"));
   }
+  json["run"] = examples::json_of(own.record());
   scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
+  own.end("finished");
 }
 
 }  // namespace retaining_wall

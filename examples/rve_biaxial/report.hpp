@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../shared/run_options.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
@@ -100,12 +101,16 @@ inline nlohmann::json summarise(Choice const& choice, std::vector<Result> const&
   return summary;
 }
 
-inline void write_all(std::filesystem::path const& folder, Choice const& choice, std::vector<Result> const& results,
+inline void write_all(scarp::RunFolder& own, Choice const& choice, std::vector<Result> const& results,
                       double smoothing) {
-  std::filesystem::create_directories(folder);
+  std::filesystem::path const& folder = own.path();
+  own.begin();
   write_curves(folder, results);
   scarp::write_packing_tables(folder, results.front().consolidated, study_law());
-  scarp::write_file(folder / "summary.json", summarise(choice, results, smoothing).dump(2) + "\n");
+  auto summary = summarise(choice, results, smoothing);
+  summary["run"] = examples::json_of(own.record());
+  scarp::write_file(folder / "summary.json", summary.dump(2) + "\n");
+  own.end("finished");
 }
 
 }  // namespace rve_biaxial

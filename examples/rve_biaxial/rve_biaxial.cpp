@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "../shared/command_line.hpp"
+#include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "report.hpp"
 #include "tables.hpp"
@@ -22,16 +23,17 @@ struct Options {
   int seeds = 5;
   std::uint64_t seed = 1;
   double smoothing = 0.05;
-  std::string output = "output/rve_biaxial";
+  examples::Output output{"output/rve_biaxial"};
 };
 
 void declare_options(CLI::App& app, Options& options) {
   using examples::number_from;
+  app.option_defaults()->always_capture_default();
   auto& choice = options.choice;
   app.add_option("--grains", choice.grains, "grains of the RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--seeds", options.seeds, "number of packings")->check(CLI::Range(1, 10'000));
   app.add_option("--seed", options.seed, "seed of the first packing; the others follow")
-      ->check(number_from(0.0, true, 1e15));
+      ->check(examples::seed_number());
   app.add_option("--preparation-friction", options.frictions,
                  "friction during consolidation, sets the density; a list a,b,c runs all seeds at each")
       ->check(examples::each_of_list(number_from(0.0, true, 10.0)));
@@ -42,11 +44,9 @@ void declare_options(CLI::App& app, Options& options) {
       ->check(number_from(0.0, false, 1e-3));
   app.add_option("--smoothing", options.smoothing, "strain window through which the table's peaks are read")
       ->check(number_from(0.0, false, 1.0));
-  app.add_option("--output", options.output, "folder for biaxial.csv, packing_*.csv, summary.json")
-      ->check([](std::string const& given) { return examples::refused_folder(given); });
+  examples::declare_output(app, options.output, "folder for biaxial.csv, packing_*.csv, summary.json");
   app.set_config("--config", "", "file with lines `option = value`");
   app.allow_config_extras(CLI::config_extras_mode::error);
-  app.option_defaults()->always_capture_default();
 }
 
 /// One result per friction and seed in their order, whichever thread worked on it.
@@ -136,16 +136,17 @@ int main(int argc, char** argv) {
   try {
     read_frictions(options);
     require_room_for_window(options);
+    scarp::RunFolder folder({.folder = options.output.folder, .overwrite = options.output.overwrite},
+                            examples::record_of("rve_biaxial", app));
     auto const results = run_all(options);
     require_success(results, options);
-    rve_biaxial::write_all(options.output, options.choice, results, options.smoothing);
+    rve_biaxial::write_all(folder, options.choice, results, options.smoothing);
     auto const budget = rve_biaxial::error_budget(results, options.choice.pressure, {});
     fmt::print("{}", scarp::budget_headline(budget));
     rve_biaxial::print_tables(results, options.smoothing);
     fmt::print("\n{}", scarp::budget_table(budget));
   } catch (std::exception const& problem) {
-    fmt::print(stderr, "rve_biaxial: {}\n", problem.what());
-    return 1;
+    return examples::ended_by(problem, "rve_biaxial", app);
   }
   return 0;
 }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "../shared/run_options.hpp"
+
 namespace rve_lab {
 
 /// What the grains are and how they touch. The names of shapes and laws are those of material.hpp.
@@ -52,7 +54,7 @@ struct Test {
   Preparation preparation;
   Path path;
   std::string packing{};
-  std::string output = "output/rve_lab";
+  examples::Output output{"output/rve_lab"};
 };
 
 /// Another code's packing on a path.

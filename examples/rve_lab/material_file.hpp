@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "choices.hpp"
 #include "scarp/core/error.hpp"
@@ -38,12 +39,34 @@ inline nlohmann::json to_json(Material const& material) {
   return parameters;
 }
 
-/// Takes what the file beside the packing says, where there is one, except what `is_given` on the command line.
-/// \throws InputError naming the file and the key for values that cannot be
+/// Parameters that a material of this law has.
+inline std::vector<std::string> parameters_of(std::string const& law) {
+  std::vector<std::string> names{"shape", "law", "friction"};
+  if (law == "hertz") {
+    names.insert(names.end(), {"modulus", "poisson"});
+  } else {
+    names.insert(names.end(), {"normal-stiffness", "tangential-stiffness"});
+  }
+  if (law == "rolling") names.insert(names.end(), {"rolling-stiffness", "rolling-friction"});
+  return names;
+}
+
+/// Takes what the file beside the packing says, except what `is_given` on the command line, which may be all of it.
+/// \throws InputError naming the file and the key for values that cannot be, and for a material that is not known
 inline void read_material(std::filesystem::path const& packing, std::function<bool(std::string const&)> const& is_given,
                           Material& material) {
+  if (!std::filesystem::exists(packing))
+    scarp::refuse("cannot read '{}' (there is no such file): check its name and folder", packing.string());
   auto const path = material_path(packing);
-  if (!std::filesystem::is_regular_file(path)) return;
+  if (!std::filesystem::is_regular_file(path)) {
+    std::string missing;
+    for (auto const& name : parameters_of(material.law)) {
+      if (!is_given(name)) missing += (missing.empty() ? "--" : ", --") + name;
+    }
+    if (missing.empty()) return;
+    scarp::refuse("the material of '{}' is not known (there is no '{}' beside it): bring that file back, or give {}",
+                  packing.string(), path.string(), missing);
+  }
   auto const document = nlohmann::json::parse(scarp::read_file(path), nullptr, false);
   if (!document.is_object() || !document.contains("material") || !document["material"].is_object()) {
     scarp::refuse("'{}' holds no material (an object 'material' is wanted): prepare the packing again", path.string());

@@ -38,7 +38,7 @@ inline void declare_preparation(CLI::App& app, Preparation& choice) {
   add("--aspect", choice.aspect, "minor over major half axis of ellipses and superellipses")->check(positive(1.0));
   add("--exponent", choice.exponent, "of superellipses: 1 is an ellipse, towards 0 a rectangle")->check(positive(2.0));
   add("--grains", choice.grains, "number")->check(CLI::Range(1, 100'000));
-  add("--seed", choice.seed, "of the random cloud")->check(not_negative(1e15));
+  add("--seed", choice.seed, "of the random cloud")->check(examples::seed_number());
   add("--density", choice.density, "of the grains [kg/m3]")->check(positive(1e9));
   add("--thickness", choice.thickness, "out of plane [m]")->check(positive(1e3));
   add("--pressure", choice.pressure, "isotropic, at the end [Pa]")->check(positive(1e12));
@@ -63,12 +63,6 @@ inline void declare_path(CLI::App& app, Path& path) {
       ->check(positive(1e12));
 }
 
-inline void declare_output(CLI::App& app, std::string& output, char const* what) {
-  app.add_option("--output,-o", output, what)->check([](std::string const& given) {
-    return examples::refused_folder(given);
-  });
-}
-
 inline void declare_test(CLI::App& app, Test& test) {
   declare_path(app, test.path);
   app.add_option("--row-strain", test.path.row_strain, "between rows; a 200th of the path when not given")
@@ -80,12 +74,17 @@ inline void declare_test(CLI::App& app, Test& test) {
   app.add_option("--amplitude", test.path.amplitude, "strain at which a cycle turns round")
       ->check(positive(1.0))
       ->group("Path");
-  app.add_option("--packing", test.packing,
-                 "file of `prepare`; its material, in the .json beside it, counts where no option says otherwise. "
-                 "Without: a packing is prepared");
+  auto* const packing =
+      app.add_option("--packing", test.packing,
+                     "file of `prepare`; its material, in the .json beside it, counts where no option says otherwise. "
+                     "Without: a packing is prepared");
   declare_material(app, test.material);
   declare_preparation(app, test.preparation);
-  declare_output(app, test.output, "folder for path.csv and the states at start, peak and end");
+  for (auto* const option : app.get_options()) {
+    if (option->get_group() == "Preparation") option->excludes(packing);  // it has been prepared
+  }
+  examples::declare_output(app, test.output, "folder for path.csv and the states at start, peak and end",
+                           "--output,-o");
 }
 
 inline void declare_replay(CLI::App& app, Replay& replay) {

@@ -3,6 +3,7 @@
 #include <exception>
 #include <iostream>
 
+#include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "options.hpp"
 #include "preparation.hpp"
@@ -15,9 +16,10 @@ using namespace rve_lab;
 
 /// Writes NAME.packing with NAME.json and its tables into the folder.
 template <class PackingType>
-void write_packing(Test const& choice, PackingType const& packing, typename PackingType::Law const& law) {
-  std::filesystem::path const folder = choice.output;
-  std::filesystem::create_directories(folder);
+void write_packing(Test const& choice, scarp::RunFolder& own, PackingType const& packing,
+                   typename PackingType::Law const& law) {
+  own.begin();
+  std::filesystem::path const& folder = own.path();
   auto const file = folder / "packing.packing";
   auto const& preparation = choice.preparation;
   nlohmann::json const document{{"material", to_json(choice.material)},
@@ -42,13 +44,25 @@ void write_packing(Test const& choice, PackingType const& packing, typename Pack
              state.stress(0, 0), state.stress(0, 1), state.stress(1, 1));
 }
 
-void prepare(Test& choice) {
+/// Each command has a record of its own, so that a packing is prepared and sheared in one folder.
+scarp::RunFolder folder_of(Test const& choice, CLI::App const& app, std::vector<std::string> results) {
+  return {{.folder = choice.output.folder,
+           .overwrite = choice.output.overwrite,
+           .record = "run_" + app.get_name() + ".json",
+           .results = std::move(results)},
+          examples::record_of("rve_lab " + app.get_name(), app)};
+}
+
+void prepare(Test& choice, CLI::App const& app) {
+  auto own = folder_of(choice, app, {"packing.packing"});
   with_material(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    write_packing(choice, prepare_packing<PackingType>(choice.preparation, law), law);
+    write_packing(choice, own, prepare_packing<PackingType>(choice.preparation, law), law);
   });
+  own.end("finished");
 }
 
 void shear(Test& choice, CLI::App const& app) {
+  auto own = folder_of(choice, app, {"path.csv", "summary.json"});
   if (!choice.packing.empty()) {
     read_material(
         choice.packing, [&](std::string const& name) { return is_given(app, name); }, choice.material);
@@ -56,7 +70,7 @@ void shear(Test& choice, CLI::App const& app) {
   with_material(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     auto packing = choice.packing.empty() ? prepare_packing<PackingType>(choice.preparation, law)
                                           : scarp::load_packing<PackingType>(choice.packing);
-    run_path(std::move(packing), law, choice.path, choice.output, to_json(choice.material));
+    run_path(std::move(packing), law, choice.path, own, to_json(choice.material));
   });
 }
 
@@ -78,7 +92,8 @@ int main(int argc, char** argv) {
   try {
     declare_material(*prepare_app, prepared.material);
     declare_preparation(*prepare_app, prepared.preparation);
-    declare_output(*prepare_app, prepared.output, "folder for packing.packing, packing.json and tables");
+    examples::declare_output(*prepare_app, prepared.output, "folder for packing.packing, packing.json and tables",
+                             "--output,-o");
     declare_test(*shear_app, sheared);
     declare_replay(*replay_app, replayed);
     app.parse(argc, argv);
@@ -86,7 +101,7 @@ int main(int argc, char** argv) {
     return app.exit(problem, std::cout, std::cerr) == 0 ? 0 : 2;
   }
   try {
-    if (prepare_app->parsed()) prepare(prepared);
+    if (prepare_app->parsed()) prepare(prepared, *prepare_app);
     if (shear_app->parsed()) shear(sheared, *shear_app);
     if (replay_app->parsed()) {
       replay(replayed, {.normal_stiffness = is_given(*replay_app, "normal-stiffness"),
@@ -94,8 +109,9 @@ int main(int argc, char** argv) {
                         .friction = is_given(*replay_app, "friction")});
     }
   } catch (std::exception const& problem) {
-    fmt::print(stderr, "rve_lab: {}\n", problem.what());
-    return 1;
+    CLI::App const& command = *app.get_subcommands().front();
+    examples::ended_by(problem, "rve_lab", command);
+    return dynamic_cast<scarp::FolderError const*>(&problem) != nullptr ? 2 : 1;
   }
   return 0;
 }

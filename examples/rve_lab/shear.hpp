@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../shared/budget_report.hpp"
+#include "../shared/run_options.hpp"
 #include "choices.hpp"
 #include "material_file.hpp"
 #include "recorder.hpp"
@@ -30,12 +31,13 @@ inline void print_row(Row const& row) {
   std::fflush(stdout);
 }
 
-/// Sends a packing along the path. In `folder`: path.csv row by row, the states at the start, at the largest q/p and at
+/// Sends a packing along the path. In the run's folder: path.csv row by row, the states at the start, at the largest q/p and at
 /// the end, end.packing (with end.json) to go on from, summary.json last.
 /// \throws InputError when the packing cannot go on; the rows so far are then on disk
 template <class PackingType>
-void run_path(PackingType start, typename PackingType::Law const& law, Path const& choice,
-              std::filesystem::path const& folder, nlohmann::json const& material) {
+void run_path(PackingType start, typename PackingType::Law const& law, Path const& choice, scarp::RunFolder& own,
+              nlohmann::json const& material) {
+  std::filesystem::path const& folder = own.path();
   PathKind const& path = path_named(choice.name);
   Specimen<PackingType, scarp::Observe::energy> lab(std::move(start), law, path, choice.strain_step, choice.held);
   bool const cyclic = choice.cycles > 0;
@@ -44,7 +46,7 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   long const steps = steps_of(length, choice.strain_step);
   long const steps_per_row = steps_of(choice.row_strain.value_or(length / 200.0), choice.strain_step);
 
-  std::filesystem::create_directories(folder);
+  own.begin();
   Recorder<PackingType> recorder(lab.packing());
   Row const first = recorder.row(lab, path, 0);
   std::vector<std::string> names;
@@ -98,8 +100,10 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
                                {"steps", steps},
                                {"error_budget", examples::json_of(budget.parts())},
                                {"peak", nlohmann::json(std::map<std::string, double>(peak.begin(), peak.end()))},
-                               {"output", folder.string()}};
+                               {"output", folder.string()},
+                               {"run", examples::json_of(own.record())}};
   scarp::write_file(folder / "summary.json", summary.dump(2) + "\n");
+  own.end("finished");
 }
 
 }  // namespace rve_lab

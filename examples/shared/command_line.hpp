@@ -51,14 +51,31 @@ inline CLI::Validator each_of_list(CLI::Validator const& check) {
       check.get_description());
 }
 
+/// A whole number, from 0, of at most fifteen digits.
+inline CLI::Validator seed_number() {
+  return CLI::Validator(
+      [](std::string& given) {
+        bool const fits =
+            !given.empty() && given.size() <= 15 && given.find_first_not_of("0123456789") == std::string::npos;
+        return fits ? std::string()
+                    : fmt::format("'{}' is no seed (it must be a whole number, from 0, of at most 15 digits)", given);
+      },
+      "SEED");
+}
+
 /// Why a folder cannot take results, or nothing. The folder itself is made when results are written; what it lies in must
 /// exist, unless it is below the default folder "output".
 inline std::string refused_folder(std::string const& given) {
   std::filesystem::path const folder = given;
   if (given.empty()) return "the name of the output folder is empty";
-  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) return "'" + given + "' is a file";
-  auto const parent = std::filesystem::absolute(folder).lexically_normal().parent_path();
-  if (std::filesystem::exists(folder) || std::filesystem::is_directory(parent)) return {};
+  std::error_code trouble;
+  auto const kind = std::filesystem::status(folder, trouble).type();
+  if (kind == std::filesystem::file_type::directory) return {};
+  if (kind == std::filesystem::file_type::none)
+    return "'" + given + "' cannot be reached (" + trouble.message() + "): check the folders that it lies in";
+  if (kind != std::filesystem::file_type::not_found) return "'" + given + "' is a file";
+  auto const parent = std::filesystem::absolute(folder, trouble).lexically_normal().parent_path();
+  if (std::filesystem::is_directory(parent, trouble)) return {};
   return "there is no folder '" + parent.string() + "' (the output folder would lie in it): create it first";
 }
 

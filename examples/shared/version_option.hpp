@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "scarp/core/build_info.hpp"
@@ -24,6 +25,25 @@ inline void declare_version(CLI::App& app) {
   constexpr auto build = scarp::build_info();
   app.set_version_flag(
       "--version", [build] { return version_text(build); }, "version, compiler and instruction set");
+}
+
+/// Reads the command line.
+/// \return exit code when the program is to end: 0 after --help and the like, 2 for options that are refused
+inline std::optional<int> ended_by_options(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (CLI::ParseError const& problem) {
+    return app.exit(problem) == 0 ? 0 : 2;
+  }
+  return std::nullopt;
+}
+
+/// For programs that have no other options than --help and --version.
+/// \return exit code when the program is to end
+inline std::optional<int> ended_without_options(int argc, char** argv, std::string const& question) {
+  CLI::App app(question);
+  declare_version(app);
+  return ended_by_options(app, argc, argv);
 }
 
 }  // namespace examples

@@ -121,10 +121,10 @@ TEST_CASE("A pressure on a mesh of another thickness is refused") {
     scarp::Discretisation<scarp::Tri3> grid(scarp::RectangleMesh{.columns = 1, .rows = 1}.generate(), of_mesh);
     scarp::Constraints constraints(grid.mesh());
     auto const region = grid.mesh().regions.front();
-    return scarp::make_problem(std::move(grid), 1.0,
-                               boost::hana::make_tuple(scarp::Region{region, scarp::LinearElastic<2>::from_young_poisson(1e6, 0.3)}),
-                               std::move(constraints), scarp::LoadHistory(), serial,
-                               scarp::FollowingPressure<>({{0, 1}}, 1e3, of_pressure));
+    return scarp::make_problem(
+        std::move(grid), 1.0,
+        boost::hana::make_tuple(scarp::Region{region, scarp::LinearElastic<2>::from_young_poisson(1e6, 0.3)}),
+        std::move(constraints), scarp::LoadHistory(), serial, scarp::FollowingPressure<>({{0, 1}}, 1e3, of_pressure));
   };
   CHECK_THROWS_AS(made(0.2, 1.0), scarp::InputError);
   CHECK_NOTHROW(made(0.2, 0.2));

@@ -36,6 +36,22 @@ struct StickySpeltRight : Sticky {
   double reach() const { return gap; }
 };
 
+/// Has a dashpot; the member of the misspelt name is to tell how strong it is.
+struct Damped : scarp::Frictionless {
+  static constexpr scarp::ContactNeeds needs{.motion = true};
+  double damping = 0.2;
+
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach, scarp::ContactMemory<Dim, T>&) const {
+    T const rate = approach.closing / (approach.time_step + scarp::constant<T>(1e-12));
+    return {.normal = scarp::constant<T>(normal_stiffness) * approach.overlap + scarp::constant<T>(damping) * rate};
+  }
+  double dampingratio() const { return damping; }
+};
+struct DampedSpeltRight : Damped {
+  double damping_ratio() const { return damping; }
+};
+
 static_assert(scarp::ContactLaw<Sticky> && !scarp::TellsReach<Sticky> && scarp::TellsReach<StickySpeltRight>);
 
 struct RubsWithoutShear : scarp::LinearFrictional {
@@ -65,6 +81,12 @@ TEST_CASE("a law that tells a stiffness without the need for its motion is refus
 TEST_CASE("a law that pulls across a gap must tell how far") {
   CHECK_THROWS_WITH_AS(scarp::require_consistent(Sticky{}, radius), doctest::Contains("reach()"), scarp::InputError);
   CHECK_NOTHROW(scarp::require_consistent(StickySpeltRight{}, radius));
+}
+
+TEST_CASE("a law with a dashpot must tell its damping ratio, which shortens the time step") {
+  CHECK_THROWS_WITH_AS(scarp::require_consistent(Damped{}, radius), doctest::Contains("damping_ratio()"),
+                       scarp::InputError);
+  CHECK_NOTHROW(scarp::require_consistent(DampedSpeltRight{}, radius));
 }
 
 TEST_CASE_TEMPLATE("every law of the library is consistent", Law, EVERY_CONTACT_LAW) {

@@ -182,3 +182,18 @@ TEST_CASE("a law without friction is prepared as it is") {
   CHECK(std::abs(state.stress(0, 0) / samples::pressure + 1.0) < 2e-4);
   CHECK(std::abs(state.stress(1, 1) / samples::pressure + 1.0) < 2e-4);
 }
+
+TEST_CASE("slender ellipses settle, needles too") {
+  for (double const aspect : {0.33, 0.25, 0.1}) {
+    CAPTURE(aspect);
+    scarp::Cloud<scarp::EllipseGrading> const cloud{.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = aspect},
+                                                    .grains = 50,
+                                                    .density = samples::density,
+                                                    .thickness = samples::thickness};
+    auto const made = scarp::IsotropicPreparation{.pressure = samples::pressure}.prepare(
+        cloud.make<samples::Ellipses>(), samples::study_law());
+    CHECK(made.verdict == scarp::Verdict{});
+    CHECK(made.packing.void_ratio() > 0.1);
+    CHECK(made.packing.void_ratio() < 0.6);
+  }
+}

@@ -32,7 +32,7 @@ if os.environ.get("SCARP_SCENES") == "all":
             SCENES[f"{soil}, {structure}"] = ["--quick", "--grains", "49", "--soil", soil, *case,
                                               "--throw-over-depth", "0.005"]
 WALL_TIMES = ("threads", "cpu_seconds", "wall_seconds", "peak_memory_bytes", "share_of_time_in_rves",
-              "share_of_time_outside_rves", "seconds", "seconds_in_points", "share_outside_points")
+              "share_of_time_outside_rves", "run", "seconds", "seconds_in_points", "share_outside_points")
 
 
 def command(scene, *more):
@@ -53,11 +53,11 @@ def lasting(values):
 
 
 def results(folder):
-    """All files of the output folder, without what tells of wall time and without files under a temporary name, which a process
-    that is killed while it writes leaves behind."""
+    """All files of the output folder, without what tells of wall time or of the run, and without files under a temporary name, which
+    a process that is killed while it writes leaves behind."""
     found = {}
     for path in folder.rglob("*"):
-        if path.is_file() and ".partial-" not in path.name:
+        if path.is_file() and ".partial-" not in path.name and path.name not in ("run.json", "run.lock"):
             found[str(path.relative_to(folder))] = path.read_bytes()
     rows = list(csv.DictReader(io.StringIO(found["convergence.csv"].decode())))
     found["convergence.csv"] = [lasting(row) for row in rows]

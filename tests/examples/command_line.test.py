@@ -61,7 +61,7 @@ def check_refusal(program, title, option, value, named, files=None, without=(), 
         if files:
             tiny = {name: given for name, given in tiny.items() if name != "--grains"}
         tiny = {**{name: given for name, given in tiny.items() if name not in without}, **dict(also)}
-        code, said = run(program, *command(tiny, {"--output": "out"}, {option: value}), folder=scratch)
+        code, said = run(program, *command(tiny, {"--output": "out", "--overwrite": None}, {option: value}), folder=scratch)
         what = f"{program.name}, {title}"
         expect(code > 0, f"{what}: ended with {code}\n{said}")
         expect(named in said, f"{what}: the message does not name {named}\n{said}")
@@ -236,12 +236,13 @@ def check_time_limit():
 
 
 def check_repeat():
-    """A shorter run into the same folder replaces the older one's series and keeps the user's own files."""
+    """A shorter run that may overwrite replaces the older one's series and keeps the user's own files."""
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
         old_results(scratch / "out")
         (scratch / "out/fields/step_9999.vtu").write_text("of an older, longer run")
-        code, said = run(FAULT, "--quick", *command(TINY), "--frames", "2", "--output", "out", folder=scratch)
+        code, said = run(FAULT, "--quick", *command(TINY), "--frames", "2", "--output", "out", "--overwrite",
+                         folder=scratch)
         expect(code == 0, f"a second run: ended with {code}\n{said}")
         listed = [entry.get("file") for entry in xml.parse(scratch / "out/fields.pvd").iter("DataSet")]
         expect({f"fields/{path.name}" for path in (scratch / "out/fields").iterdir()} == set(listed),

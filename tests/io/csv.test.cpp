@@ -112,8 +112,11 @@ TEST_CASE("a log starts anew or goes on behind its last complete row") {
   CHECK(content(folder / "log.csv") == "a,b\n1,2\n5,6\n");
   { scarp::CsvLog const log(folder / "log.csv", {"a", "b"}); }
   CHECK(content(folder / "log.csv") == "a,b\n");
-  { scarp::CsvLog const log(folder / "new.csv", {"a"}, scarp::CsvStart::resumed); }
-  CHECK(content(folder / "new.csv") == "a\n");
+  {
+    scarp::CsvLog log(folder / "new.csv", {"a"}, scarp::CsvStart::resumed);
+    log.add(1);
+  }
+  CHECK(content(folder / "new.csv") == "a\n1\n");
 }
 
 TEST_CASE("a log with other columns is not continued and not touched") {

@@ -211,6 +211,7 @@ TEST_CASE("a checkpoint of another scene, version or machine is refused with the
   CHECK(contains(complaint_about(folder, "size = 1\nseed = 8\n"),
                  newest.string() + "': it is of another scene ('seed = 7' there, 'seed = 8' here)"));
   CHECK(contains(complaint_about(folder, "size = 1\n"), "('seed = 7' there, '' here)"));
+  CHECK_FALSE(contains(complaint_about(folder, "size = 1\n"), "newest"));  // a good checkpoint is not to be given up
   auto const bytes = content(newest);
   auto const complaint = [&](auto change) {
     auto harmed = bytes;
@@ -231,7 +232,7 @@ TEST_CASE("a checkpoint of another scene, version or machine is refused with the
   auto const text = complaint([](auto& harmed) { harmed.clear(); });
   std::size_t const named = text.find("the one before is '");
   REQUIRE(named != std::string::npos);
-  std::filesystem::remove(newest);  // as the complaint advises
+  std::filesystem::rename(newest, folder / "moved");  // as the complaint advises
   CHECK(contains(text, resumed(folder).newest().string()));
   check_same(pull(folder, resumed(folder), {}), undisturbed());
 }
@@ -250,9 +251,14 @@ TEST_CASE("a checkpoint is refused by a scene of another size and by one whose t
   few.resize(2);
   CHECK_THROWS_WITH_AS(reader("states", std::span(few)), doctest::Contains("it has 3 'states' (the scene has 2)"),
                        scarp::InputError);
-  scarp::write_file(folder / "log.csv", "step,load,residual,reason\n");
-  CHECK_THROWS_WITH_AS(pull(folder, resumed(folder), {}), doctest::Contains("log.csv' has 26 bytes (it had "),
+  constexpr std::string_view few_rows = "step,load,residual,reason\n1,";
+  scarp::write_file(folder / "log.csv", few_rows);
+  CHECK_THROWS_WITH_AS(pull(folder, resumed(folder), {}), doctest::Contains("log.csv' has 28 bytes (it had "),
                        CheckpointError);
+  CHECK(content(folder / "log.csv") == few_rows);  // a refusal touches nothing
+  std::filesystem::remove(folder / "log.csv");
+  CHECK_THROWS_WITH_AS(pull(folder, resumed(folder), {}), doctest::Contains("log.csv' has 0 bytes"), CheckpointError);
+  CHECK_FALSE(std::filesystem::exists(folder / "log.csv"));
 }
 
 TEST_CASE("adaptors keep what is their own beside what they hold") {

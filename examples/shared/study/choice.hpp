@@ -54,7 +54,6 @@ struct Choice {
   double probe_b_y = 12.0;
   double time_limit = 0.0;          ///< [s], 0 for none
   std::vector<std::string> budget;  ///< bounds of the error budget, part=bound; the others are the usual ones
-  std::string output = "output/fault_rupture";
   std::string checkpoint;           ///< folder; empty: nothing is saved
   double checkpoint_every = 600.0;  ///< [s]
   bool resume = false;

@@ -7,7 +7,7 @@
 namespace scarp {
 
 /// Refuses a law whose members contradict each other, which compiles but gives wrong forces: a stiffness against a motion
-/// that `needs` does not name, a force across a gap without reach().
+/// that `needs` does not name, a force across a gap without reach(), a dashpot without damping_ratio().
 /// radius [m]: of a grain, for the size of overlap and gap that are tried, 1e-6 of it
 /// \throws InputError
 template <ContactLaw Law>
@@ -25,6 +25,25 @@ void require_consistent(Law const& law, double radius) {
         "the contact law tells a rolling stiffness of {} N m/rad (its needs do not name .moment, so no moment would "
         "act): add `.moment = true` to its needs, or tell no rolling stiffness",
         stiffness.rolling);
+  }
+  if constexpr (Law::needs.motion && !TellsDampingRatio<Law>) {
+    auto const normal_force = [&](double closing) {
+      ContactMemory<2, double> memory;
+      Approach<2, double> const closed{.overlap = depth,
+                                       .slip = 0.0,
+                                       .reduced_radius = radius / 2.0,
+                                       .closing = closing,
+                                       .reduced_mass = 1.0,
+                                       .time_step = 1e-6};
+      return law.respond(closed, memory).normal;
+    };
+    if (normal_force(1e-3 * depth) != normal_force(0.0)) {
+      refuse(
+          "the contact law's normal force depends on how fast the contact closes (it tells no damping_ratio(), so the "
+          "time step would be that of its springs alone): give it `double damping_ratio() const`, the share of "
+          "critical "
+          "damping that its dashpots reach");
+    }
   }
   if (reach_of(law) > 0.0) return;
   ContactMemory<2, double> memory;

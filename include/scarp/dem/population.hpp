@@ -90,7 +90,7 @@ class Population {
   template <class Visit>
   static void members(Population const& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(density_, thickness_, content_, mass_, smallest_radius_, largest_radius_, largest_eccentricity_,
-                      size_, inverse_mass_, inverse_inertia_);
+                      settled_angle_, size_, inverse_mass_, inverse_inertia_);
     visit("density", self.density_);
     visit("thickness", self.thickness_);
     visit("content", self.content_);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "scarp/contact/law_checks.hpp"
 #include "scarp/dem/servo.hpp"
 
 namespace scarp {
@@ -29,11 +30,12 @@ struct IsotropicPreparation {
   Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
   Servo relaxation{};
 
-  /// \throws InputError for a pressure that is not positive or a negative friction
+  /// \throws InputError for a pressure that is not positive, a negative friction or a law that contradicts itself
   template <class PackingType>
   Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law) const {
     require_positive("pressure of the preparation", pressure);
     require_not_negative("preparation friction", preparation_friction);
+    require_consistent(law, cloud.population->largest_radius());
     constexpr int dim = PackingType::dim;
     VoigtStress<dim> target = VoigtStress<dim>::Zero();
     target.template head<dim>().setConstant(-pressure);

@@ -56,7 +56,7 @@ class CheckpointFiles {
   /// Saves nothing.
   CheckpointFiles() = default;
 
-  /// scene: all choices that make the scene, a line for each
+  /// scene: all choices that make the scene, a line for each; run_folder.hpp says which run it is
   /// \throws CheckpointError for a newest checkpoint that is harmed, of another scene, version or machine, and for an old one
   /// where the run is to start afresh
   CheckpointFiles(CheckpointSettings settings, std::string scene)
@@ -74,18 +74,22 @@ class CheckpointFiles {
           settings_.folder.string()));
     }
     try {
-      bytes_ = read_file(newest);
-      StateReader reader(detail::payload_of(detail::checkpoint_format, bytes_));
-      std::string saved;
-      reader("scene", saved);
-      detail::refuse_other_scene(saved, scene_);
+      bytes_ = fitting(newest);
     } catch (InputError const& error) {
-      std::string const before = present.size() < 2
-                                     ? ""
-                                     : fmt::format("; the one before is '{}': to continue from that, remove the newest",
-                                                   path(present[present.size() - 2]).string());
-      throw CheckpointError(fmt::format("cannot resume from '{}': {}{}", newest.string(), error.what(), before));
+      throw CheckpointError(
+          fmt::format("cannot resume from '{}': {}{}", newest.string(), error.what(), way_back(present)));
     }
+    StateReader reader(detail::payload_of(detail::checkpoint_format, bytes_));
+    read_head(reader);
+  }
+
+  std::string const& scene() const { return scene_; }
+  /// Which run is saved here, and the folder of its results; empty where nobody has said so.
+  std::string const& run() const { return run_; }
+  std::string const& run_folder() const { return run_folder_; }
+  void name_run(std::string run, std::string folder) {
+    run_ = std::move(run);
+    run_folder_ = std::move(folder);
   }
 
   bool saves() const { return !settings_.folder.empty(); }
@@ -100,6 +104,8 @@ class CheckpointFiles {
     std::filesystem::create_directories(settings_.folder);
     auto const bytes = detail::framed(detail::checkpoint_format, [&](StateWriter& writer) {
       writer("scene", scene_);
+      writer("run", run_);
+      writer("folder of the run", run_folder_);
       write(writer);
     });
     write_file(path(number_ + 1), bytes);
@@ -113,8 +119,7 @@ class CheckpointFiles {
   void load(Read&& read) const {
     try {
       StateReader reader(detail::payload_of(detail::checkpoint_format, bytes_));
-      std::string saved;
-      reader("scene", saved);
+      CheckpointFiles().read_head(reader);
       read(reader);
     } catch (InputError const& error) {
       throw CheckpointError(fmt::format("cannot resume from '{}': {}", path(number_).string(), error.what()));
@@ -128,10 +133,45 @@ class CheckpointFiles {
 
   std::filesystem::path path(int number) const { return settings_.folder / fmt::format("{}{:06}", stem, number); }
 
+  void read_head(StateReader& reader) {
+    reader("scene", scene_);
+    reader("run", run_);
+    reader("folder of the run", run_folder_);
+  }
+
+  /// Bytes of a checkpoint of this scene.
+  std::string fitting(std::filesystem::path const& file) const {
+    std::string bytes = read_file(file);
+    StateReader reader(detail::payload_of(detail::checkpoint_format, bytes));
+    CheckpointFiles there;
+    there.read_head(reader);
+    detail::refuse_other_scene(there.scene_, scene_);
+    return bytes;
+  }
+
+  /// Where the newest one cannot be used but the one before can.
+  std::string way_back(std::vector<int> const& present) const {
+    if (present.size() < 2) return "";
+    auto const before = path(present[present.size() - 2]);
+    try {
+      static_cast<void>(fitting(before));
+    } catch (InputError const&) {
+      return "";
+    }
+    return fmt::format("; the one before is '{}': to continue from that, move the newest to another folder",
+                       before.string());
+  }
+
   /// Of the checkpoints that are there, increasing.
   std::vector<int> numbers() const {
     std::vector<int> found;
-    if (!std::filesystem::is_directory(settings_.folder)) return found;
+    std::error_code trouble;
+    bool const there = std::filesystem::is_directory(settings_.folder, trouble);
+    if (trouble && trouble != std::errc::no_such_file_or_directory) {
+      throw CheckpointError(fmt::format("cannot look into '{}' ({}): check the folder of the checkpoints",
+                                        settings_.folder.string(), trouble.message()));
+    }
+    if (!there) return found;
     for (auto const& file : std::filesystem::directory_iterator(settings_.folder)) {
       std::string const name = file.path().filename().string();
       if (!name.starts_with(stem) || name.size() > stem.size() + 9) continue;
@@ -158,6 +198,8 @@ class CheckpointFiles {
 
   CheckpointSettings settings_;
   std::string scene_;
+  std::string run_;
+  std::string run_folder_;
   std::string bytes_;
   int number_ = 0;
 };

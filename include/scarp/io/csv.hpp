@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <concepts>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +15,7 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/listed.hpp"
 #include "scarp/io/detail/appended_file.hpp"
+#include "scarp/io/read_file.hpp"
 
 namespace scarp {
 
@@ -116,7 +115,7 @@ class CsvTable {
 /// What a log does with a file that is already there.
 enum class CsvStart {
   anew,    ///< replace it
-  resumed  ///< add rows behind the old ones; a last line that an interruption cut off is removed
+  resumed  ///< add rows behind the old ones; the first takes the place of a last line that an interruption cut off
 };
 
 /// A table on disk that grows row by row; every row is handed to the operating system at once.
@@ -125,7 +124,7 @@ class CsvLog {
   /// \throws InputError for wrong columns, also when an old file that is to be continued has other ones
   /// \throws FileError when the file cannot be opened
   CsvLog(std::filesystem::path const& path, std::vector<std::string> const& columns, CsvStart start = CsvStart::anew)
-      : format_(columns), file_(prepared(path, format_, start)) {}
+      : format_(columns), file_(checked(path, format_, start), format_.header(), start == CsvStart::resumed) {}
 
   /// \throws InputError for a row of the wrong width, FileError when it cannot be written
   template <class... Values>
@@ -136,27 +135,14 @@ class CsvLog {
   SCARP_MEMBERS_EXCEPT((format_), file_)
 
  private:
-  static std::filesystem::path const& prepared(std::filesystem::path const& path, detail::CsvFormat const& format,
-                                               CsvStart start) {
-    if (start == CsvStart::resumed && std::filesystem::exists(path)) {
-      keep_complete_rows(path, format);
-    } else {
-      write_file(path, format.header());
-    }
-    return path;
-  }
-
-  static void keep_complete_rows(std::filesystem::path const& path, detail::CsvFormat const& format) {
-    std::ifstream stream(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!text.starts_with(format.header())) {
+  static std::filesystem::path const& checked(std::filesystem::path const& path, detail::CsvFormat const& format,
+                                              CsvStart start) {
+    bool const continues = start == CsvStart::resumed && std::filesystem::exists(path);
+    if (continues && !read_file(path).starts_with(format.header())) {
       refuse("'{}' cannot be continued (its columns are not '{}'): start another file", path.string(),
              std::string_view(format.header()).substr(0, format.header().size() - 1));
     }
-    std::size_t const complete = text.find_last_of('\n') + 1;
-    if (complete != text.size()) {
-      write_file(path, std::string_view(text).substr(0, complete));
-    }
+    return path;
   }
 
   detail::CsvFormat format_;

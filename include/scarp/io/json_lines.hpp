@@ -12,6 +12,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/io/detail/appended_file.hpp"
+#include "scarp/io/json_text.hpp"
 
 namespace scarp {
 
@@ -35,7 +36,7 @@ class JsonObject {
     if constexpr (std::same_as<Value, JsonObject>) {
       return value.text();
     } else if constexpr (std::convertible_to<Value const&, std::string_view>) {
-      return quoted(value);
+      return quoted_json(value);
     } else if constexpr (std::ranges::range<Value>) {
       std::string list = "[";
       for (auto const& item : value) {
@@ -50,20 +51,6 @@ class JsonObject {
     }
   }
 
-  static std::string quoted(std::string_view text) {
-    std::string result = "\"";
-    for (char const letter : text) {
-      if (letter == '"' || letter == '\\') {
-        result += {'\\', letter};
-      } else if (static_cast<unsigned char>(letter) < 0x20) {
-        result += fmt::format("\\u{:04x}", static_cast<unsigned>(letter));
-      } else {
-        result += letter;
-      }
-    }
-    return result + '"';
-  }
-
   std::string members_;
 };
 
@@ -72,7 +59,7 @@ class JsonLog {
  public:
   /// An older file of this name is replaced, or continued when a run is resumed.
   /// \throws FileError when the file cannot be written
-  explicit JsonLog(std::filesystem::path const& path, bool resumed = false) : file_(prepared(path, resumed)) {}
+  explicit JsonLog(std::filesystem::path const& path, bool resumed = false) : file_(path, "", resumed) {}
 
   /// \throws FileError when the line cannot be written
   void add(JsonObject const& object) { file_.add(object.text() + '\n'); }
@@ -80,11 +67,6 @@ class JsonLog {
   SCARP_MEMBERS(file_)
 
  private:
-  static std::filesystem::path const& prepared(std::filesystem::path const& path, bool resumed) {
-    if (!resumed) write_file(path, "");
-    return path;
-  }
-
   AppendedFile file_;
 };
 

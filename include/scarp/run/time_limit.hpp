@@ -10,7 +10,11 @@ namespace scarp {
 /// Ends a run between two attempts once its wall time is spent. [s]; zero means no limit.
 class TimeLimit {
  public:
-  explicit TimeLimit(double seconds) : seconds_(seconds), started_(std::chrono::steady_clock::now()) {}
+  using Moment = std::chrono::steady_clock::time_point;
+
+  /// started: when the time began to count, for instance before the scene was prepared
+  explicit TimeLimit(double seconds, Moment started = std::chrono::steady_clock::now())
+      : seconds_(seconds), started_(started) {}
 
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}
@@ -22,7 +26,7 @@ class TimeLimit {
 
  private:
   double seconds_;
-  std::chrono::steady_clock::time_point started_;
+  Moment started_;
 };
 
 }  // namespace scarp

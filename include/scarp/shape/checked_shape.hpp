@@ -13,6 +13,9 @@ concept TellsShapeCounts = requires {
   requires Shape::dim == 2 || Shape::dim == 3;
   requires Shape::size_count >= 1 && Shape::orientation_count >= 0 && Shape::pose_count >= 1;
 };
+/// Packings turn the axes (cos, sin) of plane grains; grains in space are the same all round.
+template <class Shape>
+concept HasAxesOfItsSpace = Shape::orientation_count == 0 || (Shape::dim == 2 && Shape::orientation_count == 2);
 template <class Shape>
 concept TellsContent = requires(SizeOf<Shape> const& size) {
   { Shape::content(size) } -> std::same_as<double>;
@@ -58,6 +61,10 @@ struct MissingOfShape {
 };
 template <class Shape>
 struct MissingOfShape<Shape, true> {
+  static_assert(
+      HasAxesOfItsSpace<Shape>,
+      "scarp: a shape's orientation_count is 2 (cos, sin of its axis) for plane grains with axes, 0 for round "
+      "ones and in space");
   static_assert(TellsContent<Shape>,
                 "scarp: a shape needs `static double content(SizeOf<Shape> const&)`: area [m2] or "
                 "volume [m3] of a grain");
@@ -108,7 +115,8 @@ constexpr bool a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if(
 
 /// A `ParticleShape`; of one that is none the compiler says in words what is missing.
 template <class Shape>
-concept CheckedShape = (ParticleShape<Shape> || detail::MissingOfShape<Shape>::nothing) &&
+concept CheckedShape = ((ParticleShape<Shape> && detail::HasAxesOfItsSpace<Shape>) ||
+                        detail::MissingOfShape<Shape>::nothing) &&
                        detail::a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if<Shape>();
 
 }  // namespace scarp

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -63,35 +64,20 @@ class LeastOverlap {
   LeastOverlap(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch)
       : first_(first), second_(second), branch_(branch) {}
 
-  /// \return whether no other direction can be better by more than 1e-10 of the grains' size
+  /// From directions all round. \return whether no other direction can be better by more than 1e-10 of the grains' size
   bool search() {
-    probes_.clear();
-    arcs_.clear();
     bool const apart = along(branch_, branch_) > 0.0;
-    Point<2, double> normal = apart ? unit(branch_) : Point<2, double>{1.0, 0.0};
-    constexpr double half = std::numbers::sqrt2 / 2.0;
-    for (std::size_t k = 0; k < 8; ++k) {
-      probes_.push_back(probe(normal));
-      if (!probes_.back().is_finite()) return false;
-      if (probes_[k].value < probes_[best_].value) best_ = k;
-      normal = {half * (normal[0] - normal[1]), half * (normal[0] + normal[1])};
-    }
-    for (std::size_t k = 0; k < 8; ++k) add_arc(k, (k + 1) % 8);
-    constexpr std::size_t most_probes = 500;
-    while (probes_.size() < most_probes) {
-      auto const lowest =
-          std::min_element(arcs_.begin(), arcs_.end(), [](auto const& a, auto const& b) { return a.bound < b.bound; });
-      if (!(lowest->bound < probes_[best_].value - 1e-10 * probes_[best_].size())) return true;
-      DirectionArc const arc = *lowest;
-      arcs_.erase(lowest);
-      probes_.push_back(probe(arc.split));
-      std::size_t const middle = probes_.size() - 1;
-      if (!probes_[middle].is_finite()) return false;
-      if (probes_[middle].value < probes_[best_].value) best_ = middle;
-      add_arc(arc.from, middle);
-      add_arc(middle, arc.to);
-    }
-    return false;
+    return search_from(apart ? unit(branch_) : Point<2, double>{1.0, 0.0},
+                       {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75});
+  }
+
+  /// Whether the overlap along a normal at which it is stationary is the least to 1e-10 of the grains' size. Next to the
+  /// normal it could be less by the square of the angle to the next probe alone, times the overlap.
+  bool is_least_along(Point<2, double> const& normal) {
+    auto const there = probe(normal);
+    double const beside =
+        std::sqrt(1e-10 * there.size() / std::max(there.value, 1e-9 * there.size())) / std::numbers::pi;
+    return search_from(normal, {0.0, beside, 0.5, 1.0, 1.5, 2.0 - beside}) && best_ == 0;
   }
 
   /// The best direction, brought to where f' vanishes: Newton's steps within a bracket, halved where they leave it.
@@ -115,6 +101,37 @@ class LeastOverlap {
   }
 
  private:
+  /// angles: from the first direction, in half turns, increasing
+  bool search_from(Point<2, double> const& normal, std::initializer_list<double> angles) {
+    probes_.clear();
+    arcs_.clear();
+    best_ = 0;
+    for (double const angle : angles) {
+      probes_.push_back(probe(turned(normal, std::numbers::pi * angle)));
+      if (!probes_.back().is_finite()) return false;
+      if (probes_.back().value < probes_[best_].value - small_gain()) best_ = probes_.size() - 1;
+    }
+    for (std::size_t k = 0; k < angles.size(); ++k) add_arc(k, (k + 1) % angles.size());
+    constexpr std::size_t most_probes = 500;
+    while (probes_.size() < most_probes) {
+      auto const lowest =
+          std::min_element(arcs_.begin(), arcs_.end(), [](auto const& a, auto const& b) { return a.bound < b.bound; });
+      if (!(lowest->bound < probes_[best_].value - 1e-10 * probes_[best_].size())) return true;
+      DirectionArc const arc = *lowest;
+      arcs_.erase(lowest);
+      probes_.push_back(probe(arc.split));
+      std::size_t const middle = probes_.size() - 1;
+      if (!probes_[middle].is_finite()) return false;
+      if (probes_[middle].value < probes_[best_].value - small_gain()) best_ = middle;
+      add_arc(arc.from, middle);
+      add_arc(middle, arc.to);
+    }
+    return false;
+  }
+
+  /// Less than this is round-off of the first probe.
+  double small_gain() const { return 1e-14 * probes_.front().size(); }
+
   OverlapProbe probe(Point<2, double> const& n) const {
     OverlapProbe made{.normal = n, .first = {}, .second = {}, .value = 0.0, .slope = 0.0, .corner = {}};
     if constexpr (requires { Shape::supports(first_, second_, n); }) {

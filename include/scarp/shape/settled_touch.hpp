@@ -17,15 +17,15 @@ namespace detail {
 
 /// Whether a normal at which the overlap is stationary is that of the least overlap. A gap is: a line parts the grains
 /// there. An overlap less deep than a disc that rolls inside the sum of the shapes is too, since the disc touches the
-/// boundary in no nearer point.
-template <class Shape>
-bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second, double overlap) {
-  if (overlap <= 0.0) return true;
+/// boundary in no nearer point. Otherwise the other directions are looked at.
+template <TellsSupport Shape>
+bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch,
+                        Touch<2, double> const& touch) {
+  if (touch.overlap <= 0.0) return true;
   if constexpr (TellsInnerRadius<Shape>) {
-    return overlap < Shape::inner_radius(first) + Shape::inner_radius(second);
-  } else {
-    return !TellsSupport<Shape>;
+    if (touch.overlap < Shape::inner_radius(first) + Shape::inner_radius(second)) return true;
   }
+  return LeastOverlap<Shape>(first, second, branch).is_least_along(touch.normal);
 }
 
 }  // namespace detail
@@ -53,7 +53,7 @@ Touch<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape
     }
     touch.unsettled = stands ? 0.0 : std::numeric_limits<double>::infinity();
     if constexpr (TellsSupport<Shape>) {
-      if (!stands || !detail::is_certainly_least<Shape>(first, second, touch.overlap))
+      if (!stands || !detail::is_certainly_least<Shape>(first, second, branch, touch))
         return least_overlap<Shape>(first, second, branch);
     }
   }

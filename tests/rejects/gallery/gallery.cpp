@@ -31,6 +31,18 @@ struct Wrong {
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_2
 
+// first: a shape's orientation_count is 2
+namespace case_axes {
+struct Wrong : Disc {
+  static constexpr int orientation_count = 1;
+  template <class T>
+  static std::array<T, 1> pose(std::array<T, 1> const& size, std::array<T, 1> const&) {
+    return size;
+  }
+};
+Packing<Wrong, Frictionless> packing;
+}  // namespace case_axes
+
 // first: a shape needs `static Touch<dim, T> touch(
 namespace case_3 {
 struct Wrong : Disc {

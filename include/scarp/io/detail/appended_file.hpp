@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
+#include "scarp/io/read_file.hpp"
 
 namespace scarp {
 
@@ -14,15 +16,22 @@ namespace scarp {
 /// it was.
 class AppendedFile {
  public:
-  /// Goes on behind what the file holds.
-  /// \throws FileError when it cannot be opened
-  explicit AppendedFile(std::filesystem::path path) : path_(std::move(path)) {
-    file_ = detail::open_file(path_, "ab");
-    bytes_ = std::filesystem::file_size(path_);
+  /// continues: goes on behind the last complete line of what the file holds, which is not touched before a line is added;
+  /// else, and where there is nothing, it begins with `head`
+  /// \throws FileError when it cannot be written
+  AppendedFile(std::filesystem::path path, std::string_view head, bool continues)
+      : path_(std::move(path)), head_(head), bytes_(head.size()) {
+    if (continues) {
+      bytes_ = present() > 0 ? read_file(path_).find_last_of('\n') + 1 : 0;
+    } else {
+      write_file(path_, head_);
+      file_ = detail::open_file(path_, "ab");
+    }
   }
 
   /// \throws FileError when the line cannot be written
   void add(std::string_view line) {
+    if (!file_) open_behind();
     if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0) {
       detail::throw_not_written(path_, std::strerror(errno));
     }
@@ -31,23 +40,38 @@ class AppendedFile {
 
   SCARP_MEMBERS_EXCEPT((path_, file_), bytes_)
 
-  /// Takes the lines off that came after the checkpoint.
-  /// \throws InputError when lines from before it are gone, FileError when the file cannot be cut
+  /// The next line will take the place of those that came after the checkpoint.
+  /// \throws InputError when lines from before it are gone
   void after_loading() {
-    auto const present = std::filesystem::file_size(path_);
-    if (present < bytes_) {
+    if (present() < bytes_) {
       refuse("'{}' has {} bytes (it had {} when the checkpoint was made): bring back the file of that run",
-             path_.string(), present, bytes_);
+             path_.string(), present(), bytes_);
+    }
+    file_.reset();
+  }
+
+ private:
+  std::uintmax_t present() const {
+    std::error_code none;
+    auto const bytes = std::filesystem::file_size(path_, none);
+    return none ? 0 : bytes;
+  }
+
+  void open_behind() {
+    if (bytes_ == 0) {
+      write_file(path_, head_);
+      bytes_ = head_.size();
     }
     std::error_code trouble;
     std::filesystem::resize_file(path_, bytes_, trouble);
     if (trouble) detail::throw_not_written(path_, trouble.message());
+    file_ = detail::open_file(path_, "ab");
   }
 
- private:
   std::filesystem::path path_;
-  std::uintmax_t bytes_ = 0;
-  detail::OpenFile file_;  // appends, wherever the end is
+  std::string head_;
+  std::uintmax_t bytes_;
+  detail::OpenFile file_;  // appends, wherever the end is; none until what is behind it may go
 };
 
 }  // namespace scarp

@@ -82,7 +82,7 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
   constexpr double resolution = std::numeric_limits<typename ScalarOf<T>::type>::epsilon();
   constexpr double small_gain = std::max(1e-10, 2.0 * resolution);  // of overlap, relative to the grains
   constexpr double farthest_turn = 0.05;                            // tangent of half the angle from the start
-  constexpr double deep = 0.02;                                     // of the grains' size
+  constexpr double deep = 0.1;                                     // of the grains' size
   T const one = constant<T>(1);
   T const half = constant<T>(0.5);
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "scarp/core/error.hpp"
+
+#if __has_include(<sys/resource.h>)
+#include <sys/resource.h>
+#endif
+
+namespace scarp {
+
+/// Memory that the process may still take, and what sets the limit.
+struct FreeMemory {
+  double bytes = std::numeric_limits<double>::infinity();
+  std::string_view limit = "nothing known";
+
+  void at_most(double other, std::string_view by) {
+    if (other < bytes) *this = {std::max(0.0, other), by};
+  }
+};
+
+namespace detail {
+
+/// The number behind a name in a file of the kernel's, or the file's only number; infinite where there is none.
+inline double kernel_number(char const* file, std::string_view name = {}) {
+  std::ifstream stream(file);
+  for (std::string word; stream >> word;) {
+    if (name.empty()) stream.seekg(0);
+    if (!name.empty() && word != name) continue;
+    double number = 0.0;
+    return stream >> number ? number : std::numeric_limits<double>::infinity();
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace detail
+
+/// The least of what the machine, the process's control group (containers, batch systems) and its limits leave.
+inline FreeMemory free_memory() {
+  constexpr double kilobyte = 1024.0;
+  FreeMemory memory;
+  memory.at_most(kilobyte * detail::kernel_number("/proc/meminfo", "MemAvailable:"), "the machine's memory");
+  // What the group's files are kept in memory can be had back.
+  double const group = detail::kernel_number("/sys/fs/cgroup/memory.current") -
+                       detail::kernel_number("/sys/fs/cgroup/memory.stat", "inactive_file");
+  double const most = detail::kernel_number("/sys/fs/cgroup/memory.max");
+  if (std::isfinite(most) && std::isfinite(group)) memory.at_most(most - group, "the limit of the process's group");
+#if __has_include(<sys/resource.h>)
+  double const taken = kilobyte * detail::kernel_number("/proc/self/status", "VmSize:");
+  rlimit space{};
+  if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY && std::isfinite(taken))
+    memory.at_most(static_cast<double>(space.rlim_cur) - taken, "the limit of address space (ulimit -v)");
+#endif
+  return memory;
+}
+
+/// Such as "3.1 GB".
+inline std::string memory_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+/// what: who needs it, with numbers; way_out: what to do with less
+/// \throws InputError when more is needed than there is
+inline void require_memory(std::string_view what, double bytes, std::string_view way_out,
+                           FreeMemory const& memory = free_memory()) {
+  if (!(bytes > memory.bytes)) return;
+  refuse("{} would take about {} of memory ({} are left by {}): {}", what, memory_text(bytes),
+         memory_text(memory.bytes), memory.limit, way_out);
+}
+
+}  // namespace scarp

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+
+#include "scarp/io/checkpoint_files.hpp"
+#include "scarp/io/folder_lock.hpp"
+#include "scarp/run/run_record.hpp"
+
+namespace scarp {
+
+/// What is asked of the folder that a run writes its results into.
+struct RunFolderSettings {
+  std::filesystem::path folder{};
+  bool overwrite = false;           ///< the results of another run may be replaced
+  std::string record = "run.json";  ///< file of the run's record; runs with different ones can live in one folder
+  std::vector<std::string> results{"summary.json"};  ///< names that tell of results where there is no record
+};
+
+/// The output folder of one run. As long as this object lives, no other run can have it.
+/// \code
+/// CheckpointFiles files({.folder = "states", .resume = true}, scene);
+/// RunFolder folder({.folder = "out"}, {.program = "my_program", .options = options}, &files);
+/// // read input, prepare
+/// folder.begin();
+/// // write results
+/// folder.end("finished");
+/// \endcode
+/// A new run takes a folder without results, or any that it may overwrite. A run that goes on from a checkpoint takes its own folder
+/// only, and one that wants to go on and finds no checkpoint takes that of an unfinished run of the same scene, which has got to none.
+/// Until begin() nothing in the folder is changed: a run that is refused, here or later, leaves it as it was.
+class RunFolder {
+ public:
+  /// files: where the run saves itself, if it does; they are told its identity
+  /// \throws FolderError for a folder that is in use, holds what must be kept or cannot be written
+  RunFolder(RunFolderSettings settings, RunRecord record, CheckpointFiles* files = nullptr)
+      : settings_(std::move(settings)), record_(std::move(record)), lock_(settings_.folder) {
+    record_.identity = new_run_identity();
+    record_.started = time_stamp();
+    if (files != nullptr && files->saves()) {
+      record_.checkpoint = absolute(files->settings().folder);
+      record_.scene = files->scene();
+    }
+    auto const before = present();
+    if (files != nullptr && files->resumes()) {
+      take_own(before, *files);
+    } else if (!settings_.overwrite) {
+      require_new(before, files != nullptr && files->settings().resume);
+    }
+    if (files != nullptr) files->name_run(record_.identity, absolute(settings_.folder));
+  }
+
+  std::filesystem::path const& path() const { return settings_.folder; }
+  RunRecord const& record() const { return record_; }
+  /// False where the file system knows no locks.
+  bool is_locked() const { return lock_.holds(); }
+
+  /// From now on the folder is this run's.
+  /// \throws FileError
+  void begin() {
+    if (record_.state.empty()) write("running");
+  }
+
+  /// state: finished, or why the run has stopped; it may go on later
+  /// \throws FileError
+  void end(std::string state) { write(std::move(state)); }
+
+ private:
+  static std::string absolute(std::filesystem::path const& path) {
+    std::error_code trouble;
+    auto const found = std::filesystem::weakly_canonical(path, trouble);
+    return trouble ? std::filesystem::absolute(path).string() : found.string();
+  }
+
+  std::string name() const { return settings_.folder.string(); }
+
+  /// The run whose folder this is.
+  std::optional<RunRecord> present() const {
+    auto const file = settings_.folder / settings_.record;
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    try {
+      return RunRecord::from(read_file(file));
+    } catch (InputError const& problem) {
+      if (settings_.overwrite) return std::nullopt;
+      throw FolderError(fmt::format("'{}' cannot be told to be a run's ('{}': {}), or choose another folder", name(),
+                                    settings_.record, problem.what()));
+    }
+  }
+
+  void take_own(std::optional<RunRecord> const& before, CheckpointFiles const& files) {
+    if (before && before->identity == files.run()) {
+      record_.identity = before->identity;
+      record_.started = before->started;
+      return;
+    }
+    throw FolderError(
+        fmt::format("'{}' holds {}, not the run that '{}' is a checkpoint of (that one writes into '{}'): "
+                    "give that folder for the output, or the checkpoints of this run",
+                    name(), before ? before->described() : "no run", files.newest().string(),
+                    files.run_folder().empty() ? "an unknown folder" : files.run_folder()));
+  }
+
+  void require_new(std::optional<RunRecord> const& before, bool wants_to_go_on) const {
+    std::string found = before ? before->described() : "";
+    for (auto const& result : settings_.results) {
+      if (found.empty() && std::filesystem::exists(settings_.folder / result))
+        found = fmt::format("results of another run, such as '{}'", result);
+    }
+    if (found.empty()) return;
+    if (!wants_to_go_on) {
+      throw FolderError(fmt::format(
+          "'{}' holds {} (its results would be lost): choose another folder, or say --overwrite", name(), found));
+    }
+    if (before && !before->has_finished() && before->checkpoint == record_.checkpoint && before->scene == record_.scene)
+      return;
+    std::string const theirs = before ? before->checkpoint : "";
+    throw FolderError(
+        fmt::format("'{}' holds {}, and there is no checkpoint in '{}' to go on from ({}): {}choose another "
+                    "output folder for a new run",
+                    name(), found, record_.checkpoint,
+                    theirs.empty()                 ? "it saved none"
+                    : theirs == record_.checkpoint ? "its checkpoints are gone, or its scene is another"
+                                                   : fmt::format("it saves into '{}'", theirs),
+                    theirs.empty() || theirs == record_.checkpoint ? "" : "give that folder to go on, or "));
+  }
+
+  void write(std::string state) {
+    record_.state = std::move(state);
+    record_.changed = time_stamp();
+    write_file(settings_.folder / settings_.record, record_.text());
+  }
+
+  RunFolderSettings settings_;
+  RunRecord record_;
+  FolderLock lock_;
+};
+
+}  // namespace scarp
