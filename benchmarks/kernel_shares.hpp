@@ -36,6 +36,11 @@ class Parts {
   }
   [[gnu::flatten]] void answer() {
     scarp::detail::PairResponse<scarp::Observe::nothing, PackingType, Law> response(packing_, law_);
+    if constexpr (Shape::remembers_normal) {
+      std::size_t const pairs = packing_.pairs.count();
+      for (std::size_t start = 0; start < pairs; start += Block::size)
+        response.search(block_, (std::min(Block::size, pairs - start) + width - 1) / width * width, start);
+    }
     for_each_block(all, [&](std::size_t at, std::size_t start) { response.answer(block_, at, start + at); });
   }
   [[gnu::flatten]] void scatter() {

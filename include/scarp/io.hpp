@@ -17,4 +17,5 @@
 #include "scarp/io/mesh_tables.hpp"
 #include "scarp/io/pvd.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "scarp/io/state_text.hpp"
 #include "scarp/io/vtu.hpp"

@@ -108,12 +108,13 @@ TEST_CASE("a new run does not take a folder with results unless it may overwrite
   run(folder, "stopped", {}, false, "too many iterations");
   std::filesystem::create_directory(folder / "older");
   scarp::write_file(folder / "older/summary.json", "{}");
-  for (auto const& [name, said] : {std::pair{"finished", "and finished (its results would be lost)"},
-                                   {"killed", "and not finished (its"},
-                                   {"stopped", "and stopped (too many iterations)"},
-                                   {"older", "results of another run, such as 'summary.json'"}}) {
-    auto const text = refusal(folder, [&] { run(folder, name, {}); });
-    CHECK_MESSAGE(contains(text, said), text);
+  for (auto const& [name, words] : {std::pair{"finished", "and finished (its results would be lost)"},
+                                    {"killed", "and not finished (its"},
+                                    {"stopped", "and stopped (too many iterations)"},
+                                    {"older", "results of another run, such as 'summary.json'"}}) {
+    auto const* const of = name;
+    auto const text = refusal(folder, [&] { run(folder, of, {}); });
+    CHECK_MESSAGE(contains(text, words), text);
     CHECK(contains(text, "--overwrite"));
     RunFolder own({.folder = folder / name, .overwrite = true}, record());
     own.begin();

@@ -19,10 +19,10 @@ TEST_CASE(
     CHECK(parts.states == whole.states);
     CHECK(parts.budget == whole.budget);
     CHECK(whole.files.size() >= 8);
-    for (auto const& [file, text] : whole.files) {
-      CAPTURE(file);
-      REQUIRE(parts.files.contains(file));
-      CHECK(parts.files.at(file) == text);
+    for (auto const& written : whole.files) {
+      CAPTURE(written.first);
+      REQUIRE(parts.files.contains(written.first));
+      CHECK(parts.files.at(written.first) == written.second);
     }
   });
 }

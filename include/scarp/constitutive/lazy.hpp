@@ -5,9 +5,9 @@
 
 #include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/checked_provider.hpp"
-#include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/rotated_increment.hpp"
 
 namespace scarp {
 

@@ -3,12 +3,12 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/detail/mohr_coulomb_return.hpp"
-#include "scarp/constitutive/detail/rotated_increment.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/isotropic_elasticity.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/principal.hpp"
+#include "scarp/core/rotated_increment.hpp"
 
 namespace scarp {
 

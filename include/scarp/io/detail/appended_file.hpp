@@ -38,7 +38,7 @@ class AppendedFile {
     bytes_ += line.size();
   }
 
-  SCARP_MEMBERS_EXCEPT((path_, file_), bytes_)
+  SCARP_MEMBERS_EXCEPT((path_, head_, file_), bytes_)
 
   /// The next line will take the place of those that came after the checkpoint.
   /// \throws InputError when lines from before it are gone

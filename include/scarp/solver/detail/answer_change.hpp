@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/constitutive/detail/rotated_increment.hpp"
+#include "scarp/core/rotated_increment.hpp"
 #include "scarp/core/voigt.hpp"
 
 namespace scarp {
