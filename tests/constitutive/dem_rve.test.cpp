@@ -164,6 +164,18 @@ TEST_CASE("a cell pressed flat fails as collapsed and an inverted increment as n
   CHECK(provider.respond(committed, flat, trial).verdict == Verdict{Status::failed, Reason::not_finite});
 }
 
+TEST_CASE("grains that lie in each other by more than the reduced radius fail as too deep") {
+  // Equal grains of radius 5 mm: the reduced radius is 2.5 mm. The lattice is in balance at any spacing.
+  auto const verdict = [](double overlap) {
+    auto const lattice = samples::triangular_lattice<samples::Discs>(4, 5e-3, 1e-2 - overlap);
+    scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>> const provider{.law = samples::study_law(),
+                                                                                     .source = {lattice}};
+    return provider.initial_state({}).verdict;
+  };
+  CHECK(verdict(2.49e-3).acceptable());
+  CHECK(verdict(2.51e-3) == Verdict{Status::failed, Reason::too_deep});
+}
+
 TEST_CASE("points take the packing of the nearest depth") {
   scarp::PackingsByDepth<Ellipses> column;
   CHECK_THROWS_AS(column.at({}), scarp::InputError);

@@ -105,6 +105,19 @@ TEST_CASE("dashpots act beside the springs and within friction") {
   CHECK(memory.shear == 0.0);
 }
 
+TEST_CASE("the damping ratio gives its restitution back, below, at and above the critical one") {
+  // Analytic, see damping_ratio_for(); halving the interval from 4 meets the critical ratio, 1, on the way to that of 1/16.
+  for (double const restitution : {0.9, 0.25, std::exp(-2.0), 0.0625, 0.01}) {
+    double const eta = std::sqrt(1.2) * scarp::damping_ratio_for(restitution);
+    double const square = 1.0 - eta * eta;
+    double const angle = std::abs(square) < 1e-9 ? 1.0
+                         : square > 0.0          ? std::acos(eta) / std::sqrt(square)
+                                                 : std::acosh(eta) / std::sqrt(-square);
+    CHECK(std::exp(-2.0 * eta * angle) == samples::Approx(restitution).epsilon(1e-8));
+  }
+  CHECK(scarp::damping_ratio_for(1.0) == 0.0);
+}
+
 TEST_CASE("no closed path of motion creates energy") {
   // Analytic: with k_1 = 2 and k_2 = 4 N/m at u = 0.25 and 1 m the cycles below take (k_2 - k_1) s^2 / 2 = 1e-4 J. The
   // total form F_t = -k_t(u) s would give 1e-4 J on the first of them: work without end. Known from Chung and Ooi's

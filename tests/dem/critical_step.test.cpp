@@ -94,6 +94,27 @@ TEST_CASE_TEMPLATE("a consolidated packing stays at rest at its bound", PackingT
   CHECK(seen.unbalanced_ratio < 1e-3);  // started at 1e-5; an unstable mode would have grown without bound
 }
 
+TEST_CASE_TEMPLATE("one contact's stiffest mode is that of its springs, and rolling adds its own", Dim,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+  constexpr int dim = Dim::value;
+  scarp::Contact<dim> contact{};
+  contact.touch.normal[0] = -0.6;
+  contact.touch.normal[1] = 0.8;
+  for (std::size_t a = 0; a < 2; ++a) {
+    contact.touch.arm_first[a] = 0.5 * contact.touch.normal[a];
+    contact.touch.arm_second[a] = -0.25 * contact.touch.normal[a];
+  }
+  auto const mode = [&](double normal, double tangential, double rolling) {
+    return scarp::detail::stiffest_mode<dim>(contact, {.normal = normal, .tangential = tangential, .rolling = rolling},
+                                             7.0, 4.0, 32.0);
+  };
+  // Analytic: springs along the normal move the centres alone, across it they turn each grain through its arm as well.
+  CHECK(mode(3.0, 0.0, 0.0) == samples::Approx(3.0 * 7.0).epsilon(1e-12));
+  CHECK(mode(0.0, 3.0, 0.0) == samples::Approx(3.0 * (7.0 + 4.0 * 0.25 + 32.0 * 0.0625)).epsilon(1e-12));
+  CHECK(mode(2.0, 3.0, 0.0) == samples::Approx(30.0).epsilon(1e-12));
+  CHECK(mode(2.0, 3.0, 0.5) == samples::Approx(30.0 + 0.5 * (4.0 + 32.0)).epsilon(1e-12));
+}
+
 TEST_CASE("loose grains have the step of the lightest between two others") {
   auto const packing = samples::place<SmoothDiscs>(Tensor<2>::Identity(), {{5e-3}, {2e-3}}, {{0.1, 0.1}, {0.7, 0.7}});
   double const lightest = samples::density * samples::thickness * scarp::Disc::content({2e-3});

@@ -224,6 +224,10 @@ TEST_CASE("a file of another machine or version is refused with the reason") {
   other = bytes;
   other[12] = std::endian::native == std::endian::little ? 99 : 0;
   CHECK(contains(complaint_about(other), "it is of version"));
+  for (std::uint32_t const version : {1U, 2U, 4U}) {  // older ones too
+    std::memcpy(other.data() + 12, &version, sizeof(version));
+    CHECK(contains(complaint_about(other), fmt::format("it is of version {} (this library reads version 3)", version)));
+  }
 }
 
 TEST_CASE("a file is refused as another type than it was saved as") {
