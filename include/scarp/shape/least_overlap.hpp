@@ -13,19 +13,18 @@
 
 namespace scarp {
 
+template <class Shape>
+concept TellsSupportOfOne = requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
+  { Shape::support(pose, normal) } -> std::convertible_to<Support<double>>;
+};
+template <class Shape>
+concept TellsSupportOfPair = requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
+  { Shape::supports(pose, pose, normal)[0] } -> std::convertible_to<Support<double>>;
+};
+
 /// A convex, centrally symmetric plane shape that tells its support function: for one grain, or for both of a pair.
 template <class Shape>
-concept TellsSupport = Shape::dim == 2 && (
-                                              requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
-                                                {
-                                                  Shape::support(pose, normal)
-                                                  } -> std::convertible_to<Support<double>>;
-                                              } ||
-                                              requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
-                                                {
-                                                  Shape::supports(pose, pose, normal)[0]
-                                                  } -> std::convertible_to<Support<double>>;
-                                              });
+concept TellsSupport = Shape::dim == 2 && (TellsSupportOfOne<Shape> || TellsSupportOfPair<Shape>);
 
 namespace detail {
 
@@ -134,7 +133,7 @@ class LeastOverlap {
 
   OverlapProbe probe(Point<2, double> const& n) const {
     OverlapProbe made{.normal = n, .first = {}, .second = {}, .value = 0.0, .slope = 0.0, .corner = {}};
-    if constexpr (requires { Shape::supports(first_, second_, n); }) {
+    if constexpr (TellsSupportOfPair<Shape>) {
       auto const both = Shape::supports(first_, second_, n);
       made.first = both[0];
       made.second = both[1];
