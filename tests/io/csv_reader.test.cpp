@@ -123,6 +123,15 @@ TEST_CASE("quotes that do not close, or close too early, are refused with their 
   CHECK(complaint("r\n\"1\"2\n").find("line 2 of 'grains.csv' has text behind closed quotes") != std::string::npos);
 }
 
+TEST_CASE("what a damaged file holds neither ends a complaint early nor steers the terminal") {
+  std::string text = "x,r\n1,2";
+  text += {'\0', '\x1b', '[', '2', 'J', '\n'};
+  CHECK(complaint(text) ==
+        "line 2 of 'grains.csv' has '2??[2J' in column 'r' (it is no number): write a decimal number with a point, "
+        "such as "
+        "2.5e-3");
+}
+
 TEST_CASE("bytes of any kind are read or refused") {
   scarp::Random random(5);
   std::string_view const letters = "0123456789.,-+e\"\n\r\t #xrin\xEF";

@@ -3,6 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/dem/packing.hpp"
+#include "scarp/shape/disc.hpp"
+
 namespace {
 
 struct Inner {
@@ -67,4 +71,54 @@ TEST_CASE("parts shared within shared parts are saved once and loaded as they we
   CHECK(loaded.outer->second->value == -2.5);
   CHECK(loaded.inner == loaded.outer->second);
   CHECK(loaded.other == loaded.outer->first);
+}
+
+TEST_CASE("a truth value that is neither is refused") {
+  scarp::StateWriter writer;
+  writer("flag", true);
+  bool flag = false;
+  scarp::StateReader(writer.bits())("flag", flag);
+  CHECK(flag);
+  writer.bits().back() = 2;
+  CHECK_THROWS_WITH_AS(scarp::StateReader(writer.bits())("flag", flag), "'flag' is 2 (it can be 0 or 1): save it again",
+                       scarp::InputError);
+}
+
+TEST_CASE("a false length of a list is refused before anything of that size is made") {
+  struct Large {
+    std::array<double, 1000> numbers{};
+    SCARP_MEMBERS(numbers)
+  };
+  scarp::StateWriter writer;
+  writer("list", std::vector<Large>(1));
+  constexpr std::size_t length_at = 1 + 4 + 4;  // behind the name and the bytes of an element
+  std::uint64_t const many = 8000;              // as many as bytes follow
+  std::memcpy(writer.bits().data() + length_at, &many, sizeof(many));
+  std::vector<Large> list;
+  CHECK_THROWS_AS(scarp::StateReader(writer.bits())("list", list), scarp::InputError);
+  CHECK(list.capacity() < 8);
+}
+
+TEST_CASE("a packing within a state is refused where its numbers lead outside its arrays") {
+  using Discs = scarp::Packing<scarp::Disc, scarp::LinearFrictional>;
+  Discs packing;
+  packing.population = std::make_shared<scarp::Population<scarp::Disc> const>(
+      std::vector<std::array<double, 1>>{{1.0}, {1.0}}, 1.0, 1.0);
+  packing.position.resize(2);
+  packing.rest();
+  packing.pairs.first = {0};
+  packing.pairs.second = {1};
+  packing.pairs.shear.resize(1);
+  auto const reload = [&] {
+    scarp::StateWriter writer;
+    writer("packing", packing);
+    Discs loaded;
+    scarp::StateReader(writer.bits())("packing", loaded);
+  };
+  CHECK_NOTHROW(reload());
+  packing.pairs.second = {2};
+  CHECK_THROWS_WITH_AS(reload(), doctest::Contains("pairs name grains that are not there"), scarp::InputError);
+  packing.pairs.second = {1};
+  packing.velocity.resize(1);
+  CHECK_THROWS_WITH_AS(reload(), doctest::Contains("arrays of grains differ in length"), scarp::InputError);
 }

@@ -7,15 +7,27 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "scarp/core/one_version.hpp"
 
 namespace scarp {
 
+namespace detail {
+/// What a damaged file says must neither end a message early nor steer the terminal that shows it.
+inline std::string without_control_characters(std::string text) {
+  for (char& letter : text) {
+    bool const control = static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
+    if (control && letter != '\n' && letter != '\t') letter = '?';
+  }
+  return text;
+}
+}  // namespace detail
+
 /// Wrong input at a boundary of the library; the text reads "problem (why): suggestion".
 class InputError : public std::invalid_argument {
  public:
-  using std::invalid_argument::invalid_argument;
+  explicit InputError(std::string text) : std::invalid_argument(detail::without_control_characters(std::move(text))) {}
 };
 
 namespace detail {

@@ -127,6 +127,12 @@ TEST_CASE("version 4.1 finds groups by entities, with signs and parameters") {
   CHECK(mesh.boundaries.at("physical_4") == std::vector<std::array<int, 2>>{{0, 1}});
 }
 
+TEST_CASE("a block of no elements says nothing, whatever its type") {
+  auto const text = with(with(square_41, "2 3 1 9", "3 3 1 9"), "2 3 2 2\n", "1 5 8 0\n2 3 2 2\n");
+  CHECK(read(text).elements == read(square_41).elements);
+  CHECK(read(text).boundaries == read(square_41).boundaries);
+}
+
 TEST_CASE("the sign of a region in version 4.1 turns its elements") {
   // Gmsh 4.8 saves "Physical Surface(5) = {-3}" so; in version 2.2 it turns the elements itself.
   auto const turned =

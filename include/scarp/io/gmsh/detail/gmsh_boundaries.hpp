@@ -55,9 +55,8 @@ class ElementSides {
 template <class Element>
 void refuse_other_sides(GmshContent const& content) {
   for (auto const& block : content.blocks) {
-    if (block.type.dim != Element::dim - 1 || block.type.type == Element::Facet::gmsh_type || block.groups.empty()) {
-      continue;
-    }
+    bool const other_side = block.type.dim == Element::dim - 1 && block.type.type != Element::Facet::gmsh_type;
+    if (!other_side || block.groups.empty() || block.tags.empty()) continue;
     refuse(
         "the physical group '{}' of '{}' holds elements of type {} ({}), such as {} (the sides of {} have type {}): "
         "give sides and elements the same order",

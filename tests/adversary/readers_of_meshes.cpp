@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "adversary/readers.hpp"
+#include "io/mesh_samples.hpp"
+#include "scarp/io/gmsh/gmsh_reader.hpp"
+#include "scarp/io/gmsh/gmsh_writer.hpp"
+#include "scarp/mesh/mesh_checks.hpp"
+
+namespace adversary {
+
+namespace {
+
+template <class Element>
+Game gmsh_reader(std::string const& name) {
+  std::vector<std::string> samples;
+  ScratchFolder const folder;
+  auto const mesh = samples::mesh_sample<Element>(samples::bent);
+  for (auto const version : {scarp::GmshVersion::v2_2, scarp::GmshVersion::v4_1}) {
+    for (auto const encoding : {scarp::GmshEncoding::text, scarp::GmshEncoding::binary}) {
+      scarp::write_gmsh(folder / "m.msh", mesh, {version, encoding});
+      samples.push_back(content(folder / "m.msh"));
+    }
+  }
+  return reader("gmsh " + name, samples, [](std::string const& bytes) {
+    auto const read = scarp::detail::assemble_gmsh<Element>(scarp::detail::read_gmsh_content(bytes, "m.msh"));
+    try {
+      scarp::validate(read);
+    } catch (InputError const& why) {
+      demand(false, fmt::format("what was read is no valid mesh: {}", why.what()));
+    }
+    demand(std::isfinite(samples::volume(read)) && samples::volume(read) > 0.0, "a mesh without a volume");
+    scarp::require_no_duplicate_nodes(read);
+    scarp::require_no_hanging_nodes(read);
+  });
+}
+
+}  // namespace
+
+std::vector<Game> readers_of_meshes() {
+  return {gmsh_reader<scarp::Tri3>("Tri3"), gmsh_reader<scarp::Quad8>("Quad8"), gmsh_reader<scarp::Tet10>("Tet10"),
+          gmsh_reader<scarp::Hex8>("Hex8")};
+}
+
+}  // namespace adversary

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <CLI/CLI.hpp>
+#include <sstream>
+
+#include "../../examples/rve_lab/material_file.hpp"
+#include "adversary/readers.hpp"
+
+namespace adversary {
+
+namespace {
+
+/// As the examples declare theirs: each kind of option once.
+struct Options {
+  double size = 1.0;
+  double friction = 0.5;
+  int grains = 100;
+  std::uint64_t seed = 1;
+  std::string soil = "dem";
+  bool reverse = false;
+  std::vector<double> list{0.1};
+  std::string table;
+};
+
+void read_options(std::string const& text) {
+  Options options;
+  CLI::App app;
+  app.add_option("--size", options.size)->check(examples::number_from(0.0, false, 25.0));
+  app.add_option("--grains", options.grains)->check(CLI::Range(1, 100'000));
+  app.add_option("--seed", options.seed)->check(examples::seed_number());
+  app.add_option("--soil", options.soil)->check(CLI::IsMember({"dem", "elastic"}));
+  app.add_flag("--reverse", options.reverse);
+  app.add_option("--list", options.list)->delimiter(',')->check(examples::number_from(0.0, true, 10.0));
+  auto& shear = *app.add_subcommand("shear");
+  shear.configurable();
+  shear.add_option("--friction", options.friction)->check(examples::number_from(0.0, true, 10.0));
+  shear.add_option("--table", options.table);
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  std::istringstream stream(text);
+  try {
+    app.parse_from_stream(stream);
+  } catch (CLI::ParseError const& refusal) {
+    throw InputError(fmt::format("options are refused: {}", refusal.what()));
+  }
+  demand(options.size > 0.0 && options.size <= 25.0, "a size out of range");
+  demand(options.friction >= 0.0 && options.friction <= 10.0, "a friction out of range");
+  demand(options.grains >= 1 && options.grains <= 100'000, "a number of grains out of range");
+  demand(options.seed < 1'000'000'000'000'000, "a seed out of range");
+  demand(options.soil == "dem" || options.soil == "elastic", "an unknown soil");
+  for (double const value : options.list) demand(value >= 0.0 && value <= 10.0, "a listed number out of range");
+}
+
+Game material_reader() {
+  rve_lab::Material material;
+  auto const folder = std::make_shared<ScratchFolder>();
+  std::string const text = nlohmann::json{{"material", rve_lab::to_json(material)}}.dump(2);
+  std::ofstream(*folder / "sand.packing") << "any";
+  return reader("materials", {text}, [=](std::string const& bytes) {
+    std::ofstream(*folder / "sand.json", std::ios::binary) << bytes;
+    rve_lab::Material read;
+    rve_lab::read_material(
+        *folder / "sand.packing", [](std::string const&) { return false; }, read);
+    rve_lab::for_each_parameter(read, [](char const*, auto const& member, char const*) {
+      if constexpr (std::floating_point<std::remove_cvref_t<decltype(member)>>)
+        demand(std::isfinite(member) && member >= 0.0, "a parameter out of range");
+    });
+  });
+}
+
+}  // namespace
+
+std::vector<Game> readers_of_options() {
+  std::string const options =
+      "size = 2.5\ngrains = 49\nseed = 2\nsoil = elastic\nreverse = true\nlist = 0.1,0.3\n\n[shear]\nfriction = 0.5\n"
+      "table = \"out.csv\"\n";
+  return {reader("options", {options}, read_options), material_reader()};
+}
+
+}  // namespace adversary

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <fstream>
+
+#include "adversary/readers.hpp"
+#include "io/mesh_samples.hpp"
+#include "scarp/io/csv_reader.hpp"
+#include "scarp/io/mesh_tables.hpp"
+#include "scarp/run/run_folder.hpp"
+
+namespace adversary {
+
+namespace {
+
+std::vector<std::string> table_samples() {
+  ScratchFolder const folder;
+  scarp::write_mesh_tables(folder.path(), samples::mesh_sample<scarp::Quad4>(samples::sheared));
+  scarp::CsvTable table({"name", "a \"quoted\" one", "value"});
+  table.add("x, y", "two\nlines", 1.5);
+  table.add("", "\"", -2e-300);
+  table.write(folder / "own.csv");
+  return {content(folder / "nodes.csv"), content(folder / "elements.csv"), content(folder / "boundaries.csv"),
+          content(folder / "own.csv"), "# a b c\n1 2 3\n\t4 5.5 6\n# remark\n7 8 9\n"};
+}
+
+void use_table(std::string const& bytes, scarp::CsvSeparator separator) {
+  scarp::CsvColumns const table(bytes, "t.csv", separator);
+  for (auto const& name : table.names()) {
+    try {
+      auto const values = table.column(name);
+      demand(values.size() == table.rows(), "a column of another length");
+      for (double const value : values) demand(std::isfinite(value), "a number that is not finite");
+    } catch (InputError const&) {
+    }
+    try {
+      static_cast<void>(table.column<std::int64_t>(name));
+      static_cast<void>(table.column<int>(name));
+    } catch (InputError const&) {
+    }
+  }
+}
+
+Game record_reader() {
+  scarp::RunRecord const record{.program = "a program",
+                                .identity = "2026-01-01-1",
+                                .state = "running",
+                                .started = "then",
+                                .changed = "now",
+                                .checkpoint = "/a/\"quoted\"\\folder",
+                                .scene = "size = 1\nseed = 2\n",
+                                .build = {{"version", "1"}},
+                                .options = {{"size", "1"}, {"name", "\x01\t{}"}}};
+  auto const folder = std::make_shared<ScratchFolder>();
+  return reader("run records", {record.text()}, [=](std::string const& bytes) {
+    auto const read = scarp::RunRecord::from(bytes);
+    demand(scarp::RunRecord::from(read.text()).text() == read.text(), "a record that is another one when written");
+    std::ofstream(*folder / "run.json", std::ios::binary) << bytes;
+    try {
+      scarp::RunFolder(scarp::RunFolderSettings{.folder = folder->path()}, scarp::RunRecord{.program = "another"});
+      demand(false, "another run's folder was given away");
+    } catch (scarp::FolderError const& refusal) {
+      check_message(refusal.what());
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<Game> readers_of_tables() {
+  using scarp::CsvSeparator;
+  return {reader("tables", table_samples(), [](std::string const& bytes) { use_table(bytes, CsvSeparator::comma); }),
+          reader("tables of blanks", table_samples(),
+                 [](std::string const& bytes) { use_table(bytes, CsvSeparator::blanks); }),
+          record_reader()};
+}
+
+}  // namespace adversary
