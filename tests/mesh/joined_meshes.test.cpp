@@ -54,6 +54,12 @@ TEST_CASE("a mesh far from the origin joins as well") {
   CHECK(mesh.nodes.size() == 15);
 }
 
+TEST_CASE("a part before the mesh shares its first node as well") {
+  auto mesh = box<scarp::Quad4>(0.0);
+  scarp::join(mesh, box<scarp::Quad4>(-1.0));
+  CHECK(mesh.nodes.size() == 15);
+}
+
 TEST_CASE("an empty mesh becomes the part") {
   scarp::Mesh<scarp::Quad4> mesh;
   auto const part = box<scarp::Quad4>(0.0);

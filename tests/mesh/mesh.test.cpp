@@ -65,6 +65,16 @@ TEST_CASE("elements that are turned over, flat or flat up to round-off are refus
   CHECK(says(complaint(mesh), "element 1"));
 }
 
+TEST_CASE("what counts as flat goes with the size of the element") {
+  for (double const size : {1e-7, 1e7}) {
+    auto mesh = square();
+    for (auto& node : mesh.nodes) node *= size;
+    CHECK(complaint(mesh) == "");
+    mesh.nodes[3] = size * scarp::Vector<2>(0.5, 0.5 + 1e-13);
+    CHECK(says(complaint(mesh), "element 1"));
+  }
+}
+
 TEST_CASE("a node that no element uses is refused") {
   auto mesh = square();
   mesh.nodes.emplace_back(7.0, 7.0);
