@@ -94,9 +94,8 @@ TEST_CASE("a negative number of threads is refused and zero takes what the machi
 TEST_CASE("a task may ask the team for tasks of its own, and two threads may ask it at the same time") {
   scarp::ThreadExecutor executor(3);
   std::vector<std::atomic<int>> times(20 * 30);
-  executor.for_each(20, [&](int i) {
-    executor.for_each(30, [&](int k) { ++times[static_cast<std::size_t>(30 * i + k)]; });
-  });
+  executor.for_each(
+      20, [&](int i) { executor.for_each(30, [&](int k) { ++times[static_cast<std::size_t>(30 * i + k)]; }); });
   for (auto const& count : times) CHECK(count == 1);
 
   std::atomic<int> all = 0;
