@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Random valid options of every example that has many: it runs for about a second and ends well, says why it does not go on, or is
 killed; never a crash, a report of a sanitizer, a file that is cut off or a summary that does not parse. Environment: SCARP_EXAMPLES,
-the folder of the built programs (skipped, exit 77, without); SCARP_DRAWS, runs of each program (3); SCARP_SEED, of the draws;
+the folder of the built programs (skipped, exit 77, without); SCARP_DRAWS, runs of each program (2); SCARP_SEED, of the draws;
 SCARP_ONLY, one program."""
 import json
 import math
@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True  # the import below leaves no folder in the sourc
 from expectations import expect, finish
 
 PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
-DRAWS = int(os.environ.get("SCARP_DRAWS", "3"))
+DRAWS = int(os.environ.get("SCARP_DRAWS", "2"))
 SEED = int(os.environ.get("SCARP_SEED", random.randrange(10**6)))
 SECONDS = 1  # that a run is given
 GRACE = 20  # seconds after which a run that should end by itself counts as hanging: preparation is not cut short
