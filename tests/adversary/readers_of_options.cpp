@@ -39,7 +39,7 @@ void read_options(std::string const& text) {
   try {
     app.parse_from_stream(stream);
   } catch (CLI::ParseError const& refusal) {
-    throw InputError(fmt::format("options are refused: {}", refusal.what()));
+    throw InputError(fmt::format("options are refused ({}): see --help", refusal.what()));
   }
   demand(options.size > 0.0 && options.size <= 25.0, "a size out of range");
   demand(options.friction >= 0.0 && options.friction <= 10.0, "a friction out of range");

@@ -39,6 +39,11 @@ struct Outer {
   }
 };
 
+struct Large {
+  std::array<double, 1000> numbers{};
+  SCARP_MEMBERS(numbers)
+};
+
 struct State {
   std::shared_ptr<Inner const> none;
   std::shared_ptr<Outer const> outer;
@@ -85,10 +90,6 @@ TEST_CASE("a truth value that is neither is refused") {
 }
 
 TEST_CASE("a false length of a list is refused before anything of that size is made") {
-  struct Large {
-    std::array<double, 1000> numbers{};
-    SCARP_MEMBERS(numbers)
-  };
   scarp::StateWriter writer;
   writer("list", std::vector<Large>(1));
   constexpr std::size_t length_at = 1 + 4 + 4;  // behind the name and the bytes of an element

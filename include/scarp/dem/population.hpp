@@ -46,10 +46,18 @@ class Population {
       Size const grain = size(i);  // as stored: a population made from another one's sizes has the same bits
       double const content = Shape::content(grain);
       double const mass = density * content * thickness;
+      double const inertia = mass * Shape::gyration_squared(grain);
+      if (!(std::isnormal(mass) && std::isnormal(inertia) && std::isfinite(1.0 / inertia))) {
+        refuse(
+            "a grain of size {} has a mass of {} kg and an inertia of {} kg m2 (beyond what a number here can hold): "
+            "check "
+            "the units of its size and density",
+            size(i)[0], mass, inertia);
+      }
       content_ += content;
       mass_ += mass;
       inverse_mass_(i, 0) = static_cast<Scalar>(1.0 / mass);
-      inverse_inertia_(i, 0) = static_cast<Scalar>(1.0 / (mass * Shape::gyration_squared(grain)));
+      inverse_inertia_(i, 0) = static_cast<Scalar>(1.0 / inertia);
       smallest_radius_ = std::min(smallest_radius_, Shape::bounding_radius(grain));
       largest_radius_ = std::max(largest_radius_, Shape::bounding_radius(grain));
       double const width = content / (std::numbers::pi * std::pow(Shape::bounding_radius(grain), Shape::dim - 1));

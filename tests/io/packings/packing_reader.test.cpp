@@ -334,3 +334,11 @@ TEST_CASE("contacts are refused for a packing that already has its pairs, and th
   CHECK_THROWS_WITH_AS(scarp::read_contacts(named, good, law()), doctest::Contains("right after the grains"),
                        scarp::InputError);
 }
+
+TEST_CASE("grains too small or too large to have a mass are refused") {
+  for (double const radius : {1e-300, 1e-160, 1e200}) {
+    CAPTURE(radius);
+    auto const said = complaint([&] { scarp::Population<scarp::Disc>({{radius}}, density, 1.0); });
+    CHECK(contains(said, "beyond what a number here can hold"));
+  }
+}
