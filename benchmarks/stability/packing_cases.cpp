@@ -160,7 +160,7 @@ Outcome servo(scarp::Loading<2> const& loading, scarp::Servo const& servo, std::
   // No packing carries them: that is known before the first step.
   auto const& controls = loading.controls;
   bool const impossible =
-      std::any_of(controls.begin(), controls.end(), [](auto const& one) { return !one.reachable(); });
+      std::any_of(controls.begin(), controls.end(), [](auto const& one) { return !one.reachable(false); });
   outcome.as_expected = outcome.as_expected && (at_once || !impossible);
   return outcome;
 }
