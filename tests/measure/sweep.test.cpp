@@ -67,6 +67,31 @@ TEST_CASE("a sweep of the trapezoidal rule finds its second order and its exact 
   CHECK(std::isnan(table.scatter[0]));
 }
 
+TEST_CASE("costs are relative to the base setting before and after a run, and the noise is what that changes by") {
+  std::vector<scarp::SweepRun> const runs(3);
+  scarp::SweepEvaluation evaluation("clock", runs, false, false);
+  auto const took = [](double seconds) {
+    Measured measured{.inner_steps = 8};
+    measured.answer("time", 1.0);
+    return scarp::TimedRun{.measured = measured, .seconds = seconds};
+  };
+  evaluation.reference(took(30.0));
+  evaluation.baseline(took(1.0));
+  evaluation.add(0, took(2.0));
+  evaluation.add(1, took(6.0));
+  evaluation.baseline(took(3.0));
+  evaluation.add(2, took(6.0));
+  auto const table = evaluation.table();
+  // Analytic: 6 s over the mean of 1 and 3 s; over 3 s, behind which no other comes; 30 s over the median of 1 and 3 s.
+  CHECK(table.rows[0].cost == 1.0);
+  CHECK(table.rows[1].cost == doctest::Approx(3.0).epsilon(1e-14));
+  CHECK(table.rows[2].cost == doctest::Approx(2.0).epsilon(1e-14));
+  CHECK(table.rows[1].seconds == 6.0);
+  CHECK(table.rows[1].inner_steps == 8.0);
+  CHECK(table.reference_cost == doctest::Approx(15.0).epsilon(1e-14));
+  CHECK(table.cost_noise == doctest::Approx(2.0).epsilon(1e-14));
+}
+
 TEST_CASE("Richardson's order needs neither equal ratios of the sizes nor a positive power") {
   for (double const power : {0.5, 1.0, 2.0, 4.0, -1.0}) {
     auto const value = [&](double h) { return std::pow(h, power); };
