@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/LU>
 #include <cstdint>
 #include <string_view>
 
