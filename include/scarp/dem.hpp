@@ -7,6 +7,7 @@
 /// Stresses and tangents of a packing: room homogenise.
 #pragma once
 
+#include "scarp/dem/bonded_packing.hpp"
 #include "scarp/dem/cell.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/clump_grading.hpp"

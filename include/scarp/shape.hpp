@@ -15,4 +15,5 @@
 #include "scarp/shape/particle_shape.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "scarp/shape/superellipse.hpp"
+#include "scarp/shape/settled_touch.hpp"
 #include "scarp/shape/support_touch.hpp"
