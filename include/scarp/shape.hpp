@@ -13,7 +13,7 @@
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/shape/particle_shape.hpp"
+#include "scarp/shape/settled_touch.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "scarp/shape/superellipse.hpp"
-#include "scarp/shape/settled_touch.hpp"
 #include "scarp/shape/support_touch.hpp"
