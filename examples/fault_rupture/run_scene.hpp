@@ -70,6 +70,8 @@ struct Takeover : scarp::NeverStops {
   void attempted(Problem const&, scarp::StepReport const&) {
     take();
   }
+
+  static void members(auto&, auto&&) {}  // a run that goes on takes its folder over anew
 };
 
 /// An observer that has nothing to see.

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "../shared/command_line.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "band.hpp"
@@ -115,25 +116,36 @@ int main(int argc, char** argv) {
   CLI::App app{"Shear band in a biaxial specimen of softening soil against mesh and intrinsic length"};
   examples::declare_version(app);
   app.option_defaults()->always_capture_default();
-  app.add_option("--cells", choice.cells, "across the width, one number for each mesh")->delimiter(',');
-  app.add_option("--lengths", choice.lengths, "intrinsic lengths [m]")->delimiter(',');
-  app.add_option("--stiffness", choice.neighbourhood.stiffness, "against unseen strain, share of the initial one");
-  app.add_option("--fading", choice.neighbourhood.fading, "strain after which the stress of that stiffness has faded");
-  app.add_option("--from", choice.from, "settlement from which the band is measured [m]");
-  app.add_option("--to", choice.to, "settlement at the end [m]");
-  app.add_option("--step", choice.step, "largest settlement of a load step [m]");
-  app.add_option("--tolerance", choice.tolerance, "of the force residual");
-  app.add_option("--most-iterations", choice.most_iterations, "of a load step");
-  app.add_option("--gate", choice.gate, "largest difference between meshes with a length, as a part; 0 for none");
+  using examples::number_from;
+  auto const positive = number_from(0.0, false, 1e3);
+  auto const length = number_from(0.0, true, 1e3);
+  auto const share = number_from(0.0, true, 1.0);
+  app.add_option("--cells", choice.cells, "across the width, one number for each mesh")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--lengths", choice.lengths, "intrinsic lengths [m]")->delimiter(',')->check(length);
+  app.add_option("--stiffness", choice.neighbourhood.stiffness, "against unseen strain, share of the initial one")
+      ->check(share);
+  app.add_option("--fading", choice.neighbourhood.fading, "strain after which the stress of that stiffness has faded")
+      ->check(positive);
+  app.add_option("--from", choice.from, "settlement from which the band is measured [m]")->check(length);
+  app.add_option("--to", choice.to, "settlement at the end [m]")->check(positive);
+  app.add_option("--step", choice.step, "largest settlement of a load step [m]")->check(positive);
+  app.add_option("--tolerance", choice.tolerance, "of the force residual")->check(number_from(0.0, false, 1.0));
+  app.add_option("--most-iterations", choice.most_iterations, "of a load step")->check(CLI::Range(1, 10'000));
+  app.add_option("--gate", choice.gate, "largest difference between meshes with a length, as a part; 0 for none")
+      ->check(length);
   examples::Output output;
   examples::declare_output(app, output, "folder for load curves and shear strains");
-  auto const fault_options = [](CLI::App& command, FaultChoice& fault) {
-    command.add_option("--sizes", fault.sizes, "of a mesh cell in the band [m]")->delimiter(',');
-    command.add_option("--lengths", fault.lengths, "intrinsic lengths [m]")->delimiter(',');
-    command.add_option("--stiffness", fault.stiffness, "as above");
-    command.add_option("--fading", fault.fading, "as above");
-    command.add_option("--throw-over-depth", fault.throw_over_depth, "at the end");
-    command.add_option("--tolerance", fault.tolerance, "of the force residual");
+  auto const fault_options = [=](CLI::App& command, FaultChoice& fault) {
+    command.add_option("--sizes", fault.sizes, "of a mesh cell in the band [m]")
+        ->delimiter(',')
+        ->check(number_from(0.0, false, 25.0));
+    command.add_option("--lengths", fault.lengths, "intrinsic lengths [m]")->delimiter(',')->check(length);
+    command.add_option("--stiffness", fault.stiffness, "as above")->check(share);
+    command.add_option("--fading", fault.fading, "as above")->check(positive);
+    command.add_option("--throw-over-depth", fault.throw_over_depth, "at the end")->check(number_from(0.0, false, 1.0));
+    command.add_option("--tolerance", fault.tolerance, "of the force residual")->check(number_from(0.0, false, 1.0));
   };
   FaultChoice fault;
   auto* const rupture = app.add_subcommand("fault", "fault rupture through level ground of Mohr-Coulomb soil instead");

@@ -10,6 +10,7 @@
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "scarp/io/state_text.hpp"
 
 namespace scarp {
 
@@ -26,6 +27,7 @@ class HiddenState {
   virtual bool is_described() const = 0;
   virtual void write(StateWriter& writer) const = 0;
   virtual void read(StateReader& reader) = 0;
+  virtual void tell(StateText& text) const = 0;
   virtual VoigtStress<Dim> floor_stress_inside() const = 0;
 };
 
@@ -40,6 +42,9 @@ class HiddenStateOf final : public HiddenState<Dim> {
   bool is_described() const override { return Described<State>; }
   void write(StateWriter& writer) const override { described(writer, state); }
   void read(StateReader& reader) override { described(reader, state); }
+  void tell(StateText& text) const override {
+    if constexpr (Described<State>) text("state", state);
+  }
   VoigtStress<Dim> floor_stress_inside() const override { return floor_stress_in<Dim>(state); }
 
   State state;
@@ -104,6 +109,8 @@ class AnyState {
       self.held_->write(visit);
     } else if constexpr (std::same_as<Visitor, StateReader>) {
       self.held_->read(visit);
+    } else if constexpr (std::same_as<Visitor, StateText>) {
+      self.held_->tell(visit);
     }
   }
 

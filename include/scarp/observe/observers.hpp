@@ -3,6 +3,8 @@
 
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
+#include <type_traits>
+#include <utility>
 
 #include "scarp/core/described.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -35,11 +37,15 @@ struct Observers {
     return stop;
   }
 
-  /// Those that remember something.
+  /// Those that remember something; all but empty ones have to say what.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     boost::hana::for_each(self.parts, [&](auto& part) {
-      if constexpr (Described<std::remove_cvref_t<decltype(part)>>) visit("observer", part);
+      using Part = std::remove_cvref_t<decltype(part)>;
+      static_assert(Described<Part> || std::is_empty_v<Part>,
+                    "scarp: an observer of a run that is saved names its members: SCARP_MEMBERS(rows), or "
+                    "SCARP_MEMBERS_EXCEPT((path)) where a run that goes on sets them itself");
+      if constexpr (Described<Part>) visit("observer", part);
     });
   }
 };
@@ -58,8 +64,8 @@ struct Borrowed {
   bool wants_stop() const { return observer->wants_stop(); }
 
   template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) requires Described<Observer> {
-    Observer::members(*self.observer, visit);
+  static void members(Self& self, Visit&& visit) requires(Described<Observer> || std::is_empty_v<Observer>) {
+    if constexpr (Described<Observer>) Observer::members(*self.observer, visit);
   }
 };
 

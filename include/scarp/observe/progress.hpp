@@ -33,6 +33,8 @@ class Progress : public NeverStops {
     std::fflush(stderr);
   }
 
+  SCARP_MEMBERS_EXCEPT((to_, load_unit_, from_, started_))  // the time that remains is guessed anew
+
  private:
   template <class Problem>
   static std::string where(Problem const& problem, StepReport const& report) {

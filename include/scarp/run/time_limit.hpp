@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "scarp/core/described.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
@@ -23,6 +24,8 @@ class TimeLimit {
     return seconds_ > 0.0 &&
            std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count() > seconds_;
   }
+
+  SCARP_MEMBERS_EXCEPT((seconds_, started_))  // a run that goes on has all its time again
 
  private:
   double seconds_;
