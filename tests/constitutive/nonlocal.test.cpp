@@ -7,6 +7,7 @@
 
 #include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "scarp/solver/wide_equations.hpp"
 #include "solver/sample_block.hpp"
 
 namespace {
@@ -129,7 +130,7 @@ TEST_CASE("the wide stiffness is the derivative of the forces, fading included")
   problem.commit(start);
   Eigen::VectorXd const at = uneven(problem.dof_count(), 1e-5);
   problem.evaluate(at);
-  Eigen::SparseMatrix<double> matrix;
+  scarp::WideStiffness<2> matrix;
   problem.ground_stiffness(at, problem.trial_tangents(), matrix);
   Eigen::VectorXd const direction = uneven(problem.dof_count(), 1.0).reverse();
   constexpr double step = 1e-8;

@@ -32,13 +32,24 @@ concept MaterialField = requires {
   {field.commit()};
 };
 
-/// A field whose points see means of their own and their neighbours' gradients: average(gradients) replaces them and
-/// fixes stresses [Pa] that add to the answers, with derivatives by the points' own strains and by the means; all
-/// belong to the last call. mean().is_local(): nothing of it matters.
+namespace detail {
+/// Stands for any executor.
+struct AnyExecutor {
+  template <class Task>
+  void for_each(int count, Task&& task) {
+    for (int i = 0; i < count; ++i) task(i);
+  }
+};
+}  // namespace detail
+
+/// A field whose points see means of their own and their neighbours' gradients: average(gradients, executor) replaces them
+/// and fixes stresses [Pa] that add to the answers, with derivatives by the points' own strains and by the means; all
+/// belong to the last call. mean().is_local(): nothing of it matters. The executor has for_each(count, task).
 template <class Field>
 concept AveragesGradients = MaterialField<Field> &&
-    requires(Field& field, Field const& constant, std::vector<Gradient<Field::dim>>& gradients) {
-  {field.average(gradients)};
+    requires(Field& field, Field const& constant, std::vector<Gradient<Field::dim>>& gradients,
+             detail::AnyExecutor& executor) {
+  {field.average(gradients, executor)};
   { constant.mean().is_local() } -> std::same_as<bool>;
   { constant.added_stresses() } -> std::same_as<std::vector<VoigtStress<Field::dim>> const&>;
   { constant.added_by_own() } -> std::same_as<std::vector<VoigtTangent<Field::dim>> const&>;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "scarp/constitutive/detail/neighbour_mean.hpp"
@@ -58,14 +59,12 @@ class NonlocalMaterials {
   NeighbourMean<dim> const& mean() const { return mean_; }
 
   /// Puts what the points see in the place of their own gradients; tau belongs to them from then on.
-  void average(std::vector<Gradient<dim>>& gradients) {
+  template <class Executor>
+  void average(std::vector<Gradient<dim>>& gradients, Executor& executor) {
     if (mean_.is_local()) return;
-    std::vector<Gradient<dim>> const own = gradients;
+    std::vector<Gradient<dim>> const own = std::exchange(gradients, mean_.means(gradients, executor));
     for (std::size_t k = 0; k < own.size(); ++k) {
-      int const point = static_cast<int>(k);
-      if (mean_.of(point).size() == 1) continue;
-      gradients[k] = mean_.mean(point, std::span<Gradient<dim> const>(own));
-      hold(k, gradients[k], own[k] - gradients[k]);
+      if (mean_.of(static_cast<int>(k)).size() > 1) hold(k, gradients[k], own[k] - gradients[k]);
     }
   }
 

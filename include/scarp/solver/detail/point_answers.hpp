@@ -24,6 +24,7 @@ class SCARP_EXPORT PointAnswers {
   using Gradients = std::vector<Gradient<dim>>;
   using Stresses = std::vector<VoigtStress<dim>>;
   using Tangents = std::vector<VoigtTangent<dim>>;
+  using Strains = std::vector<EngineeringStrain<dim>>;
 
   PointAnswers(Materials materials, Executor& executor)
       : materials_(std::move(materials)),
@@ -45,7 +46,13 @@ class SCARP_EXPORT PointAnswers {
   /// What the points see from now on, from their own displacement gradients.
   void see(Gradients gradients) {
     gradients_ = std::move(gradients);
-    if constexpr (averages) materials_.average(gradients_);
+    if constexpr (averages) materials_.average(gradients_, executor_);
+  }
+
+  /// What the points see of their own strains, as a function that refers to this object; none where that is the same.
+  std::function<Strains(Strains const&)> means() const requires averages {
+    if (materials_.mean().is_local()) return {};
+    return [this](Strains const& strains) { return materials_.mean().means(strains, executor_); };
   }
 
   /// Fixes every point's work from what it sees.
