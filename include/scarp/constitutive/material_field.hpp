@@ -44,12 +44,13 @@ struct AnyExecutor {
 
 /// A field whose points see means of their own and their neighbours' gradients: average(gradients, executor) replaces them
 /// and fixes stresses [Pa] that add to the answers, with derivatives by the points' own strains and by the means; all
-/// belong to the last call. mean().is_local(): nothing of it matters. The executor has for_each(count, task).
+/// belong to the last call, as own_gradients() do, those before. mean().is_local(): nothing of it matters. The executor has for_each(count, task).
 template <class Field>
 concept AveragesGradients = MaterialField<Field> &&
     requires(Field& field, Field const& constant, std::vector<Gradient<Field::dim>>& gradients,
              detail::AnyExecutor& executor) {
   {field.average(gradients, executor)};
+  { constant.own_gradients() } -> std::same_as<std::vector<Gradient<Field::dim>> const&>;
   { constant.mean().is_local() } -> std::same_as<bool>;
   { constant.added_stresses() } -> std::same_as<std::vector<VoigtStress<Field::dim>> const&>;
   { constant.added_by_own() } -> std::same_as<std::vector<VoigtTangent<Field::dim>> const&>;

@@ -61,12 +61,16 @@ class NonlocalMaterials {
   /// Puts what the points see in the place of their own gradients; tau belongs to them from then on.
   template <class Executor>
   void average(std::vector<Gradient<dim>>& gradients, Executor& executor) {
+    own_ = gradients;
     if (mean_.is_local()) return;
-    std::vector<Gradient<dim>> const own = std::exchange(gradients, mean_.means(gradients, executor));
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      if (mean_.of(static_cast<int>(k)).size() > 1) hold(k, gradients[k], own[k] - gradients[k]);
+    gradients = mean_.means(own_, executor);
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      if (mean_.of(static_cast<int>(k)).size() > 1) hold(k, gradients[k], own_[k] - gradients[k]);
     }
   }
+
+  /// The points' own gradients in the last increment that was averaged.
+  std::vector<Gradient<dim>> const& own_gradients() const { return own_; }
 
   /// tau [Pa] of all points in the last increment that was averaged.
   Stresses const& added_stresses() const { return trial_; }
@@ -104,7 +108,7 @@ class NonlocalMaterials {
   /// What evolves: the field and tau.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
-    SCARP_ALL_MEMBERS(field_, mean_, fading_, stiffness_, committed_, trial_, by_own_, by_mean_);
+    SCARP_ALL_MEMBERS(field_, mean_, fading_, stiffness_, own_, committed_, trial_, by_own_, by_mean_);
     visit("field", self.field_);
     visit("tau", std::span(self.committed_));
   }
@@ -143,6 +147,7 @@ class NonlocalMaterials {
   NeighbourMean<dim> mean_;
   std::vector<double> fading_;
   Tangents stiffness_;
+  std::vector<Gradient<dim>> own_;
   Stresses committed_;
   Stresses trial_;
   Tangents by_own_;

@@ -87,7 +87,12 @@ class SCARP_EXPORT EquilibriumProblem final
   std::vector<Gradient<dim>> const& gradients() const override { return points_.gradients(); }
   std::vector<Response<dim>> const& responses() const override { return points_.responses(); }
 
+  /// Gradients of the elements in the last plan or evaluation: those that points see, or the ones that they see means of.
+  std::vector<Gradient<dim>> const& own_gradients() const { return points_.own_gradients(); }
+
   std::vector<VoigtStress<dim>> committed_stresses() const override { return points_.committed_stresses(); }
+  /// With what a field of means adds: those that balance the loads, after a step has been committed.
+  std::vector<VoigtStress<dim>> balanced_stresses() const { return points_.balanced_stresses(); }
 
   /// Largest component of all points' gradients in the last plan or evaluation.
   double largest_gradient() const override {
