@@ -33,11 +33,13 @@ std::vector<scarp::Site<2>> sites(Local::Grid const& grid) {
 std::vector<double> volumes(Local::Grid const& grid) { return grid.volumes(Eigen::VectorXd::Zero(grid.dof_count())); }
 
 /// The block of the solvers' tests with points that look around themselves.
-Problem block(scarp::Neighbourhood const& neighbourhood, sample::Softening const& soil,
-              scarp::SerialExecutor& executor) {
+/// alone: every so many points is a local one; 0 for none
+Problem block(scarp::Neighbourhood const& neighbourhood, sample::Softening const& soil, scarp::SerialExecutor& executor,
+              std::size_t alone = 0) {
   auto const local = Local::make(soil, executor);
   auto const& grid = local.discretisation();
-  std::vector<scarp::Neighbourhood> const all(sites(grid).size(), neighbourhood);
+  std::vector<scarp::Neighbourhood> all(sites(grid).size(), neighbourhood);
+  for (std::size_t k = 0; alone > 0 && k < all.size(); k += alone) all[k].length = 0.0;
   return {grid, Materials(local.materials(), sites(grid), volumes(grid), all), local.constraints(), local.loads(),
           executor};
 }
@@ -129,9 +131,9 @@ TEST_CASE("a field that was saved and loaded goes on with the same bits") {
   CHECK(one.unbalanced == other.unbalanced);
 }
 
-TEST_CASE("the wide stiffness is the derivative of the forces, fading included") {
+TEST_CASE("the wide stiffness is the derivative of the forces, fading and points alone included") {
   scarp::SerialExecutor executor;
-  auto problem = block({.length = 0.6, .stiffness = 0.7, .fading = 2e-4}, {}, executor);
+  auto problem = block({.length = 0.6, .stiffness = 0.7, .fading = 2e-4}, {}, executor, 5);
   // Small enough that the configuration's own change, of which the spin counts as local, stays below the tolerance.
   Eigen::VectorXd const start = uneven(problem.dof_count(), 1e-5);
   problem.evaluate(start);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scarp/bvp/discretisation.hpp"
+#include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/index.hpp"
 
 namespace scarp {
@@ -25,23 +26,17 @@ class WideStiffness {
 
   WideStiffness() = default;
 
-  /// tangents: of what the points see, by_own, by_mean: of the stresses that a field of means adds [Pa]; means: see Means,
-  /// empty where every mean is the value itself
+  /// means: see Means, empty where every mean is the value itself
   template <class DiscretisationType>
   WideStiffness(DiscretisationType const& discretisation, Eigen::VectorXd const& increment,
-                std::vector<VoigtStress<Dim>> const& stresses, std::vector<VoigtTangent<Dim>> const& tangents,
-                std::vector<VoigtTangent<Dim>> const& by_own, std::vector<VoigtTangent<Dim>> const& by_mean,
-                Means means) {
-    if (!means) {
-      discretisation.stiffness(increment, stresses, tangents, own_);
-      return;
-    }
-    discretisation.stiffness(increment, stresses, by_own, own_);
+                std::vector<VoigtStress<Dim>> const& stresses, SplitTangents<Dim> const& tangents, Means means) {
+    discretisation.stiffness(increment, stresses, tangents.by_own, own_);
+    if (!means) return;
     auto around = std::make_shared<Around>();
     around->strains = discretisation.strain_operator(increment);
     around->means = std::move(means);
     auto const volumes = discretisation.volumes(increment);
-    for (std::size_t k = 0; k < volumes.size(); ++k) around->answers.push_back(volumes[k] * (tangents[k] + by_mean[k]));
+    for (std::size_t k = 0; k < volumes.size(); ++k) around->answers.push_back(volumes[k] * tangents.by_mean[k]);
     around_ = std::move(around);
   }
 

@@ -74,9 +74,17 @@ class NonlocalMaterials {
 
   /// tau [Pa] of all points in the last increment that was averaged.
   Stresses const& added_stresses() const { return trial_; }
-  /// Its derivatives [Pa] with respect to the points' own strain and to the one that they see.
-  Tangents const& added_by_own() const { return by_own_; }
-  Tangents const& added_by_mean() const { return by_mean_; }
+  /// Derivatives [Pa] of the points' whole stresses by their own strains and by the means that they see, in the last increment
+  /// that was averaged; tangents: the field's by what they see. A point alone has its own strain only.
+  SplitTangents<dim> split(Tangents tangents) const {
+    SplitTangents<dim> parts{std::move(tangents), Tangents(by_mean_.size(), VoigtTangent<dim>::Zero())};
+    for (std::size_t k = 0; k < by_mean_.size(); ++k) {
+      if (mean_.of(static_cast<int>(k)).size() == 1) continue;
+      parts.by_mean[k] = parts.by_own[k] + by_mean_[k];
+      parts.by_own[k] = by_own_[k];
+    }
+    return parts;
+  }
 
   int point_count() const { return field_.point_count(); }
   void plan(int point, Gradient<dim> const& predicted) { field_.plan(point, predicted); }

@@ -161,8 +161,8 @@ class SCARP_EXPORT EquilibriumProblem final
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
                         Stiffness& stiffness) const override {
     if constexpr (averages) {
-      stiffness = Stiffness(discretisation_, of_nodes(increment), points_.stresses(), tangents,
-                            materials().added_by_own(), materials().added_by_mean(), points_.means());
+      stiffness = Stiffness(discretisation_, of_nodes(increment), points_.stresses(), materials().split(tangents),
+                            points_.means());
     } else {
       discretisation_.stiffness(of_nodes(increment), points_.stresses(), tangents, stiffness);
     }
