@@ -57,7 +57,8 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
     std::fflush(stderr);
   }
   auto soil = any_soil(choice, std::move(depths));
-  scene.soil = std::move(soil.provider);
+  scene.soil.provider = std::move(soil.provider);
+  scene.soil.length = choice.length;
   scene.solver = std::move(soil.solver);
   scene.tolerance = soil.tolerance;
   scene.loose_pressure = soil.loose_pressure;

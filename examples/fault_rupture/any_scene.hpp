@@ -5,12 +5,14 @@
 
 #include "../shared/study/any_soil.hpp"
 #include "../shared/study/scenes.hpp"
+#include "scarp/scene/nonlocal_scene.hpp"
 
 namespace fault_rupture {
 
 /// A scene of the study, compiled once for all soils.
 template <class Structure>
-struct Scene : scarp::FaultScene<scarp::AnyProvider<2>, Structure, AnySolver, ChosenGround<Element>, ChosenFault> {
+struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structure, AnySolver, ChosenGround<Element>,
+                                 ChosenFault> {
   double tolerance = 0.0;         ///< of the force residual
   double loose_pressure = 0.0;    ///< [Pa], below which a point's balance counts less
   PackingWriter write_packing{};  ///< nothing for soils without packings

@@ -92,6 +92,8 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
           ->check(CLI::ExistingFile);
   for (char const* made_mesh : {"--size", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
+  app.add_option("--length", choice.length, "intrinsic length [m]: radius of the means that points see; 0 for none")
+      ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--seed", choice.seed, "of the packing")->check(examples::seed_number());
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")

@@ -12,6 +12,7 @@
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/solver/thread_executor.hpp"
+#include "scarp/solver/wide_equations.hpp"
 
 namespace nonlocal_band {
 

@@ -7,6 +7,10 @@
 
 #include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "scarp/solver/sparse_lu.hpp"
+#include "scarp/solver/thread_executor.hpp"
+#include "scarp/solver/wide_equations.hpp"
+#include "scarp/solver/work_balance.hpp"
 #include "solver/sample_block.hpp"
 
 namespace {
@@ -29,13 +33,20 @@ std::vector<scarp::Site<2>> sites(Local::Grid const& grid) {
 std::vector<double> volumes(Local::Grid const& grid) { return grid.volumes(Eigen::VectorXd::Zero(grid.dof_count())); }
 
 /// The block of the solvers' tests with points that look around themselves.
-Problem block(scarp::Neighbourhood const& neighbourhood, sample::Softening const& soil,
-              scarp::SerialExecutor& executor) {
+/// alone: every so many points is a local one; 0 for none
+Problem block(scarp::Neighbourhood const& neighbourhood, sample::Softening const& soil, scarp::SerialExecutor& executor,
+              std::size_t alone = 0) {
   auto const local = Local::make(soil, executor);
   auto const& grid = local.discretisation();
-  std::vector<scarp::Neighbourhood> const all(sites(grid).size(), neighbourhood);
+  std::vector<scarp::Neighbourhood> all(sites(grid).size(), neighbourhood);
+  for (std::size_t k = 0; alone > 0 && k < all.size(); k += alone) all[k].length = 0.0;
   return {grid, Materials(local.materials(), sites(grid), volumes(grid), all), local.constraints(), local.loads(),
           executor};
+}
+
+scarp::SerialExecutor& serial() {
+  static scarp::SerialExecutor executor;
+  return executor;
 }
 
 /// Uneven displacements of all nodes [m].
@@ -120,16 +131,16 @@ TEST_CASE("a field that was saved and loaded goes on with the same bits") {
   CHECK(one.unbalanced == other.unbalanced);
 }
 
-TEST_CASE("the wide stiffness is the derivative of the forces, fading included") {
+TEST_CASE("the wide stiffness is the derivative of the forces, fading and points alone included") {
   scarp::SerialExecutor executor;
-  auto problem = block({.length = 0.6, .stiffness = 0.7, .fading = 2e-4}, {}, executor);
+  auto problem = block({.length = 0.6, .stiffness = 0.7, .fading = 2e-4}, {}, executor, 5);
   // Small enough that the configuration's own change, of which the spin counts as local, stays below the tolerance.
   Eigen::VectorXd const start = uneven(problem.dof_count(), 1e-5);
   problem.evaluate(start);
   problem.commit(start);
   Eigen::VectorXd const at = uneven(problem.dof_count(), 1e-5);
   problem.evaluate(at);
-  Eigen::SparseMatrix<double> matrix;
+  scarp::WideStiffness<2> matrix;
   problem.ground_stiffness(at, problem.trial_tangents(), matrix);
   Eigen::VectorXd const direction = uneven(problem.dof_count(), 1.0).reverse();
   constexpr double step = 1e-8;
@@ -141,4 +152,65 @@ TEST_CASE("the wide stiffness is the derivative of the forces, fading included")
   // What the local matrix would say is far away.
   auto const local = problem.discretisation().stiffness(at, problem.committed_stresses(), problem.trial_tangents());
   CHECK((local * direction - difference).norm() > 0.1 * difference.norm());
+}
+
+TEST_CASE("equations of a wide stiffness are solved as those of its matrix") {
+  scarp::SerialExecutor executor;
+  auto problem = block({.length = 0.6}, {.reference_strain = 5e-3}, executor);
+  Eigen::VectorXd const at = uneven(problem.dof_count(), 2e-3);
+  problem.plan(at);
+  problem.evaluate(at);
+  scarp::WideStiffness<2> stiffness;
+  problem.ground_stiffness(at, problem.trial_tangents(), stiffness);
+  scarp::FreeSystem const system(problem.constraints());
+  Eigen::Index const size = system.free_count();
+  Eigen::MatrixXd matrix(size, size);
+  for (Eigen::Index column = 0; column < size; ++column) {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(problem.dof_count());
+    system.scatter(Eigen::VectorXd::Unit(size, column), all);
+    matrix.col(column) = system.gather(stiffness * all);
+  }
+  CHECK((matrix - matrix.transpose()).norm() > 1e-3 * matrix.norm());
+  scarp::detail::GroundEquations<scarp::WideStiffness<2>, scarp::SparseLu> equations;
+  REQUIRE(equations.factorize(system, stiffness).acceptable());
+  Eigen::VectorXd const force = uneven(size, 1e3);
+  CHECK((equations.product(force) - matrix * force).norm() <= 1e-12 * (matrix * force).norm());
+  Eigen::VectorXd const exact = matrix.partialPivLu().solve(force);
+  // The iteration ends at 1e-4 of the preconditioned residual.
+  CHECK((equations.solve(force) - exact).norm() <= 1e-3 * exact.norm());
+}
+
+TEST_CASE("means and what is solved with them are the same bits on any number of threads") {
+  auto const positions = [](auto& executor) {
+    sample::Softening const soil{.reference_strain = 0.02};
+    auto const local = Local::make(soil, serial());
+    auto const& grid = local.discretisation();
+    std::vector<scarp::Neighbourhood> const all(sites(grid).size(), scarp::Neighbourhood{.length = 0.5});
+    scarp::EquilibriumProblem<Local::Grid, Materials, std::remove_reference_t<decltype(executor)>> problem(
+        grid, Materials(local.materials(), sites(grid), volumes(grid), all), local.constraints(), local.loads(),
+        executor);
+    scarp::NoObserver nobody;
+    auto const run =
+        scarp::LoadStepping{.first = 0.005}.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 0.01, nobody);
+    REQUIRE(run.verdict.acceptable());
+    return problem.discretisation().positions();
+  };
+  scarp::ThreadExecutor three(3);
+  CHECK(positions(serial()) == positions(three));
+}
+
+TEST_CASE("the work of a problem with a length balances, the stress against unseen strain included") {
+  scarp::SerialExecutor executor;
+  sample::Softening const soil{.reference_strain = 0.02};
+  auto const gap = [&](double largest) {
+    auto problem = block({.length = 0.5, .fading = 1e-2}, soil, executor);
+    scarp::WorkBalance work(problem, 0.0);
+    auto const run = scarp::LoadStepping{.first = largest, .largest = largest}.run(
+        scarp::QuasiNewton<>{.tolerance = 1e-9}, problem, 0.0, 0.01, work);
+    REQUIRE(run.verdict.acceptable());
+    return work.gap();
+  };
+  double const coarse = gap(2e-3);
+  CHECK(coarse < 2e-3);
+  CHECK(gap(5e-4) < 0.3 * coarse);
 }

@@ -29,6 +29,7 @@ struct Choice {
   double aspect = 1.0;                 ///< height of a cell over its width
   std::uint64_t mesh_seed = 1;         ///< of the jittered mesh
   std::string mesh;                    ///< Gmsh file in place of all these
+  double length = 0.0;                 ///< intrinsic [m]; 0 for none
   int grains = 400;
   std::uint64_t seed = 1;
   double preparation_friction = 0.09;
@@ -71,6 +72,7 @@ struct Choice {
     visit("aspect", self.aspect);
     visit("mesh-seed", self.mesh_seed);
     visit("reverse", self.reverse);
+    visit("length", self.length);
     visit("grains", self.grains);
     visit("seed", self.seed);
     visit("preparation-friction", self.preparation_friction);

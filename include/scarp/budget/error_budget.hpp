@@ -19,7 +19,7 @@ namespace scarp {
 
 namespace detail {
 
-/// For problems whose work is not added up: what is attached, means over neighbours, points of other processes.
+/// For problems whose work is not added up: what is attached, points of other processes.
 struct NoWorkBalance {
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}
@@ -29,8 +29,7 @@ struct NoWorkBalance {
 
 template <class Problem>
 inline constexpr bool adds_up_work =
-    Problem::is_bare && !Problem::averages &&
-    !SharesPoints<std::remove_cvref_t<decltype(std::declval<Problem const&>().executor())>>;
+    Problem::is_bare && !SharesPoints<std::remove_cvref_t<decltype(std::declval<Problem const&>().executor())>>;
 
 template <class Problem>
 struct WorkBalanceOf {

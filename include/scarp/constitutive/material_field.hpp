@@ -32,17 +32,36 @@ concept MaterialField = requires {
   {field.commit()};
 };
 
-/// A field whose points see means of their own and their neighbours' gradients: average(gradients) replaces them and
-/// fixes stresses [Pa] that add to the answers, with derivatives by the points' own strains and by the means; all
-/// belong to the last call. mean().is_local(): nothing of it matters.
+namespace detail {
+/// Stands for any executor.
+struct AnyExecutor {
+  template <class Task>
+  void for_each(int count, Task&& task) {
+    for (int i = 0; i < count; ++i) task(i);
+  }
+};
+}  // namespace detail
+
+/// Tangents [Pa] of points whose stress follows from their own strain and from a mean around them.
+template <int Dim>
+struct SplitTangents {
+  std::vector<VoigtTangent<Dim>> by_own;
+  std::vector<VoigtTangent<Dim>> by_mean;
+};
+
+/// A field whose points see means of their own and their neighbours' gradients: average(gradients, executor) replaces them
+/// and fixes stresses [Pa] that add to the answers; split(tangents) tells what the whole stresses follow from. All belong to
+/// the last call, as own_gradients() do, those before it. mean().is_local(): every mean is the value itself. The executor has
+/// for_each(count, task).
 template <class Field>
 concept AveragesGradients = MaterialField<Field> &&
-    requires(Field& field, Field const& constant, std::vector<Gradient<Field::dim>>& gradients) {
-  {field.average(gradients)};
+    requires(Field& field, Field const& constant, std::vector<Gradient<Field::dim>>& gradients,
+             detail::AnyExecutor& executor) {
+  {field.average(gradients, executor)};
+  { constant.own_gradients() } -> std::same_as<std::vector<Gradient<Field::dim>> const&>;
   { constant.mean().is_local() } -> std::same_as<bool>;
   { constant.added_stresses() } -> std::same_as<std::vector<VoigtStress<Field::dim>> const&>;
-  { constant.added_by_own() } -> std::same_as<std::vector<VoigtTangent<Field::dim>> const&>;
-  { constant.added_by_mean() } -> std::same_as<std::vector<VoigtTangent<Field::dim>> const&>;
+  { constant.split(std::vector<VoigtTangent<Field::dim>>{}) } -> std::same_as<SplitTangents<Field::dim>>;
 };
 
 /// A field whose points can also go on from their trial states, along the path of an iteration.

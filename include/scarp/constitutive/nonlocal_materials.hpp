@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "scarp/constitutive/detail/neighbour_mean.hpp"
@@ -58,22 +59,32 @@ class NonlocalMaterials {
   NeighbourMean<dim> const& mean() const { return mean_; }
 
   /// Puts what the points see in the place of their own gradients; tau belongs to them from then on.
-  void average(std::vector<Gradient<dim>>& gradients) {
+  template <class Executor>
+  void average(std::vector<Gradient<dim>>& gradients, Executor& executor) {
+    own_ = gradients;
     if (mean_.is_local()) return;
-    std::vector<Gradient<dim>> const own = gradients;
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      int const point = static_cast<int>(k);
-      if (mean_.of(point).size() == 1) continue;
-      gradients[k] = mean_.mean(point, std::span<Gradient<dim> const>(own));
-      hold(k, gradients[k], own[k] - gradients[k]);
+    gradients = mean_.means(own_, executor);
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      if (mean_.of(static_cast<int>(k)).size() > 1) hold(k, gradients[k], own_[k] - gradients[k]);
     }
   }
 
+  /// The points' own gradients in the last increment that was averaged.
+  std::vector<Gradient<dim>> const& own_gradients() const { return own_; }
+
   /// tau [Pa] of all points in the last increment that was averaged.
   Stresses const& added_stresses() const { return trial_; }
-  /// Its derivatives [Pa] with respect to the points' own strain and to the one that they see.
-  Tangents const& added_by_own() const { return by_own_; }
-  Tangents const& added_by_mean() const { return by_mean_; }
+  /// Derivatives [Pa] of the points' whole stresses by their own strains and by the means that they see, in the last increment
+  /// that was averaged; tangents: the field's by what they see. A point alone has its own strain only.
+  SplitTangents<dim> split(Tangents tangents) const {
+    SplitTangents<dim> parts{std::move(tangents), Tangents(by_mean_.size(), VoigtTangent<dim>::Zero())};
+    for (std::size_t k = 0; k < by_mean_.size(); ++k) {
+      if (mean_.of(static_cast<int>(k)).size() == 1) continue;
+      parts.by_mean[k] = parts.by_own[k] + by_mean_[k];
+      parts.by_own[k] = by_own_[k];
+    }
+    return parts;
+  }
 
   int point_count() const { return field_.point_count(); }
   void plan(int point, Gradient<dim> const& predicted) { field_.plan(point, predicted); }
@@ -105,7 +116,7 @@ class NonlocalMaterials {
   /// What evolves: the field and tau.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
-    SCARP_ALL_MEMBERS(field_, mean_, fading_, stiffness_, committed_, trial_, by_own_, by_mean_);
+    SCARP_ALL_MEMBERS(field_, mean_, fading_, stiffness_, own_, committed_, trial_, by_own_, by_mean_);
     visit("field", self.field_);
     visit("tau", std::span(self.committed_));
   }
@@ -144,6 +155,7 @@ class NonlocalMaterials {
   NeighbourMean<dim> mean_;
   std::vector<double> fading_;
   Tangents stiffness_;
+  std::vector<Gradient<dim>> own_;
   Stresses committed_;
   Stresses trial_;
   Tangents by_own_;

@@ -7,6 +7,7 @@
 #include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/scene/scene.hpp"
+#include "scarp/solver/wide_equations.hpp"
 
 namespace scarp {
 

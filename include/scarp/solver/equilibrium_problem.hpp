@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "scarp/bvp/averaged_stiffness.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/solver/detail/attachment_part.hpp"
+#include "scarp/solver/detail/ground_equations.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/detail/point_answers.hpp"
 
@@ -23,15 +23,17 @@ template <class DiscretisationType, MaterialField Materials, CheckedExecutor Exe
           CheckedAttachment<DiscretisationType::dim> Attached = NoAttachment>
 class SCARP_EXPORT EquilibriumProblem final
     : public detail::AttachmentPart<EquilibriumProblem<DiscretisationType, Materials, Executor, Attached>,
-                                    DiscretisationType::dim, Attached> {
-  using Part = detail::AttachmentPart<EquilibriumProblem, DiscretisationType::dim, Attached>;
+                                    DiscretisationType::dim, typename detail::GroundStiffness<Materials>::Type,
+                                    Attached> {
+  using Stiffness = typename detail::GroundStiffness<Materials>::Type;
+  using Part = detail::AttachmentPart<EquilibriumProblem, DiscretisationType::dim, Stiffness, Attached>;
 
  public:
   static constexpr int dim = DiscretisationType::dim;
   static constexpr bool follows_motion = DiscretisationType::follows_motion;
   using Part::is_bare;
   /// What solvers see of it.
-  using Interface = std::conditional_t<is_bare, IncrementalProblem<dim>, AttachedProblem<dim>>;
+  using Interface = std::conditional_t<is_bare, IncrementalProblem<dim, Stiffness>, AttachedProblem<dim, Stiffness>>;
   static constexpr bool averages = AveragesGradients<Materials>;
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
@@ -85,7 +87,12 @@ class SCARP_EXPORT EquilibriumProblem final
   std::vector<Gradient<dim>> const& gradients() const override { return points_.gradients(); }
   std::vector<Response<dim>> const& responses() const override { return points_.responses(); }
 
+  /// Gradients of the elements in the last plan or evaluation: those that points see, or the ones that they see means of.
+  std::vector<Gradient<dim>> const& own_gradients() const { return points_.own_gradients(); }
+
   std::vector<VoigtStress<dim>> committed_stresses() const override { return points_.committed_stresses(); }
+  /// With what a field of means adds: those that balance the loads, after a step has been committed.
+  std::vector<VoigtStress<dim>> balanced_stresses() const { return points_.balanced_stresses(); }
 
   /// Largest component of all points' gradients in the last plan or evaluation.
   double largest_gradient() const override {
@@ -149,15 +156,17 @@ class SCARP_EXPORT EquilibriumProblem final
     return evaluation;
   }
 
-  /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses.
+  /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses. Where points see means it is
+  /// of use as long as this problem stays where it is.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
-                        Eigen::SparseMatrix<double>& matrix) const override {
+                        Stiffness& stiffness) const override {
     if constexpr (averages) {
-      averaged_stiffness(discretisation_, of_nodes(increment), points_.stresses(), tangents, materials(), matrix);
+      stiffness = Stiffness(discretisation_, of_nodes(increment), points_.stresses(), materials().split(tangents),
+                            points_.means());
     } else {
-      discretisation_.stiffness(of_nodes(increment), points_.stresses(), tangents, matrix);
+      discretisation_.stiffness(of_nodes(increment), points_.stresses(), tangents, stiffness);
     }
-    if constexpr (!is_bare) matrix.conservativeResize(dof_count(), dof_count());
+    if constexpr (!is_bare) stiffness.conservativeResize(dof_count(), dof_count());
   }
 
   /// Largest of all parts' residuals, see `residuals`.

@@ -17,8 +17,10 @@ class FreeSystem {
     for (std::size_t k = 0; k < free_dofs_.size(); ++k) free_index_[detail::index(free_dofs_[k])] = static_cast<int>(k);
   }
 
+  Eigen::Index free_count() const { return static_cast<Eigen::Index>(free_dofs_.size()); }
+
   Eigen::SparseMatrix<double> matrix(Eigen::SparseMatrix<double> const& full) const {
-    Eigen::Index const size = static_cast<Eigen::Index>(free_dofs_.size());
+    Eigen::Index const size = free_count();
     Eigen::SparseMatrix<double> part(size, size);
     part.reserve(full.nonZeros());
     for (Eigen::Index column = 0; column < size; ++column) {
@@ -36,7 +38,7 @@ class FreeSystem {
   int dof(int free) const { return free < 0 ? -1 : free_dofs_[detail::index(free)]; }
 
   Eigen::VectorXd gather(Eigen::VectorXd const& full) const {
-    Eigen::VectorXd part(static_cast<Eigen::Index>(free_dofs_.size()));
+    Eigen::VectorXd part(free_count());
     for (std::size_t k = 0; k < free_dofs_.size(); ++k) part(static_cast<Eigen::Index>(k)) = full(free_dofs_[k]);
     return part;
   }

@@ -13,9 +13,10 @@ namespace scarp {
 
 /// What a solver asks of a boundary-value problem in increments, whatever its elements, materials, loads and executor are: a
 /// solver is compiled once for each dimension. `EquilibriumProblem` says what each member means.
-template <int Dim>
+template <int Dim, class Stiffness = Eigen::SparseMatrix<double>>
 class IncrementalProblem {
  public:
+  using GroundStiffness = Stiffness;
   static constexpr int dim = Dim;
   static constexpr bool is_bare = true;
 
@@ -38,7 +39,7 @@ class IncrementalProblem {
   virtual Evaluation refine(Eigen::VectorXd const& increment) = 0;
   virtual Evaluation evaluate_committed() = 0;
   virtual void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<Dim>> const& tangents,
-                                Eigen::SparseMatrix<double>& matrix) const = 0;
+                                Stiffness& stiffness) const = 0;
   virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;
   virtual double residual_beside(Eigen::VectorXd const& unbalanced) const = 0;
   virtual void commit(Eigen::VectorXd const& increment) = 0;
@@ -52,8 +53,8 @@ class IncrementalProblem {
 };
 
 /// The same with something attached to the mesh.
-template <int Dim>
-class AttachedProblem : public IncrementalProblem<Dim> {
+template <int Dim, class Stiffness = Eigen::SparseMatrix<double>>
+class AttachedProblem : public IncrementalProblem<Dim, Stiffness> {
  public:
   static constexpr bool is_bare = false;
 

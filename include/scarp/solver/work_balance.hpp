@@ -56,7 +56,7 @@ class WorkBalance {
 
     Snapshot() = default;
     Snapshot(Problem const& problem, double load)
-        : positions(problem.discretisation().positions()), stresses(problem.committed_stresses()) {
+        : positions(problem.discretisation().positions()), stresses(problem.balanced_stresses()) {
       Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
       volumes = problem.discretisation().volumes(still);
       Eigen::VectorXd all = problem.loads().at(load);
@@ -77,7 +77,7 @@ class WorkBalance {
     turned_over_ += std::abs(work);
     for (std::size_t k = 0; k < next.stresses.size(); ++k) {
       VoigtStress<dim> const stress = (now_.volumes[k] * now_.stresses[k] + next.volumes[k] * next.stresses[k]) / 2.0;
-      internal_ += stress.dot(to_engineering_strain<dim, double>(from_middle(problem.gradients()[k])));
+      internal_ += stress.dot(to_engineering_strain<dim, double>(from_middle(problem.own_gradients()[k])));
     }
   }
 

@@ -79,6 +79,18 @@ class NeighbourMean {
     return sum;
   }
 
+  /// The means around all points, by an executor's for_each; the same bits for any.
+  template <class Value, class Executor>
+  std::vector<Value> means(std::vector<Value> const& values, Executor& executor) const {
+    constexpr int block = 64;
+    std::vector<Value> all(values.size());
+    executor.for_each((point_count() + block - 1) / block, [&](int part) {
+      for (int point = block * part; point < std::min(block * (part + 1), point_count()); ++point)
+        all[detail::index(point)] = mean(point, std::span<Value const>(values));
+    });
+    return all;
+  }
+
  private:
   struct Cloud {
     std::span<Site<Dim> const> sites;

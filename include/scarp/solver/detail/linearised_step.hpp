@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "scarp/core/voigt.hpp"
-#include "scarp/solver/conditioning.hpp"
-#include "scarp/solver/free_system.hpp"
+#include "scarp/solver/detail/ground_equations.hpp"
 
 namespace scarp {
 
@@ -44,16 +43,18 @@ class LinearisedStep {
 
   FreeSystem const& system() const { return system_; }
   /// Estimate for the last matrix, in the 1-norm.
-  double condition() const { return condition_estimate(matrix_, linear_); }
+  double condition() const { return equations_.condition(); }
   /// |K x - b| / |b| of the last linear system.
   double linear_residual() const { return linear_residual_; }
   /// Degree of freedom that the last matrix holds least.
-  int weak_dof() const { return system_.dof(weakest_unknown<Linear>(matrix_)); }
+  int weak_dof() const { return system_.dof(equations_.weakest()); }
 
  private:
   static constexpr int most_iterations = 20;
   static constexpr double least_share = 0.1;        ///< of Newton's correction
   static constexpr double least_held_share = 1e-4;  ///< of one with all contacts held
+
+  using Stiffness = typename Problem::GroundStiffness;
 
   struct Balance {
     Eigen::VectorXd unbalanced;
@@ -75,10 +76,7 @@ class LinearisedStep {
     }
   }
 
-  Verdict factorize(Eigen::SparseMatrix<double> const& all) {
-    matrix_ = system_.matrix(all);
-    return linear_.factorize(matrix_);
-  }
+  Verdict factorize(Stiffness const& all) { return equations_.factorize(system_, all); }
 
   Eigen::VectorXd ground_imbalance(Eigen::VectorXd const& increment, Eigen::VectorXd const& more) const {
     return ground_forces_ + ground_ * (increment - centre_) - more;
@@ -87,9 +85,9 @@ class LinearisedStep {
   /// One linear solve.
   Verdict correct(Eigen::VectorXd& increment, Eigen::VectorXd const& unbalanced) {
     Eigen::VectorXd const force = -system_.gather(unbalanced);
-    Eigen::VectorXd const correction = linear_.solve(force);
+    Eigen::VectorXd const correction = equations_.solve(force);
     double const norm = force.norm();
-    linear_residual_ = norm > 0.0 ? (matrix_ * correction - force).norm() / norm : 0.0;
+    linear_residual_ = norm > 0.0 ? (equations_.product(correction) - force).norm() / norm : 0.0;
     if (!(linear_residual_ < 1.0)) return {Status::failed, Reason::singular_system};
     system_.scatter(system_.gather(increment) + correction, increment);
     return {};
@@ -158,9 +156,8 @@ class LinearisedStep {
   Problem& problem_;
   FreeSystem system_;
   double accuracy_;
-  Linear linear_;
-  Eigen::SparseMatrix<double> ground_;
-  SparseMatrix matrix_;  ///< free part, with the attachment's
+  Stiffness ground_;
+  detail::GroundEquations<Stiffness, Linear> equations_;  ///< with what is attached
   Eigen::VectorXd centre_;
   Eigen::VectorXd ground_forces_;  ///< internal forces of the elements less the loads, at the centre
   double linear_residual_ = 0.0;

@@ -24,6 +24,7 @@ class SCARP_EXPORT PointAnswers {
   using Gradients = std::vector<Gradient<dim>>;
   using Stresses = std::vector<VoigtStress<dim>>;
   using Tangents = std::vector<VoigtTangent<dim>>;
+  using Strains = std::vector<EngineeringStrain<dim>>;
 
   PointAnswers(Materials materials, Executor& executor)
       : materials_(std::move(materials)),
@@ -45,7 +46,22 @@ class SCARP_EXPORT PointAnswers {
   /// What the points see from now on, from their own displacement gradients.
   void see(Gradients gradients) {
     gradients_ = std::move(gradients);
-    if constexpr (averages) materials_.average(gradients_);
+    if constexpr (averages) materials_.average(gradients_, executor_);
+  }
+
+  /// What the elements have shown them.
+  Gradients const& own_gradients() const {
+    if constexpr (averages) {
+      return materials_.own_gradients();
+    } else {
+      return gradients_;
+    }
+  }
+
+  /// What the points see of their own strains, as a function that refers to this object; none where that is the same.
+  std::function<Strains(Strains const&)> means() const requires averages {
+    if (materials_.mean().is_local()) return {};
+    return [this](Strains const& strains) { return materials_.mean().means(strains, executor_); };
   }
 
   /// Fixes every point's work from what it sees.
@@ -91,12 +107,10 @@ class SCARP_EXPORT PointAnswers {
   Stresses stresses() const {
     Stresses values(count());
     for (std::size_t k = 0; k < count(); ++k) values[k] = responses_[k].stress;
-    if constexpr (averages) {
-      if (materials_.mean().is_local()) return values;
-      for (std::size_t k = 0; k < count(); ++k) values[k] += materials_.added_stresses()[k];
-    }
-    return values;
+    return with_added(std::move(values));
   }
+  /// The same of the states that have been committed last.
+  Stresses balanced_stresses() const { return with_added(committed_stresses()); }
 
   Stresses committed_stresses() const {
     Stresses values(count());
@@ -115,6 +129,14 @@ class SCARP_EXPORT PointAnswers {
   }
 
  private:
+  Stresses with_added(Stresses values) const {
+    if constexpr (averages) {
+      if (materials_.mean().is_local()) return values;
+      for (std::size_t k = 0; k < count(); ++k) values[k] += materials_.added_stresses()[k];
+    }
+    return values;
+  }
+
   std::size_t count() const { return detail::index(materials_.point_count()); }
 
   auto from_committed() {
