@@ -271,8 +271,9 @@ Game pair(std::string name) {
             demand(std::isfinite(told.largest_force) && told.stress.allFinite(), "a number that is not finite");
             demand(told.out_of_balance <= 1e-11 * told.largest_force,
                    fmt::format("forces add up to {} of {}", told.out_of_balance, told.largest_force));
-            // Of second order in a step's motion, which these steps keep small.
-            auto const finer = told_by<P>(drawn, law, 8);
+            // What is missing falls with the step: where grains cross a good part of an overlap in one, an eighth is not enough.
+            auto finer = told_by<P>(drawn, law, 8);
+            if (std::abs(finer.ledger.gap()) > 0.02 * finer.energy) finer = told_by<P>(drawn, law, 64);
             demand(std::abs(finer.ledger.gap()) <= 0.02 * finer.energy,
                    fmt::format("energy: {} of {} is missing", finer.ledger.gap(), finer.energy));
             return Outcome::accepted;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dem/sample_packings.hpp"
+#include "scarp/shape/least_overlap.hpp"
 
 #include "approx.hpp"
 
@@ -198,4 +199,36 @@ TEST_CASE_TEMPLATE("grains of a row spin on their tangential springs with their 
     CHECK(std::abs(packing.spin(0, 0) - packing.spin(1, 0)) < 1e-9 * spin);
   }
   CHECK(std::abs(packing.velocity(0, 1)) < 1e-9 * spin * reach);
+}
+
+TEST_CASE("a pair whose normal stops being that of the least overlap takes the other one at once") {
+  constexpr scarp::Ellipse::Size<double> slender{reach, 0.12 * reach};
+  // A cross: along x they overlap by 1.12 of the reach less the distance along x, along y alike.
+  auto packing =
+      place<Ellipses>(Tensor<2>::Identity(), {slender, slender}, {{0.5, 0.5}, {0.5 + 0.3 * reach, 0.5 + 0.28 * reach}});
+  packing.orientation.set_row(1, {0.0, 1.0});
+  constexpr scarp::LinearFrictional smooth{.normal_stiffness = 6e6};
+  auto stepper = undamped<Ellipses>(1e-4);
+  REQUIRE(stepper.refresh(packing, smooth).acceptable());
+  double const time_step = stepper.time_step_share * packing.pairs.critical_step;
+  constexpr int steps = 80;
+  packing.velocity(1, 0) = -0.04 * reach / (steps * time_step);
+  bool along_x = false;
+  bool along_y = false;
+  for (int step = 0; step < steps; ++step) {
+    scarp::Point<2, double> const branch{packing.position(1, 0) - packing.position(0, 0),
+                                         packing.position(1, 1) - packing.position(0, 1)};
+    auto const pose = [&](std::size_t grain) {
+      return scarp::Ellipse::pose<double>(slender, {packing.orientation(grain, 0), packing.orientation(grain, 1)});
+    };
+    auto const least = scarp::least_overlap<scarp::Ellipse>(pose(0), pose(1), branch);
+    REQUIRE(least.unsettled == 0.0);
+    scarp::StepObservation<2> seen{};
+    REQUIRE(stepper.step<scarp::Observe::energy>(packing, smooth, Tensor<2>::Zero(), &seen).acceptable());
+    double const stored = smooth.normal_stiffness * least.overlap * least.overlap / 2.0;
+    CHECK(seen.stored_energy == samples::Approx(stored).epsilon(1e-6));
+    (std::abs(least.normal[0]) > 0.7 ? along_x : along_y) = true;
+  }
+  CHECK(along_x);
+  CHECK(along_y);
 }

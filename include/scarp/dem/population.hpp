@@ -63,6 +63,8 @@ class Population {
       double const width = content / (std::numbers::pi * std::pow(Shape::bounding_radius(grain), Shape::dim - 1));
       settled_angle_ = std::min(settled_angle_, 0.01 / (0.5 + Shape::eccentricity(grain) / width));
       largest_eccentricity_ = std::max(largest_eccentricity_, Shape::eccentricity(grain));
+      if constexpr (TellsInnerRadius<Shape>)
+        certain_depth_ = std::min(certain_depth_, 2.0 * Shape::least_curvature_radius(grain));
     }
   }
 
@@ -79,6 +81,10 @@ class Population {
   /// Up to this angle [rad] one Newton step for the normal of a contact leaves an error of the overlap below 1e-6 of the
   /// grains' size: it grows with the cube of the angle and with how fast curvature changes.
   double settled_angle() const { return settled_angle_; }
+
+  /// Up to this overlap [m] of any two grains a normal at which it is stationary is that of the least overlap. Infinite for
+  /// shapes that cannot tell.
+  double certain_depth() const { return certain_depth_; }
 
   Size size(std::size_t grain) const {
     Size values;
@@ -98,7 +104,7 @@ class Population {
   template <class Visit>
   static void members(Population const& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(density_, thickness_, content_, mass_, smallest_radius_, largest_radius_, largest_eccentricity_,
-                      settled_angle_, size_, inverse_mass_, inverse_inertia_);
+                      settled_angle_, certain_depth_, size_, inverse_mass_, inverse_inertia_);
     visit("density", self.density_);
     visit("thickness", self.thickness_);
     visit("content", self.content_);
@@ -143,6 +149,7 @@ class Population {
   double largest_radius_ = 0.0;
   double largest_eccentricity_ = 0.0;
   double settled_angle_ = 1.0;
+  double certain_depth_ = std::numeric_limits<double>::infinity();
   Columns<Scalar, Shape::size_count> size_;
   Columns<Scalar, 1> inverse_mass_;
   Columns<Scalar, 1> inverse_inertia_;

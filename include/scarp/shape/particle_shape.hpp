@@ -109,4 +109,11 @@ concept TouchesInPacks =
 template <class Shape>
 concept ParticleShape = HasGrainSize<Shape> && HasPose<Shape> && Touches<Shape> && TouchesInPacks<Shape>;
 
+/// inner_radius(pose): of a disc [m] that rolls along the inside of the boundary everywhere (Blaschke); its least over
+/// all poses is least_curvature_radius(size).
+template <class Shape>
+concept TellsInnerRadius = requires(PoseOf<Shape> const& pose) {
+  { Shape::inner_radius(pose) } -> std::same_as<double>;
+};
+
 }  // namespace scarp

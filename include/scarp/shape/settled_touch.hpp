@@ -7,12 +7,6 @@
 
 namespace scarp {
 
-/// inner_radius(pose): of a disc [m] that rolls along the inside of the boundary everywhere (Blaschke).
-template <class Shape>
-concept TellsInnerRadius = requires(PoseOf<Shape> const& pose) {
-  { Shape::inner_radius(pose) } -> std::same_as<double>;
-};
-
 namespace detail {
 
 /// Whether a normal at which the overlap is stationary is that of the least overlap. A gap is: a line parts the grains

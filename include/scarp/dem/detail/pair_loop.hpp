@@ -25,6 +25,7 @@ class PairResponse {
     bool const answered = packing.last_move.answered;
     LastMove<dim> const move = answered && !Law::needs.motion ? LastMove<dim>{} : packing.last_move;
     settled_angle_ = packing.population->settled_angle();
+    certain_depth_ = packing.population->certain_depth();
     unanswered_ = constant<Lanes>(answered ? 0.0 : 1.0);
     step_ = constant<Lanes>(move.duration);
     affine_turn_ = affine_turn<dim, Lanes>(move.gradient);
@@ -37,6 +38,7 @@ class PairResponse {
   /// their last normals. A pass of its own, so that the one for the law has registers enough.
   void search(Block& block, std::size_t used, std::size_t start) {
     Lanes unsettled{};
+    Lanes deepest{};
     for (std::size_t at = 0; at < used; at += Lanes::size()) {
       Point<dim, Lanes> last;
       load_rows(pairs_.normal, start + at, last);
@@ -48,8 +50,10 @@ class PairResponse {
       block.write(Block::arm_first, at, touch.arm_first);
       block.write(Block::unsettled, at, touch.unsettled);
       unsettled = max(unsettled, touch.unsettled);
+      deepest = max(deepest, touch.overlap);
     }
-    if (lanes::any_of(unsettled > constant<Lanes>(settled_angle_))) [[unlikely]]
+    if (lanes::any_of(unsettled > constant<Lanes>(settled_angle_)) ||
+        lanes::any_of(deepest > constant<Lanes>(certain_depth_))) [[unlikely]]
       settle(block, used, start);
   }
 
@@ -164,7 +168,9 @@ class PairResponse {
       for (std::size_t k = 0; k < Count; ++k) values[k] = static_cast<double>(block.fields[field + k][pair]);
     };
     for (std::size_t pair = 0; pair < used; ++pair) {
-      if (!(static_cast<double>(block.fields[Block::unsettled][pair]) > settled_angle_)) continue;
+      if (!(static_cast<double>(block.fields[Block::unsettled][pair]) > settled_angle_ ||
+            static_cast<double>(block.fields[Block::overlap][pair]) > certain_depth_))
+        continue;
       PoseOf<Shape> first;
       PoseOf<Shape> second;
       Point<dim, double> branch;
@@ -205,6 +211,7 @@ class PairResponse {
   Turning<dim, Lanes> affine_turn_;
   LaneSums<dim, Lanes> sums_;
   double settled_angle_;
+  double certain_depth_;
   bool settled_ = true;
 };
 
