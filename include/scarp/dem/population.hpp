@@ -63,8 +63,11 @@ class Population {
       double const width = content / (std::numbers::pi * std::pow(Shape::bounding_radius(grain), Shape::dim - 1));
       settled_angle_ = std::min(settled_angle_, 0.01 / (0.5 + Shape::eccentricity(grain) / width));
       largest_eccentricity_ = std::max(largest_eccentricity_, Shape::eccentricity(grain));
-      if constexpr (TellsInnerRadius<Shape>)
-        certain_depth_ = std::min(certain_depth_, 2.0 * Shape::least_curvature_radius(grain));
+    }
+    // In a loop of its own: a product that is used twice is fused with no sum, which would change an inertia's last digit.
+    if constexpr (TellsInnerRadius<Shape>) {
+      for (std::size_t i = 0; i < sizes.size(); ++i)
+        certain_depth_ = std::min(certain_depth_, 2.0 * Shape::least_curvature_radius(size(i)));
     }
   }
 
