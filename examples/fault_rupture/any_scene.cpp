@@ -54,6 +54,14 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
                                                  : "choose a larger --size or fewer --triangles");
   if (speaks) {
     fmt::print(stderr, "preparing {}, about {} of memory\n", what, scarp::memory_text(bytes));
+    constexpr int few = 50;
+    if (choice.soil == Soil::dem && choice.grains < few) {
+      fmt::print(
+          stderr,
+          "warning: a packing of {} grains is an accident and no sample of the sand: compare --seed, or take 100 "
+          "grains and more\n",
+          choice.grains);
+    }
     std::fflush(stderr);
   }
   auto soil = any_soil(choice, std::move(depths));

@@ -121,6 +121,12 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     if (files.resumes()) fmt::print(stderr, "going on from '{}'\n", files.newest().string());
     fmt::print(stderr, "{} {} elements, {} threads, ground made after {:.1f} s\n",
                problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
+    if (choice.length > 0.0 && problem.materials().mean().is_local()) {
+      fmt::print(stderr,
+                 "warning: a --length of {} m reaches no neighbour of any point, so that the soil has none: take a "
+                 "longer one or a smaller --size\n",
+                 choice.length);
+    }
     takeover.emplace(*begun.folder, files.resumes(), [&] {
       if (scene.write_packing) scene.write_packing(folder);
     });

@@ -130,6 +130,19 @@ def check_help():
             expect(not list(pathlib.Path(scratch).iterdir()), f"{program.name} --help wrote files")
 
 
+def check_warnings():
+    """What runs and says little is told before it runs."""
+    for title, given, told in (("a handful of grains", {"--grains": "9"}, "no sample of the sand"),
+                               ("a length below the mesh's", {"--length": "0.1", "--soil": "mohr_coulomb"}, "reaches no neighbour"),
+                               ("a length", {"--length": "20", "--soil": "mohr_coulomb"}, None)):
+        with tempfile.TemporaryDirectory() as scratch:
+            code, said = run(FAULT, "--quick", *command(TINY, given), "--output", "out", folder=scratch)
+            expect(code == 0, f"{title}: ended with {code}\n{said}")
+            expect(told in said if told else "warning" not in said, f"{title}: said\n{said}")
+    check_refusal(FAULT, "negative length", "--length", "-1", "--length")
+    check_refusal(FAULT, "NaN length", "--length", "nan", "--length")
+
+
 def check_mesh_file():
     """A rupture in a mesh from a file, of a reverse fault: the hanging wall comes up."""
     with tempfile.TemporaryDirectory() as scratch:
@@ -253,7 +266,7 @@ def check_repeat():
 if not (FAULT.is_file() and BIAXIAL.is_file()):
     print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_help, check_bad_input, check_mesh_file, check_config, check_list, check_repeat, check_time_limit, check_interrupt):
+for check in (check_help, check_bad_input, check_warnings, check_mesh_file, check_config, check_list, check_repeat, check_time_limit, check_interrupt):
     started = time.monotonic()
     check()
     print(f"{check.__name__}: {time.monotonic() - started:.1f} s")
