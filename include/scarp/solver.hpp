@@ -3,6 +3,7 @@
 /// Equilibrium of a problem with its materials: load stepping, Newton-like iterations, linear solvers, executors.
 /// `load_stepping.hpp` grows the load and cuts steps back; `quasi_newton.hpp` takes any tangent rule and mixing.
 /// An executor asks the points: serial, threads; ranks with `rank_executor.hpp` (component scarp::mpi).
+/// Problems whose points see means of their neighbours need `wide_equations.hpp` too.
 /// Linear solvers of SuiteSparse are `cholmod.hpp` and `umfpack.hpp` (component scarp::suitesparse).
 /// What does not converge is a verdict with a reason.
 #pragma once
