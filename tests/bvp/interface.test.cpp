@@ -188,10 +188,10 @@ TEST_CASE("the stiffness of a base that slides along a slope is the derivative o
   interface.add_stiffness(entries);
   Eigen::SparseMatrix<double> stiffness(7, 7);
   stiffness.setFromTriplets(entries.begin(), entries.end());
-  // Springs and sliders are linear within the steps; those of the interface are 1e-9 of a facet, with overlaps of a tenth.
   Eigen::Matrix2d const own = Eigen::MatrixXd(stiffness).block<2, 2>(4, 4);
   // Analytic: it slides, and the overlap shrinks by the slope. Round-off of places, 1e-16 over the step.
   CHECK(slopes(4, 0) == samples::Approx(-0.5 * 1e6 * 0.3 * 0.2).epsilon(1e-6));
+  // Linear within the steps, of which those of the interface are 1e-9 of the facet, with overlaps of 0.04 of it.
   CHECK((own - slopes.middleRows<2>(4)).norm() < 1e-6 * own.norm());
 }
 

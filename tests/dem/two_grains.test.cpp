@@ -251,7 +251,7 @@ TEST_CASE("clumps that touch with single discs push and turn each other as whole
   REQUIRE(stepper.step(packing, law, Tensor<2>::Zero()).acceptable());
   auto const& grains = *packing.population;
   double const push = law.normal_stiffness * overlap * packing.last_move.duration;
-  // Analytic: k_n u along x on both, 0.75 of the scale below the second one's centre. Round-off of places, 1e-16 over 1e-6.
+  // Analytic: k_n u along x, 0.75 of the scale below the second one's centre. Round-off of places, 1e-16 over 1e-6.
   CHECK(packing.velocity(0, 0) == samples::Approx(-push * grains.inverse_mass()[0]).epsilon(1e-9));
   CHECK(packing.velocity(1, 0) == samples::Approx(push * grains.inverse_mass()[1]).epsilon(1e-9));
   CHECK(packing.spin(1, 0) == samples::Approx(push * 0.75 * scale * grains.inverse_inertia()[1]).epsilon(1e-9));
