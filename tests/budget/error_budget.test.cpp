@@ -90,6 +90,11 @@ double part(scarp::BudgetParts const& parts, std::string_view name) {
 
 }  // namespace
 
+TEST_CASE("the mean of what is unbalanced is that of the packings that were looked at, and nothing before") {
+  CHECK(scarp::PackingSurvey{}.mean_unbalanced() == 0.0);
+  CHECK(scarp::PackingSurvey{.looked_at = 4.0, .unbalanced_sum = 1.0}.mean_unbalanced() == 0.25);
+}
+
 TEST_CASE("half an increment made twice is the increment") {
   scarp::Gradient<2> gradient;
   gradient << 0.2, 0.15, -0.05, -0.1;

@@ -165,6 +165,19 @@ TEST_CASE("gradients refer to the configuration that was committed last") {
   }
 }
 
+TEST_CASE("strains of a small further displacement stand in the rows of their own points") {
+  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain> const disc(sample::distorted_block<scarp::Quad4>(2));
+  Eigen::VectorXd const increment = sample::random_increment(disc.dof_count(), 0.03, 7);
+  std::vector<scarp::Gradient<2>> gradients(static_cast<std::size_t>(disc.point_count()));
+  disc.gradients(increment, gradients);
+  Eigen::VectorXd const strains = disc.strain_operator(Eigen::VectorXd::Zero(disc.dof_count())) * increment;
+  for (int p = 0; p < disc.point_count(); ++p) {
+    auto const expected = scarp::to_engineering_strain<2, double>(gradients[static_cast<std::size_t>(p)]);
+    CHECK((strains.segment<3>(3 * p) - expected).norm() <
+          1e-14);  // small strains are linear; round-off of 0.03 over 0.3
+  }
+}
+
 TEST_CASE("volumes follow the motion and contain the thickness") {
   scarp::Discretisation<scarp::Tri3> const disc(sample::distorted_block<scarp::Tri3>(2), 0.2);
   scarp::Gradient<2> gradient;

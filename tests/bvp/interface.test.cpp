@@ -166,6 +166,35 @@ TEST_CASE("a base that slides over a kink of the ground changes its force contin
   CHECK(largest < 1e6 * step);
 }
 
+TEST_CASE("the stiffness of a base that slides along a slope is the derivative of its force") {
+  std::vector<scarp::Vector<2>> const nodes{{0.0, 0.0}, {1.0, -0.3}};
+  scarp::LinearFrictional const law{.normal_stiffness = 1e6, .tangential_stiffness = 1e6, .friction = 0.5};
+  scarp::RigidFooting const base({{0.5, -0.2}, 0.1}, {0.4, -0.2}, {0.6, -0.2}, {}, 1.0, 4);
+  Footed<scarp::LinearFrictional> interface(law, base, scarp::FacetChain({{1, 0}}), nodes);
+  auto const force_at = [&](double x, double y) {
+    Eigen::VectorXd increment = Eigen::VectorXd::Zero(7);
+    increment.segment<2>(4) << x, y;
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(7);
+    interface.add_forces(nodes, increment, forces);
+    return forces;
+  };
+  constexpr double step = 1e-6;
+  Eigen::Matrix<double, 7, 2> slopes;
+  slopes << (force_at(0.1 + step, -0.01) - force_at(0.1 - step, -0.01)),
+      (force_at(0.1, -0.01 + step) - force_at(0.1, -0.01 - step));
+  slopes /= 2.0 * step;
+  force_at(0.1, -0.01);
+  std::vector<Eigen::Triplet<double>> entries;
+  interface.add_stiffness(entries);
+  Eigen::SparseMatrix<double> stiffness(7, 7);
+  stiffness.setFromTriplets(entries.begin(), entries.end());
+  Eigen::Matrix2d const own = Eigen::MatrixXd(stiffness).block<2, 2>(4, 4);
+  // Analytic: it slides, and the overlap shrinks by the slope. Round-off of places, 1e-16 over the step.
+  CHECK(slopes(4, 0) == samples::Approx(-0.5 * 1e6 * 0.3 * 0.2).epsilon(1e-6));
+  // Linear within the steps, of which those of the interface are 1e-9 of the facet, with overlaps of 0.04 of it.
+  CHECK((own - slopes.middleRows<2>(4)).norm() < 1e-6 * own.norm());
+}
+
 TEST_CASE("a bonded interface holds tension up to its strength and has none once it is broken") {
   Bed bed{.rigid_ground = true};
   double const strength = 30e3;

@@ -296,6 +296,11 @@ TEST_CASE("softening too steep for the elastic unloading of a point is refused w
   if (answer.verdict.acceptable()) CHECK(trial.stress(5) == samples::Approx(1e3).epsilon(1e-6));
 }
 
+TEST_CASE("friction alone carries no tension") {
+  CHECK(Strength{.friction = 0.5}.cut_off() == 0.0);
+  CHECK(Strength{.cohesion = 2.0, .friction = std::atan(0.5)}.apex() == samples::Approx(4.0).epsilon(1e-15));
+}
+
 TEST_CASE("a strength that cannot be is refused") {
   scarp::MohrCoulomb<2> soil{scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3), {}, {}};
   for (Strength const& wrong :

@@ -28,6 +28,10 @@ struct LawWithTooManyNumbers : Frictionless {
 static_assert(!scarp::NamesContactNeeds<LawWithTooManyNumbers>, "no contact has room for that many numbers");
 
 static_assert(!Frictionless::needs.shear && LinearFrictional::needs.shear);
+constexpr scarp::ContactNeeds nothing_asked{};
+static_assert(!nothing_asked.shear && !nothing_asked.moment && nothing_asked.scalars == 0 && !nothing_asked.radius &&
+                  !nothing_asked.motion,
+              "a contact pays for what its law names only");
 static_assert(!scarp::Frictional<Frictionless>, "there is no friction to exchange in a frictionless law");
 
 constexpr LinearFrictional law{.normal_stiffness = 100.0, .tangential_stiffness = 50.0, .friction = 0.5};

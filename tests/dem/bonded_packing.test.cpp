@@ -77,6 +77,13 @@ TEST_CASE("a gap that is bonded adds bonds") {
   CHECK_THROWS_AS(scarp::bonded(grains, samples::study_law(), cement(1.0), -1.0), scarp::InputError);
 }
 
+TEST_CASE("grains that meet without any overlap are bonded where gaps are, else not") {
+  auto const pair =
+      samples::place<samples::Discs>(scarp::Tensor<2>::Identity(), {{0.125}, {0.125}}, {{0.25, 0.5}, {0.5, 0.5}});
+  CHECK(scarp::bonded(pair, samples::study_law(), cement(1.0)).bonds == 0);
+  CHECK(scarp::bonded(pair, samples::study_law(), cement(1.0), 1e-6).bonds == 1);
+}
+
 TEST_CASE("grains without bonds are not asked for tension, nor for compression without a side pressure") {
   auto packing = samples::consolidated<samples::Discs>(80).packing;
   scarp::TimeStepper<samples::Discs> stepper;

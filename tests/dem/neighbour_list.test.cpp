@@ -287,3 +287,28 @@ TEST_CASE("a grain that shoots away ends the run as a status") {
   verdict = stepper.step(packing, law, Tensor<2>::Zero());
   CHECK(verdict == Verdict{Status::failed, Reason::lost_grain});
 }
+
+TEST_CASE("a saved packing whose list leads outside its arrays is refused") {
+  auto sound = samples::triangular_lattice<Discs>(4, 5e-3, 9.99e-3);
+  REQUIRE(scarp::rebuild_pairs(sound, 1e-4).acceptable());
+  REQUIRE(!sound.pairs.ghost_owner.empty());
+  CHECK_NOTHROW(sound.after_loading());
+  auto const refused = [&](auto const& change) {
+    auto packing = sound;
+    change(packing);
+    CHECK_THROWS_AS(packing.after_loading(), scarp::InputError);
+  };
+  auto const grains = static_cast<std::int32_t>(sound.grain_count());
+  auto const rows = grains + static_cast<std::int32_t>(sound.pairs.ghost_owner.size());
+  refused([](Discs& packing) { packing.pairs.first[7] = -1; });
+  refused([&](Discs& packing) { packing.pairs.first[7] = grains; });
+  refused([](Discs& packing) { packing.pairs.second[7] = packing.pairs.first[7]; });
+  refused([&](Discs& packing) { packing.pairs.second[7] = rows; });
+  refused([](Discs& packing) { packing.pairs.second.pop_back(); });
+  refused([](Discs& packing) { packing.pairs.ghost_owner[0] = -1; });
+  refused([&](Discs& packing) { packing.pairs.ghost_owner[0] = grains; });
+  refused([](Discs& packing) { packing.pairs.ghost_shift.pop_back(); });
+  refused([](Discs& packing) { packing.velocity.resize(packing.grain_count() - 1); });
+  refused([](Discs& packing) { packing.cell.col(0) *= -1.0; });
+  refused([](Discs& packing) { packing.population = nullptr; });
+}

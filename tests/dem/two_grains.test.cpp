@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "dem/sample_packings.hpp"
+#include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/shape/clump_templates.hpp"
 #include "scarp/shape/least_overlap.hpp"
 
 #include "approx.hpp"
@@ -13,6 +15,9 @@ namespace {
 using samples::Discs;
 using samples::Ellipses;
 using samples::place;
+using Dumbbells = scarp::Packing<scarp::Dumbbell, scarp::LinearFrictional>;
+using Damped = scarp::HertzMindlin<scarp::HertzRestitution>;
+using DampedDiscs = scarp::Packing<scarp::Disc, Damped>;
 using scarp::Tensor;
 using scarp::Vector;
 
@@ -231,4 +236,58 @@ TEST_CASE("a pair whose normal stops being that of the least overlap takes the o
   }
   CHECK(along_x);
   CHECK(along_y);
+}
+
+TEST_CASE("grains with dashpots rebound with the restitution of their law") {
+  auto const dashpots = Damped::of(1e9, 0.3, 0.5, {.restitution = 0.6});
+  auto packing = free_pair<DampedDiscs>(-1e-6);
+  constexpr double speed = 0.1;
+  packing.velocity(0, 0) = speed;
+  packing.velocity(1, 0) = -speed;
+  auto stepper = undamped<DampedDiscs>(0.02);
+  for (int step = 0; packing.velocity(1, 0) < 0.0 || packing.position(1, 0) - packing.position(0, 0) < 2.0 * reach;
+       ++step) {
+    REQUIRE(step < 100'000);
+    REQUIRE(stepper.step(packing, dashpots, Tensor<2>::Zero()).acceptable());
+  }
+  // Analytic: see `damping_ratio_for`. Dashpots lag by half a step, some hundred of which are in the contact.
+  CHECK(packing.velocity(1, 0) == samples::Approx(0.6 * speed).epsilon(1e-2));
+  CHECK(packing.velocity(0, 0) == samples::Approx(-packing.velocity(1, 0)).epsilon(1e-12));
+}
+
+TEST_CASE("the spring beside a dashpot takes each slip once") {
+  auto const dashpots = Damped::of(1e9, 0.3, 0.5, {.restitution = 0.6});
+  auto packing = free_pair<DampedDiscs>(1e-6);
+  constexpr double speed = 1e-5;  // slips of far less than the overlap: nothing slides
+  packing.velocity(1, 1) = speed;
+  auto stepper = undamped<DampedDiscs>(0.05);
+  REQUIRE(stepper.step(packing, dashpots, Tensor<2>::Zero()).acceptable());
+  scarp::StepObservation<2> seen;
+  REQUIRE(stepper.observe(packing, dashpots, seen).acceptable());
+  double const present = 2.0 * reach - (packing.position(1, 0) - packing.position(0, 0));
+  double const spring = dashpots.stiffness(present, reach / 2.0).tangential;
+  double const shear = packing.pairs.shear(0, 0);
+  // Analytic: stiffness times slip. The normal turns by 1e-8, and grains part by a hundred slips: 1e-6.
+  CHECK(std::abs(shear) == samples::Approx(spring * speed * packing.last_move.duration).epsilon(1e-5));
+  REQUIRE(stepper.observe(packing, dashpots, seen).acceptable());
+  CHECK(packing.pairs.shear(0, 0) == shear);
+}
+
+TEST_CASE("clumps that touch with single discs push and turn each other as wholes") {
+  constexpr double scale = 1e-3;
+  constexpr double overlap = 1e-6;
+  // The first lies along x, the second stands upright with its lower disc beside the first one's tip.
+  Vector<2> const centre(0.5, 0.5);
+  Vector<2> const other = centre + Vector<2>(2.75 * scale - overlap, 0.75 * scale);
+  auto packing =
+      place<Dumbbells>(Tensor<2>::Identity(), {{scale}, {scale}}, {centre, other}, {0.0, std::numbers::pi / 2.0});
+  auto stepper = undamped<Dumbbells>(0.05);
+  REQUIRE(stepper.step(packing, law, Tensor<2>::Zero()).acceptable());
+  auto const& grains = *packing.population;
+  double const push = law.normal_stiffness * overlap * packing.last_move.duration;
+  // Analytic: k_n u along x, 0.75 of the scale below the second one's centre. Round-off of places, 1e-16 over 1e-6.
+  CHECK(packing.velocity(0, 0) == samples::Approx(-push * grains.inverse_mass()[0]).epsilon(1e-9));
+  CHECK(packing.velocity(1, 0) == samples::Approx(push * grains.inverse_mass()[1]).epsilon(1e-9));
+  CHECK(packing.spin(1, 0) == samples::Approx(push * 0.75 * scale * grains.inverse_inertia()[1]).epsilon(1e-9));
+  CHECK(std::abs(packing.spin(0, 0)) < 1e-9 * packing.spin(1, 0));
 }

@@ -137,6 +137,18 @@ TEST_CASE("a reverse fault is the normal one backwards, and slip may be shared b
     CHECK_THROWS_AS((scarp::SharedSlip<scarp::NormalFault>{normal, share}.left()), scarp::InputError);
 }
 
+TEST_CASE("a fault that is given no tip meets the ground at zero") {
+  CHECK(scarp::offset_at(scarp::ReverseFault{}, 2.0).tip == 0.0);
+  CHECK(scarp::offset_at(scarp::NormalFault{}, 2.0).tip == 0.0);
+}
+
+TEST_CASE("a node at the tip is told by the length of the bottom, wherever that lies") {
+  auto mesh = ground();
+  for (auto& node : mesh.nodes) node.x() -= 4.0;
+  CHECK_NOTHROW(scarp::require_node_at_tip(mesh, 4e-6));  // half of a millionth of 8 m
+  CHECK_THROWS_AS(scarp::require_node_at_tip(mesh, 1.6e-5), scarp::InputError);
+}
+
 TEST_CASE("a vertical fault moves exactly vertically") {
   auto const mesh = ground();
   auto const moves =

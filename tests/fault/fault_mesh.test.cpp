@@ -346,6 +346,15 @@ TEST_CASE("numbers of elements asked for are met in any element") {
         3.0 * std::sqrt(3.0 * 500.0));
 }
 
+TEST_CASE("of the sizes around the ideal one that with the nearest count is taken") {
+  auto const ideal = [](double size) { return 100.0 / size; };
+  auto const count = [](double size) {
+    if (std::abs(size - 1.0) < 1e-5) return 105;
+    return std::abs(size - 1.02) < 1e-5 ? 101 : 98;
+  };
+  CHECK(scarp::detail::size_for_count(100, 0.1, 10.0, ideal, count) == samples::Approx(1.02).epsilon(1e-9));
+}
+
 TEST_CASE("patterns that the elements cannot follow are refused") {
   CHECK_THROWS_WITH_AS((FaultMesh{.pattern = Pattern::quads}.generate()),
                        doctest::Contains("triangles are asked for in the pattern 'quads'"), scarp::InputError);

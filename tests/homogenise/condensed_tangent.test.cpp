@@ -6,6 +6,7 @@
 #include "approx.hpp"
 #include "homogenise/tangent_samples.hpp"
 #include "homogenise/yade_packing.hpp"
+#include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/homogenise/sliding_aware_tangent.hpp"
 #include "scarp/shape/sphere.hpp"
 
@@ -151,6 +152,28 @@ TEST_CASE("grains that float or hang on one contact are left out or held") {
   REQUIRE(answer.verdict.acceptable());
   // Analytic: neither grain can carry force. The order of the regularisation, 1e-9, with a margin.
   CHECK((answer.tangent - expected).norm() < 1e-7 * expected.norm());
+}
+
+TEST_CASE("springs against rolling stiffen a packing alike in every unit of length") {
+  using Rolling = scarp::RollingResistance<scarp::LinearFrictional>;
+  using RollingDiscs = scarp::Packing<scarp::Disc, Rolling>;
+  auto const& grains = samples::sheared<Discs>();
+  auto const tangent = [&](double scale, double rolling) {
+    std::vector<std::array<double, 1>> sizes;
+    std::vector<scarp::Vector<2>> places;
+    for (std::size_t i = 0; i < grains.grain_count(); ++i) {
+      sizes.push_back({scale * grains.population->size(i)[0]});
+      places.emplace_back(scale * grains.position(i, 0), scale * grains.position(i, 1));
+    }
+    Rolling const law{samples::study_law(), scale * scale * rolling, 0.5};
+    auto const packing = samples::listed(samples::place<RollingDiscs>(scale * grains.cell, sizes, places), law);
+    return without_stress(packing, law);
+  };
+  double const rolling = samples::study_law().tangential_stiffness * radius * radius;
+  VoigtTangent<2> const once = tangent(1.0, rolling);
+  CHECK(once.trace() > 1.001 * tangent(1.0, 0.0).trace());
+  // Analytic: in the plane springs in N/m make a packing of any size as stiff. Round-off of a factorisation.
+  CHECK((once - tangent(1000.0, rolling)).norm() < 1e-7 * once.norm());
 }
 
 TEST_CASE("a packing without contacts has no stiffness and says so") {

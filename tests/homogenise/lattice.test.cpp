@@ -102,6 +102,22 @@ TEST_CASE("a lattice has isotropic contact fabric and six contacts for each grai
   CHECK(scarp::coordination(packing, law).all == 6.0);
 }
 
+TEST_CASE("rattlers are grains with one contact or none, and the mechanical number leaves them out") {
+  double const up = spacing * std::sqrt(3.0) / 2.0;
+  auto const packing = listed(samples::place<Discs>(0.1 * Tensor<2>::Identity(), std::vector(5, std::array{radius}),
+                                                    {{0.02, 0.02},
+                                                     {0.02 + spacing, 0.02},
+                                                     {0.02 + spacing / 2.0, 0.02 + up},
+                                                     {0.02 + spacing / 2.0, 0.02 + up + spacing},
+                                                     {0.07, 0.07}}),
+                              law);
+  auto const numbers = scarp::coordination(packing, law);
+  // Analytic: a triangle, a grain that hangs on its top and one alone have 2, 2, 3, 1 and 0 contacts.
+  CHECK(numbers.all == samples::Approx(8.0 / 5.0).epsilon(1e-15));
+  CHECK(numbers.mechanical == samples::Approx(7.0 / 3.0).epsilon(1e-15));
+  CHECK(numbers.rattlers == samples::Approx(2.0 / 5.0).epsilon(1e-15));
+}
+
 TEST_CASE("grains that all point one way have the largest anisotropy of orientation") {
   using samples::Ellipses;
   auto const packing = samples::place<Ellipses>(0.1 * Tensor<2>::Identity(), {{5e-3, 3e-3}, {4e-3, 3e-3}},

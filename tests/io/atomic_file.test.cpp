@@ -2,6 +2,7 @@
 #include "scarp/io/atomic_file.hpp"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include "io/scratch_folder.hpp"
 
@@ -15,6 +16,13 @@ TEST_CASE("a file is written as a whole and leaves nothing beside it") {
   scarp::write_file(folder / "empty.txt", "");
   CHECK(content(folder / "empty.txt").empty());
   CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("files that are being written have names of their own, for each process and each call") {
+  auto const first = scarp::detail::partial_name("results/a.txt");
+  CHECK(first.parent_path() == "results");
+  CHECK(first.filename().string().starts_with("a.txt.partial-" + std::to_string(::getpid()) + "-"));
+  CHECK(scarp::detail::partial_name("results/a.txt") != first);
 }
 
 TEST_CASE("a missing folder is named in the complaint") {

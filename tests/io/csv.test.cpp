@@ -12,6 +12,7 @@
 
 #include "io/scratch_folder.hpp"
 #include "scarp/core/random.hpp"
+#include "scarp/io/state_bits.hpp"
 
 namespace {
 
@@ -124,6 +125,24 @@ TEST_CASE("a log with other columns is not continued and not touched") {
   scarp::write_file(folder / "log.csv", "x,y\n1,2\n");
   CHECK_THROWS_AS(scarp::CsvLog(folder / "log.csv", {"a", "b"}, scarp::CsvStart::resumed), scarp::InputError);
   CHECK(content(folder / "log.csv") == "x,y\n1,2\n");
+}
+
+TEST_CASE("rows from after a state was saved make way for those of the run that goes on from there") {
+  ScratchFolder const folder;
+  scarp::StateWriter writer;
+  {
+    scarp::CsvLog log(folder / "log.csv", {"a"});
+    log.add(1);
+    writer("log", log);
+    log.add(2);
+  }
+  scarp::CsvLog log(folder / "log.csv", {"a"}, scarp::CsvStart::resumed);
+  scarp::StateReader(writer.bits())("log", log);
+  CHECK(content(folder / "log.csv") == "a\n1\n2\n");
+  log.add(3);
+  CHECK(content(folder / "log.csv") == "a\n1\n3\n");
+  scarp::write_file(folder / "log.csv", "a\n");
+  CHECK_THROWS_AS(scarp::StateReader(writer.bits())("log", log), scarp::InputError);
 }
 
 TEST_CASE("a log in a missing folder is refused") {

@@ -140,6 +140,19 @@ TEST_CASE("the front holds what nothing beats, and the recommendation is its che
   CHECK_THROWS_WITH_AS(table.front("strain"), doctest::Contains("it has: stress"), scarp::InputError);
 }
 
+TEST_CASE("a table for people has a row for each setting and answer, and the scatter of the samples below") {
+  scarp::SweepTable table{.name = "by hand", .answers = {"stress", "strain"}};
+  table.rows.push_back({.knob = "base", .setting = "base", .cost = 1.0, .inner_steps = 8.0, .errors = {0.05, 0.01}});
+  table.rows.push_back({.knob = "k", .setting = "dear", .cost = 2.0, .inner_steps = 9.0, .errors = {0.02, 0.03}});
+  table.scatter = {0.1, 0.0025};
+  CHECK(table.markdown() ==
+        "| knob | setting | CPU time / base | inner steps | stress | strain |\n"
+        "|---|---|---|---|---|---|\n"
+        "| base | base | 1 | 8 | **5 %** | **1 %** |\n"
+        "| k | dear | 2 | 9 | **2 %** | 3 % |\n"
+        "| base | scatter of the samples | | | 10 % | 0.25 % |\n");
+}
+
 TEST_CASE("samples have references of their own, their scatter is told, and failed runs keep their reason") {
   // Sample k answers (10 + k) (1 + size).
   auto const measure = [](Settings const& settings, int sample) {

@@ -203,6 +203,18 @@ TEST_CASE("a mesh of other elements is refused and the right element named") {
   says(complaint(with(square_22, "30 2 2 2 1", "30 77 2 2 1")), "line 22 of 'm.msh' has elements of type 77");
 }
 
+TEST_CASE("types of elements have the numbers of Gmsh's manual, each once") {
+  for (int type = 1; type <= 31; ++type) {
+    CAPTURE(type);
+    auto const* const found = scarp::detail::find_gmsh_type(type);
+    REQUIRE(found != nullptr);
+    if (type != 15) CHECK(found->name.find(std::to_string(found->nodes) + "-node") != std::string_view::npos);
+  }
+  for (std::size_t k = 1; k < scarp::detail::gmsh_types.size(); ++k)
+    CHECK(scarp::detail::gmsh_types[k].type > scarp::detail::gmsh_types[k - 1].type);
+  CHECK(scarp::detail::find_gmsh_type(15)->nodes == 1);
+}
+
 TEST_CASE("a file tells the type of its elements before it is read as one") {
   ScratchFolder const folder;
   auto const type_of = [&](std::string const& text) {

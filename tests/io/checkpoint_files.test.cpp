@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/io/checkpoint_files.hpp"
+
+#include <doctest/doctest.h>
+
+#include "io/scratch_folder.hpp"
+
+namespace {
+
+using scarp::CheckpointFiles;
+
+void save(CheckpointFiles& files, int number) {
+  files.save([&](scarp::StateWriter& writer) { writer("number", number); });
+}
+
+int loaded(CheckpointFiles const& files) {
+  int number = 0;
+  files.load([&](scarp::StateReader& reader) { reader("number", number); });
+  return number;
+}
+
+}  // namespace
+
+TEST_CASE("a run is saved by time alone and starts afresh, unless it is asked for more") {
+  CHECK_FALSE(scarp::CheckpointSettings{}.resume);
+  CHECK(scarp::CheckpointSettings{}.every_attempts == 0);
+  CHECK_FALSE(CheckpointFiles{}.saves());
+}
+
+TEST_CASE("a run that is resumed goes on from the newest checkpoint and numbers those that follow behind it") {
+  ScratchFolder const folder;
+  {
+    CheckpointFiles files({.folder = folder / "saved"}, "soil: sand\n");
+    CHECK(files.saves());
+    CHECK_FALSE(files.resumes());
+    for (int number = 1; number <= 3; ++number) save(files, number);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "saved/checkpoint_000001"));
+  CHECK(std::filesystem::exists(folder / "saved/checkpoint_000002"));
+  CheckpointFiles files({.folder = folder / "saved", .resume = true}, "soil: sand\n");
+  CHECK(files.resumes());
+  CHECK(files.newest() == folder / "saved/checkpoint_000003");
+  CHECK(loaded(files) == 3);
+  save(files, 4);
+  CHECK(files.newest() == folder / "saved/checkpoint_000004");
+  CHECK_FALSE(std::filesystem::exists(folder / "saved/checkpoint_000002"));
+}
+
+TEST_CASE("a folder with checkpoints is refused to a run that starts afresh and to another scene") {
+  ScratchFolder const folder;
+  CheckpointFiles files({.folder = folder / "saved"}, "soil: sand\n");
+  save(files, 1);
+  CHECK_THROWS_AS(CheckpointFiles({.folder = folder / "saved"}, "soil: sand\n"), scarp::CheckpointError);
+  CHECK_THROWS_WITH_AS(CheckpointFiles({.folder = folder / "saved", .resume = true}, "soil: clay\n"),
+                       doctest::Contains("'soil: sand' there, 'soil: clay' here"), scarp::CheckpointError);
+}
+
+TEST_CASE("where the newest checkpoint is harmed the one before is named if it is sound") {
+  ScratchFolder const folder;
+  CheckpointFiles files({.folder = folder / "saved"}, "soil: sand\n");
+  save(files, 1);
+  save(files, 2);
+  scarp::write_file(folder / "saved/checkpoint_000002", "harmed");
+  scarp::CheckpointSettings const settings{.folder = folder / "saved", .resume = true};
+  CHECK_THROWS_WITH_AS(CheckpointFiles(settings, "soil: sand\n"),
+                       doctest::Contains("checkpoint_000001': to continue from that"), scarp::CheckpointError);
+  scarp::write_file(folder / "saved/checkpoint_000001", "harmed too");
+  try {
+    CheckpointFiles(settings, "soil: sand\n");
+    FAIL("a harmed checkpoint was taken");
+  } catch (scarp::CheckpointError const& error) {
+    CHECK(std::string_view(error.what()).find("the one before") == std::string_view::npos);
+  }
+}
