@@ -59,9 +59,12 @@ class SCARP_EXPORT PointAnswers {
   }
 
   /// What the points see of their own strains, as a function that refers to this object; none where that is the same.
-  std::function<Strains(Strains const&)> means() const requires averages {
-    if (materials_.mean().is_local()) return {};
-    return [this](Strains const& strains) { return materials_.mean().means(strains, executor_); };
+  std::function<Strains(Strains const&)> means() const {
+    if constexpr (averages) {
+      if (!materials_.mean().is_local())
+        return [this](Strains const& strains) { return materials_.mean().means(strains, executor_); };
+    }
+    return {};
   }
 
   /// Fixes every point's work from what it sees.
