@@ -179,6 +179,21 @@ TEST_CASE("samples have references of their own, their scatter is told, and fail
   CHECK(table.csv().find("size,2,load,2,") != std::string::npos);
 }
 
+TEST_CASE("an order is that of the runs that were answered") {
+  scarp::Sweep sweep("trapezoids", Settings{}, [](Settings const& settings) {
+    Measured measured = integral(settings);
+    if (settings.size == 0.125) measured.verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced};
+    return measured;
+  });
+  sweep.least_seconds = 0.0;
+  sweep.exact(exact_integral());
+  sweep.vary("size", &Settings::size, {0.25, 0.125, 0.0625, 0.03125});
+  auto const table = sweep.run();
+  REQUIRE(table.orders.size() == 1);
+  CHECK(table.orders[0].to_reference.mean() == doctest::Approx(2.0).epsilon(2e-3));
+  CHECK(table.orders[0].to_reference.estimates.size() == 2);
+}
+
 TEST_CASE("lists of types and pairs of knobs are settings like any other") {
   scarp::Sweep sweep("rules", Settings{}, integral);
   sweep.least_seconds = 0.0;

@@ -29,6 +29,12 @@ TEST_CASE("counting cells and walking them are inverse to each other across the 
   }
 }
 
+TEST_CASE("beyond the last knot the spacing goes on as before it") {
+  scarp::Spacing const spacing({{0.0, 1.0}, {2.0, 0.5}, {4.0, 0.5}});
+  CHECK(spacing.position_after(spacing.cells_to(4.0) + 2.0) == samples::Approx(5.0));
+  CHECK(spacing.cells_to(5.0) == samples::Approx(spacing.cells_to(4.0) + 2.0));
+}
+
 TEST_CASE("every fixed line is met exactly, however short the way to the next") {
   auto const lines = scarp::graded_lines(scarp::Spacing({{0.0, 1.0}, {10.0, 1.0}}), {0.0, 0.1, 1.0 / 3.0, 10.0});
   for (double const fixed : {0.0, 0.1, 1.0 / 3.0, 10.0}) {

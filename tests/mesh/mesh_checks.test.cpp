@@ -46,6 +46,25 @@ TEST_CASE_TEMPLATE("a sound mesh passes all checks", Element, ALL_ELEMENTS) {
   CHECK_NOTHROW(scarp::require_no_hanging_nodes(mesh));
 }
 
+TEST_CASE_TEMPLATE("a sound mesh of ten kilometres passes all checks", Element, ALL_ELEMENTS) {
+  auto mesh = box<Element>(3, 0.0);
+  for (auto& node : mesh.nodes) node *= 1e4;
+  CHECK_NOTHROW(scarp::require_no_duplicate_nodes(mesh));
+  CHECK_NOTHROW(scarp::require_no_hanging_nodes(mesh));
+}
+
+TEST_CASE("the extent of nodes reaches to all sides of the first") {
+  CHECK(scarp::detail::extent<2>({{1.0, 0.0}, {0.0, 0.5}, {3.0, -0.5}}) == 3.0);
+  CHECK(scarp::detail::extent<2>({{1.0, 0.0}, {0.0, 0.5}, {1.5, -2.0}}) == 2.5);
+}
+
+TEST_CASE("the first node counts among those at one place") {
+  auto mesh = box<scarp::Tri3>(1, 0.0);
+  mesh.nodes.push_back(mesh.nodes.front());
+  CHECK_THROWS_WITH_AS(scarp::require_no_duplicate_nodes(mesh), doctest::Contains("nodes 0 and 4 are both"),
+                       scarp::InputError);
+}
+
 TEST_CASE_TEMPLATE("the outer sides are those of the box", Element, ALL_ELEMENTS) {
   auto const mesh = box<Element>(3, 0.0);
   std::size_t named = 0;
@@ -83,8 +102,12 @@ TEST_CASE_TEMPLATE("a corner inside another element's side is named with the ele
     scarp::join(mesh, box<Element>(fine, 1.0));
     CHECK_NOTHROW(scarp::validate(mesh));
     CHECK_NOTHROW(scarp::require_no_duplicate_nodes(mesh));
-    CHECK_THROWS_WITH_AS(scarp::require_no_hanging_nodes(mesh),
-                         doctest::Contains("hangs: it is a corner inside a side of element"), scarp::InputError);
+    for (double const scale : {1.0, 1e-4, 1e4}) {
+      auto scaled = mesh;
+      for (auto& node : scaled.nodes) node *= scale;
+      CHECK_THROWS_WITH_AS(scarp::require_no_hanging_nodes(scaled),
+                           doctest::Contains("hangs: it is a corner inside a side of element"), scarp::InputError);
+    }
   }
 }
 

@@ -226,3 +226,20 @@ TEST_CASE("a pack of clumps gives what each gives alone") {
     }
   }
 }
+
+TEST_CASE("discs of the templates are as far apart as they say") {
+  auto const distances = [](auto const& members) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      for (std::size_t j = i + 1; j < members.size(); ++j)
+        all.push_back(std::hypot(members[i].x - members[j].x, members[i].y - members[j].y));
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  CHECK(distances(scarp::DumbbellTemplate::members) == std::vector<double>{1.5});
+  for (double const side : distances(scarp::TrefoilTemplate::members)) CHECK(side == samples::Approx(1.5));
+  auto const square = distances(scarp::QuatrefoilTemplate::members);
+  for (std::size_t k = 0; k < 4; ++k) CHECK(square[k] == samples::Approx(1.4));
+  for (std::size_t k = 4; k < 6; ++k) CHECK(square[k] == samples::Approx(1.4 * std::numbers::sqrt2));
+}

@@ -200,3 +200,19 @@ TEST_CASE("a pair that one step cannot follow is searched anew within the step")
   // Analytic: tip against side, overlap 1 + 0.1 - 1.098.
   CHECK(std::abs(-seen.stress(0, 0) - 1e6 * 0.002 * 1.098 / 100.0) < 1e-9 * 1e6);
 }
+
+TEST_CASE("the slow way tells the contact point that the quick one does") {
+  constexpr scarp::SizeOf<Ellipse> small{1.0, 0.6};
+  constexpr scarp::SizeOf<Ellipse> large{1.5, 0.75};
+  auto const first = Ellipse::pose<double>(small, {0.8, 0.6});
+  auto const second = Ellipse::pose<double>(large, {-0.6, 0.8});
+  Point<2, double> const branch{1.1, 1.2};
+  auto const quick = scarp::settled_touch<Ellipse>(first, second, branch, {0.7, 0.714});
+  auto const slow = scarp::least_overlap<Ellipse>(first, second, branch);
+  REQUIRE(quick.unsettled == 0.0);
+  for (std::size_t a = 0; a < 2; ++a) {
+    CHECK(std::abs(slow.normal[a] - quick.normal[a]) < 1e-10);
+    CHECK(std::abs(slow.arm_first[a] - quick.arm_first[a]) < 1e-10);
+    CHECK(std::abs(slow.arm_second[a] - quick.arm_second[a]) < 1e-10);
+  }
+}

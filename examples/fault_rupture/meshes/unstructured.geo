@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // The study's layer as a Delaunay triangulation: gmsh -2 unstructured.geo -format msh22
 // Edges of 1.9 m above and beside the fault, twice that at the far sides.
-fine = 1.9;
-coarse = 2 * fine;
+// Others by -setnumber fine 1.2 -setnumber algorithm 6 (frontal).
+DefineConstant[ fine = 1.9, algorithm = 5 ];
 Point(1) = {-52, 0, 0};
 Point(2) = {0, 0, 0};  // the fault's tip
 Point(3) = {23, 0, 0};
@@ -25,4 +25,4 @@ Field[1].F = Sprintf("%g * (1 + Max(-20 - x, 0) / 32 + Max(x - 5, 0) / 18)", fin
 Background Field = 1;
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.MeshSizeFromPoints = 0;
-Mesh.Algorithm = 5;  // Delaunay
+Mesh.Algorithm = algorithm;

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The page of the runs, docs/objectivity.md, and its figure."""
+import math
+import statistics
+import subprocess
+
+from generated_sections import rewrite, with_section
+from spread import PARTS, measures, ranges, summaries
+
+TITLES = {"x05": "x05 [m]", "x50": "x50 [m]", "x95": "x95 [m]", "width": "width [m]", "dip": "mid-line dip"}
+
+
+def table(columns, rows):
+    return "\n".join("| " + " | ".join(line) + " |" for line in [columns, ["---"] * len(columns), *rows])
+
+
+def number(value, digits=1):
+    return "-" if math.isnan(value) else f"{value:.{digits}f}"
+
+
+def by_length(output, soil):
+    folders = sorted((output / soil).glob("*"), key=lambda folder: -float(folder.name))
+    return {float(folder.name): summaries(folder) for folder in folders if folder.is_dir()}
+
+
+def every_run(found):
+    rows = []
+    for length, runs in found.items():
+        for name, summary in runs.items():
+            said = measures(summary)
+            rows.append([f"{length:g}", name, str(summary["elements"]), *(number(said[part]) for part in PARTS), str(summary["iterations"]),
+                         str(summary["refused_steps"]), number(summary["cpu_seconds"], 0),
+                         summary["status"] if summary["status"] == "ok" else f"{summary['status']} at h/H {summary['throw_over_depth']:.4f}"])
+    return table(["length [m]", "mesh", "elements", *TITLES.values(), "iterations", "refused", "CPU s", "ends"], rows)
+
+
+def apart(rows, parts=PARTS):
+    found = ranges(rows)
+    return [f"{100.0 * found[part]:.0f} %" if part == "width" else number(found[part], 2) for part in parts]
+
+
+def of_meshes(found):
+    rows = [[f"{length:g}", str(len(runs)), *(number(statistics.fmean(values), 2) if values else "-" for values in
+             ([said[part] for said in map(measures, runs.values()) if not math.isnan(said[part])] for part in ("x05", "x50", "width", "dip"))),
+             *apart([measures(summary) for summary in runs.values()])] for length, runs in found.items()]
+    return table(["length [m]", "runs", "mean x05", "mean x50", "mean width", "mean dip", *(f"{part}: apart" for part in PARTS)], rows)
+
+
+def of_seeds(found):
+    """How far meshes are apart for one packing, packings on one mesh."""
+    rows = []
+    for length, runs in found.items():
+        said = {tuple(name.rsplit("-seed", 1)): measures(summary) for name, summary in runs.items()}
+        for kind, at in (("meshes, one packing", 1), ("packings, one mesh", 0)):
+            groups = {}
+            for key, row in said.items():
+                groups.setdefault(key[at], []).append(row)
+            each = [ranges(rows) for rows in groups.values() if len(rows) > 1]
+            if each:
+                rows.append([f"{length:g}", kind, str(len(each)),
+                             *(f"{100.0 * statistics.fmean(one[part] for one in each):.0f} %" if part == "width"
+                               else number(statistics.fmean(one[part] for one in each), 2) for part in PARTS)])
+    return table(["length [m]", "apart over", "groups", *PARTS], rows)
+
+
+def limit(found):
+    """Straight line through the means over lengths: its value at no length, with the standard error of that and the meshes' own."""
+    lengths = [length for length in found if length > 0.0]
+    lines = []
+    for part in PARTS:
+        points = [(length, value) for length in lengths for value in (measures(summary)[part] for summary in found[length].values())
+                  if not math.isnan(value)]
+        if len({length for length, _ in points}) < 3:
+            continue
+        count = len(points)
+        mean_x = statistics.fmean(x for x, _ in points)
+        mean_y = statistics.fmean(y for _, y in points)
+        square = sum((x - mean_x) ** 2 for x, _ in points)
+        slope = sum((x - mean_x) * (y - mean_y) for x, y in points) / square
+        at_none = mean_y - slope * mean_x
+        rest = math.sqrt(sum((y - at_none - slope * x) ** 2 for x, y in points) / (count - 2))
+        error = rest * math.sqrt(1.0 / count + mean_x ** 2 / square)
+        lines.append([part, number(at_none, 2), number(2.0 * error, 2), number(slope, 3), number(rest, 2)])
+    return table(["measure", "at no length", "+- (two standard errors)", "change per metre", "scatter about the line"], lines) if lines else ""
+
+
+def figure(path, soils):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    drawn, axes = plt.subplots(1, len(soils), figsize=(5.2 * len(soils), 3.8), sharey=True, squeeze=False, layout="constrained")
+    for axis, (soil, found) in zip(axes[0], soils.items()):
+        for part, colour in (("x05", "tab:blue"), ("x50", "tab:red"), ("x95", "tab:green")):
+            for length, runs in found.items():
+                values = [measures(summary)[part] for summary in runs.values()]
+                axis.plot([length] * len(values), values, "x" if length == 0.0 else "o", color=colour, ms=4, alpha=0.6,
+                          label=part if length == max(found) else None)
+        axis.set(title={"mohr_coulomb": "Mohr-Coulomb", "dem": "sand, 100 grains"}[soil], xlabel="intrinsic length [m]; crosses: none")
+        axis.grid(alpha=0.3)
+    axes[0][0].set(ylabel="x where the surface has settled by\n5, 50, 95 % of the throw [m]")
+    axes[0][0].legend()
+    drawn.savefig(path, dpi=110)
+
+
+def write(root, output):
+    soils = {soil: found for soil in ("mohr_coulomb", "dem") if (found := by_length(output, soil))}
+    path = root / "docs" / "objectivity.md"
+    page = path.read_text()
+    commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=root, capture_output=True, text=True).stdout.strip()
+    for soil, found in soils.items():
+        first = next(iter(next(iter(found.values())).values()))
+        record = first.get("run", {})
+        said = f"Commit {record.get('commit', commit)}, {record.get('compiler', '')}, {record.get('processor', '')}."
+        command = "`./benchmarks/run mesh_objectivity" + ("`." if soil == "mohr_coulomb" else " --soil dem`.")
+        parts = [f"{command} {said}"]
+        parts += [of_meshes(found)] if soil == "mohr_coulomb" else [of_seeds(found)]
+        if line := limit(found):
+            parts += ["For a vanishing length, a straight line through all runs with one:", line]
+        page = with_section(page, soil, "\n\n".join(parts))
+        page = with_section(page, f"runs of {soil}", every_run(found))
+    rewrite(path, page)
+    if soils:
+        figure(root / "docs" / "figures" / "objectivity.png", soils)
