@@ -18,6 +18,7 @@
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "scarp/solver/executor.hpp"
 
 namespace {
 
@@ -206,7 +207,8 @@ TEST_CASE("what is saved comes back: points that see means of their neighbours")
   auto const answer = [&](auto& field, double part) {
     std::vector<Gradient<2>> gradients;
     for (int k = 0; k < 6; ++k) gradients.push_back(provider_laws::ordinary_increment<2>(part * 1e-4 * (k % 3)));
-    field.average(gradients);
+    scarp::SerialExecutor serial;
+    field.average(gradients, serial);
     std::string bits = bits_of(field.added_stresses());
     for (int k = 0; k < 6; ++k) {
       field.plan(k, gradients[static_cast<std::size_t>(k)]);
