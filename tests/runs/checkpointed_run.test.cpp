@@ -48,6 +48,8 @@ struct Ending {
     if (--die_after == 0) throw Killed{};
   }
   bool wants_stop() const { return stop_after <= 0; }
+
+  SCARP_MEMBERS_EXCEPT((stop_after, die_after))
 };
 
 /// Takes a budget's place when there is none.

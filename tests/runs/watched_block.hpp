@@ -12,6 +12,7 @@
 
 #include "constitutive/nestings.hpp"
 #include "scarp/budget/error_budget.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/observe/convergence_log.hpp"
