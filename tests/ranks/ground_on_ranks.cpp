@@ -28,8 +28,7 @@ struct Stop {
   }
   bool wants_stop() const { return attempts <= 0; }
 
-  template <class Self, class Visit>
-  static void members(Self&, Visit&&) {}
+  SCARP_MEMBERS_EXCEPT((attempts))
 };
 
 struct NoNotes {

@@ -54,6 +54,8 @@ struct Stop {
     --attempts;
   }
   bool wants_stop() const { return attempts <= 0; }
+
+  SCARP_MEMBERS_EXCEPT((attempts))
 };
 
 struct NoNotes {
