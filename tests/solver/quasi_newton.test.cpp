@@ -208,3 +208,54 @@ TEST_CASE("points that never converge fail the step with their own reason") {
   CHECK(run.steps == 0);
   CHECK(witness.changed_by_refused == 0);
 }
+
+namespace {
+
+/// A smooth wall that holds nodes from moving further to the right.
+struct Wall {
+  double place;      // [m]
+  double stiffness;  // of a node's contact [N/m]
+  std::vector<int> nodes;
+  std::vector<bool> touched{};
+
+  static int extra_dofs() { return 0; }
+  scarp::Verdict add_forces(std::vector<scarp::Vector<2>> const& places, Eigen::VectorXd const& increment,
+                            Eigen::VectorXd& forces) {
+    touched.clear();
+    for (int const node : nodes) {
+      double const depth = places[static_cast<std::size_t>(node)].x() + increment(2 * node) - place;
+      touched.push_back(depth > 0.0);
+      if (depth > 0.0) forces(2 * node) += stiffness * depth;
+    }
+    return {};
+  }
+  void add_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (touched[k]) entries.emplace_back(2 * nodes[k], 2 * nodes[k], stiffness);
+    }
+  }
+  void commit(std::vector<scarp::Vector<2>> const&, Eigen::VectorXd const&) {}
+  SCARP_MEMBERS_EXCEPT((place, stiffness, nodes, touched))
+};
+static_assert(scarp::Attachment<Wall, 2>);
+
+}  // namespace
+
+TEST_CASE("contact is followed within the linear system: material that is linear is asked once for a step") {
+  scarp::SerialExecutor serial;
+  auto const bare = sample::Block<sample::Softening>::make({}, serial);
+  auto const& grid = bare.discretisation();
+  Wall const wall{.place = 1e-4, .stiffness = 1e9, .nodes = scarp::boundary_nodes(grid.mesh(), "left")};
+  scarp::EquilibriumProblem<sample::Block<sample::Softening>::Grid, scarp::ProviderField<sample::Softening>,
+                            scarp::SerialExecutor, Wall>
+      problem(grid, bare.materials(), bare.constraints(), bare.loads(), serial, wall);
+  scarp::NoObserver nobody;
+  // The block is stretched: its left side comes inwards and meets the wall.
+  auto const run = scarp::LoadStepping{.first = 2e-4, .largest = 2e-4}.run(scarp::QuasiNewton<>{.tolerance = 1e-9},
+                                                                           problem, 0.0, 2e-3, nobody);
+  REQUIRE(run.verdict.acceptable());
+  CHECK(run.iterations == run.steps);
+  int touching = 0;
+  for (bool const touches : problem.attached().touched) touching += touches ? 1 : 0;
+  CHECK(touching > 0);
+}
