@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "io/scratch_folder.hpp"
 #include "scarp/budget/error_budget.hpp"
@@ -41,15 +42,16 @@ struct Killed {};
 struct Ending {
   int stop_after = 1 << 30;  ///< attempts
   int die_after = 1 << 30;
+  mutable int questions = 1 << 30;  ///< after which it asks to stop, within an attempt or before one
 
   template <class Problem>
   void attempted(Problem const&, scarp::StepReport const&) {
     --stop_after;
     if (--die_after == 0) throw Killed{};
   }
-  bool wants_stop() const { return stop_after <= 0; }
+  bool wants_stop() const { return stop_after <= 0 || --questions <= 0; }
 
-  SCARP_MEMBERS_EXCEPT((stop_after, die_after))
+  SCARP_MEMBERS_EXCEPT((stop_after, die_after, questions))
 };
 
 /// Takes a budget's place when there is none.
@@ -172,10 +174,26 @@ TEST_CASE("a run that is stopped before every attempt and continued by new objec
     ++parts;
   } while (outcome.report.verdict.reason == scarp::Reason::interrupted && parts < 100);
   check_same(outcome, undisturbed());
-  // The step that settles cannot be stopped; every other attempt is a part, and the first stage's end makes one more at most.
+  // The step that settles begins without a question; every other attempt is a part, and the first stage's end makes one more at most.
   int const attempts = undisturbed().report.steps + undisturbed().report.refused;
   CHECK(attempts > 10);
   CHECK(parts >= attempts - 1);
+}
+
+TEST_CASE(
+    "a run that is stopped within its attempts and continued keeps its bits, and an attempt that was cut short never "
+    "was") {
+  std::set<int> attempts;
+  for (int questions = 1; questions < 60; questions += 4) {
+    CAPTURE(questions);
+    ScratchFolder const folder;
+    auto const stopped = pull(folder, resumed(folder), {.questions = questions});
+    CHECK(stopped.report.verdict.reason == scarp::Reason::interrupted);
+    attempts.insert(stopped.report.steps + stopped.report.refused);
+    check_same(pull(folder, resumed(folder), {}), undisturbed());
+  }
+  CHECK(attempts.size() > 3);
+  CHECK(attempts.size() < 15);  // some have ended within the same attempt
 }
 
 TEST_CASE("rows that were written after the last checkpoint vanish when a killed run goes on") {

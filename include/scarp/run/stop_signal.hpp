@@ -13,7 +13,7 @@ inline std::atomic<bool> stop_asked{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch a lock-free flag");
 }  // namespace detail
 
-/// Ends a run between two attempts when the process gets SIGINT (Ctrl-C) or SIGTERM; a second signal ends it at once.
+/// Ends a run when the process gets SIGINT (Ctrl-C) or SIGTERM; a second signal ends it at once.
 struct StopSignal {
   StopSignal() {
     for (int const signal : {SIGINT, SIGTERM}) {

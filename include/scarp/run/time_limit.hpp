@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// Ends a run between two attempts once its wall time is spent. [s]; zero means no limit.
+/// Ends a run once its wall time is spent. [s]; zero means no limit.
 class TimeLimit {
  public:
   using Moment = std::chrono::steady_clock::time_point;

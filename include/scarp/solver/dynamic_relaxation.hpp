@@ -50,7 +50,7 @@ struct DynamicRelaxation {
     Eigen::VectorXd predict(double from, double to) { return start_.predict(from, to); }
 
     /// Moves from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
-    void correct(Eigen::VectorXd& increment, StepReport& report) {
+    void correct(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop = {}) {
       report.verdict = problem_.plan(increment, &report.worst_point);
       if (!report.verdict.acceptable()) return;
       report.largest_gradient = problem_.largest_gradient();
@@ -64,6 +64,7 @@ struct DynamicRelaxation {
           if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
           return;
         }
+        if (report.stopped(stop)) return;
         Eigen::VectorXd const push = -start_.linearised().system().gather(evaluation.unbalanced).cwiseQuotient(mass_);
         velocity += push;
         double const now = velocity.cwiseAbs2().dot(mass_);

@@ -13,7 +13,8 @@
 
 namespace scarp {
 
-/// Watches a run: called after every attempt at a step, accepted or not; may ask to stop between attempts.
+/// Watches a run: called after every attempt at a step, accepted or not; may ask to stop, before an attempt or within one, which
+/// then counts as never made.
 template <class Observer, class Problem>
 concept ObservesSteps = requires(Observer& observer, Problem const& problem, StepReport const& report) {
   observer.attempted(problem, report);
@@ -127,7 +128,7 @@ struct LoadStepping {
     session.describe(step);
     if (step.verdict.acceptable()) {
       displacement = session.predict(load, load);
-      session.correct(displacement, step);
+      session.correct(displacement, step, [&] { return observer.wants_stop(); });
     }
     step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     bool const accepted = step.verdict.acceptable();
@@ -195,7 +196,11 @@ struct LoadStepping {
     Eigen::VectorXd displacement = limited_prediction(session, problem, run.load, to, increment);
     step.load = end_of(run.load, to, increment);
     step.load_increment = step.load < to ? increment : to - run.load;
-    session.correct(displacement, step);
+    session.correct(displacement, step, [&] { return observer.wants_stop(); });
+    if (step.interrupted()) {
+      run.verdict = step.verdict;
+      return;
+    }
     step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     bool const accepted = step.verdict.acceptable();
     if (accepted) session.accept(displacement);

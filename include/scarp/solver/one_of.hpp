@@ -33,8 +33,8 @@ struct OneOf {
     Eigen::VectorXd predict(double from, double to) {
       return ask([&](auto& session) { return session.predict(from, to); });
     }
-    void correct(Eigen::VectorXd& increment, StepReport& report) {
-      ask([&](auto& session) { session.correct(increment, report); });
+    void correct(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop = {}) {
+      ask([&](auto& session) { session.correct(increment, report, stop); });
     }
     void accept(Eigen::VectorXd const& increment) {
       ask([&](auto& session) { session.accept(increment); });

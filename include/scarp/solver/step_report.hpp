@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "scarp/core/index.hpp"
@@ -21,6 +22,9 @@ struct IterationRecord {
   PointSurvey points{};
 };
 
+/// Asked between two answers of all points, since an attempt of large packings may take minutes. Empty: never.
+using StopQuestion = std::function<bool()>;
+
 /// How one attempt at a load step went.
 struct StepReport {
   int step = 0;       ///< number of the accepted step it was to become, from 1
@@ -37,6 +41,15 @@ struct StepReport {
 
   int iterations() const { return detail::count(history); }
   double residual() const { return history.empty() ? 0.0 : history.back().residual; }
+  bool interrupted() const { return verdict.reason == Reason::interrupted; }
+
+  /// Ends an attempt that is not yet in equilibrium where that is asked for.
+  /// \return whether it has
+  bool stopped(StopQuestion const& asked) {
+    if (!asked || !asked()) return false;
+    verdict = {Status::not_converged, Reason::interrupted};
+    return true;
+  }
 };
 
 }  // namespace scarp

@@ -34,7 +34,7 @@ class SCARP_EXPORT QuasiNewtonSession {
   Eigen::VectorXd predict(double from, double to);
 
   /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
-  void correct(Eigen::VectorXd& increment, StepReport& report);
+  void correct(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop = {});
 
   /// Commits an increment in equilibrium and keeps what the step has learned.
   void accept(Eigen::VectorXd const& increment);
@@ -89,7 +89,8 @@ Eigen::VectorXd QuasiNewtonSession<Settings, Problem>::predict(double from, doub
 }
 
 template <class Settings, class Problem>
-void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, StepReport& report) {
+void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, StepReport& report,
+                                                    StopQuestion const& stop) {
   report.verdict = problem_.plan(increment, &report.worst_point);
   if (!report.verdict.acceptable()) return;
   report.largest_gradient = problem_.largest_gradient();
@@ -107,6 +108,7 @@ void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, 
     Evaluation evaluation = recorded(report, increment, report.iterations() == 1 ? Question::first : Question::further);
     // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
     for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
+      if (report.stopped(stop)) return;
       learn();  // before the plan changes the answer, which would pass for stiffness
       evaluation = recorded(report, increment, Question::refined);
     }
@@ -117,6 +119,7 @@ void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, 
       if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
       return;
     }
+    if (report.stopped(stop)) return;
     Eigen::VectorXd next = increment;
     report.verdict = linearised.linearise(increment, evaluation.unbalanced, working_);
     if (report.verdict.acceptable()) report.verdict = linearised.solve(next, no_more);
