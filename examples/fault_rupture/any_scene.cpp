@@ -12,7 +12,8 @@ namespace {
 /// Of a scene with so many points, measured with meshes of 1000 to 30 000 triangles and packings of 100 and 400 grains: mesh,
 /// matrices and, for packings, two states.
 double memory_of(Choice const& choice, std::size_t points) {
-  double const of_a_point = choice.soil == Soil::dem ? 7.6e3 + 270.0 * choice.grains : 4.4e3;
+  double of_a_point = choice.soil == Soil::dem ? 7.6e3 + 270.0 * choice.grains : 4.4e3;
+  if (choice.packings > 1) of_a_point += 135.0 * choice.grains;  // one that hardly any other point begins with
   return of_a_point * static_cast<double>(points);
 }
 
@@ -44,11 +45,11 @@ template <class SceneType>
 SceneType make_any(Choice const& choice, int processes, bool speaks) {
   auto scene = without_soil<SceneType>(choice);
   require_probes_inside(choice, scene);
-  auto depths = scene.soil_depths();
+  auto const sites = scene.soil_sites();
   auto const what = choice.soil == Soil::dem
-                        ? fmt::format("ground of {} points with packings of {} grains", depths.size(), choice.grains)
-                        : fmt::format("ground of {} points", depths.size());
-  double const bytes = memory_of(choice, depths.size()) / processes;
+                        ? fmt::format("ground of {} points with packings of {} grains", sites.size(), choice.grains)
+                        : fmt::format("ground of {} points", sites.size());
+  double const bytes = memory_of(choice, sites.size()) / processes;
   scarp::require_memory(what, bytes,
                         choice.soil == Soil::dem ? "choose a larger --size, fewer --triangles or fewer --grains"
                                                  : "choose a larger --size or fewer --triangles");
@@ -64,7 +65,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
     }
     std::fflush(stderr);
   }
-  auto soil = any_soil(choice, std::move(depths));
+  auto soil = any_soil(choice, sites);
   scene.soil.provider = std::move(soil.provider);
   scene.soil.length = choice.length;
   scene.solver = std::move(soil.solver);

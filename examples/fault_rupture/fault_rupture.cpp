@@ -95,7 +95,11 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_option("--length", choice.length, "intrinsic length [m]: radius of the means that points see; 0 for none")
       ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
-  app.add_option("--seed", choice.seed, "of the packing")->check(examples::seed_number());
+  app.add_option("--packings", choice.packings,
+                 "columns of packings, each of its own grains, of which every point draws one")
+      ->check(CLI::Range(1, 100'000));
+  app.add_flag("--mirrored-packings", choice.mirrored_packings, "points draw among the mirror images of these too");
+  app.add_option("--seed", choice.seed, "of the packings")->check(examples::seed_number());
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));

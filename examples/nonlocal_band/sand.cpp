@@ -21,7 +21,7 @@ void print_sand(FaultChoice const& choice, int grains, std::uint64_t seed) {
     fault_rupture::Choice sand;
     sand.grains = grains;
     sand.seed = seed;
-    scene.soil.provider = fault_rupture::make_sand(sand, scene.soil_depths());
+    scene.soil.provider = fault_rupture::make_sand(sand, scene.soil_sites());
     return scene;
   });
 }

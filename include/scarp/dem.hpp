@@ -21,6 +21,7 @@
 #include "scarp/dem/loading.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/local_damping.hpp"
+#include "scarp/dem/mirrored.hpp"
 #include "scarp/dem/packing.hpp"
 #include "scarp/dem/population.hpp"
 #include "scarp/dem/preparation.hpp"

@@ -27,8 +27,8 @@ struct AnySoil {
   PackingWriter write_packing{};  ///< nothing for soils without packings
 };
 
-/// depths [m]: of all points that will be soil
+/// sites: of all points that will be soil
 /// \throws scarp::PreparationError
-AnySoil any_soil(Choice const& choice, std::vector<double> depths);
+AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites);
 
 }  // namespace fault_rupture

@@ -31,6 +31,8 @@ struct Choice {
   std::string mesh;                    ///< Gmsh file in place of all these
   double length = 0.0;                 ///< intrinsic [m]; 0 for none
   int grains = 400;
+  int packings = 1;                ///< of which every point draws one
+  bool mirrored_packings = false;  ///< draws among their mirror images too
   std::uint64_t seed = 1;
   double preparation_friction = 0.09;
   double throw_over_depth = 0.085;
@@ -74,6 +76,8 @@ struct Choice {
     visit("reverse", self.reverse);
     visit("length", self.length);
     visit("grains", self.grains);
+    visit("packings", self.packings);
+    visit("mirrored-packings", self.mirrored_packings);
     visit("seed", self.seed);
     visit("preparation-friction", self.preparation_friction);
     visit("throw-over-depth", self.throw_over_depth);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "soils.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <vector>
 
 #include "any_soil.hpp"
+#include "scarp/dem/mirrored.hpp"
 #include "scarp/fault/level_ground.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
+#include "scarp/solver/thread_executor.hpp"
 #include "study_sand.hpp"
 
 namespace fault_rupture {
@@ -31,19 +34,42 @@ AnySoil solved(Choice const& choice, Soil const& soil, typename Soil::Solver sol
 
 scarp::IsotropicElasticity soil_elasticity() { return scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25); }
 
-}  // namespace
-
-Sand make_sand(Choice const& choice, std::vector<double> depths) {
+/// Prepared at the same time where threads are asked for.
+Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   auto const law = examples::study_law();
   scarp::LevelGround<scarp::EllipseGrading> ground;
   ground.cloud = examples::study_cloud(choice.grains, choice.seed);
   ground.unit_weight = unit_weight;
   ground.surcharge = surcharge;
   ground.preparation.preparation_friction = choice.preparation_friction;
+  auto const count = static_cast<std::size_t>(choice.packings);
+  std::size_t const images = choice.mirrored_packings ? 2 : 1;
+  Columns columns{std::vector<scarp::PackingsByDepth<Grains>>(images * count), choice.seed};
+  // No more than some point draws; an image goes with what it mirrors.
+  std::vector<std::vector<double>> depths(count);
+  for (auto const& site : sites)
+    depths[Columns::drawn(columns.seed, site.index, columns.sources.size()) % count].push_back(site.depth);
+  scarp::ThreadExecutor executor(choice.packings > 1 ? choice.threads : 1);
+  executor.for_each(choice.packings, [&](int number) {
+    auto const k = static_cast<std::size_t>(number);
+    if (depths[k].empty()) return;
+    auto own = ground;
+    if (k > 0) own.cloud.seed = scarp::family_seed(choice.seed, k);
+    columns.sources[k] = own.make<Grains>(law, std::move(depths[k]));
+    if (images == 1) return;
+    columns.sources[count + k] = columns.sources[k];
+    for (auto& packing : columns.sources[count + k].packings) packing = scarp::mirrored(std::move(packing));
+  });
+  return columns;
+}
+
+}  // namespace
+
+Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   Sand sand;
   auto& packings = sand.provider;
-  packings.law = law;
-  packings.source = ground.make<Grains>(law, std::move(depths));
+  packings.law = examples::study_law();
+  packings.source = make_columns(choice, sites);
   packings.strain_per_step = choice.strain_per_step;
   packings.least_steps = choice.least_dem_steps;
   packings.unbalanced_tolerance = choice.unbalanced_tolerance;
@@ -60,13 +86,15 @@ FrictionalSoil make_frictional_soil() {
 
 ElasticSoil make_elastic_soil() { return {{soil_elasticity(), ground_at_rest()}}; }
 
-AnySoil any_soil(Choice const& choice, std::vector<double> depths) {
+AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   switch (choice.soil) {
     case Soil::dem: {
-      auto const sand = make_sand(choice, std::move(depths));
+      auto const sand = make_sand(choice, sites);
       auto soil = solved(choice, sand, {});
       soil.loose_pressure = sand.provider.loose_pressure;
-      auto const& packings = sand.provider.source.packings;
+      auto const& columns = sand.provider.source.sources;
+      auto const& packings =
+          std::ranges::find_if(columns, [](auto const& column) { return !column.packings.empty(); })->packings;
       soil.write_packing = [packing = packings[packings.size() / 2],
                             law = sand.provider.law](std::filesystem::path const& folder) {
         scarp::write_packing_tables(folder, packing, law);

@@ -6,6 +6,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/constitutive/random_packings.hpp"
 #include "scarp/constitutive/softening_strength.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/contact/linear_frictional.hpp"
@@ -17,9 +18,12 @@ namespace fault_rupture {
 
 using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 
+/// Columns of packings, of which every point draws one.
+using Columns = scarp::RandomChoice<scarp::PackingsByDepth<Grains>>;
+
 /// The study's ellipses, consolidated under the overburden of every depth; the solver learns tangents from answers. Where they lose
 /// all contacts a small stiffness keeps the nodes in place.
-struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>> {
+struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, Columns>> {
   using Solver = scarp::QuasiNewton<>;
   static double tolerance(Choice const& choice) {
     if (choice.quick) return 1e-2;
@@ -43,9 +47,9 @@ struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
   static double largest_gradient(bool) { return 0.02; }
 };
 
-/// depths [m]: of all points that will be sand
+/// sites: of all points that will be sand
 /// \throws scarp::PreparationError
-Sand make_sand(Choice const& choice, std::vector<double> depths);
+Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites);
 FrictionalSoil make_frictional_soil();
 ElasticSoil make_elastic_soil();
 

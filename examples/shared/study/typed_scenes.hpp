@@ -25,7 +25,7 @@ SceneType make(Choice const& choice) {
   scene.solver.most_iterations = choice.most_iterations;
   scene.stepping.largest_gradient = choice.largest_gradient.value_or(SoilType::largest_gradient(choice.quick));
   if constexpr (std::is_same_v<SoilType, Sand>) {
-    scene.soil = make_sand(choice, scene.soil_depths());
+    scene.soil = make_sand(choice, scene.soil_sites());
   } else if constexpr (std::is_same_v<SoilType, FrictionalSoil>) {
     scene.soil = make_frictional_soil();
     scene.solver.rule.floor = FrictionalSoil::tangent_floor;

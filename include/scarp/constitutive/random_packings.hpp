@@ -71,8 +71,12 @@ struct RandomChoice {
       refuse("point {} is to draw from an empty pool of packings (none was prepared): prepare at least one",
              site.index);
     }
-    auto const drawn = family_seed(seed, static_cast<std::uint64_t>(site.index)) % sources.size();
-    return sources[drawn].at(site);
+    return sources[drawn(seed, site.index, sources.size())].at(site);
+  }
+
+  /// Which of so many sources a point draws, for those who prepare no more than that.
+  static std::size_t drawn(std::uint64_t seed, int point, std::size_t sources) {
+    return family_seed(seed, static_cast<std::uint64_t>(point)) % sources;
   }
 };
 

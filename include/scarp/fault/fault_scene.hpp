@@ -103,11 +103,15 @@ struct SCARP_EXPORT FaultScene {
   /// \throws InputError for parts that do not fit
   Mesh<typename GroundType::Element> mesh() const;
 
-  /// Depths of all points of the soil [m], for those who prepare it.
+  /// All points of the soil, for those who prepare it.
+  /// \throws InputError for parts that do not fit
+  std::vector<Site<dim>> soil_sites() const { return soil_sites(Grid(mesh())); }
+
+  /// Their depths [m].
   /// \throws InputError for parts that do not fit
   std::vector<double> soil_depths() const {
     std::vector<double> depths;
-    for (auto const& site : soil_sites(Grid(mesh()))) depths.push_back(site.depth);
+    for (auto const& site : soil_sites()) depths.push_back(site.depth);
     return depths;
   }
 
