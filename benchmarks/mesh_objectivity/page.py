@@ -4,6 +4,7 @@ import math
 import statistics
 import subprocess
 
+import pressure
 from generated_sections import rewrite, with_section
 from spread import PARTS, measures, ranges, summaries
 
@@ -63,6 +64,38 @@ def of_seeds(found):
     return table(["length [m]", "apart over", "groups", *PARTS], rows)
 
 
+def of_packings(runs):
+    """Mean and standard deviation over seeds."""
+    groups = {}
+    for name, summary in runs.items():
+        groups.setdefault(name.rsplit("-seed", 1)[0], []).append(summary)
+    rows = []
+    for name, group in groups.items():
+        said = [measures(summary) for summary in group]
+
+        def scatter(part):
+            values = [row[part] for row in said if not math.isnan(row[part])]
+            return "-" if len(values) < 2 else f"{statistics.fmean(values):.1f}, {statistics.stdev(values):.1f}"
+
+        rows.append([name, str(len(group)), *(scatter(part) for part in PARTS), number(statistics.fmean(one["iterations"] for one in group), 0),
+                     str(sum(one["refused_steps"] for one in group)), number(statistics.median(one["cpu_seconds"] for one in group), 0),
+                     number(max(one["peak_memory_bytes"] for one in group) / 1e6, 0)])
+    return table(["packings", "seeds", *(f"{title}: mean, scatter" for title in TITLES.values()), "iterations", "refused", "CPU s", "MB"], rows)
+
+
+def of_pressure(output, found):
+    """The band's pressure over elements; one mesh of each, seed 1."""
+    rows = []
+    for length in (0.0, max(found)):
+        for name, summary in found.get(length, {}).items():
+            folder = output / "dem" / f"{length:g}" / name
+            if name.endswith("-seed1") and (folder / "fields").is_dir():
+                said = pressure.in_band(folder, summary["k0"])
+                rows.append([f"{length:g}", name.removesuffix("-seed1"), f"{said.starved} of {said.deep}", *(number(share, 2) for share in said.shares)])
+    levels = [f"at {low:g} to {high:g} m" for low, high in pressure.LEVELS]
+    return table(["length [m]", "mesh", "starved elements", *levels], rows)
+
+
 def limit(found):
     """Straight line through the means over lengths: its value at no length, with the standard error of that and the meshes' own."""
     lengths = [length for length in found if length > 0.0]
@@ -111,13 +144,16 @@ def write(root, output):
         first = next(iter(next(iter(found.values())).values()))
         record = first.get("run", {})
         said = f"Commit {record.get('commit', commit)}, {record.get('compiler', '')}, {record.get('processor', '')}."
-        command = "`./benchmarks/run mesh_objectivity" + ("`." if soil == "mohr_coulomb" else " --soil dem`.")
-        parts = [f"{command} {said}"]
+        parts = [f"`./benchmarks/run mesh_objectivity --part {soil}`. {said}"]
         parts += [of_meshes(found)] if soil == "mohr_coulomb" else [of_seeds(found)]
         if line := limit(found):
             parts += ["For a vanishing length, a straight line through all runs with one:", line]
         page = with_section(page, soil, "\n\n".join(parts))
         page = with_section(page, f"runs of {soil}", every_run(found))
+    if runs := summaries(output / "packings"):
+        page = with_section(page, "packings", f"`./benchmarks/run mesh_objectivity --part packings`.\n\n{of_packings(runs)}")
+    if "dem" in soils:
+        page = with_section(page, "pressure", of_pressure(output, soils["dem"]))
     rewrite(path, page)
     if soils:
         figure(root / "docs" / "figures" / "objectivity.png", soils)

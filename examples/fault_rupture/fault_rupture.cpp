@@ -5,6 +5,7 @@
 #include "../shared/command_line.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
+#include "companion_runs.hpp"
 #include "run_scene.hpp"
 
 namespace {
@@ -39,14 +40,31 @@ struct ChoiceLines {
   }
 };
 
-/// \throws scarp::CheckpointError
-scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
+/// Of all that the results depend on.
+ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
   auto const options = examples::all_options(app);
   ChoiceLines lines{{options.begin(), options.end()}};
   Choice::members(choice, lines);
   lines("element", fault_rupture::element_name);
   // What a file holds and not where it lies.
   if (!choice.mesh.empty()) lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
+  return lines;
+}
+
+/// Of all that the answer depends on: not what is written on the way.
+std::string scene_lines(Choice choice, CLI::App const& app) {
+  Choice const usual;
+  choice.frames = usual.frames;
+  choice.probe_a_x = usual.probe_a_x;
+  choice.probe_a_y = usual.probe_a_y;
+  choice.probe_b_x = usual.probe_b_x;
+  choice.probe_b_y = usual.probe_b_y;
+  return choice_lines(choice, app).text;
+}
+
+/// \throws scarp::CheckpointError
+scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
+  auto lines = choice_lines(choice, app);
   // The error budget follows points of the first rank.
   if (int const ranks = fault_rupture::ranks(); ranks > 1) lines("ranks", ranks);
   return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
@@ -98,7 +116,8 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_option("--packings", choice.packings,
                  "columns of packings, each of its own grains, of which every point draws one")
       ->check(CLI::Range(1, 100'000));
-  app.add_flag("--mirrored-packings", choice.mirrored_packings, "points draw among the mirror images of these too");
+  add_named<bool>(app, "--mirrored-packings", choice.mirrored_packings,
+                  "whether points draw among the mirror images of these too", {{"yes", true}, {"no", false}});
   app.add_option("--seed", choice.seed, "of the packings")->check(examples::seed_number());
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
@@ -128,6 +147,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
       ->check([](std::string const& given) { return examples::refused_bound(given); });
+  app.add_flag("--budget-companions", choice.budget_companions,
+               "run the scene once more on another mesh and once with larger load steps, for the error budget")
+      ->configurable(false);
+  app.add_option("--companions", choice.companions, "file of what such runs came to: read, and with them written");
   auto* const folder =
       app.add_option("--checkpoint", choice.checkpoint,
                      "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")
@@ -142,6 +165,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   resume->excludes("--overwrite");
   app.set_config("--config", "", "file with lines `option = value`");
   app.allow_config_extras(CLI::config_extras_mode::error);
+}
+
+double largest_gradient(fault_rupture::AnyScene const& scene) {
+  return std::visit([](auto const& chosen) { return chosen.stepping.largest_gradient; }, scene);
 }
 
 bool is_same_folder(std::filesystem::path const& one, std::filesystem::path const& other) {
@@ -185,6 +212,9 @@ int main(int argc, char** argv) {
     scarp::FolderLock checkpoints;
     if (first && !choice.checkpoint.empty() && !is_same_folder(choice.checkpoint, output.folder))
       checkpoints = scarp::FolderLock(choice.checkpoint);
+    if (choice.budget_companions && fault_rupture::ranks() > 1)
+      scarp::refuse("--budget-companions was given on {} ranks (companions run on one): leave the ranks out",
+                    fault_rupture::ranks());
     auto files = checkpoint_files(choice, app);
     std::optional<scarp::RunFolder> folder;
     if (first) {
@@ -194,7 +224,17 @@ int main(int argc, char** argv) {
                      examples::record_of("fault_rupture", app), &files);
     }
     auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
-    fault_rupture::Start const start{files, folder ? &*folder : nullptr, started};
+    std::filesystem::path const known =
+        choice.companions.empty() ? fault_rupture::usual_companion_file() : std::filesystem::path(choice.companions);
+    fault_rupture::CompanionFile companions(known, scene_lines(choice, app));
+    auto const ask = [&](scarp::RunReport const& report) {
+      if (choice.budget_companions) {
+        fault_rupture::CompanionRuns const runs{app, output.folder, started};
+        runs.complete(companions_of(choice, largest_gradient(scene)), report.steps, companions);
+      }
+      return companions.answers();
+    };
+    fault_rupture::Start const start{files, folder ? &*folder : nullptr, started, ask};
     return std::visit([&](auto const& chosen) { return run(choice, chosen, start); }, scene);
   } catch (std::exception const& error) {
     fault_rupture::give_up(examples::ended_by(error, "fault_rupture", app));

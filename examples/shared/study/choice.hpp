@@ -57,6 +57,8 @@ struct Choice {
   double probe_b_y = 12.0;
   double time_limit = 0.0;          ///< [s], 0 for none
   std::vector<std::string> budget;  ///< bounds of the error budget, part=bound; the others are the usual ones
+  bool budget_companions = false;   ///< runs the scene once more for each part of the budget that needs another run
+  std::string companions;           ///< file of what companions came to
   std::string checkpoint;           ///< folder; empty: nothing is saved
   double checkpoint_every = 600.0;  ///< [s]
   bool resume = false;
