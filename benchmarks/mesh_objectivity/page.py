@@ -97,24 +97,21 @@ def of_pressure(output, found):
 
 
 def limit(found):
-    """Straight line through the means over lengths: its value at no length, with the standard error of that and the meshes' own."""
-    lengths = [length for length in found if length > 0.0]
-    lines = []
+    """A straight line through all runs with a length: its value at no length, with the standard error, and that of a parabola, which
+    tells how much the line's shape is worth."""
+    import numpy as np
+    rows = []
     for part in PARTS:
-        points = [(length, value) for length in lengths for value in (measures(summary)[part] for summary in found[length].values())
+        points = [(length, value) for length in found if length > 0.0 for value in (measures(summary)[part] for summary in found[length].values())
                   if not math.isnan(value)]
         if len({length for length, _ in points}) < 3:
             continue
-        count = len(points)
-        mean_x = statistics.fmean(x for x, _ in points)
-        mean_y = statistics.fmean(y for _, y in points)
-        square = sum((x - mean_x) ** 2 for x, _ in points)
-        slope = sum((x - mean_x) * (y - mean_y) for x, y in points) / square
-        at_none = mean_y - slope * mean_x
-        rest = math.sqrt(sum((y - at_none - slope * x) ** 2 for x, y in points) / (count - 2))
-        error = rest * math.sqrt(1.0 / count + mean_x ** 2 / square)
-        lines.append([part, number(at_none, 2), number(2.0 * error, 2), number(slope, 3), number(rest, 2)])
-    return table(["measure", "at no length", "+- (two standard errors)", "change per metre", "scatter about the line"], lines) if lines else ""
+        x, y = np.array(points).T
+        (slope, at_none), covariance = np.polyfit(x, y, 1, cov=True)
+        rest = y - slope * x - at_none
+        rows.append([part, number(at_none, 2), number(2.0 * math.sqrt(covariance[1, 1]), 2), number(np.polyfit(x, y, 2)[2], 2), number(slope, 3),
+                     number(math.sqrt(np.mean(rest ** 2)), 2)])
+    return table(["measure", "at no length", "+- (two standard errors)", "by a parabola", "change per metre", "scatter about the line"], rows) if rows else ""
 
 
 def figure(path, soils):

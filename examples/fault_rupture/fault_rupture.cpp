@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Where does a normal fault reach the surface of sand, and what does a footing do to it? The study's scenes.
+#include <algorithm>
 #include <map>
 
 #include "../shared/command_line.hpp"
@@ -18,6 +19,13 @@ void make_objective(Choice& choice) {
   choice.length = 8.0;
   choice.packings = 16;
   choice.mirrored_packings = true;
+}
+
+/// No length and copies of one packing, as the study has it.
+void make_local(Choice& choice) {
+  choice.length = 0.0;
+  choice.packings = 1;
+  choice.mirrored_packings = false;
 }
 
 /// The same physics on a tiny mesh with few grains, copies of one packing.
@@ -80,7 +88,7 @@ scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& ap
   return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
 }
 
-void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element, bool& quick) {
+void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element) {
   using namespace fault_rupture;
   using examples::add_named;
   using examples::number_from;
@@ -97,7 +105,9 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--base-friction", choice.base_friction, "coefficient of a frictional footing")
       ->check(number_from(0.0, true, 10.0));
-  app.add_flag("--quick", quick, "tiny mesh and few grains; other options still apply")->configurable(false);
+  app.add_flag("--quick", "tiny mesh and few grains; other options still apply")->configurable(false);
+  app.add_flag("--local", "no length and copies of one packing, as in the study; other options still apply")
+      ->configurable(false);
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(number_from(0.0, false, 25.0));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
       ->check(CLI::Range(100, 1'000'000))
@@ -193,18 +203,20 @@ int main(int argc, char** argv) {
   auto const started = std::chrono::steady_clock::now();
   fault_rupture::Session const session(argc, argv);
   Choice choice;
-  bool quick = false;
-  // --quick changes defaults, which must be in place before the other options are read.
-  for (int k = 1; k < argc; ++k) quick = quick || std::string_view(argv[k]) == "--quick";
+  // Flags that change defaults, which must be in place before the other options are read.
   make_objective(choice);
-  if (quick) make_quick(choice);
+  auto const given = [&](std::string_view flag) {
+    return std::any_of(argv + 1, argv + argc, [&](char const* word) { return word == flag; });
+  };
+  if (given("--local")) make_local(choice);
+  if (given("--quick")) make_quick(choice);
   CLI::App app(
       "Fault rupture below level ground or a footing: finite elements, with a discrete-element packing in each.");
   examples::declare_version(app);
   app.option_defaults()->always_capture_default();
   std::string element = fault_rupture::element_name;
   examples::Output output{"output/fault_rupture"};
-  declare_options(app, choice, output, element, quick);
+  declare_options(app, choice, output, element);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
