@@ -48,6 +48,10 @@ struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
   static double largest_gradient(bool) { return 0.02; }
 };
 
+/// Depths [m] at which points draw each column of packings, increasing; an image goes with what it mirrors.
+/// sites: of all points that will be sand
+std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<scarp::Site<2>> const& sites);
+
 /// sites: of all points that will be sand
 /// \throws scarp::PreparationError
 Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites);
