@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <limits>
 #include <type_traits>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "scarp/budget/detail/followed_points.hpp"
 #include "scarp/budget/detail/packing_survey.hpp"
 #include "scarp/budget/error_bounds.hpp"
+#include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "scarp/observe/observers.hpp"
@@ -33,10 +33,15 @@ template <class Problem>
 inline constexpr bool adds_up_work =
     Problem::is_bare && !SharesPoints<std::remove_cvref_t<decltype(std::declval<Problem const&>().executor())>>;
 
-/// Whether linear systems are iterated and not factorised: a stiffness that is applied has no entries.
-template <class Problem>
-inline constexpr bool iterates_equations =
-    !std::is_same_v<typename Problem::GroundStiffness, Eigen::SparseMatrix<double>>;
+/// Whether linear systems are iterated and not factorised, as those are whose stiffness couples points of many elements.
+template <class Materials>
+bool iterates_equations(Materials const& materials) {
+  if constexpr (AveragesGradients<Materials>) {
+    return !materials.mean().is_local();
+  } else {
+    return false;
+  }
+}
 
 template <class Problem>
 struct WorkBalanceOf {
@@ -65,7 +70,7 @@ class ErrorBudget : public NeverStops {
 
   /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
   explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
-      : bounds_(bounds), sampling_(sampling) {
+      : bounds_(bounds), sampling_(sampling), iterates_equations_(detail::iterates_equations(problem.materials())) {
     require_not_negative("share of work for samples", sampling.share);
     require_not_negative("loose pressure", sampling.loose_pressure);
     require_not_negative("number of samples of a step", sampling.most_samples);
@@ -105,8 +110,7 @@ class ErrorBudget : public NeverStops {
     if constexpr (detail::adds_up_work<Problem>)
       add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
     add("linear_residual", linear_residual_,
-        detail::iterates_equations<Problem> ? bounds_.iterated_linear_residual : bounds_.linear_residual,
-        "largest of a linear system");
+        iterates_equations_ ? bounds_.iterated_linear_residual : bounds_.linear_residual, "largest of a linear system");
     add("condition", condition_, bounds_.condition, "largest estimate for a stiffness");
     if (packings_.looked_at > 0.0) {
       add("unbalanced_mean", packings_.mean_unbalanced(), bounds_.unbalanced_mean,
@@ -133,8 +137,8 @@ class ErrorBudget : public NeverStops {
   DoubledSamples const& samples() const { return samples_; }
   FollowedPoints const& followed() const { return followed_; }
 
-  SCARP_MEMBERS_EXCEPT((bounds_, sampling_, seen_), balance_, packings_, samples_, followed_, residual_,
-                       linear_residual_, condition_, work_, answers_)
+  SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, seen_), balance_, packings_, samples_, followed_,
+                       residual_, linear_residual_, condition_, work_, answers_)
 
  private:
   long all_work() const { return work_ > 0 ? work_ : answers_; }
@@ -146,6 +150,7 @@ class ErrorBudget : public NeverStops {
 
   ErrorBounds bounds_;
   ErrorSampling sampling_;
+  bool iterates_equations_;
   std::vector<int> seen_;  ///< points of this process
   typename detail::WorkBalanceOf<Problem>::Type balance_;
   PackingSurvey packings_;
