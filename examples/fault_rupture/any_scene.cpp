@@ -11,9 +11,9 @@ namespace fault_rupture {
 namespace {
 
 /// Of a scene with so many points, measured with meshes of 1000 to 30 000 triangles and packings of 100 and 400 grains: mesh,
-/// matrices and, for packings, two states.
-double memory_of(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
-  auto const points = static_cast<double>(sites.size());
+/// matrices and, for packings, two states of each point; what is prepared is with every process.
+double memory_of(Choice const& choice, std::vector<scarp::Site<2>> const& sites, int processes) {
+  double const points = static_cast<double>(sites.size()) / processes;
   if (choice.soil != Soil::dem) return 4.4e3 * points;
   double prepared = 0.0;
   for (auto const& column : drawn_depths(choice, sites)) prepared += static_cast<double>(column.size());
@@ -53,7 +53,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   auto const what = choice.soil == Soil::dem
                         ? fmt::format("ground of {} points with packings of {} grains", sites.size(), choice.grains)
                         : fmt::format("ground of {} points", sites.size());
-  double const bytes = memory_of(choice, sites) / processes;
+  double const bytes = memory_of(choice, sites, processes);
   scarp::require_memory(what, bytes,
                         choice.soil == Soil::dem ? "choose a larger --size, fewer --triangles or fewer --grains"
                                                  : "choose a larger --size or fewer --triangles");

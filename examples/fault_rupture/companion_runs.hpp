@@ -24,30 +24,43 @@ struct CompanionRuns {
   std::chrono::steady_clock::time_point started;
   std::string commit{examples::commit()};
 
-  /// Runs those that the file does not know yet of this commit, each in a folder of its own. One that is stopped is left out.
+  /// Runs those that the file does not know yet of this commit, each in a folder of its own. One that fails is left out, and said.
   /// steps: of the scene's run
   void complete(std::vector<Companion> const& companions, int steps, CompanionFile& file) const {
     auto const known = file.answers();
-    for (auto companion : companions) {
+    for (auto const& companion : companions) {
       auto const before = known.find(companion.part);
       if (before != known.end() && before->second.commit == commit) continue;
-      auto summary = answer_of(companion);
-      // Where other things limit the load steps, a limit of their gradient has to be much smaller to say anything.
-      constexpr int most_halvings = 6;
-      for (int k = 0; k < most_halvings && companion.part == "load_step" && !summary.empty(); ++k) {
-        if (summary["steps"].get<int>() >= 1.3 * steps) break;
-        companion = with_smaller_steps(std::move(companion));
-        summary = answer_of(companion);
+      if (scarp::StopSignal::wants_stop()) return;
+      try {
+        ask(companion, steps, file);
+      } catch (std::exception const& problem) {
+        fmt::print(stderr, "warning: the companion for {} has failed, so that this part is not known: {}\n",
+                   companion.part, problem.what());
       }
-      if (summary.empty()) continue;
-      file.add(companion.part,
-               {summary["surface_x50"], companion.options, "examples/run fault_rupture --budget-companions",
-                scarp::time_stamp().substr(0, 10), commit});
     }
   }
 
  private:
-  /// \return its summary; empty where it has stopped early
+  void ask(Companion companion, int steps, CompanionFile& file) const {
+    auto summary = answer_of(companion);
+    // Where other things limit the load steps, a limit of their gradient has to be much smaller to say anything.
+    constexpr int most_halvings = 6;
+    auto const as_large = [&] { return companion.part == "load_step" && summary["steps"].get<int>() < 1.3 * steps; };
+    for (int k = 0; k < most_halvings && as_large(); ++k) {
+      companion = with_smaller_steps(std::move(companion));
+      summary = answer_of(companion);
+    }
+    if (as_large())
+      scarp::refuse(
+          "its load steps are limited by something else (smaller ones were not to be had): say a smaller "
+          "--largest-gradient");
+    file.add(companion.part,
+             {summary["surface_x50"].get<double>(), companion.options, "examples/run fault_rupture --budget-companions",
+              scarp::time_stamp().substr(0, 10), commit});
+  }
+
+  /// \return its summary \throws scarp::InputError where it has stopped early
   nlohmann::json answer_of(Companion const& companion) const {
     fmt::print(stderr, "companion for {}: {}\n", companion.part, companion.options);
     scarp::CheckpointFiles nowhere;
@@ -57,11 +70,7 @@ struct CompanionRuns {
     auto const scene = make_scene(companion.choice, 1, true);
     Start const start{nowhere, &writes, started};
     int const code = std::visit([&](auto const& one) { return run(companion.choice, one, start); }, scene);
-    if (code != 0) {
-      fmt::print(stderr, "warning: the companion for {} has stopped early, so that this part is not known\n",
-                 companion.part);
-      return {};
-    }
+    if (code != 0) scarp::refuse("it has stopped early: see {}", (own / "summary.txt").string());
     return nlohmann::json::parse(scarp::read_file(own / "summary.json"));
   }
 };

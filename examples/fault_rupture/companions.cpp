@@ -24,7 +24,8 @@ Companion turned_mesh(Choice choice) {
   double factor = 1.0;  // of the cells' width, for as many elements
   std::string options;
   if (is_triangle) {
-    bool const crossed = choice.pattern.value_or(MeshPattern::crossed) == MeshPattern::crossed;
+    auto const pattern = choice.pattern.value_or(MeshPattern::crossed);
+    bool const crossed = pattern == MeshPattern::crossed || pattern == MeshPattern::jittered;  // crossed too
     choice.pattern = crossed ? MeshPattern::right : MeshPattern::crossed;
     factor = crossed ? 1.0 / std::numbers::sqrt2 : std::numbers::sqrt2;
     options = crossed ? "--pattern right" : "--pattern crossed";
@@ -45,7 +46,14 @@ Companion turned_mesh(Choice choice) {
 Json content(std::filesystem::path const& path) {
   if (!std::filesystem::exists(path)) return Json::array();
   auto const found = Json::parse(scarp::read_file(path), nullptr, false);
-  if (!found.is_array())
+  bool sound = found.is_array();
+  for (auto const& entry : found) {
+    sound = sound && entry.is_object() && entry.contains("companions") && entry["companions"].is_object();
+    if (!sound) break;
+    for (auto const& [part, answer] : entry["companions"].items())
+      sound = sound && answer.is_object() && answer.contains("surface_x50") && answer["surface_x50"].is_number();
+  }
+  if (!sound)
     scarp::refuse("'{}' holds no answers of companions (a list of scenes is expected): give another file",
                   path.string());
   return found;

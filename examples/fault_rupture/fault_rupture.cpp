@@ -169,8 +169,9 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
       ->check([](std::string const& given) { return examples::refused_bound(given); });
-  app.add_flag("--budget-companions", choice.budget_companions,
-               "run the scene once more on another mesh and once with larger load steps, for the error budget")
+  app.add_flag(
+         "--budget-companions", choice.budget_companions,
+         "run the scene once more on a mesh of other directions and once with smaller load steps, for the error budget")
       ->configurable(false);
   app.add_option("--companions", choice.companions, "file of what such runs came to: read, and with them written");
   auto* const folder =
@@ -248,10 +249,10 @@ int main(int argc, char** argv) {
                                               .results = {"summary.json", "convergence.csv", "fields.pvd"}},
                      examples::record_of("fault_rupture", app), &files);
     }
-    auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
     std::filesystem::path const known =
         choice.companions.empty() ? fault_rupture::usual_companion_file() : std::filesystem::path(choice.companions);
     fault_rupture::CompanionFile companions(known, scene_lines(choice, app));
+    auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
     auto const ask = [&](scarp::RunReport const& report) {
       if (choice.budget_companions) {
         fault_rupture::CompanionRuns const runs{app, output.folder, started};

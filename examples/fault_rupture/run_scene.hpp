@@ -170,27 +170,29 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& report = stages.report();
   if (!report.verdict.acceptable()) observers.ended(problem, report.load);
-  CompanionAnswers companions;
-  if (begun.companions && report.verdict.acceptable()) companions = begun.companions(report);
-
   on_first_rank(problem, [&] {
     takeover->take();  // also when nothing was left to do
     auto json = summary(choice, scene, problem, rest, report, elapsed());
     json["run"] = examples::json_of(begun.folder->record());
-    auto parts = budget.parts();
-    for (auto& part : companion_parts(companions, json["surface_x50"], depth, examples::error_bounds(choice.budget)))
-      parts.push_back(std::move(part));
-    json["error_budget"] = examples::json_of(parts);
-    scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
-    std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);
-    if (begun.companions) text += companion_lines(companions);
-    if (!report.verdict.acceptable()) {
-      text =
-          fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n",
-                      report.load / depth, name(report.verdict.reason), name(report.last_failure), report.worst_point) +
-          text;
-    }
-    scarp::write_file(folder / "summary.txt", text);
+    auto const written = [&](CompanionAnswers const& companions) {
+      auto parts = budget.parts();
+      for (auto& part : companion_parts(companions, json["surface_x50"], depth, examples::error_bounds(choice.budget)))
+        parts.push_back(std::move(part));
+      json["error_budget"] = examples::json_of(parts);
+      scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
+      std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);
+      if (begun.companions) text += companion_lines(companions);
+      if (!report.verdict.acceptable()) {
+        text = fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n",
+                           report.load / depth, name(report.verdict.reason), name(report.last_failure),
+                           report.worst_point) +
+               text;
+      }
+      scarp::write_file(folder / "summary.txt", text);
+      return text;
+    };
+    std::string text = written({});  // the run's own results first: companions take long
+    if (begun.companions && report.verdict.acceptable()) text = written(begun.companions(report));
     begun.folder->end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
     if (begun.companions) fmt::print("{}", text);
   });
