@@ -48,11 +48,11 @@ def of_meshes(found):
 
 
 def of_seeds(found):
-    """How far meshes are apart for one packing, packings on one mesh."""
+    """How far meshes are apart for one seed of the packings, seeds on one mesh."""
     rows = []
     for length, runs in found.items():
         said = {tuple(name.rsplit("-seed", 1)): measures(summary) for name, summary in runs.items()}
-        for kind, at in (("meshes, one packing", 1), ("packings, one mesh", 0)):
+        for kind, at in (("meshes, one seed", 1), ("seeds, one mesh", 0)):
             groups = {}
             for key, row in said.items():
                 groups.setdefault(key[at], []).append(row)
