@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Wall time of the default fault_rupture on one thread, two threads and two MPI ranks of one thread, in turns on a machine that should be
+"""Wall time of the local fault_rupture on one thread, two threads and two MPI ranks of one thread, in turns on a machine that should be
 idle otherwise: each run's time in load steps, and the ratios of the medians."""
 import argparse
 import json
@@ -15,7 +15,7 @@ TEAMS = {"one thread": ([], "1"), "two threads": ([], "2"), "two ranks": (["--ra
 def seconds_in_steps(ranks, threads, throw):
     """Wall time of all attempts at load steps, without set-up."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([ROOT / "examples/run", *ranks, "fault_rupture", "--no-figures", "--threads", threads, "--frames", "1",
+        subprocess.run([ROOT / "examples/run", *ranks, "fault_rupture", "--local", "--no-figures", "--threads", threads, "--frames", "1",
                         "--throw-over-depth", throw, "--output", folder], check=True, stdout=subprocess.DEVNULL)
         lines = map(json.loads, (pathlib.Path(folder) / "convergence.jsonl").read_text().splitlines())
         return sum(line["seconds"] for line in lines if line["kind"] == "step")

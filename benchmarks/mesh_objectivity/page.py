@@ -4,6 +4,7 @@ import math
 import statistics
 import subprocess
 
+import pressure
 from generated_sections import rewrite, with_section
 from spread import PARTS, measures, ranges, summaries
 
@@ -63,25 +64,54 @@ def of_seeds(found):
     return table(["length [m]", "apart over", "groups", *PARTS], rows)
 
 
+def of_packings(runs):
+    """Mean and standard deviation over seeds."""
+    groups = {}
+    for name, summary in runs.items():
+        groups.setdefault(name.rsplit("-seed", 1)[0], []).append(summary)
+    rows = []
+    for name, group in groups.items():
+        said = [measures(summary) for summary in group]
+
+        def scatter(part):
+            values = [row[part] for row in said if not math.isnan(row[part])]
+            return "-" if len(values) < 2 else f"{statistics.fmean(values):.1f}, {statistics.stdev(values):.1f}"
+
+        rows.append([name, str(len(group)), *(scatter(part) for part in PARTS), number(statistics.fmean(one["iterations"] for one in group), 0),
+                     str(sum(one["refused_steps"] for one in group)), number(statistics.median(one["cpu_seconds"] for one in group), 0),
+                     number(max(one["peak_memory_bytes"] for one in group) / 1e6, 0)])
+    return table(["packings", "seeds", *(f"{title}: mean, scatter" for title in TITLES.values()), "iterations", "refused", "CPU s", "MB"], rows)
+
+
+def of_pressure(output, found):
+    """The band's pressure over elements; one mesh of each, seed 1."""
+    rows = []
+    for length in (0.0, max(found)):
+        for name, summary in found.get(length, {}).items():
+            folder = output / "dem" / f"{length:g}" / name
+            if name.endswith("-seed1") and (folder / "fields").is_dir():
+                said = pressure.in_band(folder, summary["k0"])
+                rows.append([f"{length:g}", name.removesuffix("-seed1"), f"{said.starved} of {said.deep}", *(number(share, 2) for share in said.shares)])
+    levels = [f"at {low:g} to {high:g} m" for low, high in pressure.LEVELS]
+    return table(["length [m]", "mesh", "starved elements", *levels], rows)
+
+
 def limit(found):
-    """Straight line through the means over lengths: its value at no length, with the standard error of that and the meshes' own."""
-    lengths = [length for length in found if length > 0.0]
-    lines = []
+    """A straight line through all runs with a length: its value at no length, with the standard error, and that of a parabola, which
+    tells how much the line's shape is worth."""
+    import numpy as np
+    rows = []
     for part in PARTS:
-        points = [(length, value) for length in lengths for value in (measures(summary)[part] for summary in found[length].values())
+        points = [(length, value) for length in found if length > 0.0 for value in (measures(summary)[part] for summary in found[length].values())
                   if not math.isnan(value)]
         if len({length for length, _ in points}) < 3:
             continue
-        count = len(points)
-        mean_x = statistics.fmean(x for x, _ in points)
-        mean_y = statistics.fmean(y for _, y in points)
-        square = sum((x - mean_x) ** 2 for x, _ in points)
-        slope = sum((x - mean_x) * (y - mean_y) for x, y in points) / square
-        at_none = mean_y - slope * mean_x
-        rest = math.sqrt(sum((y - at_none - slope * x) ** 2 for x, y in points) / (count - 2))
-        error = rest * math.sqrt(1.0 / count + mean_x ** 2 / square)
-        lines.append([part, number(at_none, 2), number(2.0 * error, 2), number(slope, 3), number(rest, 2)])
-    return table(["measure", "at no length", "+- (two standard errors)", "change per metre", "scatter about the line"], lines) if lines else ""
+        x, y = np.array(points).T
+        (slope, at_none), covariance = np.polyfit(x, y, 1, cov=True)
+        rest = y - slope * x - at_none
+        rows.append([part, number(at_none, 2), number(2.0 * math.sqrt(covariance[1, 1]), 2), number(np.polyfit(x, y, 2)[2], 2), number(slope, 3),
+                     number(math.sqrt(np.mean(rest ** 2)), 2)])
+    return table(["measure", "at no length", "+- (two standard errors)", "by a parabola", "change per metre", "scatter about the line"], rows) if rows else ""
 
 
 def figure(path, soils):
@@ -111,13 +141,16 @@ def write(root, output):
         first = next(iter(next(iter(found.values())).values()))
         record = first.get("run", {})
         said = f"Commit {record.get('commit', commit)}, {record.get('compiler', '')}, {record.get('processor', '')}."
-        command = "`./benchmarks/run mesh_objectivity" + ("`." if soil == "mohr_coulomb" else " --soil dem`.")
-        parts = [f"{command} {said}"]
+        parts = [f"`./benchmarks/run mesh_objectivity --part {soil}`. {said}"]
         parts += [of_meshes(found)] if soil == "mohr_coulomb" else [of_seeds(found)]
         if line := limit(found):
             parts += ["For a vanishing length, a straight line through all runs with one:", line]
         page = with_section(page, soil, "\n\n".join(parts))
         page = with_section(page, f"runs of {soil}", every_run(found))
+    if runs := summaries(output / "packings"):
+        page = with_section(page, "packings", f"`./benchmarks/run mesh_objectivity --part packings`.\n\n{of_packings(runs)}")
+    if "dem" in soils:
+        page = with_section(page, "pressure", of_pressure(output, soils["dem"]))
     rewrite(path, page)
     if soils:
         figure(root / "docs" / "figures" / "objectivity.png", soils)

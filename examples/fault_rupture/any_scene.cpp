@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "../shared/study/soils.hpp"
 #include "scarp/measure/memory.hpp"
 
 namespace fault_rupture {
@@ -11,10 +12,13 @@ namespace {
 
 /// Of a scene with so many points, measured with meshes of 1000 to 30 000 triangles and packings of 100 and 400 grains: mesh,
 /// matrices and, for packings, two states.
-double memory_of(Choice const& choice, std::size_t points) {
-  double of_a_point = choice.soil == Soil::dem ? 7.6e3 + 270.0 * choice.grains : 4.4e3;
-  if (choice.packings > 1) of_a_point += 135.0 * choice.grains;  // one that hardly any other point begins with
-  return of_a_point * static_cast<double>(points);
+double memory_of(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
+  auto const points = static_cast<double>(sites.size());
+  if (choice.soil != Soil::dem) return 4.4e3 * points;
+  double prepared = 0.0;
+  for (auto const& column : drawn_depths(choice, sites)) prepared += static_cast<double>(column.size());
+  if (choice.mirrored_packings) prepared *= 2.0;
+  return (7.6e3 + 270.0 * choice.grains) * points + 135.0 * choice.grains * prepared;
 }
 
 /// \throws scarp::InputError for a probe that was asked for outside of the ground
@@ -49,7 +53,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   auto const what = choice.soil == Soil::dem
                         ? fmt::format("ground of {} points with packings of {} grains", sites.size(), choice.grains)
                         : fmt::format("ground of {} points", sites.size());
-  double const bytes = memory_of(choice, sites.size()) / processes;
+  double const bytes = memory_of(choice, sites) / processes;
   scarp::require_memory(what, bytes,
                         choice.soil == Soil::dem ? "choose a larger --size, fewer --triangles or fewer --grains"
                                                  : "choose a larger --size or fewer --triangles");

@@ -1,20 +1,39 @@
 // SPDX-License-Identifier: BSL-1.0
 // Where does a normal fault reach the surface of sand, and what does a footing do to it? The study's scenes.
+#include <algorithm>
 #include <map>
 
 #include "../shared/command_line.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
+#include "companion_runs.hpp"
 #include "run_scene.hpp"
 
 namespace {
 
 using fault_rupture::Choice;
 
-/// The same physics on a tiny mesh with few grains.
+/// Beside the study's scene: a length, so that the answer is not the mesh's, and many packings, so that it is not one packing's
+/// (docs/objectivity.md).
+void make_objective(Choice& choice) {
+  choice.length = 8.0;
+  choice.packings = 16;
+  choice.mirrored_packings = true;
+}
+
+/// No length and copies of one packing, as the study has it.
+void make_local(Choice& choice) {
+  choice.length = 0.0;
+  choice.packings = 1;
+  choice.mirrored_packings = false;
+}
+
+/// The same physics on a tiny mesh with few grains, copies of one packing.
 void make_quick(Choice& choice) {
   choice.size = 5.0;
   choice.grains = 100;
+  choice.packings = 1;
+  choice.mirrored_packings = false;
   choice.quick = true;
 }
 
@@ -39,20 +58,37 @@ struct ChoiceLines {
   }
 };
 
-/// \throws scarp::CheckpointError
-scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
+/// Of all that the results depend on.
+ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
   auto const options = examples::all_options(app);
   ChoiceLines lines{{options.begin(), options.end()}};
   Choice::members(choice, lines);
   lines("element", fault_rupture::element_name);
   // What a file holds and not where it lies.
   if (!choice.mesh.empty()) lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
+  return lines;
+}
+
+/// Of all that the answer depends on: not what is written on the way.
+std::string scene_lines(Choice choice, CLI::App const& app) {
+  Choice const usual;
+  choice.frames = usual.frames;
+  choice.probe_a_x = usual.probe_a_x;
+  choice.probe_a_y = usual.probe_a_y;
+  choice.probe_b_x = usual.probe_b_x;
+  choice.probe_b_y = usual.probe_b_y;
+  return choice_lines(choice, app).text;
+}
+
+/// \throws scarp::CheckpointError
+scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
+  auto lines = choice_lines(choice, app);
   // The error budget follows points of the first rank.
   if (int const ranks = fault_rupture::ranks(); ranks > 1) lines("ranks", ranks);
   return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
 }
 
-void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element, bool& quick) {
+void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element) {
   using namespace fault_rupture;
   using examples::add_named;
   using examples::number_from;
@@ -69,7 +105,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--base-friction", choice.base_friction, "coefficient of a frictional footing")
       ->check(number_from(0.0, true, 10.0));
-  app.add_flag("--quick", quick, "tiny mesh and few grains; other options still apply")->configurable(false);
+  app.add_flag("--quick")->description("tiny mesh and few grains; other options still apply")->configurable(false);
+  app.add_flag("--local")
+      ->description("no length and copies of one packing, as in the study; other options still apply")
+      ->configurable(false);
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(number_from(0.0, false, 25.0));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
       ->check(CLI::Range(100, 1'000'000))
@@ -92,13 +131,15 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
           ->check(CLI::ExistingFile);
   for (char const* made_mesh : {"--size", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
-  app.add_option("--length", choice.length, "intrinsic length [m]: radius of the means that points see; 0 for none")
+  app.add_option("--length", choice.length,
+                 "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study")
       ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--packings", choice.packings,
                  "columns of packings, each of its own grains, of which every point draws one")
       ->check(CLI::Range(1, 100'000));
-  app.add_flag("--mirrored-packings", choice.mirrored_packings, "points draw among the mirror images of these too");
+  add_named<bool>(app, "--mirrored-packings", choice.mirrored_packings,
+                  "whether points draw among the mirror images of these too", {{"yes", true}, {"no", false}});
   app.add_option("--seed", choice.seed, "of the packings")->check(examples::seed_number());
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
@@ -107,7 +148,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_flag("--reverse", choice.reverse, "the hanging wall is pushed up the fault plane");
   app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--tolerance", choice.tolerance,
-                 "force residual over reactions; packings 1e-3, below a footing 5e-3; else 1e-10")
+                 "force residual over reactions; packings 1e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--largest-gradient", choice.largest_gradient,
                  "displacement gradient that limits a load step; 0.005 with packings, else 0.02")
@@ -128,6 +169,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
       ->check([](std::string const& given) { return examples::refused_bound(given); });
+  app.add_flag("--budget-companions", choice.budget_companions,
+               "run the scene once more on another mesh and once with larger load steps, for the error budget")
+      ->configurable(false);
+  app.add_option("--companions", choice.companions, "file of what such runs came to: read, and with them written");
   auto* const folder =
       app.add_option("--checkpoint", choice.checkpoint,
                      "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")
@@ -144,6 +189,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 
+double largest_gradient(fault_rupture::AnyScene const& scene) {
+  return std::visit([](auto const& chosen) { return chosen.stepping.largest_gradient; }, scene);
+}
+
 bool is_same_folder(std::filesystem::path const& one, std::filesystem::path const& other) {
   std::error_code trouble;
   return std::filesystem::weakly_canonical(one, trouble) == std::filesystem::weakly_canonical(other, trouble);
@@ -155,17 +204,20 @@ int main(int argc, char** argv) {
   auto const started = std::chrono::steady_clock::now();
   fault_rupture::Session const session(argc, argv);
   Choice choice;
-  bool quick = false;
-  // --quick changes defaults, which must be in place before the other options are read.
-  for (int k = 1; k < argc; ++k) quick = quick || std::string_view(argv[k]) == "--quick";
-  if (quick) make_quick(choice);
+  // Flags that change defaults, which must be in place before the other options are read.
+  make_objective(choice);
+  auto const given = [&](std::string_view flag) {
+    return std::any_of(argv + 1, argv + argc, [&](char const* word) { return word == flag; });
+  };
+  if (given("--local")) make_local(choice);
+  if (given("--quick")) make_quick(choice);
   CLI::App app(
       "Fault rupture below level ground or a footing: finite elements, with a discrete-element packing in each.");
   examples::declare_version(app);
   app.option_defaults()->always_capture_default();
   std::string element = fault_rupture::element_name;
   examples::Output output{"output/fault_rupture"};
-  declare_options(app, choice, output, element, quick);
+  declare_options(app, choice, output, element);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
@@ -185,6 +237,9 @@ int main(int argc, char** argv) {
     scarp::FolderLock checkpoints;
     if (first && !choice.checkpoint.empty() && !is_same_folder(choice.checkpoint, output.folder))
       checkpoints = scarp::FolderLock(choice.checkpoint);
+    if (choice.budget_companions && fault_rupture::ranks() > 1)
+      scarp::refuse("--budget-companions was given on {} ranks (companions run on one): leave the ranks out",
+                    fault_rupture::ranks());
     auto files = checkpoint_files(choice, app);
     std::optional<scarp::RunFolder> folder;
     if (first) {
@@ -194,7 +249,17 @@ int main(int argc, char** argv) {
                      examples::record_of("fault_rupture", app), &files);
     }
     auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
-    fault_rupture::Start const start{files, folder ? &*folder : nullptr, started};
+    std::filesystem::path const known =
+        choice.companions.empty() ? fault_rupture::usual_companion_file() : std::filesystem::path(choice.companions);
+    fault_rupture::CompanionFile companions(known, scene_lines(choice, app));
+    auto const ask = [&](scarp::RunReport const& report) {
+      if (choice.budget_companions) {
+        fault_rupture::CompanionRuns const runs{app, output.folder, started};
+        runs.complete(companions_of(choice, largest_gradient(scene)), report.steps, companions);
+      }
+      return companions.answers();
+    };
+    fault_rupture::Start const start{files, folder ? &*folder : nullptr, started, ask};
     return std::visit([&](auto const& chosen) { return run(choice, chosen, start); }, scene);
   } catch (std::exception const& error) {
     fault_rupture::give_up(examples::ended_by(error, "fault_rupture", app));

@@ -9,6 +9,7 @@
 
 #include "../shared/budget_report.hpp"
 #include "../shared/run_options.hpp"
+#include "companions.hpp"
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
@@ -30,6 +31,8 @@ struct Start {
   scarp::CheckpointFiles& files;
   scarp::RunFolder* folder = nullptr;  ///< on the first rank
   Moment moment{};                     ///< when the program began
+  /// Asked once the run itself has ended well; its answer is the error budget's.
+  std::function<CompanionAnswers(scarp::RunReport const&)> companions{};
 };
 
 /// An older, longer series would be mixed up with the new one, and an old summary would speak for it. A run that goes
@@ -167,15 +170,20 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& report = stages.report();
   if (!report.verdict.acceptable()) observers.ended(problem, report.load);
+  CompanionAnswers companions;
+  if (begun.companions && report.verdict.acceptable()) companions = begun.companions(report);
 
   on_first_rank(problem, [&] {
     takeover->take();  // also when nothing was left to do
     auto json = summary(choice, scene, problem, rest, report, elapsed());
     json["run"] = examples::json_of(begun.folder->record());
-    json["error_budget"] = examples::json_of(budget.parts());
+    auto parts = budget.parts();
+    for (auto& part : companion_parts(companions, json["surface_x50"], depth, examples::error_bounds(choice.budget)))
+      parts.push_back(std::move(part));
+    json["error_budget"] = examples::json_of(parts);
     scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
-    std::string text =
-        scarp::budget_headline(budget.parts()) + table(json) + "\n" + scarp::budget_table(budget.parts());
+    std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);
+    if (begun.companions) text += companion_lines(companions);
     if (!report.verdict.acceptable()) {
       text =
           fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n",
@@ -184,7 +192,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     }
     scarp::write_file(folder / "summary.txt", text);
     begun.folder->end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
-    fmt::print("{}", text);
+    if (begun.companions) fmt::print("{}", text);
   });
   if (report.verdict.acceptable()) return 0;
   constexpr int interrupted = 130;  // as a shell reports Ctrl-C

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The scene seen in a mirror.
+// The scene seen in a mirror, and with a length of zero.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -14,24 +14,35 @@
 namespace {
 
 using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength>;
-using Scene = scarp::FreeFieldFault<scarp::Nonlocal<Soil>, scarp::QuasiNewton<scarp::ConsistentTangent>, mirror::Ground,
-                                    mirror::Fault>;
+template <class SoilOfScene>
+using Scene =
+    scarp::FreeFieldFault<SoilOfScene, scarp::QuasiNewton<scarp::ConsistentTangent>, mirror::Ground, mirror::Fault>;
 
-std::vector<scarp::Vector<2>> ruptured(double length, bool mirrored) {
-  constexpr double degree = std::numbers::pi / 180.0;
-  Scene scene;
-  scene.soil.provider.elasticity = scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3);
-  scene.soil.provider.strength = {.peak = {.cohesion = 1e3, .friction = 31.0 * degree, .dilation = 7.0 * degree},
-                                  .residual = {.cohesion = 1e3, .friction = 26.0 * degree, .dilation = 0.0},
-                                  .strain_to_residual = 0.15};
-  scene.soil.provider.initial = {scene.surcharge, scene.unit_weight, 0.4};
-  scene.soil.length = length;
+template <class SoilOfScene>
+std::vector<scarp::Vector<2>> ruptured(SoilOfScene const& soil, bool mirrored) {
+  Scene<SoilOfScene> scene;
+  scene.soil = soil;
   scene.throw_to = 0.75;
   scene.solver.tolerance = 1e-10;
   scene.solver.rule.floor = 1e-4;
   auto places = mirror::ruptured(scene, mirrored);
   REQUIRE_FALSE(places.empty());
   return places;
+}
+
+Soil softening_soil() {
+  constexpr double degree = std::numbers::pi / 180.0;
+  Soil soil;
+  soil.elasticity = scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3);
+  soil.strength = {.peak = {.cohesion = 1e3, .friction = 31.0 * degree, .dilation = 7.0 * degree},
+                   .residual = {.cohesion = 1e3, .friction = 26.0 * degree, .dilation = 0.0},
+                   .strain_to_residual = 0.15};
+  soil.initial = {.surcharge = 4e3, .unit_weight = 15.68e3, .k0 = 0.4};
+  return soil;
+}
+
+std::vector<scarp::Vector<2>> ruptured(double length, bool mirrored) {
+  return ruptured(scarp::Nonlocal<Soil>{.provider = softening_soil(), .length = length}, mirrored);
 }
 
 }  // namespace
@@ -44,4 +55,8 @@ TEST_CASE("the mirrored scene gives the mirrored answer, without a length and wi
   CHECK(largest_difference(local, ruptured(0.0, true)) < 1e-6);
   CHECK(largest_difference(averaged, ruptured(8.0, true)) < 1e-6);
   CHECK(largest_difference(local, averaged) > 0.01);
+}
+
+TEST_CASE("a scene with a length of zero is the scene without one, bit for bit") {
+  CHECK(ruptured(0.0, false) == ruptured(softening_soil(), false));
 }

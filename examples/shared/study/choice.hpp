@@ -17,7 +17,7 @@ enum class Soil { dem, mohr_coulomb, elastic };
 enum class Base { sticking, frictional };
 enum class MeshPattern { crossed, left, right, quads, jittered };
 
-/// What a user may choose; defaults are the study's free field on a mesh for a ten-minute run.
+/// What a user may choose; the study's free field on a mesh for a ten-minute run.
 struct Choice {
   Case scene = Case::free;
   Soil soil = Soil::dem;
@@ -36,10 +36,11 @@ struct Choice {
   std::uint64_t seed = 1;
   double preparation_friction = 0.09;
   double throw_over_depth = 0.085;
-  double dip = 60.0;                       ///< [degrees]
-  bool reverse = false;                    ///< the hanging wall goes up
-  double tip = 0.0;                        ///< [m]
-  std::optional<double> tolerance;         ///< of the force residual; packings 1e-3, below a footing 5e-3; else 1e-10
+  double dip = 60.0;     ///< [degrees]
+  bool reverse = false;  ///< the hanging wall goes up
+  double tip = 0.0;      ///< [m]
+  std::optional<double>
+      tolerance;  ///< of the force residual; packings 1e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10
   std::optional<double> largest_gradient;  ///< of a load step; 0.005 with packings, else 0.02
   int most_iterations = 30;
   double strain_per_step = 1e-5;
@@ -57,6 +58,8 @@ struct Choice {
   double probe_b_y = 12.0;
   double time_limit = 0.0;          ///< [s], 0 for none
   std::vector<std::string> budget;  ///< bounds of the error budget, part=bound; the others are the usual ones
+  bool budget_companions = false;   ///< runs the scene once more for each part of the budget that needs another run
+  std::string companions;           ///< file of what companions came to
   std::string checkpoint;           ///< folder; empty: nothing is saved
   double checkpoint_every = 600.0;  ///< [s]
   bool resume = false;

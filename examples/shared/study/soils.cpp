@@ -34,7 +34,9 @@ AnySoil solved(Choice const& choice, Soil const& soil, typename Soil::Solver sol
 
 scarp::IsotropicElasticity soil_elasticity() { return scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25); }
 
-/// Prepared at the same time where threads are asked for.
+std::size_t images_of(Choice const& choice) { return choice.mirrored_packings ? 2 : 1; }
+
+/// No more than what points draw, at the same time where threads are asked for.
 Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   auto const law = examples::study_law();
   scarp::LevelGround<scarp::EllipseGrading> ground;
@@ -42,13 +44,10 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
   ground.unit_weight = unit_weight;
   ground.surcharge = surcharge;
   ground.preparation.preparation_friction = choice.preparation_friction;
-  auto const count = static_cast<std::size_t>(choice.packings);
-  std::size_t const images = choice.mirrored_packings ? 2 : 1;
+  auto depths = drawn_depths(choice, sites);
+  std::size_t const count = depths.size();
+  std::size_t const images = images_of(choice);
   Columns columns{std::vector<scarp::PackingsByDepth<Grains>>(images * count), choice.seed};
-  // No more than some point draws; an image goes with what it mirrors.
-  std::vector<std::vector<double>> depths(count);
-  for (auto const& site : sites)
-    depths[Columns::drawn(columns.seed, site.index, columns.sources.size()) % count].push_back(site.depth);
   scarp::ThreadExecutor executor(choice.packings > 1 ? choice.threads : 1);
   executor.for_each(choice.packings, [&](int number) {
     auto const k = static_cast<std::size_t>(number);
@@ -64,6 +63,18 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
 }
 
 }  // namespace
+
+std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
+  auto const count = static_cast<std::size_t>(choice.packings);
+  std::vector<std::vector<double>> depths(count);
+  for (auto const& site : sites)
+    depths[Columns::drawn(choice.seed, site.index, images_of(choice) * count) % count].push_back(site.depth);
+  for (auto& column : depths) {
+    std::ranges::sort(column);
+    column.erase(std::ranges::unique(column, [](double a, double b) { return b - a < 1e-6; }).begin(), column.end());
+  }
+  return depths;
+}
 
 Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   Sand sand;

@@ -37,7 +37,8 @@ struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, Columns>> {
 struct FrictionalSoil : scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength> {
   using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
   static constexpr double tangent_floor = 1e-4;  ///< of the solver's rule
-  static double tolerance(Choice const&) { return 1e-10; }
+  /// Where a point is just at the corner of its yield surface, iterations may go round and round at 1e-10 to 1e-8.
+  static double tolerance(Choice const&) { return 1e-8; }
   static double largest_gradient(bool) { return 0.02; }
 };
 
@@ -46,6 +47,10 @@ struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
   static double tolerance(Choice const&) { return 1e-10; }
   static double largest_gradient(bool) { return 0.02; }
 };
+
+/// Depths [m] at which points draw each column of packings, increasing; an image goes with what it mirrors.
+/// sites: of all points that will be sand
+std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<scarp::Site<2>> const& sites);
 
 /// sites: of all points that will be sand
 /// \throws scarp::PreparationError

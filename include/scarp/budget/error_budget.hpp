@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "scarp/budget/budget_part.hpp"
@@ -30,6 +32,11 @@ struct NoWorkBalance {
 template <class Problem>
 inline constexpr bool adds_up_work =
     Problem::is_bare && !SharesPoints<std::remove_cvref_t<decltype(std::declval<Problem const&>().executor())>>;
+
+/// Whether linear systems are iterated and not factorised: a stiffness that is applied has no entries.
+template <class Problem>
+inline constexpr bool iterates_equations =
+    !std::is_same_v<typename Problem::GroundStiffness, Eigen::SparseMatrix<double>>;
 
 template <class Problem>
 struct WorkBalanceOf {
@@ -97,7 +104,9 @@ class ErrorBudget : public NeverStops {
     add("residual", residual_, bounds_.residual, "largest force residual of an accepted step, over the reactions");
     if constexpr (detail::adds_up_work<Problem>)
       add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
-    add("linear_residual", linear_residual_, bounds_.linear_residual, "largest of a linear system");
+    add("linear_residual", linear_residual_,
+        detail::iterates_equations<Problem> ? bounds_.iterated_linear_residual : bounds_.linear_residual,
+        "largest of a linear system");
     add("condition", condition_, bounds_.condition, "largest estimate for a stiffness");
     if (packings_.looked_at > 0.0) {
       add("unbalanced_mean", packings_.mean_unbalanced(), bounds_.unbalanced_mean,

@@ -26,7 +26,7 @@ int nearest_point(DiscretisationType const& discretisation, Vector<Discretisatio
 }
 
 /// Follows the packing of one material point: stress and strain in geo view (compression positive), void ratio and fabrics,
-/// one row for each accepted step.
+/// one row for each accepted step. With an intrinsic length the strain is the mean that the packing sees.
 class RveProbe : public NeverStops {
  public:
   /// point: number of a material point, see nearest_point
@@ -43,7 +43,7 @@ class RveProbe : public NeverStops {
     if (!report.verdict.acceptable()) return;
     auto const stress = committed_stress(problem, point_);
     auto const geo_stress = geo::plane_stress(stress);
-    auto const strain = geo::plane_strain(total_deformation(problem.discretisation(), point_));
+    auto const strain = geo::plane_strain(seen_deformation(problem, point_));
     double fabric_of_contacts = std::numeric_limits<double>::quiet_NaN();
     double fabric_of_particles = fabric_of_contacts;
     double void_ratio = fabric_of_contacts;

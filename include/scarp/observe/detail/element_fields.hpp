@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/core/geo.hpp"
 #include "scarp/core/status.hpp"
@@ -26,6 +27,21 @@ Tensor<DiscretisationType::dim> total_deformation(DiscretisationType const& disc
   auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, discretisation.mesh().nodes),
                                             DiscretisationType::local_point(point));
   return corners<Element, dim>(nodes, discretisation.positions()).transpose().lazyProduct(shape.gradients);
+}
+
+/// The same as the material of a point sees it: where increments are averaged, the mean around the point.
+template <class Problem>
+auto seen_deformation(Problem const& problem, int point) {
+  auto const& grid = problem.discretisation();
+  auto const& materials = problem.materials();
+  if constexpr (AveragesGradients<std::remove_cvref_t<decltype(materials)>>) {
+    using Grid = std::remove_cvref_t<decltype(grid)>;
+    Tensor<Grid::dim> mean = Tensor<Grid::dim>::Zero();
+    for (auto const& share : materials.mean().of(point)) mean += share.weight * total_deformation(grid, share.point);
+    return mean;
+  } else {
+    return total_deformation(grid, point);
+  }
 }
 
 namespace detail {

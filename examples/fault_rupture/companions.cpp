@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "companions.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+#include "../shared/study/chosen_ground.hpp"
+#include "scarp/budget/companion_part.hpp"
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/io/read_file.hpp"
+
+namespace fault_rupture {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Triangles with the other diagonals, rectangles of another aspect.
+Companion turned_mesh(Choice choice) {
+  double factor = 1.0;  // of the cells' width, for as many elements
+  std::string options;
+  if (is_triangle) {
+    bool const crossed = choice.pattern.value_or(MeshPattern::crossed) == MeshPattern::crossed;
+    choice.pattern = crossed ? MeshPattern::right : MeshPattern::crossed;
+    factor = crossed ? 1.0 / std::numbers::sqrt2 : std::numbers::sqrt2;
+    options = crossed ? "--pattern right" : "--pattern crossed";
+  } else {
+    double const aspect = choice.aspect > 1.0 ? 1.0 : std::numbers::sqrt3;
+    factor = std::sqrt(choice.aspect / aspect);
+    choice.aspect = aspect;
+    options = fmt::format("--aspect {:.3g}", aspect);
+  }
+  if (choice.triangles == 0) {
+    choice.size *= factor;
+    options += fmt::format(" --size {:.3g}", choice.size);
+  }
+  return {"mesh", std::move(options), std::move(choice)};
+}
+
+/// All that a file holds: scenes with the answers of their companions.
+Json content(std::filesystem::path const& path) {
+  if (!std::filesystem::exists(path)) return Json::array();
+  auto const found = Json::parse(scarp::read_file(path), nullptr, false);
+  if (!found.is_array())
+    scarp::refuse("'{}' holds no answers of companions (a list of scenes is expected): give another file",
+                  path.string());
+  return found;
+}
+
+template <class Entries>
+auto* entry_of(Entries& entries, std::string const& scene) {
+  for (auto& entry : entries) {
+    if (entry.value("scene", "") == scene) return &entry;
+  }
+  return static_cast<decltype(&entries[0])>(nullptr);
+}
+
+}  // namespace
+
+std::vector<Companion> companions_of(Choice const& choice, double largest_gradient) {
+  std::vector<Companion> companions;
+  if (choice.mesh.empty()) companions.push_back(turned_mesh(choice));
+  Companion steps{"load_step", "", choice};
+  steps.choice.largest_gradient = largest_gradient;
+  companions.push_back(with_smaller_steps(std::move(steps)));
+  return companions;
+}
+
+Companion with_smaller_steps(Companion companion) {
+  double const gradient = *companion.choice.largest_gradient / 2.0;
+  companion.choice.largest_gradient = gradient;
+  companion.options = fmt::format("--largest-gradient {:g}", gradient);
+  return companion;
+}
+
+CompanionFile::CompanionFile(std::filesystem::path path, std::string scene)
+    : path_(std::move(path)), scene_(std::move(scene)) {
+  auto const all = content(path_);
+  auto const* const entry = entry_of(all, scene_);
+  if (entry == nullptr) return;
+  for (auto const& [part, answer] : (*entry)["companions"].items()) {
+    answers_[part] = {answer.value("surface_x50", std::nan("")), answer.value("options", ""),
+                      answer.value("command", ""), answer.value("date", ""), answer.value("commit", "")};
+  }
+}
+
+void CompanionFile::add(std::string const& part, CompanionAnswer answer) {
+  auto all = content(path_);
+  auto* entry = entry_of(all, scene_);
+  if (entry == nullptr) {
+    all.push_back({{"scene", scene_}, {"companions", Json::object()}});
+    entry = &all.back();
+  }
+  (*entry)["companions"][part] = {{"surface_x50", answer.surface_x50},
+                                  {"options", answer.options},
+                                  {"command", answer.command},
+                                  {"date", answer.date},
+                                  {"commit", answer.commit}};
+  scarp::write_file(path_, all.dump(2) + "\n");
+  answers_[part] = std::move(answer);
+}
+
+std::filesystem::path usual_companion_file() { return FAULT_RUPTURE_COMPANIONS; }
+
+scarp::BudgetParts companion_parts(CompanionAnswers const& answers, double surface_x50, double depth,
+                                   scarp::ErrorBounds const& bounds) {
+  scarp::BudgetParts parts;
+  auto const add = [&](char const* name, double bound, char const* meaning) {
+    auto const found = answers.find(name);
+    if (found != answers.end())
+      parts.push_back(scarp::companion_part(name, surface_x50, found->second.surface_x50, depth, bound, meaning));
+  };
+  add("mesh", bounds.mesh, "surface_x50 on a mesh of other directions, over the depth of the ground");
+  add("load_step", bounds.load_step, "surface_x50 with smaller load steps, over the depth of the ground");
+  return parts;
+}
+
+std::string companion_lines(CompanionAnswers const& answers) {
+  if (answers.empty())
+    return "What the mesh and the load steps are worth is not known: --budget-companions runs the scene once more for "
+           "each\n";
+  std::string text;
+  for (auto const& [part, answer] : answers) {
+    text += fmt::format("{}: surface_x50 {:.2f} m with {} ({}, commit {}, {})\n", part, answer.surface_x50,
+                        answer.options, answer.date, answer.commit, answer.command);
+  }
+  return text;
+}
+
+}  // namespace fault_rupture

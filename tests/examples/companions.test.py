@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Companions of a run: fault_rupture with --budget-companions estimates what the mesh and the load steps are worth, keeps that by
+scene, and a later run of the same scene tells it. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit
+77, without)."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
+program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
+if not program.is_file():
+    print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
+    sys.exit(77)
+
+
+def run(folder, *options):
+    done = subprocess.run([program.resolve(), "--quick", "--soil", "mohr_coulomb", "--length", "12", "--frames", "1",
+                           "--companions", "known.json", "--output", "out", "--overwrite", *options],
+                          cwd=folder, capture_output=True, text=True)
+    summary = pathlib.Path(folder, "out", "summary.json")
+    return done, json.loads(summary.read_text()) if done.returncode == 0 else {}
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    done, summary = run(scratch)
+    expect(done.returncode == 0 and "--budget-companions" in done.stdout, "a run without companions says how to get them")
+    expect("mesh" not in summary["error_budget"]["parts"], "it claims nothing of the mesh")
+
+    done, summary = run(scratch, "--budget-companions")
+    expect(done.returncode == 0, f"companions end well: {done.stderr[-500:]}")
+    parts = summary["error_budget"]["parts"]
+    other = json.loads(pathlib.Path(scratch, "out", "companion_mesh", "summary.json").read_text())
+    apart = abs(other["surface_x50"] - summary["surface_x50"]) / 25.0
+    expect(apart > 1e-4 and abs(parts["mesh"]["value"] - apart) < 1e-12, f"the mesh's part is that of the other mesh: {parts['mesh']}")
+    finer = json.loads(pathlib.Path(scratch, "out", "companion_load_step", "summary.json").read_text())
+    expect(finer["steps"] >= 1.3 * summary["steps"], "load steps of the companion are smaller")
+    expect(parts["load_step"]["value"] > 0.0, "and change the answer")
+
+    # Known from now on, to the same scene, whatever is written on the way.
+    done, later = run(scratch, "--probe-a-x", "-5")
+    expect(later["error_budget"]["parts"]["mesh"] == parts["mesh"], "a later run of the same scene tells it")
+    expect("--pattern right" in done.stdout and "commit" in done.stdout, "and where it comes from")
+    done, another = run(scratch, "--dip", "70")
+    expect("mesh" not in another["error_budget"]["parts"], "another scene does not")
+
+    pathlib.Path(scratch, "known.json").write_text('{"scene": ')
+    done, _ = run(scratch)
+    expect(done.returncode == 2 and "known.json" in done.stderr, f"a damaged file is refused: {done.stderr}")
+    expect(pathlib.Path(scratch, "known.json").read_text() == '{"scene": ', "and stays as it is")
+finish()
