@@ -18,7 +18,7 @@ struct AnyTangent {
   }
 };
 
-using Soil = scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>, AnyTangent>;
+using Soil = scarp::DemRve<Grains, fault_rupture::Columns, AnyTangent>;
 
 /// The study's scene with another tangent and solver.
 template <class Solver>

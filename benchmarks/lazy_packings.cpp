@@ -32,7 +32,7 @@ struct AnyTangent {
   scarp::VoigtTangent<2> operator()(Grains const& packing, Law const& law) const { return policy(packing, law); }
 };
 
-using Packings = scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>, AnyTangent>;
+using Packings = scarp::DemRve<Grains, fault_rupture::Columns, AnyTangent>;
 
 struct LazySand : scarp::Lazy<Packings> {};
 

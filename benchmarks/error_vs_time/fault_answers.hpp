@@ -83,6 +83,7 @@ scarp::Measured run_fault(SceneType const& scene, Executor& executor, double mos
   auto const survey = scarp::rupture_survey(mesh, rest.of(mesh), grid.positions(), offset_at(scene.fault, report.load));
   measured.answer("surface profile", settlements(profile, report.load));
   measured.answer("outcrop", survey.surface.outcrop_x);
+  measured.answer("x05", survey.surface.surface_x05);
   measured.answer("x50", survey.surface.surface_x50);
   measured.answer("band width", survey.surface.outcrop_width);
   measured.answer("band angle", band_angle(problem));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "mesh_directions.hpp"
 #include "scarp/measure/measured.hpp"
 
 namespace error_vs_time {
@@ -12,7 +13,10 @@ enum class FaultSolver { point_secant, along_iterates, frozen_bfgs, relaxation }
 
 /// What a run of the free-field fault may be made with.
 struct FaultSettings {
-  double size = 5.0;  ///< of a cell in the band [m]
+  double size = 5.0;  ///< of a cell in the band [m], see set_mesh
+  MeshPattern pattern = MeshPattern::crossed;
+  double aspect = 1.0;  ///< height of a cell over its width
+  double length = 0.0;  ///< intrinsic [m], for the point secant only; 0: local
   double throw_over_depth = 0.02;
   int grains = 100;
   std::uint64_t seed = 1;
@@ -34,6 +38,7 @@ FaultSettings fault_rupture_defaults();
 /// The free field with a packing in every triangle. Packings are prepared once for each mesh, number of grains and seed, outside of
 /// the time that is measured.
 /// repetition: moves the seed on
+/// \throws scarp::InputError for a length with another solver
 scarp::Measured sand_fault(FaultSettings const& settings, int repetition);
 
 }  // namespace error_vs_time

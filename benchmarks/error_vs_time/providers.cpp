@@ -17,7 +17,9 @@ struct FootingOnSoil : scarp::FaultScene<NonlocalSoil, fault_rupture::RigidFooti
 
 /// A mesh and settings of a fault in ground that is cheap to ask.
 struct GroundSettings {
-  double size = 2.5;  ///< of a cell in the band [m]
+  double size = 2.5;  ///< of a cell in the band [m], see set_mesh
+  MeshPattern pattern = MeshPattern::crossed;
+  double aspect = 1.0;  ///< height of a cell over its width
   double throw_over_depth = 0.02;
   double largest_gradient = 0.02;
   double tolerance = 1e-10;
@@ -27,7 +29,7 @@ struct GroundSettings {
 
 fault_rupture::Choice choice_of(GroundSettings const& settings) {
   fault_rupture::Choice choice;
-  choice.size = settings.size;
+  set_mesh(choice, settings.size, settings.pattern, settings.aspect);
   choice.throw_over_depth = settings.throw_over_depth;
   choice.largest_gradient = settings.largest_gradient;
   choice.tolerance = settings.tolerance;
@@ -83,7 +85,8 @@ scarp::SweepTable providers(Options const& options) {
   return sweep.run(options.repetitions_or(options.quick ? 1 : 2));
 }
 
-/// Softening ground below the heavy footing. Load steps and tolerances are judged on the finest mesh, meshes with the finest steps.
+/// Softening ground below the heavy footing. Load steps, tolerances and directions of the mesh are judged on the finest mesh, meshes
+/// with the finest steps.
 scarp::SweepTable mohr_coulomb(Options const& options, double length) {
   double const half = options.quick ? 2.0 : 1.0;
   GroundSettings const base{.size = (length > 0.0 ? 3.5 : 2.5) * half, .length = length};
@@ -111,6 +114,29 @@ scarp::SweepTable mohr_coulomb(Options const& options, double length) {
                settings.tolerance = tolerance;
              },
              {1e-2, 1e-3, 1e-4, 1e-6});
+  sweep.vary("aspect of a cell, finest mesh and step",
+             [fine](GroundSettings& settings, double aspect) {
+               settings = fine;
+               settings.aspect = aspect;
+             },
+             {1.73, 2.5});
+  sweep.vary_over<LeftPattern, RightPattern, JitteredPattern>(
+      "pattern, finest mesh and step", {"left", "right", "jittered"}, [fine](auto pattern, GroundSettings const&) {
+        auto settings = fine;
+        settings.pattern = pattern.value;
+        return footing(settings);
+      });
+  if (length > 0.0) {
+    double const cells = length / fine.size;
+    sweep.vary(
+        "length [m], as many cells in it, finest step",
+        [fine, cells](GroundSettings& settings, double shorter) {
+          settings = fine;
+          settings.length = shorter;
+          settings.size = shorter / cells;
+        },
+        options.quick ? std::vector{11.3} : std::vector{5.66, 4.0});
+  }
   return sweep.run(options.repetitions_or(1));
 }
 
