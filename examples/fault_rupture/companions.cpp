@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -61,10 +62,9 @@ Json content(std::filesystem::path const& path) {
 
 template <class Entries>
 auto* entry_of(Entries& entries, std::string const& scene) {
-  for (auto& entry : entries) {
-    if (entry.value("scene", "") == scene) return &entry;
-  }
-  return static_cast<decltype(&entries[0])>(nullptr);
+  auto const found =
+      std::ranges::find_if(entries, [&](auto const& entry) { return entry.value("scene", "") == scene; });
+  return found == entries.end() ? nullptr : &*found;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Companion {
 /// largest_gradient: that limits the scene's load steps
 std::vector<Companion> companions_of(Choice const& choice, double largest_gradient);
 
-/// The same with load steps half as large again, where the limit of the others was hardly ever met.
+/// The same with a limit of its load steps half as large, where that of the others was hardly ever met.
 Companion with_smaller_steps(Companion companion);
 
 /// What a companion came to, by its part of the budget.

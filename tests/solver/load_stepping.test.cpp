@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "approx.hpp"
+#include "scarp/bvp/loads.hpp"
 #include "solver/sample_block.hpp"
 
 namespace {
@@ -171,6 +172,27 @@ TEST_CASE("an observer stops a run between two attempts") {
   // What was stopped can go on.
   witness.stop_after = 1000;
   CHECK(stepping().run(scarp::QuasiNewton<>{}, problem, run.load, 0.02, witness).verdict == Verdict{});
+}
+
+TEST_CASE("settling that an observer stops counts as never made") {
+  SoftBlock::Grid grid(scarp::RectangleMesh{.columns = 3, .rows = 2}.generate());
+  scarp::Constraints constraints(grid.mesh());
+  for (int const node : scarp::boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node);
+  Eigen::VectorXd const weight = scarp::body_force(grid, [](int) { return scarp::Vector<2>(0.0, -2e4); });
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+  scarp::SerialExecutor serial;
+  SoftBlock::Problem problem(grid, {Softening{.reference_strain = 0.002}, sites}, constraints, weight, serial);
+  auto witness = sample::watch(problem);
+  witness.stop_after = 0;
+  auto const stopped = stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, witness);
+  CHECK(stopped.verdict == Verdict{Status::not_converged, Reason::interrupted});
+  CHECK(stopped.refused == 0);
+  CHECK(stopped.last_failure == Reason::none);
+  CHECK(witness.reports.empty());
+  CHECK(sample::Committed<SoftBlock::Problem>(problem) == witness.committed);
+  witness.stop_after = 1000;
+  CHECK(stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, witness).verdict == Verdict{});
 }
 
 TEST_CASE("the prediction's largest gradient limits every step before it is tried") {

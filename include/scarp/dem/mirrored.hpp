@@ -11,7 +11,7 @@ namespace scarp {
 /// A packing in the mirror x -> -x, with all that its contacts remember. It answers a mirrored strain with the mirrored stress, bit
 /// by bit until lists of pairs are made anew, whose order is another, or a grain that stood still is met, whose +0 damping takes
 /// for forwards. Where a packing is stiffer by accident to one side, its image is to the other. For plane shapes that are
-/// symmetric about the axis of their orientation.
+/// symmetric about the axis of their orientation and the one across, as ellipses are.
 template <class PackingType>
 PackingType mirrored(PackingType packing) {
   using Shape = typename PackingType::Shape;

@@ -130,11 +130,12 @@ struct LoadStepping {
       displacement = session.predict(load, load);
       session.correct(displacement, step, [&] { return observer.wants_stop(); });
     }
+    run.verdict = step.verdict;
+    if (step.interrupted()) return run;
     step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     bool const accepted = step.verdict.acceptable();
     if (accepted) session.accept(displacement);
     count(run, step, accepted);
-    run.verdict = step.verdict;
     observer.attempted(problem, step);
     return run;
   }
