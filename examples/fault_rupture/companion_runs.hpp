@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -56,22 +57,32 @@ struct CompanionRuns {
           "its load steps are limited by something else (smaller ones were not to be had): say a smaller "
           "--largest-gradient");
     file.add(companion.part,
-             {summary["surface_x50"].get<double>(), companion.options, "examples/run fault_rupture --budget-companions",
-              scarp::time_stamp().substr(0, 10), commit});
+             {summary["surface_x50"].get<double>(), command_options(companion),
+              "examples/run fault_rupture --budget-companions", scarp::time_stamp().substr(0, 10), commit});
   }
 
   /// \return its summary \throws scarp::InputError where it has stopped early
   nlohmann::json answer_of(Companion const& companion) const {
-    fmt::print(stderr, "companion for {}: {}\n", companion.part, companion.options);
+    fmt::print(stderr, "companion for {}: {}\n", companion.part, command_options(companion));
     scarp::CheckpointFiles nowhere;
     auto const own = folder / fmt::format("companion_{}", companion.part);
-    scarp::RunFolder writes({.folder = own, .overwrite = true},
-                            examples::record_of("fault_rupture, companion for " + companion.part, app));
+    scarp::RunFolder writes({.folder = own, .overwrite = true}, record_of(companion, own));
     auto const scene = make_scene(companion.choice, 1, true);
     Start const start{nowhere, &writes, started};
     int const code = std::visit([&](auto const& one) { return run(companion.choice, one, start); }, scene);
     if (code != 0) scarp::refuse("it has stopped early: see {}", (own / "summary.txt").string());
     return nlohmann::json::parse(scarp::read_file(own / "summary.json"));
+  }
+
+  /// With the options that would run it alone.
+  scarp::RunRecord record_of(Companion const& companion, std::filesystem::path const& own) const {
+    auto record = examples::record_of("fault_rupture, companion for " + companion.part, app);
+    std::map<std::string, std::string> others(companion.options.begin(), companion.options.end());
+    others.insert({{"budget-companions", "false"}, {"output", own.string()}});
+    for (auto& [name, value] : record.options) {
+      if (auto const other = others.find(name); other != others.end()) value = other->second;
+    }
+    return record;
   }
 };
 

@@ -23,22 +23,23 @@ using Json = nlohmann::ordered_json;
 /// Triangles with the other diagonals, rectangles of another aspect.
 Companion turned_mesh(Choice choice) {
   double factor = 1.0;  // of the cells' width, for as many elements
-  std::string options;
+  scarp::RunRecord::Lines options;
   if (is_triangle) {
     auto const pattern = choice.pattern.value_or(MeshPattern::crossed);
     bool const crossed = pattern == MeshPattern::crossed || pattern == MeshPattern::jittered;  // crossed too
     choice.pattern = crossed ? MeshPattern::right : MeshPattern::crossed;
     factor = crossed ? 1.0 / std::numbers::sqrt2 : std::numbers::sqrt2;
-    options = crossed ? "--pattern right" : "--pattern crossed";
+    options.emplace_back("pattern", crossed ? "right" : "crossed");
   } else {
-    double const aspect = choice.aspect > 1.0 ? 1.0 : std::numbers::sqrt3;
+    double const aspect = choice.aspect > 1.0 ? 1.0 : 1.73;
     factor = std::sqrt(choice.aspect / aspect);
     choice.aspect = aspect;
-    options = fmt::format("--aspect {:.3g}", aspect);
+    options.emplace_back("aspect", fmt::format("{:g}", aspect));
   }
   if (choice.triangles == 0) {
-    choice.size *= factor;
-    options += fmt::format(" --size {:.3g}", choice.size);
+    auto const size = fmt::format("{:.3g}", factor * choice.size);
+    choice.size = std::stod(size);  // as it would be given
+    options.emplace_back("size", size);
   }
   return {"mesh", std::move(options), std::move(choice)};
 }
@@ -69,10 +70,17 @@ auto* entry_of(Entries& entries, std::string const& scene) {
 
 }  // namespace
 
+std::string command_options(Companion const& companion) {
+  std::string text;
+  for (auto const& [name, value] : companion.options)
+    text += fmt::format("{}--{} {}", text.empty() ? "" : " ", name, value);
+  return text;
+}
+
 std::vector<Companion> companions_of(Choice const& choice, double largest_gradient) {
   std::vector<Companion> companions;
   if (choice.mesh.empty()) companions.push_back(turned_mesh(choice));
-  Companion steps{"load_step", "", choice};
+  Companion steps{"load_step", {}, choice};
   steps.choice.largest_gradient = largest_gradient;
   companions.push_back(with_smaller_steps(std::move(steps)));
   return companions;
@@ -81,7 +89,7 @@ std::vector<Companion> companions_of(Choice const& choice, double largest_gradie
 Companion with_smaller_steps(Companion companion) {
   double const gradient = *companion.choice.largest_gradient / 2.0;
   companion.choice.largest_gradient = gradient;
-  companion.options = fmt::format("--largest-gradient {:g}", gradient);
+  companion.options = {{"largest-gradient", fmt::format("{:g}", gradient)}};
   return companion;
 }
 

@@ -9,15 +9,19 @@
 #include "../shared/study/choice.hpp"
 #include "scarp/budget/budget_part.hpp"
 #include "scarp/budget/error_bounds.hpp"
+#include "scarp/run/run_record.hpp"
 
 namespace fault_rupture {
 
 /// The scene once more with one choice made otherwise, which tells what that choice is worth.
 struct Companion {
-  std::string part;     ///< of the error budget
-  std::string options;  ///< what is other, as on a command line
+  std::string part;                 ///< of the error budget
+  scarp::RunRecord::Lines options;  ///< those that are other
   Choice choice;
 };
+
+/// What is other, as on a command line.
+std::string command_options(Companion const& companion);
 
 /// A mesh of as many elements with other directions, unless the mesh comes from a file; load steps of half the size.
 /// largest_gradient: that limits the scene's load steps

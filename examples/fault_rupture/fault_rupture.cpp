@@ -105,10 +105,14 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--base-friction", choice.base_friction, "coefficient of a frictional footing")
       ->check(number_from(0.0, true, 10.0));
-  app.add_flag("--quick")->description("tiny mesh and few grains; other options still apply")->configurable(false);
+  app.add_flag("--quick")
+      ->description("tiny mesh and few grains; other options still apply")
+      ->configurable(false)
+      ->disable_flag_override();
   app.add_flag("--local")
       ->description("no length and copies of one packing, as in the study; other options still apply")
-      ->configurable(false);
+      ->configurable(false)
+      ->disable_flag_override();
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(number_from(0.0, false, 25.0));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
       ->check(CLI::Range(100, 1'000'000))

@@ -35,6 +35,8 @@ with tempfile.TemporaryDirectory() as scratch:
     expect(done.returncode == 0, f"companions end well: {done.stderr[-500:]}")
     parts = summary["error_budget"]["parts"]
     other = json.loads(pathlib.Path(scratch, "out", "companion_mesh", "summary.json").read_text())
+    recorded = json.loads(pathlib.Path(scratch, "out", "companion_mesh", "run.json").read_text())["options"]
+    expect(recorded["pattern"] == "right" and recorded["budget-companions"] == "false", f"it records its own options: {recorded}")
     apart = abs(other["surface_x50"] - summary["surface_x50"]) / 25.0
     expect(apart > 1e-4 and abs(parts["mesh"]["value"] - apart) < 1e-12, f"the mesh's part is that of the other mesh: {parts['mesh']}")
     finer = json.loads(pathlib.Path(scratch, "out", "companion_load_step", "summary.json").read_text())
