@@ -212,7 +212,9 @@ int main(int argc, char** argv) {
   // Flags that change defaults, which must be in place before the other options are read.
   make_objective(choice);
   auto const given = [&](std::string_view flag) {
-    return std::any_of(argv + 1, argv + argc, [&](char const* word) { return word == flag; });
+    // Another value than true is refused later.
+    return std::any_of(argv + 1, argv + argc,
+                       [&](std::string_view word) { return word == flag || word == fmt::format("{}=true", flag); });
   };
   if (given("--local")) make_local(choice);
   if (given("--quick")) make_quick(choice);

@@ -19,7 +19,7 @@ if not program.is_file():
 
 
 def run(folder, *options):
-    done = subprocess.run([program.resolve(), "--quick", "--soil", "mohr_coulomb", "--length", "12", "--frames", "1",
+    done = subprocess.run([program.resolve(), "--quick=true", "--soil", "mohr_coulomb", *([] if "--length" in options else ["--length", "12"]), "--frames", "1",
                            "--companions", "known.json", "--output", "out", "--overwrite", *options],
                           cwd=folder, capture_output=True, text=True)
     summary = pathlib.Path(folder, "out", "summary.json")
@@ -49,6 +49,10 @@ with tempfile.TemporaryDirectory() as scratch:
     expect("--pattern right" in done.stdout and "commit" in done.stdout, "and where it comes from")
     done, another = run(scratch, "--dip", "70")
     expect("mesh" not in another["error_budget"]["parts"], "another scene does not")
+
+    done, local = run(scratch, "--length", "0")
+    expect(local["error_budget"]["parts"]["linear_residual"]["bound"] == 1e-8, "factors without a length have to solve exactly")
+    expect(summary["error_budget"]["parts"]["linear_residual"]["bound"] > 1e-8, "Krylov's method with one need not")
 
     pathlib.Path(scratch, "known.json").write_text('{"scene": ')
     done, _ = run(scratch)
