@@ -7,6 +7,8 @@
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "companion_runs.hpp"
+#include "ensemble_runs.hpp"
+#include "own_folders.hpp"
 #include "run_scene.hpp"
 
 namespace {
@@ -37,58 +39,8 @@ void make_quick(Choice& choice) {
   choice.quick = true;
 }
 
-/// A line for each choice that the results depend on.
-struct ChoiceLines {
-  std::map<std::string, std::string> words;  ///< of options
-  std::string text{};
-
-  template <class Value>
-  void operator()(std::string_view name, Value const& value) {
-    if constexpr (std::is_enum_v<Value>) {
-      text += fmt::format("{} = {}\n", name, words.at(std::string(name)));
-    } else {
-      text += fmt::format("{} = {}\n", name, value);
-    }
-  }
-  void operator()(std::string_view name, std::optional<double> const& value) {
-    text += fmt::format("{} = {}\n", name, value ? fmt::format("{}", *value) : "the soil's own");
-  }
-  void operator()(std::string_view name, std::optional<fault_rupture::MeshPattern> const& value) {
-    text += fmt::format("{} = {}\n", name, value ? words.at(std::string(name)) : "the element's own");
-  }
-};
-
-/// Of all that the results depend on.
-ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
-  auto const options = examples::all_options(app);
-  ChoiceLines lines{{options.begin(), options.end()}};
-  Choice::members(choice, lines);
-  lines("element", fault_rupture::element_name);
-  // What a file holds and not where it lies.
-  if (!choice.mesh.empty()) lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
-  return lines;
-}
-
-/// Of all that the answer depends on: not what is written on the way.
-std::string scene_lines(Choice choice, CLI::App const& app) {
-  Choice const usual;
-  choice.frames = usual.frames;
-  choice.probe_a_x = usual.probe_a_x;
-  choice.probe_a_y = usual.probe_a_y;
-  choice.probe_b_x = usual.probe_b_x;
-  choice.probe_b_y = usual.probe_b_y;
-  return choice_lines(choice, app).text;
-}
-
-/// \throws scarp::CheckpointError
-scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
-  auto lines = choice_lines(choice, app);
-  // The error budget follows points of the first rank.
-  if (int const ranks = fault_rupture::ranks(); ranks > 1) lines("ranks", ranks);
-  return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
-}
-
-void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element) {
+void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element,
+                     std::vector<std::uint64_t>& seeds) {
   using namespace fault_rupture;
   using examples::add_named;
   using examples::number_from;
@@ -144,7 +96,15 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(CLI::Range(1, 100'000));
   add_named<bool>(app, "--mirrored-packings", choice.mirrored_packings,
                   "whether points draw among the mirror images of these too", {{"yes", true}, {"no", false}});
-  app.add_option("--seed", choice.seed, "of the packings")->check(examples::seed_number());
+  auto* const seed = app.add_option("--seed", choice.seed, "of the packings")->check(examples::seed_number());
+  app.add_option_function<std::string>(
+         "--seeds",
+         [&seeds](std::string const& given) {
+           for (auto const& item : examples::list_items(given)) seeds.push_back(std::stoull(item));
+         },
+         "several packings at once, as 1,2,3: each in a folder of its own, and mean and scatter of all measures")
+      ->check(examples::each_of_list(examples::seed_number()))
+      ->excludes(seed);
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));
@@ -198,11 +158,6 @@ double largest_gradient(fault_rupture::AnyScene const& scene) {
   return std::visit([](auto const& chosen) { return chosen.stepping.largest_gradient; }, scene);
 }
 
-bool is_same_folder(std::filesystem::path const& one, std::filesystem::path const& other) {
-  std::error_code trouble;
-  return std::filesystem::weakly_canonical(one, trouble) == std::filesystem::weakly_canonical(other, trouble);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -224,7 +179,8 @@ int main(int argc, char** argv) {
   app.option_defaults()->always_capture_default();
   std::string element = fault_rupture::element_name;
   examples::Output output{"output/fault_rupture"};
-  declare_options(app, choice, output, element);
+  std::vector<std::uint64_t> seeds;
+  declare_options(app, choice, output, element, seeds);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
@@ -241,23 +197,15 @@ int main(int argc, char** argv) {
   try {
     // Folders are for the first rank; when it gives up, the others end with it.
     bool const first = fault_rupture::rank() == 0;
-    scarp::FolderLock checkpoints;
-    if (first && !choice.checkpoint.empty() && !is_same_folder(choice.checkpoint, output.folder))
-      checkpoints = scarp::FolderLock(choice.checkpoint);
     if (choice.budget_companions && fault_rupture::ranks() > 1)
       scarp::refuse("--budget-companions was given on {} ranks (companions run on one): leave the ranks out",
                     fault_rupture::ranks());
-    auto files = checkpoint_files(choice, app);
-    std::optional<scarp::RunFolder> folder;
-    if (first) {
-      folder.emplace(scarp::RunFolderSettings{.folder = output.folder,
-                                              .overwrite = output.overwrite,
-                                              .results = {"summary.json", "convergence.csv", "fields.pvd"}},
-                     examples::record_of("fault_rupture", app), &files);
-    }
+    if (!seeds.empty()) return fault_rupture::EnsembleRuns{app, output, started}.run(choice, seeds);
+    fault_rupture::OwnFolders own(choice, app, output.folder, output.overwrite,
+                                  examples::record_of("fault_rupture", app));
     std::filesystem::path const known =
         choice.companions.empty() ? fault_rupture::usual_companion_file() : std::filesystem::path(choice.companions);
-    fault_rupture::CompanionFile companions(known, scene_lines(choice, app));
+    fault_rupture::CompanionFile companions(known, fault_rupture::scene_lines(choice, app));
     auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
     auto const ask = [&](scarp::RunReport const& report) {
       if (choice.budget_companions) {
@@ -266,7 +214,7 @@ int main(int argc, char** argv) {
       }
       return companions.answers();
     };
-    fault_rupture::Start const start{files, folder ? &*folder : nullptr, started, ask};
+    fault_rupture::Start const start{own.files, own.on_first_rank(), started, ask};
     return std::visit([&](auto const& chosen) { return run(choice, chosen, start); }, scene);
   } catch (std::exception const& error) {
     fault_rupture::give_up(examples::ended_by(error, "fault_rupture", app));

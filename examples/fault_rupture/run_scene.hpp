@@ -33,6 +33,8 @@ struct Start {
   Moment moment{};                     ///< when the program began
   /// Asked once the run itself has ended well; its answer is the error budget's.
   std::function<CompanionAnswers(scarp::RunReport const&)> companions{};
+  scarp::ThreadExecutor* threads = nullptr;  ///< that several runs share; without, the run has its own
+  std::string name{};                        ///< of one among several, before its lines on the error stream
 };
 
 /// An older, longer series would be mixed up with the new one, and an old summary would speak for it. A run that goes
@@ -110,7 +112,8 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   auto const elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun.moment).count();
   };
-  scarp::ThreadExecutor threads(threads_of_a_process(choice.threads));
+  std::optional<scarp::ThreadExecutor> own_threads;
+  auto& threads = begun.threads != nullptr ? *begun.threads : own_threads.emplace(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
   if (agreed(executor, files.resumes()) != files.resumes()) {
     scarp::refuse(
@@ -121,8 +124,8 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   fs::path const folder = begun.folder != nullptr ? begun.folder->path() : "";
   std::optional<Takeover> takeover;
   if (is_first_rank(executor)) {
-    if (files.resumes()) fmt::print(stderr, "going on from '{}'\n", files.newest().string());
-    fmt::print(stderr, "{} {} elements, {} threads, ground made after {:.1f} s\n",
+    if (files.resumes()) fmt::print(stderr, "{}going on from '{}'\n", begun.name, files.newest().string());
+    fmt::print(stderr, "{}{} {} elements, {} threads, ground made after {:.1f} s\n", begun.name,
                problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
     if (choice.length > 0.0 && problem.materials().mean().is_local()) {
       fmt::print(stderr,
@@ -151,7 +154,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
         scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
         footing_log(folder, scene.structure, to, profiles, depth, start),
-        scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth),
+        scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth, begun.name),
         scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
   });
 

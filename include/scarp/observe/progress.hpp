@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <string>
+#include <utility>
 
 #include "scarp/bvp/describe_dof.hpp"
 #include "scarp/observe/observers.hpp"
@@ -14,7 +16,9 @@ namespace scarp {
 /// A line for every attempt on the error stream: step, load, residual, iterations, elapsed and remaining time.
 class Progress : public NeverStops {
  public:
-  Progress(double to, double load_unit) : to_(to), load_unit_(load_unit), started_(std::chrono::steady_clock::now()) {}
+  /// name: before every line, of one run among several
+  Progress(double to, double load_unit, std::string name = {})
+      : to_(to), load_unit_(load_unit), name_(std::move(name)), started_(std::chrono::steady_clock::now()) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
@@ -22,18 +26,18 @@ class Progress : public NeverStops {
     double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     if (report.verdict.acceptable()) {
       double const remaining = report.load > 0.0 ? elapsed * (to_ - report.load) / (report.load - from_) : 0.0;
-      fmt::print(stderr,
-                 "step {:4}  h/H {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n",
-                 report.step, report.load / load_unit_, report.residual(), report.iterations(), elapsed, remaining);
+      fmt::print(
+          stderr, "{}step {:4}  h/H {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n",
+          name_, report.step, report.load / load_unit_, report.residual(), report.iterations(), elapsed, remaining);
     } else {
-      fmt::print(stderr, "step {:4}  refused at h/H {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n",
-                 report.step, report.load / load_unit_, report.iterations(), report.residual(),
+      fmt::print(stderr, "{}step {:4}  refused at h/H {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n",
+                 name_, report.step, report.load / load_unit_, report.iterations(), report.residual(),
                  name(report.verdict.reason), where(problem, report));
     }
     std::fflush(stderr);
   }
 
-  SCARP_MEMBERS_EXCEPT((to_, load_unit_, from_, started_))  // the time that remains is guessed anew
+  SCARP_MEMBERS_EXCEPT((to_, load_unit_, name_, from_, started_))  // the time that remains is guessed anew
 
  private:
   template <class Problem>
@@ -47,6 +51,7 @@ class Progress : public NeverStops {
 
   double to_;
   double load_unit_;
+  std::string name_;
   double from_ = -1.0;  ///< load of the fault's motion at the first attempt, zero unless the run continues another
   std::chrono::steady_clock::time_point started_;
 };

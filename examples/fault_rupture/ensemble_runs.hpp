@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "../shared/run_options.hpp"
+#include "ensemble.hpp"
+#include "own_folders.hpp"
+#include "run_scene.hpp"
+#include "scarp/io/atomic_file.hpp"
+
+namespace fault_rupture {
+
+/// Runs one scene with several packings in one process: the points of all share the threads, and what one does outside of its points
+/// goes on beside the points of another. Each has the bits of a run of its own.
+struct EnsembleRuns {
+  CLI::App const& app;
+  examples::Output const& output;
+  Moment started;
+
+  /// \return exit code of the program: that of the first member that did not come to its end, else 0
+  /// \throws scarp::InputError for seeds that are no ensemble, and what a single run throws before it begins
+  int run(Choice const& choice, std::vector<std::uint64_t> const& seeds) const {
+    require_ensemble(choice, seeds);
+    // A member that goes on guards its own folder.
+    scarp::RunFolder folder({.folder = output.folder,
+                             .overwrite = output.overwrite || choice.resume,
+                             .results = {"ensemble.json", "summary.json"}},
+                            examples::record_of("fault_rupture, ensemble", app));
+    std::vector<std::unique_ptr<Member>> members;
+    for (auto const seed : seeds) members.push_back(std::make_unique<Member>(*this, choice, seed));
+    folder.begin();
+    for (auto& member : members) member->prepare();
+    scarp::ThreadExecutor threads(choice.threads);
+    {
+      std::vector<std::jthread> runs;
+      for (auto& member : members) runs.emplace_back([&] { member->run(threads, started); });
+    }
+    std::vector<EnsembleMember> ended;
+    for (auto& member : members) ended.push_back(member->result);
+    return finish(folder, ended);
+  }
+
+ private:
+  struct Member {
+    Choice choice;
+    EnsembleMember result;
+    OwnFolders own;
+    std::optional<AnyScene> scene{};
+
+    Member(EnsembleRuns const& all, Choice const& shared, std::uint64_t seed)
+        : choice(of_seed(shared, seed)),
+          result{seed, member_folder(all.output.folder, seed)},
+          own(choice, all.app, result.folder, all.output.overwrite, all.record_of(choice, result)) {}
+
+    void prepare() { scene = make_scene(choice, 1, true); }
+
+    void run(scarp::ThreadExecutor& threads, Moment started) {
+      try {
+        Start const start{own.files, own.on_first_rank(), started, {}, &threads, fmt::format("seed {}: ", result.seed)};
+        result.code = std::visit([&](auto const& one) { return fault_rupture::run(choice, one, start); }, *scene);
+      } catch (std::exception const& problem) {
+        result.problem = problem.what();
+      }
+    }
+
+    static Choice of_seed(Choice choice, std::uint64_t seed) {
+      choice.seed = seed;
+      if (!choice.checkpoint.empty()) {
+        std::filesystem::create_directories(choice.checkpoint);
+        choice.checkpoint = member_folder(choice.checkpoint, seed).string();
+      }
+      return choice;
+    }
+  };
+
+  static void require_ensemble(Choice const& choice, std::vector<std::uint64_t> const& seeds) {
+    auto sorted = seeds;
+    std::ranges::sort(sorted);
+    if (seeds.size() < 2)
+      scarp::refuse("--seeds names one packing (several make an ensemble): say --seed {}", seeds[0]);
+    if (auto const twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+      scarp::refuse("--seeds names {} twice (the same run counts once): give each seed once", *twice);
+    if (choice.soil != Soil::dem)
+      scarp::refuse("--seeds was given for a soil without packings (all runs would be the same): say --soil dem");
+    if (choice.budget_companions)
+      scarp::refuse("--seeds and --budget-companions were given (companions belong to one run): leave one out");
+    if (ranks() > 1) scarp::refuse("--seeds was given on {} ranks (members run on one): leave the ranks out", ranks());
+  }
+
+  /// With the options that would run the member alone.
+  scarp::RunRecord record_of(Choice const& choice, EnsembleMember const& member) const {
+    auto record = examples::record_of("fault_rupture", app);
+    for (auto& [name, value] : record.options) {
+      if (name == "seed") value = std::to_string(member.seed);
+      if (name == "seeds") value.clear();
+      if (name == "output") value = member.folder.string();
+      if (name == "checkpoint") value = choice.checkpoint;
+    }
+    return record;
+  }
+
+  int finish(scarp::RunFolder& folder, std::vector<EnsembleMember> const& members) const {
+    auto const summary = ensemble_summary(members);
+    auto const text = ensemble_table(summary);
+    scarp::write_file(folder.path() / "ensemble.json", summary.dump(2) + "\n");
+    scarp::write_file(folder.path() / "ensemble.txt", text);
+    write_mean_surface(folder.path() / "surface_mean.csv", members);
+    fmt::print("{}", text);
+    auto const stopped = std::ranges::find_if(members, [](auto const& member) { return member.code != 0; });
+    folder.end(stopped == members.end() ? "finished" : "stopped early");
+    return stopped == members.end() ? 0 : stopped->code;
+  }
+};
+
+}  // namespace fault_rupture

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "../shared/command_line.hpp"
+#include "../shared/run_options.hpp"
+#include "../shared/study/chosen_ground.hpp"
+#include "scarp/io/checkpoint_files.hpp"
+#include "scarp/io/read_file.hpp"
+#include "scarp/run/run_folder.hpp"
+#include "team.hpp"
+
+namespace fault_rupture {
+
+/// A line for each choice that the results depend on.
+struct ChoiceLines {
+  std::map<std::string, std::string> words;  ///< of options
+  std::string text{};
+
+  template <class Value>
+  void operator()(std::string_view name, Value const& value) {
+    if constexpr (std::is_enum_v<Value>) {
+      text += fmt::format("{} = {}\n", name, words.at(std::string(name)));
+    } else {
+      text += fmt::format("{} = {}\n", name, value);
+    }
+  }
+  void operator()(std::string_view name, std::optional<double> const& value) {
+    text += fmt::format("{} = {}\n", name, value ? fmt::format("{}", *value) : "the soil's own");
+  }
+  void operator()(std::string_view name, std::optional<MeshPattern> const& value) {
+    text += fmt::format("{} = {}\n", name, value ? words.at(std::string(name)) : "the element's own");
+  }
+};
+
+/// Of all that the results depend on.
+inline ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
+  auto const options = examples::all_options(app);
+  ChoiceLines lines{{options.begin(), options.end()}};
+  Choice::members(choice, lines);
+  lines("element", element_name);
+  // What a file holds and not where it lies.
+  if (!choice.mesh.empty()) lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
+  return lines;
+}
+
+/// Of all that the answer depends on: not what is written on the way.
+inline std::string scene_lines(Choice choice, CLI::App const& app) {
+  Choice const usual;
+  choice.frames = usual.frames;
+  choice.probe_a_x = usual.probe_a_x;
+  choice.probe_a_y = usual.probe_a_y;
+  choice.probe_b_x = usual.probe_b_x;
+  choice.probe_b_y = usual.probe_b_y;
+  return choice_lines(choice, app).text;
+}
+
+/// \throws scarp::CheckpointError
+inline scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
+  auto lines = choice_lines(choice, app);
+  // The error budget follows points of the first rank.
+  if (int const ranks = ranks(); ranks > 1) lines("ranks", ranks);
+  return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
+}
+
+inline bool is_same_folder(std::filesystem::path const& one, std::filesystem::path const& other) {
+  std::error_code trouble;
+  return std::filesystem::weakly_canonical(one, trouble) == std::filesystem::weakly_canonical(other, trouble);
+}
+
+/// What one run has to itself on disk, as long as this lives.
+struct OwnFolders {
+  scarp::FolderLock checkpoints{};
+  scarp::CheckpointFiles files;
+  std::optional<scarp::RunFolder> results{};  ///< on the first rank
+
+  /// \throws scarp::InputError for folders that are in use, hold what must be kept or do not fit together
+  OwnFolders(Choice const& choice, CLI::App const& app, std::filesystem::path const& folder, bool overwrite,
+             scarp::RunRecord record)
+      : checkpoints(lock_of(choice, folder)), files(checkpoint_files(choice, app)) {
+    if (rank() != 0) return;
+    results.emplace(
+        scarp::RunFolderSettings{
+            .folder = folder, .overwrite = overwrite, .results = {"summary.json", "convergence.csv", "fields.pvd"}},
+        std::move(record), &files);
+  }
+
+  scarp::RunFolder* on_first_rank() { return results ? &*results : nullptr; }
+
+ private:
+  static scarp::FolderLock lock_of(Choice const& choice, std::filesystem::path const& folder) {
+    bool const locks = rank() == 0 && !choice.checkpoint.empty() && !is_same_folder(choice.checkpoint, folder);
+    return locks ? scarp::FolderLock(choice.checkpoint) : scarp::FolderLock();
+  }
+};
+
+}  // namespace fault_rupture
