@@ -64,7 +64,7 @@ inline std::string scene_lines(Choice choice, CLI::App const& app) {
 inline scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
   auto lines = choice_lines(choice, app);
   // The error budget follows points of the first rank.
-  if (int const ranks = ranks(); ranks > 1) lines("ranks", ranks);
+  if (int const count = ranks(); count > 1) lines("ranks", count);
   return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
 }
 
