@@ -22,8 +22,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Counts and times of a process that all members share, and what is no measure.
-constexpr std::array no_measures{"seed",        "elements",     "grains_per_rve",   "threads",
-                                 "cpu_seconds", "wall_seconds", "peak_memory_bytes"};
+constexpr std::array no_measures{"seed",
+                                 "elements",
+                                 "grains_per_rve",
+                                 "threads",
+                                 "cpu_seconds",
+                                 "wall_seconds",
+                                 "peak_memory_bytes",
+                                 "share_of_time_in_rves",
+                                 "share_of_time_outside_rves",
+                                 "tolerance",
+                                 "block_x50"};
 
 struct Spread {
   int count = 0;

@@ -7,6 +7,7 @@ import sys
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "shared"))
 import convergence_figures
+import ensemble_figures
 import footing_figures
 import numpy as np
 import scarp_figures as figures
@@ -261,7 +262,10 @@ def fabric(folder):
 
 
 def figures_of(folder):
-    """Those that the files of a run have something for: analytic soils have no packing, free fields no footing."""
+    """Those that the files of a run have something for: analytic soils have no packing, free fields no footing. An ensemble's members
+    are runs in folders of their own."""
+    if (folder / "ensemble.json").exists():
+        return {"ensemble": ensemble_figures.ensemble}
     chosen = {"deformation": deformation, "strain_development": strain_development, "surface": surface,
               "probes": probes, "convergence": convergence_figures.convergence,
               "effort": convergence_figures.effort}

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Several packings in one process: fault_rupture --seeds runs each as it would run alone, tells mean and scatter, goes on after a stop,
+and says which member did not come to its end. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
+import csv
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
+program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
+if not program.is_file():
+    print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
+    sys.exit(77)
+FILES = ("surface.csv", "probe_A.csv", "probe_B.csv", "packing_grains.csv")
+
+
+def run(folder, *options):
+    command = [program.resolve(), "--quick", "--size", "8", "--grains", "64", "--throw-over-depth", "0.004", "--frames", "1", *options]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
+
+
+def same(one, other):
+    return all((one / name).read_bytes() == (other / name).read_bytes() for name in FILES)
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    scratch = pathlib.Path(scratch)
+    done = run(scratch, "--seeds", "1,3,2", "--threads", "2", "--output", "all")
+    expect(done.returncode == 0, f"an ensemble ends well: {done.stderr[-500:]}")
+    expect("seed 3: step" in done.stderr, "its lines tell whose they are")
+    alone = run(scratch, "--seed", "3", "--threads", "1", "--output", "alone")
+    expect(alone.returncode == 0 and same(scratch / "all" / "seed_3", scratch / "alone"), "a member has the bits of a run of its own")
+
+    summaries = [json.loads((scratch / "all" / f"seed_{seed}" / "summary.json").read_text()) for seed in (1, 2, 3)]
+    expect([summary["seed"] for summary in summaries] == [1, 2, 3], "each folder has its own seed")
+    told = json.loads((scratch / "all" / "ensemble.json").read_text())
+    places = [summary["surface_x50"] for summary in summaries]
+    x50 = told["measures"]["surface_x50"]
+    expect(x50["count"] == 3 and abs(x50["mean"] - statistics.mean(places)) < 1e-12, f"the mean is that of the members: {x50}")
+    expect(abs(x50["scatter"] - statistics.stdev(places)) < 1e-12 and x50["scatter"] > 0.0, "and the scatter")
+    last = {}
+    for seed in (1, 2, 3):
+        with open(scratch / "all" / f"seed_{seed}" / "surface.csv") as file:
+            for row in csv.DictReader(file):
+                last.setdefault(float(row["x_initial"]), {})[seed] = float(row["settlement"])
+    with open(scratch / "all" / "surface_mean.csv") as file:
+        rows = list(csv.DictReader(file))
+    expect(len(rows) == len(last), "the mean surface has a row for each point")
+    worst = max(abs(float(row["settlement"]) - statistics.mean(last[float(row["x_initial"])].values())) for row in rows)
+    expect(worst < 1e-12, f"the mean surface is that of the members' last ones: {worst}")
+
+    again = run(scratch, "--seeds", "1,3,2", "--output", "all")
+    expect(again.returncode == 2 and "all" in again.stderr, "it keeps an ensemble that is there")
+
+    stopped = run(scratch, "--seeds", "1,2", "--output", "parts", "--checkpoint", "states", "--time-limit", "0.01")
+    expect(stopped.returncode == 130 and "INCOMPLETE: seed 1" in stopped.stdout, f"stopped members are named: {stopped.stdout[:300]}")
+    resumed = run(scratch, "--seeds", "1,2", "--output", "parts", "--checkpoint", "states", "--resume")
+    expect(resumed.returncode == 0, f"and go on: {resumed.stderr[-500:]}")
+    expect(same(scratch / "parts" / "seed_2", scratch / "all" / "seed_2"), "to the same bits")
+
+    for options, named in ((("--seeds", "1"), "--seed 1"), (("--seeds", "1,1"), "twice"), (("--seeds", "1,"), "--seeds"),
+                           (("--seeds", "1,x"), "--seeds"), (("--seeds", "1,2", "--seed", "3"), "--seed"),
+                           (("--seeds", "1,2", "--soil", "elastic"), "without packings"),
+                           (("--seeds", "1,2", "--budget-companions"), "--budget-companions")):
+        refused = run(scratch, *options, "--output", "refused")
+        expect(refused.returncode not in (0, 77) and named in refused.stderr and not (scratch / "refused").exists(),
+               f"{options} is refused: {refused.stderr[-300:]}")
+finish()
