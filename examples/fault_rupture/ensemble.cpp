@@ -122,7 +122,7 @@ std::string ensemble_table(Json const& summary) {
 }
 
 void write_mean_surface(std::filesystem::path const& file, std::vector<EnsembleMember> const& members) {
-  std::vector<double> places;
+  std::vector<std::vector<double>> places;
   std::vector<std::vector<double>> settlements;
   for (auto const& member : finished(members)) {
     auto const table = scarp::read_csv(member.folder / "surface.csv");
@@ -131,18 +131,23 @@ void write_mean_surface(std::filesystem::path const& file, std::vector<EnsembleM
     auto const settlement = table.column("settlement");
     auto const first = static_cast<std::size_t>(std::ranges::find(throws, throws.back()) - throws.begin());
     std::size_t const count = throws.size() - first;
-    if (places.empty()) places.assign(x.begin() + static_cast<std::ptrdiff_t>(first), x.end());
-    // Meshes do not depend on the seed.
+    if (places.empty()) {
+      places.resize(count);
+      settlements.resize(count);
+    }
+    // The mesh does not depend on the seed; how it has settled at rest does.
     if (count != places.size())
       scarp::refuse("'{}' has {} points at its end (other members {}): run all members anew",
                     (member.folder / "surface.csv").string(), count, places.size());
-    settlements.resize(count);
-    for (std::size_t k = 0; k < count; ++k) settlements[k].push_back(settlement[first + k]);
+    for (std::size_t k = 0; k < count; ++k) {
+      places[k].push_back(x[first + k]);
+      settlements[k].push_back(settlement[first + k]);
+    }
   }
   scarp::CsvTable table({"x_initial", "settlement", "scatter"});
   for (std::size_t k = 0; k < settlements.size(); ++k) {
     auto const spread = spread_of(settlements[k]);
-    table.add(places[k], spread.mean, spread.scatter);
+    table.add(spread_of(places[k]).mean, spread.mean, spread.scatter);
   }
   table.write(file);
 }
