@@ -2,6 +2,7 @@
 // Where does the time of the free-field fault scene go? Points by depth, strain and what sets their number of DEM steps, iterations by
 // cause, and everything outside of the points; Markdown on stdout.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -10,7 +11,6 @@
 #include "../../examples/shared/study/typed_scenes.hpp"
 #include "profiled.hpp"
 #include "scarp/measure/cpu_time.hpp"
-#include "scarp/measure/memory.hpp"
 #include "scarp/measure/processor.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
@@ -123,13 +123,17 @@ std::string by_reason(Tallies const& tallies, double all, double steps) {
 }
 
 struct Options {
-  fault_rupture::Choice choice{.length = 8.0, .packings = 16, .mirrored_packings = true, .threads = 1};
+  fault_rupture::Choice choice;
   double tolerance = 1e-3;
 };
 
 Options read(int argc, char** argv) {
   Options options;
   auto& choice = options.choice;
+  choice.length = 8.0;
+  choice.packings = 16;
+  choice.mirrored_packings = true;
+  choice.threads = 1;
   CLI::App app("Where does the time of the free-field fault scene go? Markdown on stdout.");
   app.option_defaults()->always_capture_default();
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(CLI::Range(0.5, 25.0));
@@ -174,6 +178,8 @@ void profile_scene(Options const& options) {
   auto const rest = scarp::ground_at_rest(problem);
   if (report.verdict.acceptable()) report = scarp::joined(report, scene.rupture(problem, iterations));
   double const cpu = running.seconds();
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
 
   double answers = 0.0;
   for (auto const& tally : tallies->by_reason) answers += seconds_of(tally);
@@ -192,8 +198,8 @@ void profile_scene(Options const& options) {
       "[MB] | x50 [m] |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n| {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.1f} | {:.0f} | {:.2f} "
       "|\n\n",
-      preparation, cpu, report.seconds, 1e-6 * steps, 1e6 * cpu / steps, 1e-6 * scarp::peak_memory(),
-      survey.surface.surface_x50);
+      preparation, cpu, report.seconds, 1e-6 * steps, 1e6 * cpu / steps,
+      1e-3 * 1.024 * static_cast<double>(used.ru_maxrss), survey.surface.surface_x50);
   fmt::print("| packings' answers | their tangents | all else |\n| --- | --- | --- |\n| {} | {} | {} |\n\n",
              share(answers, cpu), share(tangents, cpu), share(cpu - answers - tangents, cpu));
   fmt::print("{}\n{}\n", by_place(*tallies, answers), by_reason(*tallies, answers, steps));
