@@ -73,7 +73,7 @@ std::string parts_of_an_iteration(Problem& problem) {
   scarp::detail::GroundEquations<Stiffness, scarp::SparseLu> equations;
   double const assembly = timed([&] { problem.ground_stiffness(still, tangents, stiffness); });
   double const factors = timed([&] { equations.factorize(system, stiffness); });
-  Eigen::VectorXd const force = system.gather(problem.evaluate_committed().unbalanced);
+  Eigen::VectorXd const force = equations.product(Eigen::VectorXd::Random(system.free_count()));
   double const solution = timed([&] { equations.solve(force); });
   auto gradients = problem.own_gradients();
   double const means = timed([&] { problem.materials().mean().means(gradients, problem.executor()); });
