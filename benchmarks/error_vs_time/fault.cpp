@@ -88,6 +88,45 @@ scarp::SweepTable fault_with_length(Options const& options) {
   return sweep.run(options.repetitions_or(options.quick ? 1 : 3));
 }
 
+/// The main job's scene with cells of 3.5 m for 2.5 m, a length that is as well resolved, and a quarter of the grains.
+scarp::SweepTable objective_fault(Options const& options) {
+  auto base = base_of(options);
+  if (!options.quick) {
+    base.size = 3.5;
+    base.throw_over_depth = 0.085;
+  }
+  base.length = 12.0;
+  base.packings = 16;
+  base.most_seconds = 2000.0;
+  auto reference = tight(base);
+  reference.strain_per_step /= 2.0;
+  reference.least_steps *= 2;
+  scarp::Sweep sweep("free-field fault, objective", base, sand_fault);
+  sweep.reference(reference);
+  sweep.vary("strain per DEM step", &FaultSettings::strain_per_step, {5e-6, 2e-5, 4e-5});
+  sweep.vary("least DEM steps", &FaultSettings::least_steps, {5, 10, 40});
+  sweep.vary("inertial number", &FaultSettings::inertial_number, {2.5e-3, 1e-2});
+  sweep.vary("force tolerance", &FaultSettings::tolerance, {1e-2, 3e-3, 3e-4});
+  sweep.vary("gradient of a load step", &FaultSettings::largest_gradient, {0.02, 0.01, 0.0025});
+  sweep.vary("Lazy tolerance", &FaultSettings::lazy, {0.003, 0.01, 0.03});
+  auto both = base;
+  both.strain_per_step = 2e-5;
+  both.least_steps = 10;
+  sweep.also("strain 2e-5, least steps 10", both);
+  both.tolerance = 3e-3;
+  sweep.also("strain 2e-5, least steps 10, tolerance 3e-3", both);
+  both.strain_per_step = base.strain_per_step;
+  both.least_steps = base.least_steps;
+  both.largest_gradient = 2.0 * base.largest_gradient;
+  sweep.also("tolerance 3e-3, gradient 0.01", both);
+  return sweep.run(options.repetitions_or(options.quick ? 1 : 3));
+}
+
+bool const registered_objective =
+    register_subject({.name = "fault_objective",
+                      .question = "are the defaults of fault_rupture with a length on the front?",
+                      .run = objective_fault,
+                      .wanted_errors = {0.1, 0.05, 0.03, 0.02}});
 bool const registered_local =
     register_subject({.name = "fault_free_field",
                       .question = "are the defaults of fault_rupture on the front of error against CPU time?",

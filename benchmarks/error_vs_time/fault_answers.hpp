@@ -85,6 +85,7 @@ scarp::Measured run_fault(SceneType const& scene, Executor& executor, double mos
   measured.answer("outcrop", survey.surface.outcrop_x);
   measured.answer("x05", survey.surface.surface_x05);
   measured.answer("x50", survey.surface.surface_x50);
+  measured.answer("x95", survey.surface.surface_x95);
   measured.answer("band width", survey.surface.outcrop_width);
   measured.answer("band angle", band_angle(problem));
   measured.answer("reactions", held_forces(problem, scene.fault.tip));

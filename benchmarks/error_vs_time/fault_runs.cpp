@@ -26,13 +26,15 @@ using fault_rupture::SandFreeField;
 
 /// Packings are the same for all runs of one seed, so that they are prepared once.
 SandFreeField const& prepared(FaultSettings const& settings, std::uint64_t seed) {
-  static std::map<std::tuple<double, MeshPattern, double, int, std::uint64_t>, SandFreeField> made;
-  std::tuple const key{settings.size, settings.pattern, settings.aspect, settings.grains, seed};
+  static std::map<std::tuple<double, MeshPattern, double, int, int, std::uint64_t>, SandFreeField> made;
+  std::tuple const key{settings.size, settings.pattern, settings.aspect, settings.grains, settings.packings, seed};
   auto const found = made.find(key);
   if (found != made.end()) return found->second;
   fault_rupture::Choice choice;
   set_mesh(choice, settings.size, settings.pattern, settings.aspect);
   choice.grains = settings.grains;
+  choice.packings = settings.packings;
+  choice.mirrored_packings = settings.packings > 1;
   choice.seed = seed;
   return made.emplace(key, fault_rupture::make<SandFreeField>(choice)).first->second;
 }
@@ -44,6 +46,7 @@ LazySand sand_of(SandFreeField const& study, FaultSettings const& settings) {
   sand.source = study.soil.provider.source;
   sand.strain_per_step = settings.strain_per_step;
   sand.least_steps = settings.least_steps;
+  sand.inertial_number = settings.inertial_number;
   sand.unbalanced_tolerance = settings.unbalanced;
   sand.loose_pressure = study.soil.provider.loose_pressure;
   sand.tangent_policy =

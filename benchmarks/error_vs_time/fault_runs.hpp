@@ -19,11 +19,13 @@ struct FaultSettings {
   double length = 0.0;  ///< intrinsic [m], for the point secant only; 0: local
   double throw_over_depth = 0.02;
   int grains = 100;
+  int packings = 1;  ///< columns of them; of several, points draw among the mirror images too
   std::uint64_t seed = 1;
   double tolerance = 1e-3;
   double largest_gradient = 0.005;
   double strain_per_step = 1e-5;
   int least_steps = 20;
+  double inertial_number = 5e-3;
   double unbalanced = 0.05;
   double lazy = 0.0;       ///< tolerance of predicted answers; 0 asks always
   bool condensed = false;  ///< condensed tangents instead of eq. 6
