@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSL-1.0
-"""page.py OUTPUT_DIR [SHORTER_RUN]: what a fault rupture cost and how sure it is of itself, into docs/study/README.md;
-its load steps into docs/study/steps.csv. A run that stopped short is projected to the whole throw, by its own pace and
-by that of a finished run on a coarser mesh (OUTPUT_DIR of it). The environment says SCARP_COMMAND and SCARP_COMMIT."""
+"""page.py NAME OUTPUT_DIR [SHORTER_RUN]: what a fault rupture cost and how sure it is of itself, into the section NAME of
+docs/study/README.md; its load steps into docs/study/NAME_steps.csv, figures beside. A run that stopped short is projected to the whole
+throw, by its own pace and by that of a finished run on a coarser mesh (OUTPUT_DIR of it). The environment says SCARP_COMMAND and
+SCARP_COMMIT."""
 
 import csv
 import os
@@ -84,6 +85,8 @@ def of_the_run(summary, steps):
         ["CPU time of the last session [s]", f"{summary['cpu_seconds']:.0f}"],
         ["outside the points, share of the time", f"{summary['share_of_time_outside_rves']:.1%}"],
         ["peak memory [GiB]", f"{gigabytes:.2f}"],
+        ["surface_x05, surface_x50, surface_x95 [m]",
+         ", ".join(f"{summary[f'surface_x{share}']:.2f}" for share in ("05", "50", "95"))],
         ["outcrop, steepest place of the surface [m]", f"{summary['outcrop_x']:.2f}, {summary['steepest_x']:.2f}"],
         ["width of the outcrop [m]", f"{summary['outcrop_width']:.2f}"]])
 
@@ -114,11 +117,11 @@ def budget(summary):
 
 
 def main():
-    if not 2 <= len(sys.argv) <= 3 or not pathlib.Path(sys.argv[1]).is_dir():
-        print(f"usage: {sys.argv[0]} OUTPUT_DIR [SHORTER_RUN]   (folders that fault_rupture wrote)", file=sys.stderr)
+    if not 3 <= len(sys.argv) <= 4 or not pathlib.Path(sys.argv[2]).is_dir():
+        print(f"usage: {sys.argv[0]} NAME OUTPUT_DIR [SHORTER_RUN]   (folders that fault_rupture wrote)", file=sys.stderr)
         return 2
-    folder = pathlib.Path(sys.argv[1])
-    coarser = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else None
+    run, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    coarser = pathlib.Path(sys.argv[3]) if len(sys.argv) == 4 else None
     try:
         steps = load_steps(folder)
         projected = projections(steps, coarser)
@@ -131,7 +134,7 @@ def main():
               file=sys.stderr)
         return 1
     PAGE.parent.mkdir(exist_ok=True)
-    with open(PAGE.with_name("steps.csv"), "w", newline="") as table:
+    with open(PAGE.with_name(f"{run}_steps.csv"), "w", newline="") as table:
         writer = csv.writer(table)
         writer.writerow(COLUMNS)
         writer.writerows([[f"{value:.6g}" if isinstance(value, float) else value
@@ -143,10 +146,10 @@ def main():
              along_the_way(steps), budget(summary)]
     for name, title in FIGURES.items():
         if (folder / "figures" / f"{name}.png").is_file():
-            shutil.copyfile(folder / "figures" / f"{name}.png", PAGE.with_name(f"{name}.png"))
-            parts.append(f"![{title}]({name}.png)")
+            shutil.copyfile(folder / "figures" / f"{name}.png", PAGE.with_name(f"{run}_{name}.png"))
+            parts.append(f"![{title}]({run}_{name}.png)")
     page = PAGE.read_text() if PAGE.is_file() else "# The study's size, once\n"
-    rewrite(PAGE, with_section(page, "run", "\n\n".join(parts)))
+    rewrite(PAGE, with_section(page, run, "\n\n".join(parts)))
     return 0
 
 
