@@ -16,7 +16,8 @@ sys.path[:0] = [str(here.parent), str(here.parent / "compile")]
 from generated_sections import rewrite, with_section
 from provenance import head_of
 
-LEVELS = ("native", "x86-64-v3")
+# Our side is built for this machine, the same with wider moves, and for AVX2.
+LEVELS = {"native": "native", "wide_moves": "native, `-mmove-max=512 -mstore-max=512`", "x86-64-v3": "x86-64-v3"}
 PAGE = root / "docs" / "peers.md"
 # What both must have in common after the steps of the check, for which grains are stirred so that contacts slide and open.
 CHECK_STEPS, CHECK_SPEED = 60, 1.0
@@ -32,6 +33,11 @@ def in_shell(command):
     subprocess.run(["bash", "-c", f"source '{root}/.ci/set_up.sh' && {command}"], check=True, stdout=sys.stderr)
 
 
+def build(targets):
+    in_shell('configure release g++ -D SCARP_BUILD_BENCHMARKS=ON > /dev/null && '
+             f'cmake --build "$repository/build/release" --target {targets} --parallel "$jobs"')
+
+
 def set_up(packages, program):
     """Installs the peer, builds our side. Exits with a clear message when one of them is not to be had."""
     try:
@@ -40,24 +46,28 @@ def set_up(packages, program):
         sys.exit(f"{sys.argv[0]}: {packages} could not be installed (see above): install it, or do without this comparison")
     if subprocess.run(["which", program], capture_output=True).returncode != 0:
         sys.exit(f"{sys.argv[0]}: there is no program '{program}' (of {packages}): put it on the PATH")
-    targets = " ".join(f"our_steps_{level}" for level in LEVELS)
-    in_shell('configure release g++ -D SCARP_BUILD_BENCHMARKS=ON > /dev/null && '
-             f'cmake --build "$repository/build/release" --target {targets} --parallel "$jobs"')
+    build(" ".join(f"our_steps_{level}" for level in LEVELS))
 
 
 def our_program(level):
     return root / "build" / "release" / "benchmarks" / f"our_steps_{level}"
 
 
-def arguments(description, sizes):
+def parser_of(description, sizes):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--grains", type=int, nargs="+", default=sizes, metavar="N", help=f"default {sizes}")
     parser.add_argument("--rounds", type=int, default=25, metavar="N", help="batches of each program, in turns (default 25)")
+    parser.set_defaults(sizes=sizes)
+    return parser
+
+
+def arguments(parser):
     given = parser.parse_args()
     if min(given.grains) < 50 or max(given.grains) > 100000:
         parser.error(f"--grains {' '.join(map(str, given.grains))}: take numbers from 50 to 100000")
     if given.rounds < 1:
         parser.error(f"--rounds {given.rounds}: take one at least")
+    given.usual = given.grains == given.sizes and given.rounds == parser.get_default("rounds")
     return given
 
 
@@ -77,6 +87,13 @@ class State:
     def nearest(self, apart):
         """Vectors between points in the periodic box."""
         return apart - self.box * numpy.round(apart / self.box)
+
+    def write_for_yade(self, start, law, velocities, skin, damping=0.0, **more):
+        """Rows x y vx vy r, and the rest as JSON."""
+        numpy.savetxt(start, numpy.column_stack([self.position % self.box, velocities, self.radius]), fmt="%.17g")
+        law.write_text(json.dumps({"box": self.box.tolist(), "density": self.density, "thickness": self.thickness,
+                                   "stiffness": self.stiffness, "friction": self.friction, "time_step": self.time_step,
+                                   "skin": skin * self.radius.max(), "damping": damping, **more}))
 
 
 def made(kind, grains, folder):
@@ -113,7 +130,7 @@ class Served:
 class Ours(Served):
     def __init__(self, level, kind, state, speed, folder):
         super().__init__([str(our_program(level)), "run", kind, str(state.path), repr(speed), repr(state.time_step)])
-        self.title, self.state, self.folder, self.lists = f"scarp, {level}", state, folder, 0
+        self.title, self.state, self.folder, self.lists = f"scarp, {LEVELS[level]}", state, folder, 0
         self.build = self.line()
 
     def ask(self, command):
@@ -196,12 +213,12 @@ TIMES_HEAD = ["| grains | program | near pairs | contacts | ns per grain-step: m
               "peer / ours: medians; least |", "|---:|---|---:|---:|---:|---:|---:|---:|---:|"]
 
 
-def write_page(sections, command, versions, default):
+def write_page(sections, command, versions, usual):
     """Only runs of the default sizes may change the page."""
     head = head_of(command, ["g++"]) + " " + versions
     for table in sections.values():
         print(f"\n{table}")
-    if not default:
+    if not usual:
         return
     page = PAGE.read_text()
     for name, table in sections.items():

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/os.h>
 
+#include <cmath>
 #include <ctime>
 #include <fstream>
 #include <iostream>
@@ -44,31 +45,46 @@ struct Comparison {
   static constexpr double density = 2650.0;
   static constexpr double thickness = dim == 2 ? 0.2 : 1.0;
   static constexpr double pressure = 2e5;
+  static constexpr int most_prepared =
+      1600;  // more grains are copies side by side, which velocities at random make differ
   static constexpr double stiffness = dim == 2 ? 6e6 : 3e5;  // as in benchmarks/kernel_packings.hpp
 
   static scarp::LinearFrictional law() {
     return {.normal_stiffness = stiffness, .tangential_stiffness = stiffness, .friction = 0.55};
   }
 
-  static void make(int grains, std::string const& file) {
+  /// Consolidated without friction.
+  static Packing smooth(int grains) {
     scarp::Cloud<Grading> const cloud{
         .grading = {.smallest = 4e-3, .largest = 6e-3}, .grains = grains, .density = density, .thickness = thickness};
     auto packing = cloud.template make<Packing>();
-    scarp::LinearFrictional const smooth{.normal_stiffness = stiffness, .tangential_stiffness = stiffness};
+    scarp::LinearFrictional const springs{.normal_stiffness = stiffness, .tangential_stiffness = stiffness};
     scarp::Loading<dim> loading;
     for (int k = 0; k < dim; ++k) loading.controls.push_back(scarp::component_control<dim>(k, -pressure));
     scarp::TimeStepper<Packing> stepper;
     scarp::Servo const servo{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
-    if (auto const verdict = servo.reach(stepper, packing, smooth, loading); !verdict.acceptable())
+    if (auto const verdict = servo.reach(stepper, packing, springs, loading); !verdict.acceptable())
       scarp::refuse("{} grains were not consolidated ({}): take another number", grains, scarp::name(verdict.reason));
-    if (!stepper.stop(packing, smooth).acceptable()) scarp::refuse("{} grains could not be stopped", grains);
+    if (!stepper.stop(packing, springs).acceptable()) scarp::refuse("{} grains could not be stopped", grains);
+    return packing;
+  }
+
+  static void make(int grains, std::string const& file) {
+    int const sides = grains > most_prepared ? static_cast<int>(std::lround(std::sqrt(grains / most_prepared))) : 1;
+    if (grains % (sides * sides) != 0)
+      scarp::refuse("{} grains are no {} x {} copies of one packing: take another number", grains, sides, sides);
+    auto const packing = smooth(grains / (sides * sides));
     auto out = fmt::output_file(file);
     out.print("{} {} {:.17g} {:.17g} {:.17g} {:.17g}\n", dim, grains, density, thickness, stiffness, law().friction);
-    for (int a = 0; a < dim; ++a) out.print("{:.17g} ", packing.cell(a, a));
+    for (int a = 0; a < dim; ++a) out.print("{:.17g} ", packing.cell(a, a) * (a < 2 ? sides : 1));
     out.print("{:.17g}\n", scarp::usual_time_step_share * packing.pairs.critical_step);
-    for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-      for (int a = 0; a < dim; ++a) out.print("{:.17g} ", packing.position(i, a));
-      out.print("{:.17g}\n", packing.population->size(i)[0]);
+    for (int copy = 0; copy < sides * sides; ++copy) {
+      std::array<int, 3> const shift{copy % sides, copy / sides, 0};
+      for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+        for (int a = 0; a < dim; ++a)
+          out.print("{:.17g} ", packing.position(i, a) + shift[static_cast<std::size_t>(a)] * packing.cell(a, a));
+        out.print("{:.17g}\n", packing.population->size(i)[0]);
+      }
     }
   }
 
