@@ -8,13 +8,22 @@ import statistics
 import subprocess
 import sys
 
-import numpy
-
 here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
 sys.path[:0] = [str(here.parent), str(here.parent / "compile")]
 from generated_sections import rewrite, with_section
 from provenance import head_of
+
+
+def in_shell(command):
+    subprocess.run(["bash", "-c", f"source '{root}/.ci/set_up.sh' && {command}"], check=True, stdout=sys.stderr)
+
+
+try:
+    import numpy
+except ImportError:
+    in_shell("install_missing python3-numpy")
+    import numpy
 
 # Our side is built for this machine, the same with wider moves, and for AVX2.
 LEVELS = {"native": "native", "wide_moves": "native, `-mmove-max=512 -mstore-max=512`", "x86-64-v3": "x86-64-v3"}
@@ -29,21 +38,21 @@ class Different(Exception):
     """Both sides do not compute the same."""
 
 
-def in_shell(command):
-    subprocess.run(["bash", "-c", f"source '{root}/.ci/set_up.sh' && {command}"], check=True, stdout=sys.stderr)
-
-
 def build(targets):
     in_shell('configure release g++ -D SCARP_BUILD_BENCHMARKS=ON > /dev/null && '
              f'cmake --build "$repository/build/release" --target {targets} --parallel "$jobs"')
 
 
-def set_up(packages, program):
-    """Installs the peer, builds our side. Exits with a clear message when one of them is not to be had."""
+def install(packages):
     try:
         in_shell(f'install_missing "${{build_packages[@]}}" {packages}')
     except subprocess.CalledProcessError:
         sys.exit(f"{sys.argv[0]}: {packages} could not be installed (see above): install it, or do without this comparison")
+
+
+def set_up(packages, program):
+    """Installs the peer, builds our side. Exits with a clear message when the peer is not to be had."""
+    install(packages)
     if subprocess.run(["which", program], capture_output=True).returncode != 0:
         sys.exit(f"{sys.argv[0]}: there is no program '{program}' (of {packages}): put it on the PATH")
     build(" ".join(f"our_steps_{level}" for level in LEVELS))
