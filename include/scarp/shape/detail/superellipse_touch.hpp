@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "scarp/core/constant.hpp"
+#include "scarp/core/positive_power.hpp"
 #include "scarp/core/select.hpp"
 #include "scarp/shape/support_touch.hpp"
 
@@ -26,7 +27,6 @@ SuperellipseSupport<T> superellipse_support(std::array<T, 6> const& pose, Point<
   using std::copysign;
   using std::max;
   using std::min;
-  using std::pow;
   auto const& [c, s, rx, ry, q, inverse_q] = pose;
   T const one = constant<T>(1);
   T const nx = c * normal[0] + s * normal[1];
@@ -35,26 +35,36 @@ SuperellipseSupport<T> superellipse_support(std::array<T, 6> const& pose, Point<
   T const v = ry * abs(ny);
   auto const nearer_y = v > u;
   T const large = max(u, v);
+  // Divisions are what takes the time: several quotients come from one.
+  T const flat = q - one;
+  T const along = lanes::select(nearer_y, rx, ry);
+  T const beside = lanes::select(nearer_y, ry, rx);
+  T const all = one / (large * along * flat);
+  T const inverse_large = all * (along * flat);
   // The floor keeps the radius of curvature of a flat side finite; such an angle is below the resolution of a normal.
-  T const ratio = max(min(u, v) / large, constant<T>(1e-18));
-  T const power = pow(ratio, q);
+  T const ratio = max(min(u, v) * inverse_large, constant<T>(1e-18));
+  T const power = lanes::positive_power(ratio, q);
   T const sum = one + power;
-  T const root = pow(sum, inverse_q);
+  T const root = lanes::positive_power(sum, inverse_q);
 
   // Gradient of the norm; its larger component is root / sum.
-  T share_x = root / sum;
-  T share_y = share_x * power / ratio;
-  T tangent = copysign(ratio, nx * ny) * rx / ry;
+  T const both = one / (sum * ratio);
+  T const inverse_sum = both * ratio;
+  T const steep = power * (both * sum);  // ratio to the power q - 1
+  T share_x = root * inverse_sum;
+  T share_y = share_x * steep;
+  T const angle = copysign(ratio, nx * ny) * beside * (all * (large * flat));
   T const swapped = share_x;
   share_x = lanes::select(nearer_y, share_y, share_x);
   share_y = lanes::select(nearer_y, swapped, share_y);
-  tangent = lanes::select(nearer_y, -copysign(ratio, nx * ny) * ry / rx, tangent);
+  T const tangent = lanes::select(nearer_y, -angle, angle);
   T const x = rx * copysign(share_x, nx);
   T const y = ry * copysign(share_y, ny);
 
-  T const spread = rx * ry / large;
-  T const curvature_radius = (q - one) * spread * spread / large * (power / ratio / ratio) * root / (sum * sum);
-  return {{large * root, nx * y - ny * x, curvature_radius}, tangent, max(one / (q - one), one)};
+  T const spread = rx * ry * inverse_large;
+  T const bent = steep * (both * sum) * root * (inverse_sum * inverse_sum);
+  T const curvature_radius = flat * spread * spread * inverse_large * bent;
+  return {{large * root, nx * y - ny * x, curvature_radius}, tangent, max(all * (large * along), one)};
 }
 
 /// Touch of two superellipses: Newton steps for the normal n that minimises
@@ -74,7 +84,6 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
   using std::copysign;
   using std::max;
   using std::min;
-  using std::pow;
   using std::sqrt;
   constexpr int most_evaluations = 40;
   constexpr double largest_step = 0.5;  // radians
@@ -127,7 +136,8 @@ Touch<2, T> superellipse_touch(std::array<T, 6> const& first, std::array<T, 6> c
     auto const bends = bend > one && abs(swing) > constant<T>(1e-3);
     if (lanes::any_of(bends)) {
       T const stretch = one + swing;
-      step = lanes::select(bends, tilt * (copysign(pow(abs(stretch), bend), stretch) - one), step);
+      T const size_of_stretch = max(abs(stretch), constant<T>(1e-18));
+      step = lanes::select(bends, tilt * (copysign(lanes::positive_power(size_of_stretch, bend), stretch) - one), step);
     }
     step = max(min(step, constant<T>(largest_step)), constant<T>(-largest_step));
 
