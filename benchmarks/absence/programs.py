@@ -14,8 +14,8 @@ from compiled_symbols import features_of, symbols_of
 
 compiler = "g++"
 # valgrind 3.19 knows no AVX-512; the other options are those of scarp_native.
-flags = ["-std=c++20", "-O3", "-DNDEBUG", "-march=x86-64-v3", "-fno-math-errno", "-fno-trapping-math", "-mmove-max=256",
-         "-mstore-max=256"]
+flags = ["-std=c++20", "-O3", "-DNDEBUG", "-march=x86-64-v3", "-fno-math-errno", "-fno-trapping-math", "-mmove-max=512",
+         "-mstore-max=512"]
 includes = ["-I", str(root / "include"), "-isystem", "/usr/include/eigen3"]
 
 

@@ -26,7 +26,7 @@ except ImportError:
     import numpy
 
 # Our side is built for this machine, the same with wider moves, and for AVX2.
-LEVELS = {"native": "native", "wide_moves": "native, `-mmove-max=512 -mstore-max=512`", "x86-64-v3": "x86-64-v3"}
+LEVELS = {"native": "native", "x86-64-v3": "x86-64-v3"}
 PAGE = root / "docs" / "peers.md"
 # What both must have in common after the steps of the check, for which grains are stirred so that contacts slide and open.
 CHECK_STEPS, CHECK_SPEED = 60, 1.0
