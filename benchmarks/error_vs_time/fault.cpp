@@ -106,6 +106,7 @@ scarp::SweepTable objective_fault(Options const& options) {
   sweep.vary("strain per DEM step", &FaultSettings::strain_per_step, {5e-6, 2e-5, 4e-5});
   sweep.vary("least DEM steps", &FaultSettings::least_steps, {5, 10, 40});
   sweep.vary("inertial number", &FaultSettings::inertial_number, {2.5e-3, 1e-2});
+  sweep.vary("unbalanced ratio", &FaultSettings::unbalanced, {0.025, 0.1, 0.2});
   sweep.vary("force tolerance", &FaultSettings::tolerance, {1e-2, 3e-3, 3e-4});
   sweep.vary("gradient of a load step", &FaultSettings::largest_gradient, {0.02, 0.01, 0.0025});
   sweep.vary("Lazy tolerance", &FaultSettings::lazy, {0.003, 0.01, 0.03});
@@ -115,8 +116,12 @@ scarp::SweepTable objective_fault(Options const& options) {
   sweep.also("strain 2e-5, least steps 10", both);
   both.tolerance = 3e-3;
   sweep.also("strain 2e-5, least steps 10, tolerance 3e-3", both);
-  both.strain_per_step = base.strain_per_step;
-  both.least_steps = base.least_steps;
+  both = base;
+  both.strain_per_step = 2e-5;
+  both.unbalanced = 0.1;
+  sweep.also("strain 2e-5, unbalanced ratio 0.1", both);
+  both = base;
+  both.tolerance = 3e-3;
   both.largest_gradient = 2.0 * base.largest_gradient;
   sweep.also("tolerance 3e-3, gradient 0.01", both);
   return sweep.run(options.repetitions_or(options.quick ? 1 : 3));
