@@ -7,6 +7,7 @@
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "companion_runs.hpp"
+#include "estimate.hpp"
 #include "run_scene.hpp"
 
 namespace {
@@ -186,6 +187,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there; afresh where there is none")
           ->needs(folder)
           ->configurable(false);
+  app.add_flag("--estimate")
+      ->description("say what time and memory the whole run would take, and end")
+      ->configurable(false)
+      ->disable_flag_override();
   app.add_option("--checkpoint-every", choice.checkpoint_every, "seconds between two checkpoints")
       ->check(number_from(0.0, true, 1e9));
   examples::declare_output(app, output, "folder for all results");
@@ -196,6 +201,13 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
 
 double largest_gradient(fault_rupture::AnyScene const& scene) {
   return std::visit([](auto const& chosen) { return chosen.stepping.largest_gradient; }, scene);
+}
+
+/// Prepares and writes nothing.
+void print_estimate(Choice const& choice) {
+  int const ranks = fault_rupture::ranks();
+  scarp::ThreadExecutor const threads(fault_rupture::threads_of_a_process(choice.threads));
+  fmt::print("{}", fault_rupture::estimate(choice, fault_rupture::size_of_scene(choice), ranks, threads.threads()));
 }
 
 bool is_same_folder(std::filesystem::path const& one, std::filesystem::path const& other) {
@@ -239,6 +251,10 @@ int main(int argc, char** argv) {
     fault_rupture::give_up(2);
   }
   try {
+    if (app.count("--estimate") > 0) {
+      if (fault_rupture::rank() == 0) print_estimate(choice);
+      return 0;
+    }
     // Folders are for the first rank; when it gives up, the others end with it.
     bool const first = fault_rupture::rank() == 0;
     scarp::FolderLock checkpoints;
