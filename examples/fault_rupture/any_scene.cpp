@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "any_scene.hpp"
 
+#include <algorithm>
 #include <utility>
 
-#include "../shared/study/soils.hpp"
 #include "scarp/measure/memory.hpp"
 
 namespace fault_rupture {
 
 namespace {
-
-/// Of a scene with so many points, measured with meshes of 1000 to 30 000 triangles and packings of 100 and 400 grains: mesh,
-/// matrices and, for packings, two states of each point; what is prepared is with every process.
-double memory_of(Choice const& choice, std::vector<scarp::Site<2>> const& sites, int processes) {
-  double const points = static_cast<double>(sites.size()) / processes;
-  if (choice.soil != Soil::dem) return 4.4e3 * points;
-  double prepared = 0.0;
-  for (auto const& column : drawn_depths(choice, sites)) prepared += static_cast<double>(column.size());
-  if (choice.mirrored_packings) prepared *= 2.0;
-  return (7.6e3 + 270.0 * choice.grains) * points + 135.0 * choice.grains * prepared;
-}
 
 /// \throws scarp::InputError for a probe that was asked for outside of the ground
 template <class SceneType>
@@ -45,6 +34,19 @@ void require_probes_inside(Choice const& choice, SceneType const& scene) {
   check('B', choice.probe_b_x, choice.probe_b_y, usual.probe_b_x, usual.probe_b_y);
 }
 
+/// scene: its soil may be missing
+template <class SceneType>
+SceneSize size_of(Choice const& choice, SceneType const& scene, std::vector<scarp::Site<2>> const& sites) {
+  auto const mesh = scene.mesh();
+  auto const [left, right] = std::ranges::minmax_element(mesh.nodes, {}, [](auto const& node) { return node.x(); });
+  auto size = size_of_soil(choice, sites);
+  size.elements = static_cast<double>(mesh.elements.size());
+  size.nodes = static_cast<double>(mesh.nodes.size());
+  size.width = right->x() - left->x();
+  size.depth = scene.ground.depth();
+  return size;
+}
+
 template <class SceneType>
 SceneType make_any(Choice const& choice, int processes, bool speaks) {
   auto scene = without_soil<SceneType>(choice);
@@ -53,7 +55,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   auto const what = choice.soil == Soil::dem
                         ? fmt::format("ground of {} points with packings of {} grains", sites.size(), choice.grains)
                         : fmt::format("ground of {} points", sites.size());
-  double const bytes = memory_of(choice, sites, processes);
+  double const bytes = memory_of(choice, size_of_soil(choice, sites), processes);
   scarp::require_memory(what, bytes,
                         choice.soil == Soil::dem ? "choose a larger --size, fewer --triangles or fewer --grains"
                                                  : "choose a larger --size or fewer --triangles");
@@ -80,7 +82,20 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   return scene;
 }
 
+template <class SceneType>
+SceneSize size_of_any(Choice const& choice) {
+  auto const scene = without_soil<SceneType>(choice);
+  require_probes_inside(choice, scene);
+  return size_of(choice, scene, scene.soil_sites());
+}
+
 }  // namespace
+
+SceneSize size_of_scene(Choice const& choice) {
+  if (choice.scene == Case::free) return size_of_any<Scene<scarp::BareGround>>(choice);
+  if (choice.base == Base::sticking) return size_of_any<Scene<scarp::StickingFooting>>(choice);
+  return size_of_any<Scene<RigidFooting>>(choice);
+}
 
 AnyScene make_scene(Choice const& choice, int processes, bool speaks) {
   if (choice.scene == Case::free) return make_any<Scene<scarp::BareGround>>(choice, processes, speaks);

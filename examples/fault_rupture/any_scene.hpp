@@ -6,6 +6,7 @@
 #include "../shared/study/any_soil.hpp"
 #include "../shared/study/scenes.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
+#include "scene_size.hpp"
 
 namespace fault_rupture {
 
@@ -23,5 +24,9 @@ using AnyScene = std::variant<Scene<scarp::BareGround>, Scene<scarp::StickingFoo
 /// processes: that share the packings out among them; says on stderr what is prepared where `speaks`
 /// \throws scarp::InputError for choices that do not make a scene or need too much memory, scarp::PreparationError
 AnyScene make_scene(Choice const& choice, int processes = 1, bool speaks = false);
+
+/// Prepares nothing.
+/// \throws scarp::InputError for choices that do not make a scene
+SceneSize size_of_scene(Choice const& choice);
 
 }  // namespace fault_rupture

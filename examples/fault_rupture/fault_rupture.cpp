@@ -8,6 +8,7 @@
 #include "../shared/version_option.hpp"
 #include "companion_runs.hpp"
 #include "ensemble_runs.hpp"
+#include "estimate.hpp"
 #include "own_folders.hpp"
 #include "run_scene.hpp"
 
@@ -146,6 +147,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there; afresh where there is none")
           ->needs(folder)
           ->configurable(false);
+  app.add_flag("--estimate")
+      ->description("say what time and memory the whole run would take, and end")
+      ->configurable(false)
+      ->disable_flag_override();
   app.add_option("--checkpoint-every", choice.checkpoint_every, "seconds between two checkpoints")
       ->check(number_from(0.0, true, 1e9));
   examples::declare_output(app, output, "folder for all results");
@@ -156,6 +161,15 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
 
 double largest_gradient(fault_rupture::AnyScene const& scene) {
   return std::visit([](auto const& chosen) { return chosen.stepping.largest_gradient; }, scene);
+}
+
+/// Prepares and writes nothing.
+/// runs: as many with different packings
+void print_estimate(Choice const& choice, std::size_t runs) {
+  int const ranks = fault_rupture::ranks();
+  scarp::ThreadExecutor const threads(fault_rupture::threads_of_a_process(choice.threads));
+  fmt::print("{}", fault_rupture::estimate(choice, fault_rupture::size_of_scene(choice), ranks, threads.threads()));
+  if (runs > 0) fmt::print("--seeds: {} times as much of all\n", runs);
 }
 
 }  // namespace
@@ -195,6 +209,10 @@ int main(int argc, char** argv) {
     fault_rupture::give_up(2);
   }
   try {
+    if (app.count("--estimate") > 0) {
+      if (fault_rupture::rank() == 0) print_estimate(choice, seeds.size());
+      return 0;
+    }
     // Folders are for the first rank; when it gives up, the others end with it.
     bool const first = fault_rupture::rank() == 0;
     if (choice.budget_companions && fault_rupture::ranks() > 1)

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSL-1.0
+"""fault_rupture --estimate says what a run will take, and does nothing else. Environment: SCARP_EXAMPLES, the folder of the built
+programs (skipped, exit 77, without)."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
+program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
+if not program.is_file():
+    print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
+    sys.exit(77)
+
+
+def run(folder, *options):
+    return subprocess.run([program.resolve(), *options], cwd=folder, capture_output=True, text=True, timeout=120)
+
+
+def estimate(folder, *options):
+    """Words before numbers: scene, steps, CPU time [s], wall time [s], memory [MB]; "work" is the CPU time in DEM steps of this machine, which
+    other programs on it do not change."""
+    done = run(folder, "--estimate", *options)
+    expect(done.returncode == 0, f"{options}: ended with {done.returncode}: {done.stderr}")
+    found = {}
+    for line in done.stdout.splitlines():
+        name, _, rest = line.partition(": ")
+        if number := re.match(r"[-+.0-9e]+", rest):
+            found[name] = float(number[0]) * (1e3 if rest.startswith(f"{number[0]} GB") else 1.0)
+    found["work"] = found["CPU time"] / found["machine"]
+    expect(all(name in found for name in ("scene", "steps", "CPU time", "wall time", "memory")), f"{options}: says {done.stdout}")
+    return found, done.stdout
+
+
+def is_empty(folder):
+    return not list(pathlib.Path(folder).iterdir())
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    small, said = estimate(scratch)
+    expect(is_empty(scratch), "an estimate writes nothing")
+    expect("commit" in said and "uncertainty" in said, f"it says where its numbers come from, and how wrong they may be: {said}")
+    for options in (["--triangles", "4000"], ["--grains", "800"], ["--length", "4"], ["--strain-per-step", "1e-6"], ["--tolerance", "1e-5"], ["--packings", "200"]):
+        expect(estimate(scratch, *options)[0]["work"] > small["work"], f"{options} take more time")
+    for options in (["--triangles", "4000"], ["--grains", "800"]):
+        expect(estimate(scratch, *options)[0]["memory"] > small["memory"], f"{options} take more memory")
+    expect(estimate(scratch, "--throw-over-depth", "0.01")[0]["work"] < 0.5 * small["work"], "a small throw takes less")
+    expect(estimate(scratch, "--triangles", "200000", "--grains", "2000")[0]["memory"] > 1e5, "a scene that no machine holds is told")
+    for options in (["--soil", "mohr_coulomb"], ["--soil", "elastic"], ["--case", "heavy"], ["--largest-gradient", "1e-12"]):
+        expect(estimate(scratch, *options)[0]["CPU time"] > 0.0, f"{options} have one too")
+
+    # What is refused for a run is refused for its estimate.
+    for options, named in ((["--grains", "0"], "--grains"), (["--size", "many"], "--size"), (["--tip", "500"], "500"),
+                           (["--probe-a-x", "1000"], "probe A"), (["--mesh", "none.msh"], "none.msh"),
+                           (["--estimate=no"], "estimate")):
+        done = run(scratch, "--estimate", *options)
+        expect(done.returncode > 0 and named in done.stderr, f"{options}: ended with {done.returncode}: {done.stderr}")
+    expect(is_empty(scratch), "nor does one that is refused")
+
+    # Where results of another run lie, they stay.
+    results = pathlib.Path(scratch, "output", "fault_rupture")
+    results.mkdir(parents=True)
+    (results / "summary.json").write_text("{}")
+    estimate(scratch)
+    estimate(scratch, "--overwrite")
+    expect([path.name for path in results.iterdir()] == ["summary.json"] and (results / "summary.json").read_text() == "{}",
+           "results that are there stay")
+
+    tiny = ["--quick", "--threads", "1", "--throw-over-depth", "0.02"]
+    predicted, said = estimate(scratch, *tiny)
+    done = run(scratch, *tiny, "--output", "out")
+    expect(done.returncode == 0, f"the run ends well: {done.stderr[-500:]}")
+    took = json.loads(pathlib.Path(scratch, "out", "summary.json").read_text())
+    factor = took["cpu_seconds"] / predicted["CPU time"]
+    expect(1 / 3 < factor < 3, f"the run takes {took['cpu_seconds']} s of CPU time, {factor:.2f} of what was said: {said}")
+finish()
