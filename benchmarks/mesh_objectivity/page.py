@@ -1,38 +1,19 @@
 # SPDX-License-Identifier: BSL-1.0
 """The page of the runs, docs/objectivity.md, and its figure."""
+import json
 import math
 import statistics
-import subprocess
 
 import pressure
 from generated_sections import rewrite, with_section
+from runs import HEAD, by_length, number, rows_on, table
 from spread import PARTS, measures, ranges, summaries
 
-TITLES = {"x05": "x05 [m]", "x50": "x50 [m]", "x95": "x95 [m]", "width": "width [m]", "dip": "mid-line dip"}
-
-
-def table(columns, rows):
-    return "\n".join("| " + " | ".join(line) + " |" for line in [columns, ["---"] * len(columns), *rows])
-
-
-def number(value, digits=1):
-    return "-" if math.isnan(value) else f"{value:.{digits}f}"
-
-
-def by_length(output, soil):
-    folders = sorted((output / soil).glob("*"), key=lambda folder: -float(folder.name))
-    return {float(folder.name): summaries(folder) for folder in folders if folder.is_dir()}
+TITLES = dict(zip(PARTS, HEAD[3:]))
 
 
 def every_run(found):
-    rows = []
-    for length, runs in found.items():
-        for name, summary in runs.items():
-            said = measures(summary)
-            rows.append([f"{length:g}", name, str(summary["elements"]), *(number(said[part]) for part in PARTS), str(summary["iterations"]),
-                         str(summary["refused_steps"]), number(summary["cpu_seconds"], 0),
-                         summary["status"] if summary["status"] == "ok" else f"{summary['status']} at h/H {summary['throw_over_depth']:.4f}"])
-    return table(["length [m]", "mesh", "elements", *TITLES.values(), "iterations", "refused", "CPU s", "ends"], rows)
+    return table(HEAD, [[f"{length:g}", name, *run.cells()] for length, runs in found.items() for name, run in runs.items()])
 
 
 def apart(rows, parts=PARTS):
@@ -42,26 +23,32 @@ def apart(rows, parts=PARTS):
 
 def of_meshes(found):
     rows = [[f"{length:g}", str(len(runs)), *(number(statistics.fmean(values), 2) if values else "-" for values in
-             ([said[part] for said in map(measures, runs.values()) if not math.isnan(said[part])] for part in ("x05", "x50", "width", "dip"))),
-             *apart([measures(summary) for summary in runs.values()])] for length, runs in found.items()]
+             ([run.said[part] for run in runs.values() if not math.isnan(run.said[part])] for part in ("x05", "x50", "width", "dip"))),
+             *apart([run.said for run in runs.values()])] for length, runs in found.items()]
     return table(["length [m]", "runs", "mean x05", "mean x50", "mean width", "mean dip", *(f"{part}: apart" for part in PARTS)], rows)
 
 
+def scatter_within(groups, part):
+    """Standard deviation about the groups' means, with as many degrees of freedom as these leave; NaN without any."""
+    groups = [[row[part] for row in rows if not math.isnan(row[part])] for rows in groups]
+    groups = [values for values in groups if len(values) > 1]
+    freedom = sum(len(values) - 1 for values in groups)
+    return math.sqrt(sum(statistics.variance(values) * (len(values) - 1) for values in groups) / freedom) if freedom else math.nan
+
+
 def of_seeds(found):
-    """How far meshes are apart for one seed of the packings, seeds on one mesh."""
+    """How far meshes scatter for one seed of the packings, seeds on one mesh."""
     rows = []
     for length, runs in found.items():
-        said = {tuple(name.rsplit("-seed", 1)): measures(summary) for name, summary in runs.items()}
         for kind, at in (("meshes, one seed", 1), ("seeds, one mesh", 0)):
             groups = {}
-            for key, row in said.items():
-                groups.setdefault(key[at], []).append(row)
-            each = [ranges(rows) for rows in groups.values() if len(rows) > 1]
-            if each:
-                rows.append([f"{length:g}", kind, str(len(each)),
-                             *(f"{100.0 * statistics.fmean(one[part] for one in each):.0f} %" if part == "width"
-                               else number(statistics.fmean(one[part] for one in each), 2) for part in PARTS)])
-    return table(["length [m]", "apart over", "groups", *PARTS], rows)
+            for name, run in runs.items():
+                groups.setdefault(name.rsplit("-seed", 1)[at], []).append(run.said)
+            groups = [rows for rows in groups.values() if len(rows) > 1]
+            if groups:
+                rows.append([f"{length:g}", kind, f"{sum(map(len, groups))} in {len(groups)}",
+                             *(number(scatter_within(groups, part), 2) for part in PARTS)])
+    return table(["length [m]", "scatter over", "runs in groups", *TITLES.values()], rows)
 
 
 def of_packings(runs):
@@ -83,17 +70,17 @@ def of_packings(runs):
     return table(["packings", "seeds", *(f"{title}: mean, scatter" for title in TITLES.values()), "iterations", "refused", "CPU s", "MB"], rows)
 
 
-def of_pressure(output, found):
-    """The band's pressure over elements; one mesh of each, seed 1."""
-    rows = []
-    for length in (0.0, max(found)):
-        for name, summary in found.get(length, {}).items():
-            folder = output / "dem" / f"{length:g}" / name
-            if name.endswith("-seed1") and (folder / "fields").is_dir():
-                said = pressure.in_band(folder, summary["k0"])
-                rows.append([f"{length:g}", name.removesuffix("-seed1"), f"{said.starved} of {said.deep}", *(number(share, 2) for share in said.shares)])
+def of_pressure(output, page):
+    """The band's pressure over elements; one mesh of each, seed 1. Rows of the page stay where there is no new run."""
+    rows = {(length, mesh): cells for length, mesh, *cells in rows_on(page, "pressure")}
+    for folder in (output / "dem").glob("*/*-seed1/"):
+        if (folder / "fields").is_dir() and (folder / "summary.json").is_file():
+            said = pressure.in_band(folder, json.loads((folder / "summary.json").read_text())["k0"])
+            rows[folder.parent.name, folder.name.removesuffix("-seed1")] = [f"{said.starved} of {said.deep}",
+                                                                            *(number(share, 2) for share in said.shares)]
     levels = [f"at {low:g} to {high:g} m" for low, high in pressure.LEVELS]
-    return table(["length [m]", "mesh", "starved elements", *levels], rows)
+    ordered = sorted(rows.items(), key=lambda row: (float(row[0][0]), row[0][1]))
+    return table(["length [m]", "mesh", "starved elements", *levels], [[*key, *cells] for key, cells in ordered])
 
 
 def limit(found):
@@ -102,7 +89,7 @@ def limit(found):
     import numpy as np
     rows = []
     for part in PARTS:
-        points = [(length, value) for length in found if length > 0.0 for value in (measures(summary)[part] for summary in found[length].values())
+        points = [(length, value) for length in found if length > 0.0 for value in (run.said[part] for run in found[length].values())
                   if not math.isnan(value)]
         if len({length for length, _ in points}) < 3:
             continue
@@ -122,7 +109,7 @@ def figure(path, soils):
     for axis, (soil, found) in zip(axes[0], soils.items()):
         for part, colour in (("x05", "tab:blue"), ("x50", "tab:red"), ("x95", "tab:green")):
             for length, runs in found.items():
-                values = [measures(summary)[part] for summary in runs.values()]
+                values = [run.said[part] for run in runs.values()]
                 axis.plot([length] * len(values), values, "x" if length == 0.0 else "o", color=colour, ms=4, alpha=0.6,
                           label=part if length == max(found) else None)
         axis.set(title={"mohr_coulomb": "Mohr-Coulomb", "dem": "sand, 100 grains"}[soil], xlabel="intrinsic length [m]; crosses: none")
@@ -132,16 +119,23 @@ def figure(path, soils):
     drawn.savefig(path, dpi=110)
 
 
+def provenance(output, soil):
+    """Of the runs that are in the output folder; others stand on the page from before."""
+    folders = [folder for folder in (output / soil).glob("*/") if summaries(folder)]
+    if not folders:
+        return "All rows are of earlier runs."
+    record = next(iter(summaries(folders[0]).values())).get("run", {})
+    lengths = ", ".join(sorted((folder.name for folder in folders), key=float, reverse=True))
+    return (f"Last runs: lengths {lengths}; commit {record.get('commit', 'unknown')}, {record.get('compiler', '')}, {record.get('processor', '')}; "
+            "any others are of earlier runs.")
+
+
 def write(root, output):
-    soils = {soil: found for soil in ("mohr_coulomb", "dem") if (found := by_length(output, soil))}
     path = root / "docs" / "objectivity.md"
     page = path.read_text()
-    commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=root, capture_output=True, text=True).stdout.strip()
+    soils = {soil: found for soil in ("mohr_coulomb", "dem") if (found := by_length(output, page, soil))}
     for soil, found in soils.items():
-        first = next(iter(next(iter(found.values())).values()))
-        record = first.get("run", {})
-        said = f"Commit {record.get('commit', commit)}, {record.get('compiler', '')}, {record.get('processor', '')}."
-        parts = [f"`./benchmarks/run mesh_objectivity --part {soil}`. {said}"]
+        parts = [f"`./benchmarks/run mesh_objectivity --part {soil}`. {provenance(output, soil)}"]
         parts += [of_meshes(found)] if soil == "mohr_coulomb" else [of_seeds(found)]
         if line := limit(found):
             parts += ["For a vanishing length, a straight line through all runs with one:", line]
@@ -150,7 +144,7 @@ def write(root, output):
     if runs := summaries(output / "packings"):
         page = with_section(page, "packings", f"`./benchmarks/run mesh_objectivity --part packings`.\n\n{of_packings(runs)}")
     if "dem" in soils:
-        page = with_section(page, "pressure", of_pressure(output, soils["dem"]))
+        page = with_section(page, "pressure", of_pressure(output, page))
     rewrite(path, page)
     if soils:
         figure(root / "docs" / "figures" / "objectivity.png", soils)
