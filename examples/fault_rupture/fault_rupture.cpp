@@ -40,6 +40,13 @@ void make_quick(Choice& choice) {
   choice.quick = true;
 }
 
+/// The study's number of triangles, with twice the strain and imbalance of a DEM step, which give the same places (docs/profile.md).
+void make_study(Choice& choice) {
+  choice.triangles = 7563;
+  choice.strain_per_step = 2e-5;
+  choice.unbalanced_tolerance = 0.1;
+}
+
 void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element,
                      std::vector<std::uint64_t>& seeds) {
   using namespace fault_rupture;
@@ -66,7 +73,14 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->description("no length and copies of one packing, as in the study; other options still apply")
       ->configurable(false)
       ->disable_flag_override();
+  auto* const study =
+      app.add_flag("--study")
+          ->description(
+              "a mesh of the study's size, 7563 triangles, and half of the DEM steps; other options still apply")
+          ->configurable(false)
+          ->disable_flag_override();
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(number_from(0.0, false, 25.0));
+  for (char const* other : {"--quick", "--size"}) study->excludes(app.get_option(other));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
       ->check(CLI::Range(100, 1'000'000))
       ->excludes("--size");
@@ -88,6 +102,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
           ->check(CLI::ExistingFile);
   for (char const* made_mesh : {"--size", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
+  file->excludes(study);
   app.add_option("--length", choice.length,
                  "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study")
       ->check(number_from(0.0, true, 1e3));
@@ -187,6 +202,7 @@ int main(int argc, char** argv) {
   };
   if (given("--local")) make_local(choice);
   if (given("--quick")) make_quick(choice);
+  if (given("--study")) make_study(choice);
   CLI::App app(
       "Fault rupture below level ground or a footing: finite elements, with a discrete-element packing in each.");
   examples::declare_version(app);
