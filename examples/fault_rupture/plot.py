@@ -9,55 +9,23 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "shared"))
 import convergence_figures
 import ensemble_figures
 import footing_figures
+import grain_figures
+import ground_figures
 import numpy as np
+import packing_figures
 import scarp_figures as figures
-from matplotlib.collections import PolyCollection
+from ground_figures import colour_limit, deviatoric_percent, draw_cells, draw_settlement, read_steps
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator
-from matplotlib.tri import Triangulation
 from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
 
 STUDY_OUTCROP = -12.5       # [m], where the study's surface starts to deflect, sec. 4.1
 CENTRIFUGE_OUTCROP = -9.8   # [m], the experiment as the study states it, sec. 4.1
 PROBES = {"A": BLUE, "B": VERMILION}
-STRAIN_COLOURS = "magma_r"
 
 
 def packing(folder):
-    return figures.draw_packing(folder, "Packing of an integration point")
-
-
-def read_steps(folder, shares):
-    """[(h/H, grid, file)] of the steps nearest to these shares of the last throw, in order, none twice."""
-    series = figures.read_pvd(folder / "fields.pvd")
-    last = series[-1][0]
-    steps = sorted({min(series, key=lambda step: abs(step[0] - share * last)) for share in shares})
-    return [(throw, figures.read_vtu(path), path) for throw, path in steps if throw > 0.0 or len(steps) == 1]
-
-
-def deviatoric_percent(grid, path):
-    return 100.0 * figures.field(grid.at_cells, "deviatoric_strain", path)
-
-
-def colour_limit(strain):
-    """A round number that leaves out the few most sheared elements at the fault tip. [%]"""
-    finite = strain[np.isfinite(strain)]
-    high = np.percentile(finite, 99.0) if finite.size else 0.0
-    if not high > 0.0:
-        return 1.0
-    step = 10.0 ** np.floor(np.log10(high)) / 2.0
-    return float(np.ceil(high / step) * step)
-
-
-def draw_cells(axes, grid, values, norm, edge=0.15):
-    cells = PolyCollection(grid.points[grid.cells], array=values, cmap=STRAIN_COLOURS, norm=norm,
-                           edgecolor="#00000055" if edge else "face", linewidth=edge or 0.2)
-    axes.add_collection(cells)
-    axes.autoscale_view()
-    axes.set_aspect("equal")
-    axes.grid(False)
-    return cells
+    return packing_figures.draw_packing(folder, "Packing of an integration point")
 
 
 def read_probe(folder, name):
@@ -97,24 +65,6 @@ def probe_place(folder, name, throw, grid):
         alike &= np.isclose(grid.at_cells[quantity], probe[quantity][row], rtol=1e-6, atol=0.0)
     place = grid.points[grid.cells[alike]].mean(axis=1)
     return place[0] if len(place) == 1 else None
-
-
-def draw_settlement(fig, axes, grid, path):
-    """Filled contours of the vertical displacement; its own triangulation of each element."""
-    settlement = -figures.field(grid.at_nodes, "displacement", path)[:, 1]
-    corners = grid.cells.shape[1]
-    triangles = np.vstack([grid.cells[:, [0, k, k + 1]] for k in range(1, corners - 1)])
-    high = max(settlement.max(), 1e-6)
-    levels = MaxNLocator(10).tick_values(settlement.min() if settlement.min() < -0.02 * high else 0.0, high)
-    settlement = np.clip(settlement, levels[0], levels[-1])
-    mesh = Triangulation(*grid.points.T, triangles)
-    filled = axes.tricontourf(mesh, settlement, levels=levels, cmap="Blues")
-    lines = [level for level in levels if settlement.min() < level < settlement.max()]
-    if lines:
-        axes.tricontour(mesh, settlement, levels=lines, colors=BLACK, linewidths=0.4)
-    fig.colorbar(filled, ax=axes, label="settlement [m]", aspect=14)
-    axes.set_aspect("equal")
-    axes.grid(False)
 
 
 def status_note(grid):
@@ -204,9 +154,7 @@ def outcrop_marks(axes, summary):
 def layer_depth(folder):
     """[m], of the first region before it moved"""
     _, grid, path = read_steps(folder, [0.0])[0]
-    initial = grid.points - figures.field(grid.at_nodes, "displacement", path)[:, :2]
-    soil = grid.cells[figures.field(grid.at_cells, "region", path) == 0]
-    return float(np.ptp(initial[soil, 1]))
+    return ground_figures.layer_depth(grid, path)
 
 
 def surface(folder):
@@ -267,10 +215,13 @@ def figures_of(folder):
     if (folder / "ensemble.json").exists():
         return {"ensemble": ensemble_figures.ensemble}
     chosen = {"deformation": deformation, "strain_development": strain_development, "surface": surface,
+              "rupture": ground_figures.rupture, "stress_crosses": ground_figures.stress_crosses,
               "probes": probes, "convergence": convergence_figures.convergence,
               "effort": convergence_figures.effort}
     if (folder / "packing_grains.csv").exists():
         chosen |= {"packing": packing, "fabric": fabric}
+    if any((folder / "packings" / f"{name}.csv").exists() for name in PROBES):
+        chosen |= {"probe_packings": grain_figures.packings, "probe_roses": grain_figures.roses}
     if (folder / "footing.csv").exists():
         chosen |= {"footing": footing_figures.footing, "base_pressure": footing_figures.base_pressure}
     return chosen

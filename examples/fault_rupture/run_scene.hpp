@@ -13,6 +13,7 @@
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
+#include "scarp/observe/packing_series.hpp"
 #include "scarp/observe/probe.hpp"
 #include "scarp/observe/progress.hpp"
 #include "scarp/observe/surface_log.hpp"
@@ -49,6 +50,12 @@ inline void remove_older_results(std::filesystem::path const& folder, bool goes_
   for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
     std::string const name = file.path().filename().string();
     if (name.starts_with("step_") && name.ends_with(".vtu")) std::filesystem::remove(file.path());
+  }
+  if (!std::filesystem::exists(folder / "packings")) return;
+  for (auto const& file : std::filesystem::directory_iterator(folder / "packings")) {
+    std::string const name = file.path().stem().string();
+    bool const ours = name == "A" || name == "B" || name.starts_with("A_") || name.starts_with("B_");
+    if (ours && file.path().extension() == ".csv") std::filesystem::remove(file.path());
   }
 }
 
@@ -145,6 +152,9 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   auto const at = [&](double x, double y) {
     return nearest_point(grid, scarp::Vector<2>(x, scene.ground.surface_level() - depth + y));
   };
+  auto const packings_of = [&](char const* probe, int point) {
+    return scarp::PackingSeries(folder, probe, point, to, {0.0, 0.25, 0.5, 1.0}, depth);
+  };
   auto budget = error_budget(choice, scene, problem, at(choice.probe_a_x, choice.probe_a_y));
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnFirstRank observers(executor, [&] {
@@ -153,6 +163,8 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
         scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
         scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
+        packings_of("A", at(choice.probe_a_x, choice.probe_a_y)),
+        packings_of("B", at(choice.probe_b_x, choice.probe_b_y)),
         footing_log(folder, scene.structure, to, profiles, depth, start),
         scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth, begun.name),
         scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit, begun.moment));

@@ -9,6 +9,7 @@ import sys
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "shared"))
 import numpy as np
+import packing_figures
 import scarp_figures as figures
 import void_ratio_figures
 from scarp_figures import plt
@@ -17,7 +18,7 @@ STUDY_FRICTION_ANGLE = 30.8  # [deg], read off the study's fig. 1b by its author
 
 
 def packing(folder):
-    return figures.draw_packing(folder, "Packing after isotropic consolidation")
+    return packing_figures.draw_packing(folder, "Packing after isotropic consolidation")
 
 
 def stress_ratio_at(friction_angle):

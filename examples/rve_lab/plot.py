@@ -15,6 +15,7 @@ import numpy as np
 import scarp_figures as figures
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import Polygon
+from packing_figures import Rose, rose_legend
 from scarp_figures import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, plt
 
 STATES = {"start": GREY, "peak": VERMILION, "end": BLUE}
@@ -87,29 +88,14 @@ def roses(folder, stems):
     fig, rows = plt.subplots(1, len(stems), figsize=(2.6 * len(stems), 3.0), subplot_kw={"projection": "polar"},
                              squeeze=False, constrained_layout=False)
     fig.subplots_adjust(left=0.06, right=0.94, bottom=0.16, top=0.86, wspace=0.45)
-    bins = np.linspace(-np.pi, np.pi, 37)
     shown = []
     for stem in stems:
         _, contacts, _ = read_state(folder, stem)
-        angle = np.arctan2(contacts["ny"], contacts["nx"])
-        both = np.concatenate([angle, angle + np.where(angle > 0.0, -np.pi, np.pi)])
-        force = np.hypot(contacts["fnx"], contacts["fny"])
-        shown.append((stem, len(angle), np.histogram(both, bins, density=True)[0],
-                      np.histogram(both, bins, weights=np.tile(force, 2), density=True)[0]))
-    top = 1.05 * max(density.max() for _, _, *both in shown for density in both)
-    for axes, (stem, count, density, forces) in zip(rows[0], shown):
-        axes.bar(bins[:-1], density, width=np.diff(bins), align="edge", color=STATES.get(stem, GREY), alpha=0.6,
-                 edgecolor="white", linewidth=0.4)
-        closed = np.append(forces, forces[0])
-        axes.plot(np.append((bins[:-1] + bins[1:]) / 2.0, (bins[0] + bins[1]) / 2.0 + 2.0 * np.pi), closed, color=BLACK,
-                  linewidth=1.1)
-        axes.plot(np.linspace(0, 2 * np.pi, 90), np.full(90, 0.5 / np.pi), color=BLACK, linewidth=0.7, linestyle=":")
-        axes.set(ylim=(0.0, top), yticklabels=[], xticks=np.radians(np.arange(0, 360, 45)),
-                 title=f"{stem}: {count} contacts")
-        axes.tick_params(pad=0)
-    fig.legend([plt.Rectangle((0, 0), 1, 1, color=GREY, alpha=0.6), plt.Line2D([], [], color=BLACK),
-                plt.Line2D([], [], color=BLACK, linestyle=":", linewidth=0.7)],
-               ["contact normals", "weighted with the normal force", "isotropic"], loc="lower center", ncol=3)
+        shown.append(Rose(np.arctan2(contacts["ny"], contacts["nx"]), np.hypot(contacts["fnx"], contacts["fny"])))
+    top = max(rose.top for rose in shown)
+    for axes, stem, rose in zip(rows[0], stems, shown):
+        rose.draw(axes, top, STATES.get(stem, GREY), f"{stem}: {rose.count} contacts")
+    rose_legend(fig)
     return fig
 
 

@@ -66,6 +66,16 @@ inline scarp::RunRecord::Lines all_options(CLI::App const& app) {
   return lines;
 }
 
+/// What these would be if none had been given.
+inline scarp::RunRecord::Lines default_options(CLI::App const& app) {
+  auto lines = all_options(app);
+  for (auto& [name, value] : lines) {
+    auto const* const option = app.get_option_no_throw("--" + name);
+    if (option != nullptr) value = option->get_items_expected_max() == 0 ? "false" : option->get_default_str();
+  }
+  return lines;
+}
+
 /// Of the source that this was built from; "unknown" outside of a repository.
 std::string_view commit();
 
@@ -73,7 +83,7 @@ std::string_view commit();
 /// app: with the run's options
 inline scarp::RunRecord record_of(std::string program, CLI::App const& app,
                                   scarp::BuildInfo const& build = scarp::build_info()) {
-  scarp::RunRecord record{.program = std::move(program), .options = all_options(app)};
+  scarp::RunRecord record{.program = std::move(program), .options = all_options(app), .defaults = default_options(app)};
   record.build = {{"version", std::string(scarp::version)},
                   {"commit", std::string(commit())},
                   {"compiler", scarp::described(build)},

@@ -3,7 +3,6 @@
 
 import base64
 import csv
-import itertools
 import json
 import os
 import pathlib
@@ -16,8 +15,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import EllipseCollection, LineCollection
-from matplotlib.patches import Polygon
+from PIL import Image
 
 # Colours that stay apart for colour-blind readers [Okabe & Ito 2008, "Color Universal Design"].
 BLUE, VERMILION, GREEN, ORANGE, SKY, PURPLE = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7"
@@ -48,7 +46,7 @@ def number(cell):
         return {"true": 1.0, "false": 0.0}.get(cell.strip().lower(), np.nan)
 
 
-def read_csv(path, columns):
+def read_csv(path, columns, may_be_empty=False):
     """Table with a header line -> {column: array}; a last line that an interruption cut off is left out."""
     require_file(path)
     text = path.read_text()
@@ -61,7 +59,7 @@ def read_csv(path, columns):
     for line, row in enumerate(rows, start=2):
         if len(row) != len(header):
             raise InputError(f"'{path}', line {line}, has {len(row)} cells (its header has {len(header)}): run anew")
-    if not rows:
+    if not rows and not may_be_empty:
         raise InputError(f"'{path}' holds no rows (the run has not come so far): let it run on")
     return {name: np.array([number(row[k]) for row in rows]) for k, name in enumerate(header)}
 
@@ -149,69 +147,46 @@ def field(values, name, path):
     return values[name]
 
 
-def draw_packing(folder, title):
-    """Grains with force chains, their widths proportional to the normal force, in the periodic cell; lengths in mm."""
-    grains = read_csv(folder / "packing_grains.csv", ["x", "y", "a", "b", "cos", "sin"])
-    contacts = read_csv(folder / "packing_contacts.csv", ["x1", "y1", "x2", "y2", "normal_force"])
-    cell = read_csv(folder / "packing_cell.csv", ["a1x", "a1y", "a2x", "a2y"])
-    base = 1e3 * np.array([[cell["a1x"][0], cell["a2x"][0]], [cell["a1y"][0], cell["a2y"][0]]])
-    if not (np.isfinite(base).all() and np.linalg.det(base) > 0.0):
-        raise InputError(f"'{folder / 'packing_cell.csv'}' holds no cell (inverted or NaN): run the example anew")
+class Animation(typing.NamedTuple):
+    frames: list        # of PIL.Image, all of one size
+    milliseconds: list  # that each is shown
 
-    centres = 1e3 * np.column_stack([grains["x"], grains["y"]])
-    relative = np.linalg.solve(base, centres.T).T
-    corner = np.round(2.0 * (relative.mean(axis=0) - 0.5)) / 2.0  # cells start at the origin or are centred there
-    home = np.floor(relative - corner)
-    centres = centres - home @ base.T
-    start = 1e3 * np.column_stack([contacts["x1"], contacts["y1"]])
-    branch = 1e3 * np.column_stack([contacts["x2"], contacts["y2"]]) - start
-    start = start - np.floor(np.linalg.solve(base, start.T).T - corner) @ base.T
 
-    fig, axes = plt.subplots(figsize=(5.2, 5.2))
-    outline = (corner + np.array([[0, 0], [1, 0], [1, 1], [0, 1]])) @ base.T
-    angle = np.degrees(np.arctan2(grains["sin"], grains["cos"]))
-    images = [base @ np.array(shift) for shift in itertools.product((-1, 0, 1), repeat=2)]
-    for image in images:
-        own = not image.any()
-        axes.add_collection(EllipseCollection(
-            2e3 * grains["a"], 2e3 * grains["b"], angle, units="xy", offsets=centres + image,
-            offset_transform=axes.transData, zorder=2 if own else 1, facecolor="#F4E3C1" if own else "#F5F5F5",
-            edgecolor="#8C7A55" if own else "#DADADA", linewidth=0.4))
-    carrying = contacts["normal_force"] > 0.0
-    force = contacts["normal_force"][carrying]
-    frame = axes.add_patch(Polygon(outline, closed=True, fill=False, edgecolor=BLACK, linewidth=1.0, zorder=4))
-    points_per_newton = 1.0 / force.mean() if len(force) else 0.0
-    for image in images:
-        ends = start[carrying] + image
-        chains = LineCollection(np.stack([ends, ends + branch[carrying]], axis=1), colors=BLUE, capstyle="round",
-                                linewidths=points_per_newton * force, zorder=3)
-        axes.add_collection(chains)
-        chains.set_clip_path(frame)  # a chain that leaves the cell comes in again on the other side
-    margin = 0.03 * np.ptp(outline, axis=0).max()
-    axes.set(xlim=(outline[:, 0].min() - margin, outline[:, 0].max() + margin), xlabel="x [mm]",
-             ylim=(outline[:, 1].min() - margin, outline[:, 1].max() + margin), ylabel="y [mm]", aspect="equal",
-             title=f"{title}: {len(centres)} grains, {len(force)} contacts")
-    axes.grid(False)
-    if len(force):
-        for sample in sorted({float(f"{times * force.mean():.1g}") for times in (1.0, 2.0, 4.0)}):
-            axes.plot([], [], color=BLUE, linewidth=points_per_newton * sample, label=f"{sample:g} N")
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=3, title="normal force")
-    return fig
+LARGEST_ANIMATION = 3_000_000  # [bytes]
+
+
+def write_animation(animation, path):
+    """A GIF with one palette for all frames, smaller when it would be too large."""
+    frames = animation.frames
+    while True:
+        samples = [frames[0], frames[len(frames) // 2], frames[-1]]
+        palette = Image.fromarray(np.vstack([np.asarray(frame) for frame in samples])).quantize(128)
+        drawn = [frame.quantize(palette=palette, dither=0) for frame in frames]
+        drawn[0].save(path, format="GIF", save_all=True, append_images=drawn[1:], duration=animation.milliseconds, loop=0,
+                      optimize=False)
+        if path.stat().st_size <= LARGEST_ANIMATION or frames[0].width < 200:
+            return
+        frames = [frame.resize((frame.width * 3 // 4, frame.height * 3 // 4)) for frame in frames]
 
 
 def save(fig, path):
+    """A figure, or an Animation."""
     path.parent.mkdir(exist_ok=True)
     partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
     try:
-        fig.savefig(partial, format="png")
+        if isinstance(fig, Animation):
+            write_animation(fig, partial)
+        else:
+            fig.savefig(partial, format="png")
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
-        plt.close(fig)
+        if not isinstance(fig, Animation):
+            plt.close(fig)
 
 
 def draw_all(figures):
-    """figures: {name: function(folder) -> figure}. Draws each that can be drawn into OUTPUT_DIR/figures/ and ends the
+    """figures: {name: function(folder) -> figure or Animation}. Draws each that can be drawn into OUTPUT_DIR/figures/ and ends the
     program: 0 when all were drawn, 1 when some could not be, 2 for a wrong call."""
     if len(sys.argv) != 2:
         print(f"usage: {sys.argv[0]} OUTPUT_DIR   (the folder that the example wrote)", file=sys.stderr)
@@ -223,11 +198,12 @@ def draw_all(figures):
     status = 0
     for name, draw in figures.items():
         try:
-            path = folder / "figures" / f"{name}.png"
-            save(draw(folder), path)
+            drawn = draw(folder)
+            path = folder / "figures" / f"{name}.{'gif' if isinstance(drawn, Animation) else 'png'}"
+            save(drawn, path)
             print(path)
         except (InputError, OSError) as trouble:
-            print(f"{name}.png is not drawn: {trouble}", file=sys.stderr)
+            print(f"figure '{name}' is not drawn: {trouble}", file=sys.stderr)
             plt.close("all")
             status = 1
     sys.exit(status)

@@ -17,6 +17,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/nonlocal.hpp"
+#include "scarp/constitutive/packing_in.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/perturbation_tangent.hpp"
 #include "scarp/constitutive/random_packings.hpp"

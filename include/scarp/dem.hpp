@@ -23,6 +23,7 @@
 #include "scarp/dem/local_damping.hpp"
 #include "scarp/dem/mirrored.hpp"
 #include "scarp/dem/packing.hpp"
+#include "scarp/dem/packing_picture.hpp"
 #include "scarp/dem/population.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/dem/sphere_grading.hpp"

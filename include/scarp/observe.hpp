@@ -17,6 +17,7 @@
 #include "scarp/observe/level_profile.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/observe/outcrop.hpp"
+#include "scarp/observe/packing_series.hpp"
 #include "scarp/observe/probe.hpp"
 #include "scarp/observe/progress.hpp"
 #include "scarp/observe/rupture_measures.hpp"

@@ -11,6 +11,7 @@
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/outcrop.hpp"
+#include "scarp/observe/packing_series.hpp"
 #include "scarp/observe/probe.hpp"
 #include "scarp/observe/surface_log.hpp"
 #include "scarp/run/time_limit.hpp"
@@ -190,6 +191,7 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
   scarp::Observers observers(scarp::FieldSeries<scarp::RveQuantities>(folder.path(), scene.throw_to, 4, unit),
                              scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, 4, unit),
                              scarp::RveProbe(folder / "probe.csv", 3, unit),
+                             scarp::PackingSeries(folder.path(), "probe", 3, scene.throw_to, {0.0, 0.5, 1.0}, unit),
                              scarp::ConvergenceLog(folder / "convergence.csv", unit), whole, scarp::TimeLimit(0.0));
   check_same_bits(run_sand(serial, observers), serial_sand());
   CHECK(files == 5);  // analytic: at rest and at each quarter of the throw

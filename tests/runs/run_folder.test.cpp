@@ -16,7 +16,10 @@ using scarp::RunFolder;
 constexpr char const* scene = "size = 1\nseed = 7\n";
 
 scarp::RunRecord record() {
-  return {.program = "sample", .build = {{"version", "1"}}, .options = {{"size", "1"}, {"output", "a \"b\"\\\n"}}};
+  return {.program = "sample",
+          .build = {{"version", "1"}},
+          .options = {{"size", "1"}, {"output", "a \"b\"\\\n"}},
+          .defaults = {{"size", "2"}}};
 }
 
 CheckpointFiles files(ScratchFolder const& folder, char const* name, bool resume, char const* text = scene) {
@@ -68,6 +71,7 @@ TEST_CASE("a record is read as it was written, also by a program that knows othe
   auto const read = scarp::RunRecord::from(written.text());
   CHECK(read.text() == written.text());
   CHECK(read.options == written.options);
+  CHECK(read.defaults == written.defaults);
   auto const later =
       scarp::RunRecord::from(R"({"extra": {"state": "no"}, "number": 1.5, "identity": "x","state":"running"})");
   CHECK(later.identity == "x");

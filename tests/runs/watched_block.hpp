@@ -18,6 +18,7 @@
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/observers.hpp"
+#include "scarp/observe/packing_series.hpp"
 #include "scarp/observe/probe.hpp"
 #include "scarp/observe/surface_log.hpp"
 #include "scarp/run/checkpointed_run.hpp"
@@ -107,6 +108,7 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
   scarp::OnFirstRank observers(executor, [&] {
     return scarp::Observers(scarp::FieldSeries<scarp::RveQuantities>(folder, to, 3, 1.0),
                             scarp::RveProbe(folder / "probe.csv", 1, 1.0, start),
+                            scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, 1.0),
                             scarp::ConvergenceLog(folder / "convergence.csv", 1.0, start),
                             scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::Borrowed(budget),
                             Stop{attempts});

@@ -4,6 +4,7 @@
 #include <any>
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "scarp/constitutive/detail/hidden_provider.hpp"
@@ -16,7 +17,7 @@ namespace scarp {
 /// \code
 /// scarp::AnyProvider<2> soil = stiff ? scarp::AnyProvider<2>(elastic) : scarp::AnyProvider<2>(packings);
 /// \endcode
-/// `RveQuantities`, checkpoints, ranks and error budgets see through it; what else an observer wants of a state it asks by
+/// `RveQuantities`, `packing_in`, checkpoints, ranks and error budgets see through it; what else an observer wants of a state it asks by
 /// `state.as<State>()`.
 template <int Dim>
 class AnyProvider {
@@ -66,6 +67,7 @@ class AnyProvider {
   VoigtTangent<Dim> tangent(State const& state) const { return held_->tangent(state); }
 
   Quantities quantities(State const& state) const { return held_->quantities(state); }
+  std::optional<PackingPicture> packing_in(State const& state) const { return held_->packing_in(state); }
   PackingBalance packing_balance(State const& before, State const& after, Gradient<Dim> const& increment,
                                  Plan const& plan) const {
     return held_->packing_balance(before, after, increment, plan.own);

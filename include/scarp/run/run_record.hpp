@@ -27,6 +27,7 @@ struct RunRecord {
   std::string scene{};       ///< what its checkpoints must agree with, a line for each choice
   Lines build{};             ///< version, compiler, processor and the like
   Lines options{};           ///< all of them, also those that were not given
+  Lines defaults{};          ///< what they would have been, in the same order
 
   bool has_finished() const { return state == "finished"; }
 
@@ -43,17 +44,19 @@ struct RunRecord {
     members(*this, [&](std::string_view name, std::string const& value) {
       json += fmt::format("  {}: {},\n", quoted_json(name), quoted_json(value));
     });
-    return json + block("build", build) + ",\n" + block("options", options) + "\n}\n";
+    return json + block("build", build) + ",\n" + block("options", options) + ",\n" + block("defaults", defaults) +
+           "\n}\n";
   }
 
   /// \throws InputError for a text that no record has
   static RunRecord from(std::string_view text) {
     RunRecord record;
     Lines* block = nullptr;
+    Lines unknown;
     std::optional<std::string> name;
     while (!text.empty()) {
       if (text.front() != '"') {
-        if (text.front() == '{') block = !name ? nullptr : *name == "build" ? &record.build : &record.options;
+        if (text.front() == '{') block = name ? record.lines(*name, unknown) : nullptr;
         if (text.front() == '}') block = nullptr;
         if (text.front() == '{' || text.front() == ',') name.reset();
         text.remove_prefix(1);
@@ -85,6 +88,10 @@ struct RunRecord {
     visit("changed", self.changed);
     visit("checkpoint", self.checkpoint);
     visit("scene", self.scene);
+  }
+
+  Lines* lines(std::string_view name, Lines& unknown) {
+    return name == "build" ? &build : name == "options" ? &options : name == "defaults" ? &defaults : &unknown;
   }
 
   static std::string block(std::string_view name, Lines const& lines) {

@@ -4,12 +4,14 @@
 #include <any>
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "scarp/constitutive/any_state.hpp"
 #include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/packing_balance.hpp"
+#include "scarp/constitutive/packing_in.hpp"
 #include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/constitutive/step_doubling.hpp"
 #include "scarp/core/error.hpp"
@@ -36,6 +38,7 @@ class HiddenProvider {
   virtual VoigtStress<Dim> stress(State const& state) const = 0;
   virtual VoigtTangent<Dim> tangent(State const& state) const = 0;
   virtual Quantities quantities(State const& state) const = 0;
+  virtual std::optional<PackingPicture> packing_in(State const& state) const = 0;
   virtual PackingBalance packing_balance(State const& before, State const& after, Gradient<Dim> const& increment,
                                          std::any const& plan) const = 0;
 };
@@ -90,6 +93,9 @@ class HiddenProviderOf final : public HiddenProvider<Provider::dim> {
   VoigtStress<dim> stress(State const& state) const override { return provider_.stress(own(state)); }
   VoigtTangent<dim> tangent(State const& state) const override { return provider_.tangent(own(state)); }
   Quantities quantities(State const& state) const override { return RveQuantities{}(provider_, own(state)); }
+  std::optional<PackingPicture> packing_in(State const& state) const override {
+    return scarp::packing_in(provider_, own(state));
+  }
   PackingBalance packing_balance(State const& before, State const& after, Gradient<dim> const& increment,
                                  std::any const& plan) const override {
     return scarp::packing_balance(provider_, own(before), own(after), increment, own(plan));

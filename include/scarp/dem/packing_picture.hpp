@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <vector>
+
+#include "scarp/dem/contacts.hpp"
+
+namespace scarp {
+
+/// Whether `packing_picture` takes packings of this type: discs and ellipses in the plane.
+template <class PackingType>
+concept HasPicture = PackingType::dim == 2 && PackingType::Shape::size_count <= 2 &&
+                     part_count<typename PackingType::Shape>() == 1;
+
+/// A plane packing as a drawing needs it, whatever its grains and its contact law are.
+struct PackingPicture {
+  struct Grain {
+    Vector<2> centre;        ///< [m], perhaps outside of the cell
+    double a = 0.0;          ///< half axis along `axis` [m], the longer one
+    double b = 0.0;          ///< half axis across [m]
+    Vector<2> axis{1.0, 0};  ///< unit vector
+  };
+  struct Contact {
+    Vector<2> from;             ///< centre of the first grain [m]
+    Vector<2> branch;           ///< from there to the centre of the second one [m]
+    Vector<2> normal;           ///< unit vector, towards the second grain
+    double normal_force = 0.0;  ///< [N], positive in compression
+  };
+
+  Tensor<2> cell;  ///< columns are base vectors [m]
+  std::vector<Grain> grains{};
+  std::vector<Contact> contacts{};  ///< those that touch
+};
+
+/// The packing stays as it is.
+template <HasPicture PackingType>
+PackingPicture packing_picture(PackingType const& packing, typename PackingType::Law const& law) {
+  PackingPicture picture{.cell = packing.cell};
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    auto const size = packing.population->size(i);
+    PackingPicture::Grain grain{{packing.position(i, 0), packing.position(i, 1)}, size.front(), size.back()};
+    if constexpr (PackingType::Shape::orientation_count == 2) {
+      grain.axis = {static_cast<double>(packing.orientation(i, 0)), static_cast<double>(packing.orientation(i, 1))};
+    }
+    picture.grains.push_back(grain);
+  }
+  for_each_contact(packing, law, [&](Contact<2> const& contact) {
+    auto const from = row_position(packing, contact.first);
+    picture.contacts.push_back({{from[0], from[1]}, contact.branch, contact.normal(), contact.normal_force});
+  });
+  return picture;
+}
+
+}  // namespace scarp

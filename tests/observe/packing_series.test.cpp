@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/observe/packing_series.hpp"
+
+#include <doctest/doctest.h>
+
+#include "dem/sample_packings.hpp"
+#include "io/scratch_folder.hpp"
+#include "scarp/constitutive/any_provider.hpp"
+#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/material_field.hpp"
+#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/io/csv_reader.hpp"
+#include "scarp/io/state_bits.hpp"
+#include "scarp/solver/thread_executor.hpp"
+
+namespace {
+
+using Rve = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>;
+using Any = scarp::AnyProvider<2>;
+
+/// As much of a problem as the series looks at: one point.
+template <class Provider>
+struct OnePoint {
+  static constexpr int dim = 2;
+  scarp::SerialExecutor serial{};
+  scarp::ProviderField<Provider> field;
+
+  explicit OnePoint(Provider const& provider) : field(provider, std::vector<scarp::Site<2>>(1)) {}
+  auto const& executor() const { return serial; }
+  auto const& materials() const { return field; }
+};
+
+Rve sand() { return {.law = samples::study_law(), .source = {samples::consolidated<samples::Discs>(80).packing}}; }
+
+scarp::StepReport accepted(double load) { return {.load = load}; }
+
+std::vector<double> throws_in(std::filesystem::path const& list) {
+  return scarp::read_csv(list).column("throw_over_depth");
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("packings are written at the first steps that have come to the shares", Provider,
+                   scarp::StiffnessFloor<Rve>, Any) {
+  ScratchFolder const folder;
+  OnePoint<Provider> const problem(Provider(scarp::StiffnessFloor<Rve>{.provider = sand()}));
+  scarp::PackingSeries series(folder.path(), "A", 0, 2.0, {0.0, 0.25, 0.3, 0.5, 1.0}, 8.0);
+  series.attempted(problem, accepted(-1.0));
+  CHECK_FALSE(std::filesystem::exists(folder / "packings"));
+  series.attempted(problem, {.load = 0.0, .verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced}});
+  CHECK_FALSE(std::filesystem::exists(folder / "packings"));
+  for (double const load : {0.0, 0.4, 0.75, 0.9, 1.0}) series.attempted(problem, accepted(load));
+  CHECK(throws_in(folder / "packings/A.csv") == std::vector<double>{0.0, 0.09375, 0.125});
+  series.ended(problem, 1.0);  // written already
+  CHECK(throws_in(folder / "packings/A.csv").size() == 3);
+  series.ended(problem, 1.5);
+  CHECK(throws_in(folder / "packings/A.csv").back() == 0.1875);
+
+  auto const grains = scarp::read_csv(folder / "packings/A_3_grains.csv");
+  auto const contacts = scarp::read_csv(folder / "packings/A_3_contacts.csv");
+  auto const cell = scarp::read_csv(folder / "packings/A_3_cell.csv");
+  CHECK(grains.rows() == 80);
+  CHECK(grains.column("a") == grains.column("b"));
+  // Love and Weber's stress of what is written is nearly the state's: shear forces carry the rest, and no deviator.
+  auto const from = contacts.column("x1");
+  auto const to = contacts.column("x2");
+  auto const force = contacts.column("normal_force");
+  auto const normal = contacts.column("nx");
+  double sum = 0.0;
+  for (std::size_t c = 0; c < contacts.rows(); ++c) sum += force[c] * normal[c] * (to[c] - from[c]);
+  double const area = cell.column("a1x")[0] * cell.column("a2y")[0] - cell.column("a1y")[0] * cell.column("a2x")[0];
+  CHECK(sum / (area * samples::thickness) == doctest::Approx(samples::pressure).epsilon(0.1));
+}
+
+TEST_CASE("a series that goes on from a checkpoint has the packings before it in its list") {
+  ScratchFolder const folder;
+  OnePoint<Rve> const problem(sand());
+  scarp::StateWriter saved;
+  {
+    scarp::PackingSeries series(folder.path(), "B", 0, 1.0, {0.0, 0.5, 1.0}, 1.0);
+    series.attempted(problem, accepted(0.0));
+    saved("series", std::as_const(series));
+    series.attempted(problem, accepted(0.6));  // lost with the process
+  }
+  scarp::PackingSeries series(folder.path(), "B", 0, 1.0, {0.0, 0.5, 1.0}, 1.0);
+  scarp::StateReader reader(saved.bits());
+  reader("series", series);
+  series.attempted(problem, accepted(0.5));
+  CHECK(throws_in(folder / "packings/B.csv") == std::vector<double>{0.0, 0.5});
+}
+
+TEST_CASE("a point without a packing leaves nothing behind") {
+  ScratchFolder const folder;
+  OnePoint<Any> const problem(Any(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3)));
+  scarp::PackingSeries series(folder.path(), "A", 0, 1.0, {0.0, 1.0}, 1.0);
+  series.attempted(problem, accepted(0.0));
+  series.ended(problem, 0.5);
+  CHECK(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_CASE("shares that are none are refused") {
+  ScratchFolder const folder;
+  for (auto const& shares : {std::vector{0.5, 0.5}, std::vector{-0.1}, std::vector{1.1}, std::vector{std::nan("")}})
+    CHECK_THROWS_AS(scarp::PackingSeries(folder.path(), "A", 0, 1.0, shares, 1.0), scarp::InputError);
+}
