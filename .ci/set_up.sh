@@ -8,8 +8,6 @@ build_packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libnanof
 
 # A compiler cache accepts precompiled headers only when told that their time stamps do not matter.
 export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros,include_file_mtime,include_file_ctime}"
-# Clones in other folders then share what has been compiled.
-export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$repository}"
 
 complain() {
   echo "$(basename "$(dirname "$0")")/$(basename "$0"): $*" >&2
