@@ -369,7 +369,7 @@ TEST_CASE_TEMPLATE("a pack of superellipse pairs gives what each pair gives alon
     for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {
       double const eps = exponents[static_cast<std::size_t>(random.uniform(0.0, 6.0))];
       RandomPair const pair(random, eps, random.uniform(-1e-2, 1e-2));
-      for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t i = 0; i < first.size(); ++i) {
         first[i][lane] = static_cast<Scalar>(pair.first.pose()[i]);
         second[i][lane] = static_cast<Scalar>(pair.second.pose()[i]);
       }
@@ -381,7 +381,7 @@ TEST_CASE_TEMPLATE("a pack of superellipse pairs gives what each pair gives alon
     auto const touch = Superellipse::touch<Lanes>(first, second, branch, start);
     for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {
       Superellipse::Pose<Scalar> alone_first, alone_second;
-      for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t i = 0; i < first.size(); ++i) {
         alone_first[i] = first[i][lane];
         alone_second[i] = second[i][lane];
       }

@@ -56,6 +56,22 @@ struct BasicMask {
 
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline bool any_of(BasicMask<Scalar, Width> const& condition) {
+  [[maybe_unused]] constexpr std::size_t bytes = Width * sizeof(Scalar);
+  // The registers' own instruction collects the lanes' signs; compilers go lane by lane.
+#if defined(__AVX__)
+  if constexpr (bytes == 64) {
+    using Half = typename BasicMask<Scalar, Width / 2>::Vector;
+    Half halves[2];
+    __builtin_memcpy(halves, &condition.vector, bytes);
+    return any_of(BasicMask<Scalar, Width / 2>(halves[0] | halves[1]));
+  }
+  if constexpr (bytes == 32)
+    return __builtin_ia32_movmskps256(reinterpret_cast<VectorOf<float, 8>>(condition.vector)) != 0;
+#endif
+#if defined(__SSE2__)
+  if constexpr (bytes == 16)
+    return __builtin_ia32_movmskps(reinterpret_cast<VectorOf<float, 4>>(condition.vector)) != 0;
+#endif
   auto found = condition.vector[0];
   for (std::size_t lane = 1; lane < Width; ++lane) found |= condition.vector[lane];
   return found != 0;

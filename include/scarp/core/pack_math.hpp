@@ -79,12 +79,27 @@ template <class Scalar, std::size_t Width>
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> min(BasicPack<Scalar, Width> const& a,
                                                            BasicPack<Scalar, Width> const& b) {
+#if defined(__AVX__)
+  using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
+  // g++ compares and chooses where one operand is a constant.
+  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 8)
+    return Pack(__builtin_ia32_minpd256(a.vector, b.vector));
+  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 4)
+    return Pack(__builtin_ia32_minps256(a.vector, b.vector));
+#endif
   return BasicPack<Scalar, Width>(a.vector < b.vector ? a.vector : b.vector);
 }
 /// Not-a-number in either gives `b`, as the processors' instructions do; use `at_least` where it must stay.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> max(BasicPack<Scalar, Width> const& a,
                                                            BasicPack<Scalar, Width> const& b) {
+#if defined(__AVX__)
+  using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
+  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 8)
+    return Pack(__builtin_ia32_maxpd256(a.vector, b.vector));
+  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 4)
+    return Pack(__builtin_ia32_maxps256(a.vector, b.vector));
+#endif
   return BasicPack<Scalar, Width>(a.vector > b.vector ? a.vector : b.vector);
 }
 

@@ -51,30 +51,36 @@ std::array<Vector, 4> transpose_blocks(std::array<Vector, 4> const& rows) {
 
 }  // namespace detail
 
-/// Four neighbouring numbers of one row per lane, as four packs: pack c holds row_of(lane)[c]. Where registers hold four or
-/// eight lanes the rows are read whole and transposed in registers, which takes half the loads of a gather.
-template <class Scalar, std::size_t Width = lane_count<Scalar>, class RowOf>
-std::array<BasicPack<Scalar, Width>, 4> load_quads(RowOf const& row_of) {
+/// One quad per lane, as four packs: pack c holds entry c of quad_of(lane). Where registers hold four or eight lanes the quads
+/// are taken whole and transposed in registers, which takes half the loads of a gather.
+template <class Scalar, std::size_t Width = lane_count<Scalar>, class QuadOf>
+std::array<BasicPack<Scalar, Width>, 4> from_quads(QuadOf const& quad_of) {
   std::array<BasicPack<Scalar, Width>, 4> packs;
   if constexpr (Width == 4 || Width == 8) {
     using Vector = VectorOf<Scalar, Width>;
     std::array<Vector, 4> rows;
     for (std::size_t j = 0; j < 4; ++j) {
       if constexpr (Width == 4) {
-        rows[j] = FourScalars<Scalar>::read(row_of(j)).value;
+        rows[j] = quad_of(j).value;
       } else {
-        rows[j] = __builtin_shufflevector(FourScalars<Scalar>::read(row_of(j)).value,
-                                          FourScalars<Scalar>::read(row_of(j + 4)).value, 0, 1, 2, 3, 4, 5, 6, 7);
+        rows[j] = __builtin_shufflevector(quad_of(j).value, quad_of(j + 4).value, 0, 1, 2, 3, 4, 5, 6, 7);
       }
     }
     auto const columns = detail::transpose_blocks(rows);
     for (std::size_t c = 0; c < 4; ++c) packs[c].vector = columns[c];
   } else {
-    for (std::size_t c = 0; c < 4; ++c) {
-      packs[c] = BasicPack<Scalar, Width>([&](auto lane) { return row_of(lane)[c]; });
+    for (std::size_t lane = 0; lane < Width; ++lane) {
+      auto const quad = quad_of(lane);
+      for (std::size_t c = 0; c < 4; ++c) packs[c][lane] = quad.value[c];
     }
   }
   return packs;
+}
+
+/// Four neighbouring numbers of one row per lane, as four packs: pack c holds row_of(lane)[c].
+template <class Scalar, std::size_t Width = lane_count<Scalar>, class RowOf>
+std::array<BasicPack<Scalar, Width>, 4> load_quads(RowOf const& row_of) {
+  return from_quads<Scalar, Width>([&](std::size_t lane) { return FourScalars<Scalar>::read(row_of(lane)); });
 }
 
 /// The reverse in registers: quad k holds lane k of the four packs.

@@ -15,12 +15,12 @@ namespace scarp {
 /// half axis ry, exponent eps), orientation (cos, sin) of the rx axis. An exponent of 1 is an ellipse, towards 0 a
 /// rectangle, towards 2 a rhombus.
 /// \f$ h(n) = (|r_x n_x|^q + |r_y n_y|^q)^{1/q},\; q = 2/(2-\epsilon) \f$ is its support function.
-/// The pose is (cos, sin, rx, ry, q, 1/q).
+/// The pose is (cos, sin, rx, ry, q - 1, 1/q, 1/(q - 1)).
 struct Superellipse {
   static constexpr int dim = 2;
   static constexpr int size_count = 3;
   static constexpr int orientation_count = 2;
-  static constexpr int pose_count = 6;
+  static constexpr int pose_count = 7;
   static constexpr bool remembers_normal = true;
   static constexpr double smallest_exponent = 0.2;
   static constexpr double largest_exponent = 1.8;
@@ -28,7 +28,7 @@ struct Superellipse {
   template <class T>
   using Size = std::array<T, 3>;
   template <class T>
-  using Pose = std::array<T, 6>;
+  using Pose = std::array<T, 7>;
 
   /// \throws InputError unless the half axes are positive and the exponent lies in the range that the touch is made for
   static void check(Size<double> const& size) {
@@ -78,7 +78,8 @@ struct Superellipse {
   template <class T>
   static Pose<T> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
     T const inverse = constant<T>(1) - size[2] * constant<T>(0.5);
-    return {orientation[0], orientation[1], size[0], size[1], constant<T>(1) / inverse, inverse};
+    T const flat = size[2] * constant<T>(0.5) / inverse;
+    return {orientation[0], orientation[1], size[0], size[1], flat, inverse, constant<T>(1) / flat};
   }
 
   /// Geometric mean of the half axes.
@@ -90,7 +91,7 @@ struct Superellipse {
 
   template <class T>
   static SuperellipseSupport<T> support(Pose<T> const& pose, Point<2, T> const& normal) {
-    return superellipse_support(pose, normal);
+    return superellipse_supports<T, 1>({pose}, normal)[0];
   }
 
   template <class T>

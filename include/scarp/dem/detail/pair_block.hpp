@@ -64,24 +64,23 @@ struct PairBlock {
 
   /// A pack of pairs from the rows of their grains.
   void gather(Scalar const* rows, std::size_t at) {
-    PairSide<Layout, Lanes> const one(rows, first.data() + at);
-    PairSide<Layout, Lanes> const other(rows, second.data() + at);
-    for (std::size_t a = 0; a < axes; ++a) write(branch + a, at, other[a] - one[a]);
+    PairSides<Layout, Lanes> const sides(rows, first.data() + at, second.data() + at);
+    for (std::size_t a = 0; a < axes; ++a) write(branch + a, at, sides.difference(a));
     if constexpr (Law::needs.shear || Law::needs.motion) {
-      for (std::size_t a = 0; a < axes; ++a)
-        write(velocity + a, at, other[Layout::velocity + a] - one[Layout::velocity + a]);
+      for (std::size_t a = 0; a < axes; ++a) write(velocity + a, at, sides.difference(Layout::velocity + a));
     }
     if constexpr (Law::needs.shear || Law::needs.motion || Law::needs.moment) {
       for (std::size_t k = 0; k < turns; ++k) {
-        write(spin_first + k, at, one[Layout::spin + k]);
-        write(spin_second + k, at, other[Layout::spin + k]);
+        write(spin_first + k, at, sides.first(Layout::spin + k));
+        write(spin_second + k, at, sides.second(Layout::spin + k));
       }
     }
     for (std::size_t k = 0; k < pose_size; ++k) {
-      write(pose_first + k, at, one[Layout::pose + k]);
-      write(pose_second + k, at, other[Layout::pose + k]);
+      write(pose_first + k, at, sides.first(Layout::pose + k));
+      write(pose_second + k, at, sides.second(Layout::pose + k));
     }
-    if constexpr (Law::needs.motion) write(inverse_mass, at, one[Layout::inverse_mass] + other[Layout::inverse_mass]);
+    if constexpr (Law::needs.motion)
+      write(inverse_mass, at, sides.first(Layout::inverse_mass) + sides.second(Layout::inverse_mass));
   }
 
   /// Adds the forces of a pack of pairs to the rows of forces.

@@ -36,19 +36,37 @@ Turning<Dim, Lanes> affine_turn(Tensor<Dim> const& gradient) {
   }
 }
 
-/// One side of a pair: its rows of data as lanes.
+/// Both sides of a pair: their rows of data as lanes. Of the first quads of a row only differences are asked for: they are
+/// taken before the transposition in registers, which then serves both sides.
 template <class Layout, class Lanes>
-struct PairSide {
-  std::array<std::array<Lanes, 4>, Layout::size / 4> row;
-
+class PairSides {
+ public:
   template <class Scalar>
-  PairSide(Scalar const* rows, std::int32_t const* numbers) {
-    for (std::size_t quad = 0; quad < row.size(); ++quad) {
-      row[quad] = lanes::load_quads<Scalar>(
-          [=](std::size_t lane) { return rows + detail::index(numbers[lane]) * Layout::size + 4 * quad; });
+  PairSides(Scalar const* rows, std::int32_t const* first, std::int32_t const* second) {
+    auto const read = [=](std::int32_t const* numbers, std::size_t lane, std::size_t quad) {
+      return lanes::FourScalars<Scalar>::read(rows + detail::index(numbers[lane]) * Layout::size + 4 * quad);
+    };
+    for (std::size_t quad = 0; quad < apart_; ++quad) {
+      second_[quad] = lanes::from_quads<Scalar>([=](std::size_t lane) {
+        auto difference = read(second, lane, quad);
+        difference.value -= read(first, lane, quad).value;
+        return difference;
+      });
+    }
+    for (std::size_t quad = apart_; quad < second_.size(); ++quad) {
+      first_[quad] = lanes::from_quads<Scalar>([=](std::size_t lane) { return read(first, lane, quad); });
+      second_[quad] = lanes::from_quads<Scalar>([=](std::size_t lane) { return read(second, lane, quad); });
     }
   }
-  Lanes const& operator[](std::size_t k) const { return row[k / 4][k % 4]; }
+
+  Lanes difference(std::size_t k) const { return k / 4 < apart_ ? second(k) : second(k) - first(k); }
+  Lanes const& first(std::size_t k) const { return first_[k / 4][k % 4]; }
+  Lanes const& second(std::size_t k) const { return second_[k / 4][k % 4]; }
+
+ private:
+  static constexpr std::size_t apart_ = Layout::spin / 4;
+  std::array<std::array<Lanes, 4>, Layout::size / 4> first_;   // from `apart_` on
+  std::array<std::array<Lanes, 4>, Layout::size / 4> second_;  // before `apart_` the differences
 };
 
 template <class Lanes>
