@@ -12,6 +12,7 @@ BANDWIDTH, LATENCY = 1e9, 30e-6
 # [B] of a point, as RankExecutor::share sends them: Response<2> (stress 24, verdict 8) and its inner steps (8) for every answer, and
 # for every answer again; tangent (72) and two times the stress (24) once in a load step. Exchanges: two for every answer, three for a step.
 ANSWER, STEP = 40.0, 72.0 + 2 * 24.0
+AGAIN = 1.0  # rounds of an iteration in which points are asked again, assumed: logs do not have them
 STUDY = {"without a length": ("local", ["--local", "--triangles", "7563", "--tolerance", "1e-2", "--least-dem-steps", "5"]),
          "with 8 m": ("length", ["--triangles", "7563", "--strain-per-step", "2e-5", "--unbalanced", "0.1"])}
 
@@ -30,9 +31,8 @@ class Scene:
         plain = measured[f"plain-{name}-7616"]
         self.rest = outside(model, measured[f"{name}-7616"])
         self.around = model.scaled(plain, plain["in_points"]) / plain["iterations"]
-        self.again = refinements(measured)
-        self.bytes = self.triangles * (ANSWER * (1.0 + self.again) + STEP * self.steps / self.iterations)
-        self.exchanges = 2.0 * (1.0 + self.again) + 3.0 * self.steps / self.iterations
+        self.bytes = self.triangles * (ANSWER * (1.0 + AGAIN) + STEP * self.steps / self.iterations)
+        self.exchanges = 2.0 * (1.0 + AGAIN) + 3.0 * self.steps / self.iterations
 
     @property
     def repeated(self):
@@ -45,11 +45,6 @@ class Scene:
         repeated = self.repeated if repeated is None else repeated
         whole = self.points + self.repeated
         return whole / ranks / ((self.points + shared) / ranks + repeated + self.travel(ranks))
-
-
-def refinements(measured):
-    """Rounds in which points are asked again, at most one an iteration is assumed where any was: the mean is not logged."""
-    return 1.0
 
 
 def spread(measured):
