@@ -117,8 +117,8 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
   double const grains = choice.grains;
   if (packings) {
     cost.preparation = size.columns * power(model.column, grains, model.column_by_grains);
-    cost.points = cost.dem_steps * power(model.dem_step, grains, model.dem_step_by_grains) +
-                  cost.steps * size.points * power(model.tangent, grains, model.tangent_by_grains);
+    cost.points = (cost.dem_steps + cost.steps * size.points * model.tangent) *
+                  power(model.dem_step, grains, model.dem_step_by_grains);
   } else {
     cost.points = cost.iterations * size.points * model.plain_answer;
   }

@@ -40,7 +40,7 @@ SceneSize size_of_soil(Choice const& choice, std::vector<scarp::Site<2>> const& 
 /// two states of each point; what is prepared, and the weights of means over a length, are with every process.
 double memory_of(Choice const& choice, SceneSize const& size, int processes) {
   constexpr double program = 9e6;
-  double const means = 16.0 * size.pairs;
+  double const means = 24.0 * size.pairs;  // half as much again as weights take, while their list grows
   double const points = size.points / processes;
   if (choice.soil != Soil::dem) return program + 4.4e3 * points + means;
   return program + (7.6e3 + 270.0 * choice.grains) * points + 135.0 * choice.grains * size.prepared + means;

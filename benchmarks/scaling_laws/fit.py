@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Fits of the model of examples/fault_rupture/estimate.hpp to runs, and exponents with their uncertainty."""
+import math
+
+import numpy as np
+
+WIDTH, DEPTH = 75.0, 25.0  # of the ground [m]
+LIMIT = 0.005  # of a load step's gradient, the usual one for packings
+
+
+def power_law(x, y):
+    """Least squares of log y over log x: factor, exponent, two standard errors of the exponent (nan for two points)."""
+    x, y = np.log(np.asarray(x, float)), np.log(np.asarray(y, float))
+    design = np.stack([np.ones_like(x), x], axis=1)
+    (at_one, exponent), *_ = np.linalg.lstsq(design, y, rcond=None)
+    error = math.nan
+    if len(x) > 2:
+        rest = y - design @ [at_one, exponent]
+        error = 2.0 * math.sqrt(rest @ rest / (len(x) - 2) / np.sum((x - x.mean()) ** 2))
+    return math.exp(at_one), exponent, error
+
+
+def positive(design, values):
+    """Least squares of relative errors with coefficients that are not negative."""
+    design = np.asarray(design, float) / np.asarray(values, float)[:, None]
+    columns = list(range(design.shape[1]))
+    while True:
+        found, *_ = np.linalg.lstsq(design[:, columns], np.ones(len(values)), rcond=None)
+        if (found >= 0.0).all():
+            full = np.zeros(design.shape[1])
+            full[columns] = found
+            return full
+        del columns[int(np.argmin(found))]
+
+
+def option(run, name, usual):
+    options = run["options"]
+    return float(options[options.index(name) + 1]) if name in options else usual
+
+
+def is_plain(run):
+    return "mohr_coulomb" in run["options"]
+
+
+def length_of(run):
+    return option(run, "--length", 0.0 if "--local" in run["options"] else 8.0)
+
+
+def throws(run):
+    """Accepted load steps of the throw."""
+    return [step for step in run["history"] if step["accepted"] and step["load_increment"] > 0.0]
+
+
+def cpu(run, seconds):
+    """CPU time of a part of the run from its wall time on one thread, as if the machine were as fast as the reference (RATE)."""
+    return seconds * run["cpu_seconds"] / run["wall_seconds"]
+
+
+class Model:
+    """Constants by the names of costs.json; all times are for a machine whose kernel takes `kernel`."""
+
+    def __init__(self, runs):
+        self.runs = runs
+        self.sand = {name: run for name, run in runs.items() if not is_plain(run) and not name.startswith(("check", "team"))}
+        self.plain = {name: run for name, run in runs.items() if is_plain(run) and not name.startswith("check")}
+        self.kernel = float(np.median([run["kernel"] for run in runs.values()]))
+        self.constants = {"kernel": self.kernel}
+        self.fit_width()
+        self.fit_iterations()
+        self.fit_strain()
+        self.fit_points()
+        self.fit_preparation()
+        self.fit_outside()
+        self.fit_plain()
+
+    def scaled(self, run, seconds):
+        return cpu(run, seconds) * self.kernel / run["kernel"]
+
+    def width(self, run):
+        node_distance = math.sqrt(WIDTH * DEPTH / run["nodes"])
+        return math.hypot(self.constants["width_per_node"] * node_distance, self.constants["width_per_length"] * length_of(run))
+
+    def fit_width(self):
+        """From steps that are near the limit of the gradient: bands are wider in the small ones before, and these are few."""
+        rows, values = [], []
+        for run in self.sand.values():
+            large = [step["load_increment"] / step["largest_gradient"] for step in throws(run) if step["largest_gradient"] > 0.5 * LIMIT]
+            if large:
+                rows.append([WIDTH * DEPTH / run["nodes"], length_of(run) ** 2])
+                values.append(np.median(large) ** 2)
+        per_node, per_length = np.sqrt(positive(rows, values))
+        self.constants.update(width_per_node=per_node, width_per_length=per_length)
+
+    def fit_iterations(self):
+        """Steps far below the residual are left out: they take one or two iterations, whatever their size."""
+        for key, local in (("iterations", True), ("iterations_with_length", False)):
+            decades, counts = [], []
+            for run in self.sand.values():
+                if (length_of(run) == 0.0) != local:
+                    continue
+                tolerance = option(run, "--tolerance", 1e-3)
+                for step in throws(run):
+                    if step["largest_gradient"] < 0.3 * tolerance:
+                        continue
+                    decades.append(math.log10(step["largest_gradient"] / tolerance))
+                    counts.append(step["iterations"])
+            slope, at_tolerance = np.polyfit(decades, counts, 1)
+            self.constants.update({key: at_tolerance, f"{key}_by_decade": slope})
+
+    def strains(self):
+        """Of each step whose answers take more than the least number of DEM steps: width, throw over depth, mean strain over that of the
+        ground, share of its run's work."""
+        rows = []
+        for run in self.sand.values():
+            least, each = option(run, "--least-dem-steps", 20.0), option(run, "--strain-per-step", 1e-5)
+            for step in throws(run):
+                answers = step["dem_steps"] / step["iterations"] / run["elements"]
+                if answers > 1.3 * least:
+                    strain = each * math.sqrt(answers ** 2 - least ** 2)
+                    rows.append((self.width(run), step["throw_over_depth"], strain / (step["load_increment"] / DEPTH),
+                                 step["dem_steps"] / run["dem_steps"]))
+        return rows
+
+    def fit_strain(self):
+        """strain = at_metre width^by_width (1 + by_throw throw/depth): the factor of the throw by search, the rest by least squares
+        in which steps count as they work."""
+        rows = np.array(self.strains())
+        weights = np.sqrt(rows[:, 3])
+        best = None
+        for by_throw in np.arange(0.0, 40.0, 0.5):
+            y = np.log(rows[:, 2] / (1.0 + by_throw * rows[:, 1]))
+            design = np.stack([np.ones(len(rows)), np.log(rows[:, 0])], axis=1)
+            found, *_ = np.linalg.lstsq(design * weights[:, None], y * weights, rcond=None)
+            left = float(np.sum((weights * (y - design @ found)) ** 2))
+            if best is None or left < best[0]:
+                best = (left, math.exp(found[0]), found[1], by_throw)
+        _, at_metre, by_width, by_throw = best
+        self.constants.update(strain_at_metre=at_metre, strain_by_width=by_width, strain_by_throw=by_throw)
+
+    def fit_points(self):
+        """Steps of few and of many iterations tell a run's DEM steps from its tangents; the median of what a tangent takes, in DEM steps,
+        then gives the time of a DEM step of each run."""
+        ratios = []
+        for run in self.sand.values():
+            rows = [[step["dem_steps"], run["elements"]] for step in run["history"]]
+            one, tangent = positive(rows, [self.scaled(run, step["seconds_in_points"]) for step in run["history"]])
+            ratios.append(tangent / one)
+        tangent = float(np.median(ratios))
+        self.dem_step = {name: self.scaled(run, run["in_points"]) / (run["dem_steps"] + tangent * (run["steps"] + 1.0) * run["elements"])
+                         for name, run in self.sand.items()}
+        of_grains = [name for name in self.sand if name.startswith("grains")]
+        _, exponent, _ = power_law([self.sand[name]["grains"] for name in of_grains], [self.dem_step[name] for name in of_grains])
+        logs = [math.log(self.dem_step[name] / run["grains"] ** exponent) for name, run in self.sand.items()]
+        self.constants.update(dem_step=math.exp(np.mean(logs)), dem_step_by_grains=exponent, tangent=tangent)
+
+    def column(self, run):
+        """Time in which a column of packings was prepared: all of the run that is not in load steps."""
+        columns = option(run, "--packings", 1 if "--local" in run["options"] else 16)
+        return self.scaled(run, run["wall_seconds"] - run["in_steps"]) / columns
+
+    def fit_preparation(self):
+        grains, each = [], []
+        for name, run in self.sand.items():
+            if name.startswith("grains"):
+                grains.append(run["grains"])
+                each.append(self.column(run))
+        factor, exponent, self.column_error = power_law(grains, each)
+        self.constants.update(column=factor, column_by_grains=exponent)
+
+    def outside_rows(self):
+        """Points, pairs, time of an iteration outside of the points."""
+        rows = []
+        for run in (*self.sand.values(), *self.plain.values()):
+            if run["pairs"] == 0:
+                rows.append((run["elements"], 0.0, self.scaled(run, run["in_steps"] - run["in_points"]) / run["iterations"]))
+        return rows
+
+    def fit_outside(self):
+        local = self.outside_rows()
+        factor, exponent, self.outside_error = power_law([row[0] for row in local], [row[2] for row in local])
+        self.constants.update(outside=factor, outside_by_points=exponent)
+        pairs, more = [], []
+        for run in (*self.sand.values(), *self.plain.values()):
+            if run["pairs"] > 0:
+                took = self.scaled(run, run["in_steps"] - run["in_points"]) / run["iterations"]
+                pairs.append(run["pairs"] * run["elements"])
+                more.append(max(took - factor * run["elements"] ** exponent, 0.02 * took))
+        _, self.pair_exponent, self.pair_error = power_law(pairs, more)
+        self.constants.update(pair=positive([[count] for count in pairs], more)[0])
+
+    def fit_plain(self):
+        for key, local in (("plain_iterations", True), ("plain_iterations_with_length", False)):
+            ratios = []
+            for run in self.plain.values():
+                if (length_of(run) == 0.0) == local and run["throw_over_depth"] > 0.05:
+                    ratios.append(run["iterations"] / (run["throw_over_depth"] * DEPTH / self.width(run)))
+            self.constants[key] = math.exp(np.mean(np.log(ratios)))
+        rows, values = [], []
+        for run in self.plain.values():
+            rows.append([run["iterations"] * run["elements"]])
+            values.append(self.scaled(run, run["in_points"]))
+        self.constants["plain_answer"] = positive(rows, values)[0]
