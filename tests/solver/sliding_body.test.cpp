@@ -27,7 +27,8 @@ constexpr double friction = 0.5;
 constexpr double stiffness = 1e8;  // [Pa/m]
 constexpr double weight = 74e3;    // [N]: 37 kPa on 2 m, so that 0.2 mm of slip is elastic
 
-/// Ground of 6 m whose nodes move as `motion` says, and a footing on it, 2 m wide with its centre at 3 m; its weight is there from the start.
+/// Ground of 6 m whose nodes move as `motion` says, and a footing on it, 2 m wide with its centre at 3 m; its weight is there
+/// from the start.
 template <class Motion>
 Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion) {
   Grid grid(scarp::RectangleMesh{.width = 6.0, .height = 2.0, .columns = 12, .rows = 4}.generate());
