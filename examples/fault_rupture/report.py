@@ -30,7 +30,7 @@ NUMBERS = (
     page.Number("max_accepted_residual", "largest residual of an accepted step", "", ".2e"),
     page.Number("steps", "accepted load steps", "", ".0f"),
     page.Number("refused_steps", "refused load steps", "", ".0f"),
-    page.Number("dem_steps", "DEM steps", "million", ".3g", 1e-6),
+    page.Number("dem_steps", "DEM steps", "million", ".3g", 1e-6, False),
     page.Number("cpu_seconds", "processor time", "s", ".4g"),
     page.Number("wall_seconds", "wall time", "s", ".4g"),
     page.Number("peak_memory_bytes", "memory, at most", "MB", ".0f", 1e-6),
@@ -69,8 +69,9 @@ def structure(run):
 
 def title(run):
     kind = "Reverse" if run.option("reverse") == "true" else "Normal"
-    several = f", packings {run.option('seeds')}" if run.ensemble else ""
-    return f"{kind} fault below {structure(run)}, {run.option('soil', 'dem').replace('_', '-').replace('dem', 'DEM')}{several}"
+    soil = SOILS.get(run.option("soil"), "packings of grains")
+    several = f", seeds {run.option('seeds')}" if run.ensemble else ""
+    return f"{kind} fault below {structure(run)}: {soil}{several}"
 
 
 def lead(run):

@@ -3,11 +3,8 @@
 settings, convergence and all figures. An example says what it shows by a `Words` of its own and calls `main`."""
 
 import base64
-import csv
 import dataclasses
-import datetime
 import html
-import json
 import math
 import os
 import pathlib
@@ -15,34 +12,9 @@ import sys
 import typing
 
 sys.dont_write_bytecode = True
+from run_files import Run, budget_of, is_finished, read_rows, started_at
 
-STYLE = """
-:root { color-scheme: light dark; --text: #1d2329; --faint: #5c6670; --ground: #fbfbf9; --card: #ffffff; --line: #dcdfe2;
-  --good: #00704f; --bad: #b3261e; --link: #005a9c; --marked: #fff4d6; }
-@media (prefers-color-scheme: dark) { :root { --text: #e4e7ea; --faint: #9ba5af; --ground: #15181b; --card: #1e2226; --line: #363c42;
-  --good: #5cc9a3; --bad: #ff8a80; --link: #7cc0f4; --marked: #40371c; } }
-* { box-sizing: border-box; }
-body { margin: 0; background: var(--ground); color: var(--text); font: 16px/1.5 system-ui, sans-serif; }
-main { max-width: 62rem; margin: 0 auto; padding: 1.2rem 1rem 3rem; }
-h1 { font-size: 1.6rem; line-height: 1.2; margin: 0 0 .4rem; } h2 { font-size: 1.2rem; margin: 2.2rem 0 .6rem; }
-p { margin: .4rem 0; } .faint { color: var(--faint); font-size: .9rem; overflow-wrap: anywhere; }
-nav { display: flex; flex-wrap: wrap; gap: .2rem 1rem; margin: .8rem 0; } a { color: var(--link); }
-.verdict { border-left: .35rem solid var(--good); background: var(--card); padding: .5rem .8rem; margin: .9rem 0; }
-.verdict.bad { border-color: var(--bad); } .verdict b { color: var(--good); } .verdict.bad b { color: var(--bad); }
-.tiles { display: grid; grid-template-columns: repeat(auto-fill, minmax(10.5rem, 1fr)); gap: .6rem; margin: 0; }
-.tiles div { background: var(--card); border: 1px solid var(--line); border-radius: .4rem; padding: .5rem .7rem; }
-.tiles dt { color: var(--faint); font-size: .85rem; line-height: 1.3; }
-.tiles dd { margin: 0; font-size: 1.15rem; font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
-.scroll { overflow-x: auto; } table { border-collapse: collapse; width: 100%; font-size: .9rem; }
-th, td { text-align: left; padding: .25rem .6rem; border-bottom: 1px solid var(--line); vertical-align: top; }
-th { color: var(--faint); font-weight: 600; } td.number, th.number { text-align: right; white-space: nowrap; }
-td.number { font-variant-numeric: tabular-nums; } tr.outside td { color: var(--bad); font-weight: 600; }
-#budget td:last-child { min-width: 14rem; } tr.marked td { background: var(--marked); } code, pre { font-size: .85rem; } pre { overflow-x: auto; }
-details { margin: .8rem 0; } summary { cursor: pointer; }
-figure { margin: 1.4rem 0; } figure img { display: block; max-width: 100%; height: auto; margin: 0 auto; background: #fff;
-  border-radius: .4rem; padding: .4rem; border: 1px solid var(--line); }
-figcaption { font-size: .9rem; margin-bottom: .4rem; } figcaption b { font-size: 1rem; }
-"""
+STYLE = (pathlib.Path(__file__).resolve().parent / "report.css").read_text()
 # Whatever stands in the files of a run: nothing is fetched, and nothing runs.
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 IMAGE_TYPES = {".png": "image/png", ".gif": "image/gif"}
@@ -56,6 +28,7 @@ class Number(typing.NamedTuple):
     unit: str = ""
     form: str = ".3g"
     factor: float = 1.0
+    even_zero: bool = True  # or else zero is left out
 
 
 @dataclasses.dataclass
@@ -65,48 +38,6 @@ class Words:
     lead: typing.Callable = lambda run: ""     # the scene in a sentence or two
     numbers: tuple = ()                        # of Number; empty: all that the summary has
     figures: dict = dataclasses.field(default_factory=dict)  # name: (title, what is to be seen), in the order of the page
-
-
-class Run:
-    """What the files of an output folder say; whatever is missing is empty."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        self.record = newest_record(folder)
-        self.summary = read_json(folder / "summary.json")
-        self.ensemble = read_json(folder / "ensemble.json")
-        own = self.summary.get("run") if isinstance(self.summary.get("run"), dict) else {}
-        self.program = str(self.record.get("program") or own.get("program") or folder.resolve().name)
-        self.options = words_of(self.record.get("options") or own.get("options"))
-        self.defaults = words_of(self.record.get("defaults"))
-        told = {name: value for name, value in own.items() if isinstance(value, str)}
-        self.build = words_of(self.record.get("build")) or {name: value for name, value in told.items()
-                                                           if name not in ("program", "identity", "started")}
-
-    def number(self, key):
-        value = self.summary.get(key)
-        is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-        return float(value) if is_number and math.isfinite(value) else None
-
-    def option(self, name, otherwise=""):
-        return self.options.get(name, otherwise)
-
-
-def read_json(path):
-    try:
-        value = json.loads(path.read_text())
-    except (OSError, ValueError):
-        return {}
-    return value if isinstance(value, dict) else {}
-
-
-def newest_record(folder):
-    records = sorted(folder.glob("run*.json"), key=lambda path: path.stat().st_mtime)
-    return read_json(records[-1]) if records else {}
-
-
-def words_of(lines):
-    return {str(name): str(value) for name, value in lines.items()} if isinstance(lines, dict) else {}
 
 
 def text(value):
@@ -135,16 +66,6 @@ def folded(title, inside):
     return f"<details><summary>{text(title)}</summary>\n{inside}</details>" if inside else ""
 
 
-def is_finished(run):
-    return run.record.get("state", "finished") == "finished" and run.summary.get("status", "ok") == "ok"
-
-
-def budget_of(run):
-    budget = run.summary.get("error_budget")
-    parts = budget.get("parts") if isinstance(budget, dict) else None
-    return {name: part for name, part in parts.items() if isinstance(part, dict)} if isinstance(parts, dict) else {}
-
-
 def how_it_ended(run):
     """In words; empty for a run that came to its end."""
     if is_finished(run):
@@ -165,7 +86,7 @@ def verdict(run):
     if outside:
         words += f"{'; ' if ended else ', but '}outside its error budget: {', '.join(outside)}"
     elif budget_of(run):
-        words += ", inside its error budget"
+        words += f", {'so far ' if ended else ''}inside its error budget"
     return element("p", f"<b>{text(words)}.</b>", class_="verdict bad" if outside or ended else "verdict")
 
 
@@ -175,7 +96,7 @@ def numbers(run, wanted):
         wanted = [Number(key, key.replace("_", " "), "", ".5g") for key in run.summary if key not in NOT_SHOWN_AS_NUMBERS]
     for one in wanted:
         value = run.number(one.key)
-        if value is not None:
+        if value or (value is not None and one.even_zero):
             shown = f"{value * one.factor:{one.form}} {one.unit}".strip()
             tiles.append(f"<div><dt>{text(one.label)}</dt><dd>{text(shown)}</dd></div>")
     return element("dl", "\n".join(tiles), class_="tiles") if tiles else ""
@@ -225,15 +146,6 @@ def settings(run):
         folded("All options", table(head, rows))
 
 
-def read_rows(path):
-    """Rows of a table, without a last one that is cut off."""
-    try:
-        whole = path.read_text()
-    except OSError:
-        return []
-    return list(csv.DictReader(whole[: whole.rfind("\n") + 1].splitlines()))
-
-
 def convergence(run):
     """A line for each attempt at a load step: convergence.csv has one for each iteration."""
     attempts = []
@@ -261,13 +173,6 @@ def convergence(run):
             for one in attempts]
     head = ("step", "load (h/H)", "iterations", "residual", "", "DEM steps", "seconds")
     return element("p", text(lead)) + folded("Every load step", table(head, rows, (0, 1, 2, 3, 5, 6)))
-
-
-def started_at(run):
-    try:
-        return datetime.datetime.fromisoformat(str(run.record.get("started")).replace("Z", "+00:00")).timestamp()
-    except ValueError:
-        return 0.0
 
 
 def figures(run, known):
@@ -328,7 +233,7 @@ def page(run, words):
 <main>
 <h1>{title}</h1>
 {element("p", text(lead)) if lead else ""}
-{verdict(run) if not run.ensemble else ""}
+{verdict(run)}
 <nav>{links}</nav>
 {chr(10).join(section(*one) for one in sections)}
 <section id="made"><h2>Made by</h2>
@@ -361,8 +266,10 @@ def main(words):
         print(f"no page: '{run.folder}' holds no run.json (no run of an example has begun there): give another folder",
               file=sys.stderr)
         sys.exit(1)
+    members = [Run(path.parent) for path in sorted(run.folder.glob("seed_*/run.json"))] if run.ensemble else []
     try:
-        print(write(run, words))
+        for one in [*members, run]:
+            print(write(one, words))
     except OSError as trouble:
         print(f"no page: {trouble}", file=sys.stderr)
         sys.exit(1)

@@ -52,7 +52,7 @@ class Page(html.parser.HTMLParser):
 
 def run(folder, *options):
     words = [program, *TINY, "--output", folder.name, *options]
-    done = subprocess.run(words, cwd=folder.parent, capture_output=True, text=True, timeout=300)
+    done = subprocess.run(words, cwd=folder.parent, capture_output=True, text=True, timeout=900)
     return done.returncode, done.stderr
 
 
@@ -60,7 +60,7 @@ def write_page(folder, figures=True):
     """\\return what the two scripts ended with"""
     codes = []
     for script in ["plot.py"] * figures + ["report.py"]:
-        done = subprocess.run([sys.executable, scripts / script, folder], capture_output=True, text=True, timeout=300)
+        done = subprocess.run([sys.executable, scripts / script, folder], capture_output=True, text=True, timeout=900)
         codes.append((done.returncode, done.stdout + done.stderr))
     return codes
 
@@ -116,7 +116,7 @@ def check_packings(folder):
     expect(code == 0, f"over it another soil: ended with {code}\n{said[-2000:]}")
     expect(not list((folder / "packings").iterdir()), "packings of an older run are left")
     names = "import plot, sys, pathlib; print(*plot.figures_of(pathlib.Path(sys.argv[1])))"
-    done = subprocess.run([sys.executable, "-B", "-c", names, folder], cwd=scripts, capture_output=True, text=True, timeout=300)
+    done = subprocess.run([sys.executable, "-B", "-c", names, folder], cwd=scripts, capture_output=True, text=True, timeout=900)
     shown = set(done.stdout.split())
     expect("rupture" in shown and not shown & {"packing", "fabric", "probe_packings", "probe_roses"}, f"another soil shows {shown}")
     expect(write_page(folder, figures=False)[0][0] == 0, "a page of another soil")
@@ -169,7 +169,7 @@ def check_browser(browser, path, scratch):
     done = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
                            "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage",
                            f"--user-data-dir={scratch / 'profile'}", "--virtual-time-budget=10000", "--dump-dom", asked.as_uri()],
-                          capture_output=True, text=True, timeout=90)
+                          capture_output=True, text=True, timeout=240)
     print(f"{pathlib.Path(browser).name}: {time.monotonic() - started:.1f} s")
     found = re.search(r'data-told="([^"]*)"', done.stdout)
     expect(found is not None, f"the browser says nothing (ended with {done.returncode})\n{done.stderr[-1500:]}")
