@@ -9,7 +9,6 @@ import os
 import pathlib
 import platform
 import re
-import shutil
 import sys
 
 sys.dont_write_bytecode = True
@@ -17,6 +16,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(REPOSITORY / "benchmarks"), str(REPOSITORY / "examples" / "shared")]
 import numpy as np
 import scarp_figures as figures
+from PIL import Image
 from generated_sections import rewrite, with_section
 
 PAGE = REPOSITORY / "docs" / "study" / "README.md"
@@ -146,7 +146,8 @@ def main():
              along_the_way(steps), budget(summary)]
     for name, title in FIGURES.items():
         if (folder / "figures" / f"{name}.png").is_file():
-            shutil.copyfile(folder / "figures" / f"{name}.png", PAGE.with_name(f"{run}_{name}.png"))
+            # 256 colours are enough for a page, and a third of the bytes.
+            Image.open(folder / "figures" / f"{name}.png").convert("RGB").quantize().save(PAGE.with_name(f"{run}_{name}.png"), optimize=True)
             parts.append(f"![{title}]({run}_{name}.png)")
     page = PAGE.read_text() if PAGE.is_file() else "# The study's size, once\n"
     rewrite(PAGE, with_section(page, run, "\n\n".join(parts)))
