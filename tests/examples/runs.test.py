@@ -145,7 +145,7 @@ def check_folders(folder):
 
 def check_memory(folder):
     code, said = run(["fault_rupture", "--triangles", "60000", "--threads", "1"], folder, 3 * 1024**3)
-    expect(code == 2 and re.search(r"400 grains would take about 1[23]\.\d GB of memory \(\d\.\d GB are left by .*ulimit", said),
+    expect(code == 2 and re.search(r"400 grains would take about 15\.\d GB of memory \(\d\.\d GB are left by .*ulimit", said),
            f"too many triangles: ended with {code}\n{said}")
     code, said = run(["fault_rupture", "--triangles", "1000000", "--grains", "100000"], folder)
     expect(code == 2 and "GB are left by" in said, f"far too many: ended with {code}\n{said}")
