@@ -12,7 +12,7 @@ def table(columns, rows):
 
 
 def number(value, digits=1):
-    return "-" if value is None or math.isnan(value) else f"{value:.{digits}f}"
+    return "-" if value is None or math.isnan(value) else f"{round(value, digits) + 0.0:.{digits}f}"  # + 0: no minus before zero
 
 
 def summaries(folder):
@@ -68,13 +68,13 @@ def map_figure(path, found):
         for row, pressure in enumerate(pressures):
             for column, centre in enumerate(centres):
                 if not np.isnan(values[row, column]):
-                    axis.text(centre, pressure, f"{values[row, column]:.1f}", ha="center", va="center", fontsize=7,
+                    axis.text(centre, pressure, number(values[row, column]), ha="center", va="center", fontsize=7,
                               color="white" if abs(values[row, column]) > 0.65 * most else "black")
-        axis.axvline(free["surface_x50"], color="k", lw=1.0, ls="--")
+        axis.axvline(free["surface_x50"], color="k", lw=1.0, ls="--", label="x50 of the free field")
         axis.set(title=title, xlabel="centre of a footing 10 m wide, x [m]")
         drawn.colorbar(shown, ax=axis)
     axes[0].set(ylabel="bearing pressure [kPa]")
-    axes[0].text(free["surface_x50"], max(pressures) * 1.1, "x50 of the free field", ha="center", fontsize=7)
+    axes[0].legend(loc="upper left", bbox_to_anchor=(0.0, -0.13), frameon=False, fontsize=8)
     drawn.savefig(path, dpi=110)
 
 
