@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Sections of a page that a program writes, between the lines <!-- NAME --> and <!-- end of NAME -->."""
+"""Sections of a page that a program writes, between the lines <!-- NAME --> and <!-- end of NAME -->, and their tables."""
 
 import re
 import sys
@@ -22,3 +22,8 @@ def rewrite(path, page):
     partial = path.with_suffix(".partial")
     partial.write_text(page)
     partial.replace(path)
+
+
+def table(columns, rows):
+    """Markdown of rows of words."""
+    return "\n".join("| " + " | ".join(line) + " |" for line in [columns, ["---"] * len(columns), *rows])

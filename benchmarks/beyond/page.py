@@ -4,11 +4,7 @@ import json
 import math
 import statistics
 
-from generated_sections import rewrite, with_section
-
-
-def table(columns, rows):
-    return "\n".join("| " + " | ".join(line) + " |" for line in [columns, ["---"] * len(columns), *rows])
+from generated_sections import rewrite, table, with_section
 
 
 def number(value, digits=1):

@@ -5,8 +5,8 @@ import math
 import statistics
 
 import pressure
-from generated_sections import rewrite, with_section
-from runs import HEAD, by_length, number, rows_on, table
+from generated_sections import rewrite, table, with_section
+from runs import HEAD, by_length, number, rows_on
 from spread import PARTS, measures, ranges, summaries
 
 TITLES = dict(zip(PARTS, HEAD[3:]))

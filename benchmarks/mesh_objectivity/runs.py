@@ -9,10 +9,6 @@ from spread import PARTS, measures, summaries
 HEAD = ["length [m]", "mesh", "elements", "x05 [m]", "x50 [m]", "x95 [m]", "width [m]", "mid-line dip", "iterations", "refused", "CPU s", "ends"]
 
 
-def table(columns, rows):
-    return "\n".join("| " + " | ".join(line) + " |" for line in [columns, ["---"] * len(columns), *rows])
-
-
 def number(value, digits=1):
     return "-" if math.isnan(value) else f"{value:.{digits}f}"
 
