@@ -133,7 +133,8 @@ TEST_CASE("Newton's residuals fall quadratically on smooth plastic steps") {
       young);
   scarp::LoadStepping const stepping{.first = 0.1, .largest = 0.1, .largest_gradient = 1.0};
   SmoothSteps smooth;
-  auto const run = stepping.run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, smooth);
+  // A step that repeats the motion of the last one begins too near to its end to show the order of the decay.
+  auto const run = stepping.run(Newton{.tolerance = 1e-9, .repeats_motion = false}, problem, 0.0, 1.0, smooth);
   REQUIRE(run.verdict.acceptable());
   int measured = 0;
   for (auto const& step : smooth.steps) {

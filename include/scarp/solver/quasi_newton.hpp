@@ -20,6 +20,8 @@ struct QuasiNewton {
   int most_iterations = 30;
   double hopeless = 10.0;    ///< residual beyond which a step is given up
   int most_refinements = 4;  ///< of points that have not converged, in each iteration
+  /// A step's first guess is the motion of the step before, scaled by the load; after a refused one it is linear.
+  bool repeats_motion = true;
   Rule rule{};
   Mixing mixing{};
 

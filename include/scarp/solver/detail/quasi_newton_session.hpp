@@ -8,6 +8,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/solver/detail/answer_change.hpp"
+#include "scarp/solver/detail/repeated_motion.hpp"
 #include "scarp/solver/detail/step_start.hpp"
 #include "scarp/solver/incremental_problem.hpp"
 #include "scarp/solver/mixing.hpp"
@@ -41,8 +42,8 @@ class SCARP_EXPORT QuasiNewtonSession {
 
   /// What is remembered from step to step.
   SCARP_MEMBERS_EXCEPT((settings_, mixing_, problem_, start_, mark_, tangent_seconds_, provider_, working_,
-                        last_gradients_, last_stresses_),
-                       first_, learned_)
+                        last_gradients_, last_stresses_, growth_),
+                       first_, learned_, motion_)
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -51,6 +52,7 @@ class SCARP_EXPORT QuasiNewtonSession {
   using Linear = typename Settings::LinearType;
   enum class Question { first, further, refined };
 
+  void iterate(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop);
   Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, Question question);
   std::vector<VoigtTangent<Problem::dim>> timed_tangents(bool of_trial_states);
   void learn();
@@ -68,6 +70,8 @@ class SCARP_EXPORT QuasiNewtonSession {
   std::vector<VoigtTangent<Problem::dim>> learned_;
   std::vector<Gradient<dim>> last_gradients_;
   std::vector<VoigtStress<dim>> last_stresses_;
+  detail::RepeatedMotion motion_;
+  double growth_ = 0.0;  ///< of the load factor in the last prediction
 };
 
 template <class Settings, class Problem>
@@ -85,11 +89,23 @@ Verdict QuasiNewtonSession<Settings, Problem>::begin(double load) {
 
 template <class Settings, class Problem>
 Eigen::VectorXd QuasiNewtonSession<Settings, Problem>::predict(double from, double to) {
-  return start_.predict(from, to);
+  growth_ = to - from;
+  if (!motion_.known() || !(growth_ > 0.0)) return start_.predict(from, to);
+  Eigen::VectorXd increment = start_.prescribed(from, to);
+  start_.linearised().system().scatter(motion_.over(growth_), increment);
+  return increment;
 }
 
 template <class Settings, class Problem>
 void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, StepReport& report,
+                                                    StopQuestion const& stop) {
+  iterate(increment, report, stop);
+  // What led to a step that is refused is not repeated; one that was interrupted counts as never made.
+  if (!report.verdict.acceptable() && !report.interrupted()) motion_.forget();
+}
+
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, StepReport& report,
                                                     StopQuestion const& stop) {
   report.verdict = problem_.plan(increment, &report.worst_point);
   if (!report.verdict.acceptable()) return;
@@ -138,6 +154,8 @@ template <class Settings, class Problem>
 void QuasiNewtonSession<Settings, Problem>::accept(Eigen::VectorXd const& increment) {
   problem_.commit(increment);
   learned_ = working_;
+  if (settings_.repeats_motion && growth_ > 0.0)
+    motion_.remember(start_.linearised().system().gather(increment), growth_);
 }
 
 /// Asks all points and adds what it took to the report.

@@ -33,12 +33,17 @@ class StepStart {
     report.weak_dof = weak_dof_;
   }
 
-  /// First guess of the displacement increment between two load factors; from then on forces are measured against the
-  /// loads of the second one.
-  Eigen::VectorXd predict(double from, double to) {
+  /// Displacement increment between two load factors where it is prescribed, zero elsewhere; from then on forces are
+  /// measured against the loads of the second one.
+  Eigen::VectorXd prescribed(double from, double to) {
     problem_.aim(to);
+    return problem_.constraints().displacement(from, to);
+  }
+
+  /// First guess of the whole increment from the linearised system, aimed likewise.
+  Eigen::VectorXd predict(double from, double to) {
+    Eigen::VectorXd increment = prescribed(from, to);
     Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
-    Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
     // A prediction that fails is no more than a poor first guess.
     linearised_.solve(increment, more_load);
     return increment;

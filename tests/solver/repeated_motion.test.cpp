@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <doctest/doctest.h>
+
+#include "approx.hpp"
+#include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+#include "solver/sample_block.hpp"
+
+namespace {
+
+using Block = sample::Block<sample::Softening>;
+using Solver = scarp::QuasiNewton<>;
+
+/// Past the peak in equal steps.
+scarp::RunReport pulled(Block::Problem& problem, Solver const& solver) {
+  scarp::NoObserver nobody;
+  scarp::LoadStepping const stepping{.first = 1e-3, .largest = 1e-3, .largest_gradient = 0.1};
+  return stepping.run(solver, problem, 0.0, 0.03, nobody);
+}
+
+/// One step of the load factor, accepted if it ends in equilibrium.
+scarp::StepReport step(Solver::Session<Block::Problem>& session, double from, double to,
+                       scarp::StopQuestion const& stop = {}) {
+  scarp::StepReport report;
+  report.verdict = session.begin(from);
+  REQUIRE(report.verdict.acceptable());
+  Eigen::VectorXd increment = session.predict(from, to);
+  session.correct(increment, report, stop);
+  if (report.verdict.acceptable()) session.accept(increment);
+  return report;
+}
+
+}  // namespace
+
+TEST_CASE("steps that repeat the last motion take fewer iterations to the same state") {
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({.reference_strain = 0.02}, serial);
+  auto linear = Block::make({.reference_strain = 0.02}, serial);
+  auto const repeated = pulled(problem, {.tolerance = 1e-6});
+  auto const plain = pulled(linear, {.tolerance = 1e-6, .repeats_motion = false});
+  REQUIRE(repeated.verdict.acceptable());
+  REQUIRE(plain.verdict.acceptable());
+  CHECK(repeated.steps == plain.steps);
+  CHECK(repeated.iterations < plain.iterations);
+  for (int node = 0; node < problem.discretisation().node_count(); ++node) {
+    auto const place = [node](auto const& one) {
+      return one.discretisation().positions()[static_cast<std::size_t>(node)];
+    };
+    CHECK((place(problem) - place(linear)).norm() < 1e-5);  // [m], of 3 cm: what the tolerance leaves open
+  }
+}
+
+TEST_CASE("a prediction is the last step's motion, scaled by the load, where that motion led to equilibrium") {
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({.reference_strain = 0.02}, serial);
+  Solver const solver{.tolerance = 1e-8, .most_iterations = 8};
+  Solver::Session<Block::Problem> session(solver, problem);
+  auto const before = problem.discretisation().positions();
+  REQUIRE(step(session, 0.0, 4e-3).verdict.acceptable());
+  auto const repeats = [&] {
+    REQUIRE(session.begin(4e-3).acceptable());
+    Eigen::VectorXd const increment = session.predict(4e-3, 5e-3);
+    double apart = 0.0;
+    for (std::size_t node = 0; node < before.size(); ++node) {
+      scarp::Vector<2> const last = problem.discretisation().positions()[node] - before[node];
+      apart = std::max(apart, (increment.segment<2>(static_cast<Eigen::Index>(2 * node)) - 0.25 * last).norm());
+    }
+    return apart < 1e-12;
+  };
+  CHECK(repeats());
+  // An attempt that was interrupted counts as never made.
+  CHECK(step(session, 4e-3, 5e-3, [] { return true; }).interrupted());
+  CHECK(repeats());
+  // One that was refused is not repeated: the next prediction is linear.
+  CHECK_FALSE(step(session, 4e-3, 0.5).verdict.acceptable());
+  CHECK_FALSE(repeats());
+}
