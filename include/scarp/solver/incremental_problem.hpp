@@ -58,6 +58,7 @@ class AttachedProblem : public IncrementalProblem<Dim, Stiffness> {
  public:
   static constexpr bool is_bare = false;
 
+  virtual int first_beside() const = 0;
   virtual Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) = 0;
   virtual Eigen::SparseMatrix<double> attached_stiffness() const = 0;
   virtual Eigen::SparseMatrix<double> held_stiffness() const = 0;

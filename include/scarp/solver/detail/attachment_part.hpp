@@ -18,6 +18,9 @@ class AttachmentPart : public AttachedProblem<Dim, Stiffness> {
 
   Attached const& attached() const { return attached_; }
 
+  /// The first degree of freedom of its own, behind those of the mesh.
+  int first_beside() const override { return static_cast<Problem const&>(*this).discretisation().dof_count(); }
+
   /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment. Whether it could
   /// answer is said by the next evaluation.
   Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) override {

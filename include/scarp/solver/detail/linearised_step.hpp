@@ -2,16 +2,19 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include "scarp/core/voigt.hpp"
 #include "scarp/solver/detail/ground_equations.hpp"
+#include "scarp/solver/detail/standing_balance.hpp"
+#include "scarp/solver/detail/work_search.hpp"
 
 namespace scarp {
 
 /// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment keeps its own
-/// forces: contact that opens, closes or slides is followed here, by Newton's method with backtracking, where no material
-/// point is asked. Without attachment this is one linear solve.
+/// forces: contact that opens, closes or slides is followed here, where no material point is asked. Without attachment
+/// this is one linear solve.
 template <class Problem, LinearSolver Linear>
 class LinearisedStep {
  public:
@@ -19,7 +22,7 @@ class LinearisedStep {
 
   /// accuracy: residual below which the attachment's forces need no further correction
   LinearisedStep(Problem& problem, double accuracy)
-      : problem_(problem), system_(problem.constraints()), accuracy_(accuracy) {}
+      : problem_(problem), system_(problem.constraints()), accuracy_(accuracy), beside_(problem) {}
 
   /// Linearises about the increment [m] of the problem's last evaluation, whose unbalanced forces [N] are given.
   Verdict linearise(Eigen::VectorXd const& increment, Eigen::VectorXd const& unbalanced,
@@ -28,7 +31,13 @@ class LinearisedStep {
     centre_ = increment;
     ground_forces_ = unbalanced;
     if constexpr (!Problem::is_bare) ground_forces_ -= problem_.attached_forces(increment);
-    return factorize();
+    Verdict const verdict = factorize();
+    is_held_ = verdict.acceptable();
+    if constexpr (!Problem::is_bare) {
+      // A body that floats above its ground, as before its weight comes, is no fault yet: `solve` lets it down.
+      if (verdict.reason == Reason::singular_system && !beside_.is_held()) return {};
+    }
+    return verdict;
   }
 
   /// Moves an increment [m], kept at its prescribed entries, to where forces balance when the loads have grown by `more` [N]
@@ -42,21 +51,27 @@ class LinearisedStep {
   }
 
   FreeSystem const& system() const { return system_; }
-  /// Estimate for the last matrix, in the 1-norm.
-  double condition() const { return equations_.condition(); }
+  /// Estimate for the last matrix, in the 1-norm; 0 where a body floats.
+  double condition() const { return is_held_ ? equations_.condition() : 0.0; }
   /// |K x - b| / |b| of the last linear system.
   double linear_residual() const { return linear_residual_; }
   /// Degree of freedom that the last matrix holds least.
   int weak_dof() const { return system_.dof(equations_.weakest()); }
 
  private:
-  static constexpr int most_iterations = 20;
-  static constexpr double least_share = 0.1;        ///< of Newton's correction
-  static constexpr double least_held_share = 1e-4;  ///< of one with all contacts held
+  static constexpr int most_iterations = 40;
+  static constexpr int most_fruitless = 4;         ///< iterations in a row without a better balance
+  static constexpr double least_share = 0.1;       ///< of Newton's correction
+  static constexpr double longest_share = 1024.0;  ///< of one with all contacts held
 
   using Stiffness = typename Problem::GroundStiffness;
 
+  struct NothingBeside {
+    explicit NothingBeside(Problem const&) {}
+  };
+
   struct Balance {
+    Eigen::VectorXd increment;
     Eigen::VectorXd unbalanced;
     double residual = 0.0;
     double beside = 0.0;  ///< residual of a body beside the mesh; 1 when nothing carries it
@@ -66,6 +81,14 @@ class LinearisedStep {
     bool improves(Balance const& other) const {
       return residual < other.residual && (!lost() || beside < other.beside);
     }
+  };
+
+  /// A straight way through increments, and what the ground says along it.
+  struct Way {
+    Eigen::VectorXd start;
+    Eigen::VectorXd direction;
+    Eigen::VectorXd ground_at_start;
+    Eigen::VectorXd ground_along;
   };
 
   Verdict factorize() {
@@ -93,61 +116,81 @@ class LinearisedStep {
     return {};
   }
 
-  /// Newton's method with backtracking. Where all points slide, its direction may be none: then the direction of held
-  /// contacts is followed as far as it helps.
+  /// Newton's method; what stands beside the mesh is balanced at every place that is tried. Where Newton's direction
+  /// leads to no smaller imbalance, that of held contacts is followed as far as the unbalanced forces do work.
   Verdict follow_contact(Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
-    Balance now = balance(increment, more);
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());
+    beside_.begin();
+    Balance now = balance({increment, still, ground_imbalance(increment, more), still}, 0.0);
     double const goal = std::max(accuracy_, 1e-3 * now.residual);
+    Balance best = now;
+    int fruitless = 0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      Eigen::VectorXd const start = increment;
-      Eigen::VectorXd whole = start;
-      if (Verdict const verdict = correct(whole, now.unbalanced); !verdict.acceptable()) return verdict;
-      Balance next = now;
-      if (!go(start, whole - start, least_share, more, increment, next)) {
-        Eigen::VectorXd held = start;
+      // Once in any case: a small residual may be that of boundary nodes which have moved alone.
+      if (iteration > 0 && (now.residual <= goal || beside_.spent())) break;
+      Way way;
+      Balance next;
+      bool const downhill = factorize().acceptable() && lay(way, now, more).acceptable() && go_downhill(way, now, next);
+      if (!downhill) {  // also where the matrix is singular, since nothing but sliding points holds a body
         Verdict verdict = factorize(ground_ + problem_.held_stiffness());
-        if (verdict.acceptable()) verdict = correct(held, now.unbalanced);
-        if (!verdict.acceptable() || !go(start, held - start, least_held_share, more, increment, next)) {
-          Balance const plain = balance(whole, more);
-          if (iteration == 0 && !plain.lost()) increment = whole;
-          return {};
-        }
+        if (verdict.acceptable()) verdict = lay(way, now, more);
+        if (!verdict.acceptable()) return verdict;
+        if (!go_by_work(way, next)) break;
       }
-      if (next.residual <= goal) return {};
       now = std::move(next);
-      if (Verdict const verdict = factorize(); !verdict.acceptable()) return verdict;
+      fruitless = now.residual < best.residual ? 0 : fruitless + 1;
+      if (fruitless == 0) best = now;
+      if (fruitless == most_fruitless) break;
     }
+    increment = best.increment;
+    problem_.attached_forces(increment);
     return {};
   }
 
-  /// Along a direction from a start: halves until the balance improves, or doubles as long as it does.
-  /// \return whether it improved; if not, the increment is the start
-  bool go(Eigen::VectorXd const& start, Eigen::VectorXd const& direction, double least, Eigen::VectorXd const& more,
-          Eigen::VectorXd& increment, Balance& best) {
-    Balance const first = best;
+  /// A way from a balance along the correction of the last matrix.
+  Verdict lay(Way& way, Balance const& from, Eigen::VectorXd const& more) {
+    Eigen::VectorXd whole = from.increment;
+    if (Verdict const verdict = correct(whole, from.unbalanced); !verdict.acceptable()) return verdict;
+    way = {from.increment, whole - from.increment, ground_imbalance(from.increment, more), {}};
+    way.ground_along = ground_ * way.direction;
+    return {};
+  }
+
+  /// Halves the way until the balance improves, or doubles it as long as it does.
+  bool go_downhill(Way const& way, Balance const& now, Balance& best) {
     double share = 1.0;
-    auto const at = [&](double part) { return balance(start + part * direction, more); };
-    best = at(share);
-    while (!best.improves(first) && share > least) best = at(share *= 0.5);
-    if (!best.improves(first)) {
-      increment = start;
-      best = at(0.0);
+    best = balance(way, share);
+    while (!best.improves(now) && share > least_share) best = balance(way, share *= 0.5);
+    if (!best.improves(now)) {
+      problem_.attached_forces(now.increment);
       return false;
     }
     if (share == 1.0) {
-      for (Balance further = at(2.0); further.improves(best); further = at(2.0 * share)) {
+      for (Balance further = balance(way, 2.0); further.improves(best); further = balance(way, 2.0 * share)) {
         best = std::move(further);
         share *= 2.0;
       }
-      best = at(share);
     }
-    increment = start + share * direction;
+    problem_.attached_forces(best.increment);
+    return true;
+  }
+
+  bool go_by_work(Way const& way, Balance& next) {
+    Eigen::VectorXd const free = system_.gather(way.direction);
+    auto const work = [&](double share) { return system_.gather(balance(way, share).unbalanced).dot(free); };
+    auto const share = detail::share_without_work(work, longest_share);
+    if (!share) return false;
+    next = balance(way, *share);
     return true;
   }
 
   /// The attachment's trial state then belongs to the increment.
-  Balance balance(Eigen::VectorXd const& increment, Eigen::VectorXd const& more) {
-    Balance now{ground_imbalance(increment, more) + problem_.attached_forces(increment)};
+  Balance balance(Way const& way, double share) {
+    Balance now;
+    now.increment = way.start + share * way.direction;
+    Eigen::VectorXd const of_ground = way.ground_at_start + share * way.ground_along;
+    beside_.settle(now.increment, -of_ground, 0.1 * accuracy_);
+    now.unbalanced = of_ground + problem_.attached_forces(now.increment);
     now.residual = problem_.residual(now.unbalanced);
     now.beside = problem_.residual_beside(now.unbalanced);
     return now;
@@ -156,11 +199,13 @@ class LinearisedStep {
   Problem& problem_;
   FreeSystem system_;
   double accuracy_;
+  std::conditional_t<Problem::is_bare, NothingBeside, detail::StandingBalance<Problem>> beside_;
   Stiffness ground_;
   detail::GroundEquations<Stiffness, Linear> equations_;  ///< with what is attached
   Eigen::VectorXd centre_;
   Eigen::VectorXd ground_forces_;  ///< internal forces of the elements less the loads, at the centre
   double linear_residual_ = 0.0;
+  bool is_held_ = false;  ///< all bodies, when the system was linearised
 };
 
 }  // namespace scarp

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Footings of fault_rupture stand: all cases and bases, the whole throw on Mohr-Coulomb ground, the beginning of it on packings.
+Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without); SCARP_THROW=whole: packings too go to
+h/H = 0.085."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
+program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
+if not program.is_file():
+    print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
+    sys.exit(77)
+PART = [] if os.environ.get("SCARP_THROW") == "whole" else ["--throw-over-depth", "0.004", "--grains", "49"]
+# What carries the weight may differ from it by as much, and the share of the attempts that may be refused.
+SOILS = {"mohr_coulomb": ([], 1e-8, 0.05), "dem": (PART, 1e-2, 0.05)}
+with tempfile.TemporaryDirectory() as scratch:
+    for soil, (more, unbalanced, refused) in SOILS.items():
+        for case, bases in (("free", ["sticking"]), ("light", ["sticking", "frictional"]), ("heavy", ["sticking", "frictional"])):
+            for base in bases:
+                title = f"{soil}, {case}, {base}"
+                began = time.monotonic()
+                done = subprocess.run([program.resolve(), "--quick", "--soil", soil, "--case", case, "--footing", base, *more,
+                                       "--frames", "1", "--output", title.replace(", ", "_")],
+                                      cwd=scratch, capture_output=True, text=True)
+                expect(done.returncode == 0, f"{title}: ended with {done.returncode}: {done.stderr[-500:]}")
+                if done.returncode != 0:
+                    continue
+                told = json.loads(pathlib.Path(scratch, title.replace(", ", "_"), "summary.json").read_text())
+                tries = told["steps"] + told["refused_steps"]
+                print(f"{title}: {told['steps']} steps, {told['refused_steps']} refused, {told['iterations']} iterations, "
+                      f"{time.monotonic() - began:.0f} s")
+                expect(told["refused_steps"] <= refused * tries, f"{title}: {told['refused_steps']} of {tries} attempts were refused")
+                # Of every part: a sticking footing's and a frictional one's are over its own weight.
+                expect(told["max_accepted_residual"] <= 1e-2, f"{title}: a residual of {told['max_accepted_residual']} was accepted")
+                expect(told["vertical_stress_error"] <= 1e-2, f"{title}: vertical stress is wrong by {told['vertical_stress_error']}")
+                if case != "free":
+                    expect(told["support_error"] <= unbalanced, f"{title}: the ground carries {told['support_error']} too much or little")
+finish()
