@@ -107,7 +107,8 @@ template <class Problem, class SceneType>
 scarp::ErrorBudget<Problem> error_budget(Choice const& choice, SceneType const& scene, Problem const& problem,
                                          int probe) {
   scarp::ErrorSampling const sampling{.followed = {probe}, .loose_pressure = scene.loose_pressure};
-  return scarp::ErrorBudget<Problem>(problem, examples::error_bounds(choice.budget), sampling);
+  scarp::ErrorBounds const usual{.unbalanced_largest = choice.unbalanced_tolerance};
+  return scarp::ErrorBudget<Problem>(problem, examples::error_bounds(choice.budget, usual), sampling);
 }
 
 /// Runs a scene, or goes on with one, and writes its results.

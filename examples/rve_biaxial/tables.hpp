@@ -46,6 +46,8 @@ inline void print_friction(std::span<Result const> packings, std::vector<double>
                spread([&](Result const& r) { return moment.row(r).contact_fabric; }),
                spread([&](Result const& r) { return moment.row(r).particle_fabric; }));
   }
+  if (packings.size() > 1)
+    fmt::print("stress of two packings apart, root mean square: {:.3f}\n", stress_scatter(packings));
 }
 
 inline void print_lines(std::vector<Result> const& results, std::vector<double> const& windows) {

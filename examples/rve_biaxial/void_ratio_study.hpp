@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "strength.hpp"
+#include "stress_scatter.hpp"
 
 namespace rve_biaxial {
 
@@ -146,7 +147,8 @@ inline nlohmann::json summarise_friction(std::span<Result const> packings, std::
                        {"coordination", spread([](Result const& r) { return start_row(r).coordination; })},
                        {"peak_axial_strain", spread([](Result const& r) { return peak_row(r).axial_strain; })},
                        {"void_ratio_at_end", spread([](Result const& r) { return end_row(r).void_ratio; })},
-                       {"psi_secant", spread([](Result const& r) { return secant_dilation_angle(r.rows); })}};
+                       {"psi_secant", spread([](Result const& r) { return secant_dilation_angle(r.rows); })},
+                       {"stress_scatter", stress_scatter(packings)}};  // NaN becomes null
   for (double const window : windows) {
     auto const [friction, dilation] = peak_spreads(packings, window);
     entry["windows"].push_back({{"window", window}, {"phi_max", to_json(friction)}, {"psi_max", to_json(dilation)}});

@@ -15,10 +15,9 @@
 
 namespace examples {
 
-/// Bounds that are not the usual ones, each as "part=bound".
+/// Bounds in the place of the usual ones, each as "part=bound".
 /// \throws InputError for a part that has no bound, a bound that is not a number or negative
-inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given) {
-  scarp::ErrorBounds bounds;
+inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given, scarp::ErrorBounds bounds = {}) {
   for (auto const& item : given) {
     auto const equals = std::min(item.find('='), item.size());
     std::string const name = item.substr(0, equals);
