@@ -130,6 +130,6 @@ TEST_CASE(
     CHECK(up == samples::Approx(weight).epsilon(1e-8));
   }
   MESSAGE(refused << " of " << draws << " tried again in smaller steps");
-  // Of 1200 draws with other seeds one in forty was; the bar is what a footing over a fault may cost, a twentieth.
+  // The bar is what a footing over a fault may cost, a twentieth.
   CHECK(refused <= draws / 20);
 }
