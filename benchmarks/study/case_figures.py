@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Figures 3 to 6 of the study by our runs, beside docs/study/cases.md."""
+import numpy as np
+import scarp_figures as figures
+from ground_points import half_place
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import PowerNorm
+from PIL import Image
+from scarp_figures import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, plt
+
+COLOURS = {"free": BLUE, "light": GREEN, "heavy": VERMILION}
+DEPTH = 25.0           # [m]
+FOOTING_THROW = 1.99 / DEPTH  # of the study's fig. 4
+THROWS = [0.028, 0.057, 0.085]
+
+
+def saved(drawn, path):
+    """256 colours are enough for a page, and a third of the bytes."""
+    drawn.savefig(path, dpi=110)
+    plt.close(drawn)
+    Image.open(path).convert("RGB").quantize().save(path, optimize=True)
+
+
+def nearest(frames, throw):
+    return min(frames, key=lambda frame: abs(frame.throw - throw))
+
+
+def draw_strain(axes, frame, high):
+    moved = frame.places + frame.displacement
+    cells = PolyCollection(moved[frame.cells], array=100.0 * frame.fields["deviatoric_strain"], cmap="magma_r", norm=PowerNorm(0.5, 0.0, high),
+                           edgecolor="face", linewidth=0.2)
+    axes.add_collection(cells)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.grid(False)
+    return cells
+
+
+def surface(frames, throw):
+    """Places [m] and settlement over throw of the surface's nodes."""
+    first, frame = frames[0], nearest(frames, throw)
+    top = np.flatnonzero(first.places[:, 1] > DEPTH - 1e-6)
+    top = top[np.argsort(first.places[top, 0])]
+    return first.places[top, 0], (frame.settlement - first.settlement)[top] / (frame.throw * DEPTH)
+
+
+def mark(axes, points, level):
+    for name, x in points.items():
+        axes.plot(x, level, "o", color=BLACK, markersize=3)
+        axes.annotate(name, (x, level), (2, 3), textcoords="offset points", fontsize=8)
+
+
+def free_field(sets, level):
+    """After the study's fig. 3."""
+    one = sets["8 m"]
+    frames = one.runs["free"].frames
+    drawn, (top, low) = plt.subplots(2, 1, figsize=(7.6, 6.2), height_ratios=[1.0, 1.1])
+    cells = draw_strain(top, frames[-1], 60.0)
+    mark(top, one.points, level)
+    drawn.colorbar(cells, ax=top, label="deviatoric strain [%]", extend="max", aspect=14)
+    top.set(title="free field, h/H = 0.085", xlabel="x [m]", ylabel="y [m]")
+    for throw, colour in zip(THROWS, (GREY, ORANGE, BLUE)):
+        low.plot(*surface(frames, throw), color=colour, label=f"8 m, h/H = {nearest(frames, throw).throw:.3f}")
+    members = [surface(run.frames, THROWS[-1]) for name, found in sets.items() if name.startswith("seed") and (run := found.runs.get("free"))]
+    if len(members) > 1:
+        x = members[0][0]
+        mean, scatter = np.mean([y for _, y in members], axis=0), np.std([y for _, y in members], axis=0, ddof=1)
+        low.fill_between(x, mean - 2 * scatter, mean + 2 * scatter, color=BLUE, alpha=0.2, linewidth=0, label="three seeds, +- two deviations (1904 triangles)")
+    for name, style in (("5.66 m", "--"), ("4 m", ":")):
+        if "free" in sets[name].runs:
+            low.plot(*surface(sets[name].runs["free"].frames, THROWS[-1]), style, color=BLACK, linewidth=1.0, label=f"{name}, h/H = 0.085")
+    low.axvline(-12.5, color=GREEN, linewidth=0.8, label="the study's outcrop, -12.5 m")
+    low.invert_yaxis()
+    low.set(xlabel="x [m]", ylabel="settlement of the surface over the throw")
+    low.legend()
+    return drawn
+
+
+def footings(sets, level):
+    """After the study's fig. 4."""
+    one = sets["8 m"]
+    cases = [case for case in ("heavy", "light") if case in one.runs]
+    drawn, rows = plt.subplots(len(cases), 1, figsize=(7.6, 3.0 * len(cases)), squeeze=False)
+    for axes, case in zip(rows[:, 0], cases):
+        frame = nearest(one.runs[case].frames, FOOTING_THROW)
+        cells = draw_strain(axes, frame, 60.0)
+        mark(axes, one.points, level)
+        axes.plot([-15.5, -5.5], [DEPTH + 0.6] * 2, color=COLOURS[case], linewidth=3, solid_capstyle="butt")
+        first = one.runs[case].frames[0]
+        heights = np.linspace(1.0, 24.0, 24)
+        axes.plot([half_place(frame, first, height) for height in heights], heights, color=BLUE, linewidth=1.0, label="half of the throw")
+        free = one.runs["free"].frames
+        axes.plot([half_place(nearest(free, FOOTING_THROW), free[0], height) for height in heights], heights, "--", color=BLUE, linewidth=1.0, label="free field")
+        drawn.colorbar(cells, ax=axes, label="deviatoric strain [%]", extend="max", aspect=14)
+        axes.set(title=f"{case} footing, h = {frame.throw * DEPTH:.2f} m (bar: where the footing stood)", xlabel="x [m]", ylabel="y [m]")
+        axes.legend(loc="lower left")
+    return drawn
+
+
+def over_strain(sets, quantities):
+    """A row for each of (name, label, factor), columns A and B: means of the packings around each point, and one deviation among them."""
+    one = sets["8 m"]
+    drawn, rows = plt.subplots(len(quantities), 2, figsize=(7.6, 2.7 * len(quantities)), sharex="col", squeeze=False)
+    for column, point in zip(rows.T, ("A", "B")):
+        for axes, (name, label, factor) in zip(column, quantities):
+            for case, colour in COLOURS.items():
+                if (case, point) not in one.histories:
+                    continue
+                series = one.histories[case, point]
+                strain, values = 100.0 * series["eps_q"].mean(axis=1), factor * series[name]
+                axes.plot(strain, values.mean(axis=1), color=colour, label=case)
+                axes.fill_between(strain, values.mean(axis=1) - values.std(axis=1), values.mean(axis=1) + values.std(axis=1), color=colour, alpha=0.12, linewidth=0)
+            axes.set_ylabel(label)
+        column[0].set_title(f"{point}, x = {one.points[point]:.1f} m" if point in one.points else point, loc="left")
+        column[-1].set_xlabel("deviatoric strain [%]")
+    rows[0, 0].legend()
+    return drawn
+
+
+def write(folder, sets, level):
+    one = sets["8 m"]
+    if "free" not in one.runs:
+        raise figures.InputError("the free field has not been run to its end: benchmarks/study/run free")
+    saved(free_field(sets, level), folder / "cases_free.png")
+    if len(one.runs) > 1:
+        saved(footings(sets, level), folder / "cases_footings.png")
+    saved(over_strain(sets, [("q", "q [kPa]", 1e-3), ("eps_v", "volumetric strain [%]", 100.0)]), folder / "cases_stress.png")
+    saved(over_strain(sets, [("contact_fabric", "contact fabric F_c", 1.0), ("particle_fabric", "particle fabric F_p", 1.0)]), folder / "cases_fabric.png")

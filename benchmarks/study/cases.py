@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSL-1.0
+"""cases.py: the three cases beside the study, from the runs in output/study_*: figures and the generated sections of docs/study/cases.md.
+Run by `benchmarks/study/run cases`; what has not been run is left out."""
+import dataclasses
+import json
+import math
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(REPOSITORY / "benchmarks"), str(REPOSITORY / "examples" / "shared")]
+import numpy as np
+import case_figures
+import ground_points
+from generated_sections import rewrite, table, with_section
+
+OUTPUT = REPOSITORY / "output"
+PAGE = REPOSITORY / "docs" / "study" / "cases.md"
+CASES = ["free", "heavy", "light"]
+SEEDS = [1, 2, 3]
+# Height of the points A and B above bedrock [m], 3 m below the surface: docs/study/cases.md, *Where A and B are*.
+LEVEL = 22.0
+SETS = {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_{case}_5.66" for case in CASES},
+        "4 m": {case: f"study_{case}_4" for case in CASES}}
+SETS |= {f"seed {seed}": {case: f"study_medium_{case}/seed_{seed}" for case in CASES} for seed in SEEDS}
+BASES = ["heavy_frictional", "light_frictional"]
+
+
+@dataclasses.dataclass
+class Run:
+    summary: dict
+    frames: list
+
+
+def run_of(name):
+    """None where it has not been run to its end."""
+    folder = OUTPUT / name
+    if not (folder / "summary.json").is_file():
+        return None
+    summary = json.loads((folder / "summary.json").read_text())
+    return Run(summary, ground_points.frames(folder)) if summary["status"] == "ok" else None
+
+
+class CaseSet:
+    """Three cases with the same packings, mesh and length; A and B are those of this set."""
+
+    def __init__(self, names):
+        self.runs = {case: run for case, name in names.items() if (run := run_of(name)) is not None}
+        self.points = {}
+        for point, case in (("A", "free"), ("B", "heavy")):
+            if case in self.runs:
+                frames = self.runs[case].frames
+                self.points[point] = ground_points.half_place(frames[-1], frames[0], LEVEL)
+        self.histories = {}
+        for case, run in self.runs.items():
+            for point, x in self.points.items():
+                cells = ground_points.around(run.frames, np.array([x, LEVEL]))
+                self.histories[case, point] = ground_points.history(run.frames, cells)
+
+    def of(self, case, measure):
+        return measure(self.runs[case].summary) if case in self.runs else math.nan
+
+    def at(self, case, point, measure):
+        """measure: of {quantity: mean over the packings around the point, by frame}"""
+        if (case, point) not in self.histories:
+            return math.nan
+        return float(measure({name: values.mean(axis=1) for name, values in self.histories[case, point].items()}))
+
+
+def at_strain(name, strain):
+    def value(series):
+        grown = np.maximum.accumulate(series["eps_q"])
+        return np.interp(strain, grown, series[name]) if grown[-1] >= strain else math.nan
+    return value
+
+
+def last(name):
+    return lambda series: series[name][-1]
+
+
+def peak(name):
+    return lambda series: series[name].max()
+
+
+def upper_band(summary):
+    return summary["bands"][-1]["band_x50"]
+
+
+def degrees(name):
+    return lambda summary: math.degrees(summary[name])
+
+
+def rows():
+    """(what, the study's number, digits, of a set)"""
+    for case in ("free", "heavy", "light"):
+        for share in ("05", "50", "95"):
+            said = {"free": {"05": "-12.5: \"starts to deflect\""}}.get(case, {}).get(share, "")
+            yield f"{case}: surface x{share} [m]", said, 1, lambda one, case=case, share=share: one.of(case, lambda summary: summary[f"surface_x{share}"])
+    for case in ("heavy", "light"):
+        yield (f"{case}: diversion at 3/4 of the depth [m]", "to the footing's left edge" if case == "heavy" else "the same", 1,
+               lambda one, case=case: one.of(case, upper_band) - one.of("free", upper_band))
+        yield (f"{case}: diversion 3 m below the surface [m]", "", 1,
+               lambda one, case=case: half_at_level(one, case) - half_at_level(one, "free"))
+        yield f"{case}: tilt [degrees]", "", 2, lambda one, case=case: one.of(case, degrees("tilt"))
+        yield f"{case}: settlement [m]", "", 2, lambda one, case=case: one.of(case, lambda summary: summary["settlement"])
+    yield "K0 before faulting", "about 0.4", 3, lambda one: one.of("free", lambda summary: summary["k0"])
+    yield "least void ratio over the depth", "0.160", 3, lambda one: one.of("free", lambda summary: summary["void_ratio_min"])
+    yield "largest", "0.179", 3, lambda one: one.of("free", lambda summary: summary["void_ratio_max"])
+    yield "x of A [m]", "\"in the band\" of the free field", 1, lambda one: one.points.get("A", math.nan)
+    yield "x of B [m]", "in the band below footings", 1, lambda one: one.points.get("B", math.nan)
+    yield "A, free: F_c at the start", "0.05", 2, lambda one: one.at("free", "A", lambda series: series["contact_fabric"][0])
+    yield "A, free: F_p at the start", "0.03", 2, lambda one: one.at("free", "A", lambda series: series["particle_fabric"][0])
+    for strain, said in ((0.04, "0.6"), (0.14, "0.6, then rising")):
+        yield f"A, free: F_c at eps_q {100 * strain:.0f} %", said, 2, lambda one, strain=strain: one.at("free", "A", at_strain("contact_fabric", strain))
+    yield "A, free: F_p at the end", "0.32", 2, lambda one: one.at("free", "A", last("particle_fabric"))
+    yield "A, free: largest q [kPa]", "", 0, lambda one: 1e-3 * one.at("free", "A", peak("q"))
+    yield "A, free: q at the end over the largest", "about 0 near eps_q 20 %", 2, lambda one: one.at("free", "A", lambda series: series["q"][-1] / series["q"].max())
+    yield "A, free: eps_q at the end [%]", "beyond 20", 0, lambda one: 100 * one.at("free", "A", last("eps_q"))
+    yield "A, free: eps_v at the end [%]", "beyond -6", 1, lambda one: 100 * one.at("free", "A", last("eps_v"))
+    yield "B, free: eps_q at the end [%]", "below 9", 0, lambda one: 100 * one.at("free", "B", last("eps_q"))
+    for case, strength in (("light", "30"), ("heavy", "42")):
+        yield f"A, {case}: largest q [kPa]", strength, 0, lambda one, case=case: 1e-3 * one.at(case, "A", peak("q"))
+        yield f"A, {case}: q at the end over the largest", "unloads", 2, lambda one, case=case: one.at(case, "A", lambda series: series["q"][-1] / series["q"].max())
+        yield f"A, {case}: eps_q at the end [%]", "small", 0, lambda one, case=case: 100 * one.at(case, "A", last("eps_q"))
+        yield f"A, {case}: eps_v at the end [%]", "within 0.12", 1, lambda one, case=case: 100 * one.at(case, "A", last("eps_v"))
+    for case, volume, strain in (("light", "beyond -6", ""), ("heavy", "beyond -10", "beyond 25")):
+        yield f"B, {case}: eps_q at the end [%]", strain, 0, lambda one, case=case: 100 * one.at(case, "B", last("eps_q"))
+        yield f"B, {case}: eps_v at the end [%]", volume, 1, lambda one, case=case: 100 * one.at(case, "B", last("eps_v"))
+        yield (f"B, {case}: q at the end over the largest", "about 0" if case == "heavy" else "", 2,
+               lambda one, case=case: one.at(case, "B", lambda series: series["q"][-1] / series["q"].max()))
+
+
+def half_at_level(one, case):
+    if case not in one.runs:
+        return math.nan
+    frames = one.runs[case].frames
+    return ground_points.half_place(frames[-1], frames[0], LEVEL)
+
+
+def number(value, digits):
+    return "-" if math.isnan(value) else f"{round(value, digits) + 0.0:.{digits}f}"  # + 0: no minus before zero
+
+
+def spread(values, digits):
+    known = [value for value in values if not math.isnan(value)]
+    if len(known) < 2:
+        return number(known[0], digits) if known else "-"
+    return f"{number(float(np.mean(known)), digits)} +- {number(float(np.std(known, ddof=1)), max(digits, 1))}"
+
+
+def numbers(sets):
+    lines = []
+    for what, said, digits, measure in rows():
+        seeds = [measure(sets[f"seed {seed}"]) for seed in SEEDS]
+        lines.append([what, said or "-", *(number(measure(sets[name]), digits) for name in ("8 m", "5.66 m", "4 m")), spread(seeds, digits)])
+    return table(["", "study", "8 m", "5.66 m", "4 m", "8 m, 1904 triangles: three seeds"], lines)
+
+
+def cost_row(name, summary):
+    footing = "tilt" in summary
+    parts = summary["error_budget"]["parts"].items()
+    outside = [part for part, said in parts if not said["within"]]
+    return [name, str(summary["elements"]), f"{summary['steps']}, {summary['refused_steps']}", str(summary["iterations"]), f"{1e-6 * summary['dem_steps']:.1f}",
+            f"{summary['max_accepted_residual']:.1e}", f"{summary['support_error']:.1e}" if footing else "-",
+            f"{math.degrees(summary['tilt']):.2f}" if footing else "-",
+            f"{1e-3 * summary['contact_pressure_min']:.0f}-{1e-3 * summary['contact_pressure_max']:.0f}" if footing else "-",
+            f"{summary['cpu_seconds']:.0f}", f"{summary['wall_seconds']:.0f}", f"{summary['threads']}", f"{summary['peak_memory_bytes'] / 2**30:.2f}",
+            "inside" if not outside else ", ".join(outside)]
+
+
+def costs(sets):
+    lines = [cost_row(f"{case}, {name}", run.summary) for name, one in sets.items() for case, run in one.runs.items()]
+    lines += [cost_row(f"{name.replace('_', ', ')}, 8 m", run.summary) for name in BASES if (run := run_of(f"study_{name}")) is not None]
+    return table(["run", "triangles", "steps, refused", "iterations", "million DEM steps", "largest residual", "imbalance over weight", "tilt [degrees]",
+                  "contact pressure [kPa]", "CPU s", "wall s", "threads", "GiB", "error budget"], lines)
+
+
+def main():
+    sets = {name: CaseSet(names) for name, names in SETS.items()}
+    if not sets["8 m"].runs:
+        sys.exit("there is no run in output/study_free, study_heavy or study_light: benchmarks/study/run free, heavy, light")
+    page = PAGE.read_text() if PAGE.is_file() else "# The study's three cases\n"
+    page = with_section(page, "numbers", numbers(sets))
+    page = with_section(page, "costs", costs(sets))
+    case_figures.write(PAGE.parent, sets, LEVEL)
+    rewrite(PAGE, page)
+
+
+if __name__ == "__main__":
+    main()
