@@ -133,10 +133,15 @@ Options read(int argc, char** argv) {
   choice.length = 8.0;
   choice.packings = 16;
   choice.mirrored_packings = true;
+  choice.strain_per_step = 2e-5;
+  choice.unbalanced_tolerance = 0.1;
   choice.threads = 1;
   CLI::App app("Where does the time of the free-field fault scene go? Markdown on stdout.");
   app.option_defaults()->always_capture_default();
   app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(CLI::Range(0.5, 25.0));
+  app.add_option("--triangles", choice.triangles, "wanted number of elements instead of --size")
+      ->check(CLI::Range(100, 1'000'000))
+      ->excludes("--size");
   app.add_option("--length", choice.length, "intrinsic length [m]")->check(CLI::Range(0.1, 100.0));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(9, 100'000));
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(CLI::Range(1e-5, 0.5));

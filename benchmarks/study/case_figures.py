@@ -2,7 +2,6 @@
 """Figures 3 to 6 of the study by our runs, beside docs/study/cases.md."""
 import numpy as np
 import scarp_figures as figures
-from ground_points import half_place
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import PowerNorm
 from PIL import Image
@@ -86,14 +85,8 @@ def footings(sets, level):
         cells = draw_strain(axes, frame, 60.0)
         mark(axes, one.points, level)
         axes.plot([-15.5, -5.5], [DEPTH + 0.6] * 2, color=COLOURS[case], linewidth=3, solid_capstyle="butt")
-        first = one.runs[case].frames[0]
-        heights = np.linspace(1.0, 24.0, 24)
-        axes.plot([half_place(frame, first, height) for height in heights], heights, color=BLUE, linewidth=1.0, label="half of the throw")
-        free = one.runs["free"].frames
-        axes.plot([half_place(nearest(free, FOOTING_THROW), free[0], height) for height in heights], heights, "--", color=BLUE, linewidth=1.0, label="free field")
         drawn.colorbar(cells, ax=axes, label="deviatoric strain [%]", extend="max", aspect=14)
         axes.set(title=f"{case} footing, h = {frame.throw * DEPTH:.2f} m (bar: where the footing stood)", xlabel="x [m]", ylabel="y [m]")
-        axes.legend(loc="lower left")
     return drawn
 
 

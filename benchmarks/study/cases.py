@@ -19,8 +19,8 @@ OUTPUT = REPOSITORY / "output"
 PAGE = REPOSITORY / "docs" / "study" / "cases.md"
 CASES = ["free", "heavy", "light"]
 SEEDS = [1, 2, 3]
-# Height of the points A and B above bedrock [m], 3 m below the surface: docs/study/cases.md, *Where A and B are*.
-LEVEL = 22.0
+# Height of the points A and B above bedrock [m], 4 m below the surface: docs/study/cases.md, *Where A and B are*.
+LEVEL = 21.0
 SETS = {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_{case}_5.66" for case in CASES},
         "4 m": {case: f"study_{case}_4" for case in CASES}}
 SETS |= {f"seed {seed}": {case: f"study_medium_{case}/seed_{seed}" for case in CASES} for seed in SEEDS}
@@ -50,13 +50,19 @@ class CaseSet:
         self.points = {}
         for point, case in (("A", "free"), ("B", "heavy")):
             if case in self.runs:
-                frames = self.runs[case].frames
-                self.points[point] = ground_points.half_place(frames[-1], frames[0], LEVEL)
+                self.points[point] = self.crossed(case, LEVEL)
         self.histories = {}
         for case, run in self.runs.items():
             for point, x in self.points.items():
                 cells = ground_points.around(run.frames, np.array([x, LEVEL]))
                 self.histories[case, point] = ground_points.history(run.frames, cells)
+
+    def crossed(self, case, height):
+        """Where the rupture crosses a level [m]."""
+        if case not in self.runs:
+            return math.nan
+        frames = self.runs[case].frames
+        return ground_points.steepest_place(frames[-1], frames[0], height)
 
     def of(self, case, measure):
         return measure(self.runs[case].summary) if case in self.runs else math.nan
@@ -97,11 +103,12 @@ def rows():
         for share in ("05", "50", "95"):
             said = {"free": {"05": "-12.5: \"starts to deflect\""}}.get(case, {}).get(share, "")
             yield f"{case}: surface x{share} [m]", said, 1, lambda one, case=case, share=share: one.of(case, lambda summary: summary[f"surface_x{share}"])
+    for case, said in (("free", ""), ("heavy", "at the footing's left edge, -15.5"), ("light", "at the footing's left edge, -15.5")):
+        for below in (4.0, 1.0):
+            yield f"{case}: the rupture {below:g} m below the surface [m]", said, 1, lambda one, case=case, below=below: one.crossed(case, 25.0 - below)
     for case in ("heavy", "light"):
-        yield (f"{case}: diversion at 3/4 of the depth [m]", "to the footing's left edge" if case == "heavy" else "the same", 1,
+        yield (f"{case}: diversion of x50 at 3/4 of the depth [m]", "", 1,
                lambda one, case=case: one.of(case, upper_band) - one.of("free", upper_band))
-        yield (f"{case}: diversion 3 m below the surface [m]", "", 1,
-               lambda one, case=case: half_at_level(one, case) - half_at_level(one, "free"))
         yield f"{case}: tilt [degrees]", "", 2, lambda one, case=case: one.of(case, degrees("tilt"))
         yield f"{case}: settlement [m]", "", 2, lambda one, case=case: one.of(case, lambda summary: summary["settlement"])
     yield "K0 before faulting", "about 0.4", 3, lambda one: one.of("free", lambda summary: summary["k0"])
@@ -129,13 +136,6 @@ def rows():
         yield f"B, {case}: eps_v at the end [%]", volume, 1, lambda one, case=case: 100 * one.at(case, "B", last("eps_v"))
         yield (f"B, {case}: q at the end over the largest", "about 0" if case == "heavy" else "", 2,
                lambda one, case=case: one.at(case, "B", lambda series: series["q"][-1] / series["q"].max()))
-
-
-def half_at_level(one, case):
-    if case not in one.runs:
-        return math.nan
-    frames = one.runs[case].frames
-    return ground_points.half_place(frames[-1], frames[0], LEVEL)
 
 
 def number(value, digits):

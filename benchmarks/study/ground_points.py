@@ -38,17 +38,17 @@ def frames(folder):
     return [frame(throw, path) for throw, path in figures.read_pvd(folder / "fields.pvd") if throw >= 0.0]
 
 
-def half_place(last, first, height, share=0.5):
-    """x [m] at which a level of the ground has first settled by a share of the throw since the first frame, from the foot wall's side.
+def steepest_place(last, first, height, over=4.0):
+    """x [m] in the middle of the stretch of a level over which it has settled most unevenly since the first frame: where the rupture crosses it.
 
-    height [m] above bedrock; the throw is what the level settles most.
+    height [m] above bedrock in the initial ground; over [m], the stretch: half of the default's length, since neighbouring packings differ
     """
+    x = np.linspace(first.places[:, 0].min(), first.places[:, 0].max(), 2001)
     corners = Triangulation(*last.places.T, last.cells)
-    x = np.linspace(last.places[:, 0].min(), last.places[:, 0].max(), 2000)
-    settled = LinearTriInterpolator(corners, last.settlement - first.settlement)(x, np.full_like(x, height))
-    wanted = share * settled[-1]
-    after = int(np.argmax(settled >= wanted))
-    return float(np.interp(wanted, settled[after - 1:after + 1], x[after - 1:after + 1]))
+    settled = LinearTriInterpolator(corners, last.settlement - first.settlement)(x, np.full_like(x, height)).filled(np.nan)
+    far = max(1, round(over / (x[1] - x[0])))
+    start = int(np.nanargmax(settled[far:] - settled[:-far]))
+    return float(0.5 * (x[start] + x[start + far]))
 
 
 def around(of_run, point):
