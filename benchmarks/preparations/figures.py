@@ -23,7 +23,8 @@ COLOURS = {"one-dimensional": figures.BLACK, "one-dimensional, ten times slower"
            "falling friction": figures.SKY, "rising friction": figures.BLUE,
            "rising friction from 0.5 kPa": figures.BLUE, "preloaded": figures.VERMILION, "preloaded from 0.5 kPa": figures.VERMILION,
            "isotropic share": figures.GREEN, "isotropic share at low friction": figures.GREEN, "one isotropic packing": figures.GREY,
-           "held ratio": figures.PURPLE, "held ratio from the mean stress": figures.PURPLE, "laid grains": figures.ORANGE}
+           "candidate: rising friction": figures.BLUE, "candidate: preloaded": figures.VERMILION, "candidate: isotropic share": figures.GREEN,
+           "candidate: held ratio": figures.PURPLE, "held ratio": figures.PURPLE, "held ratio from the mean stress": figures.PURPLE, "laid grains": figures.ORANGE}
 MARKERS = {"rising friction from 0.5 kPa": "s", "preloaded from 0.5 kPa": "s", "one-dimensional, ten times slower": "x", "falling friction": "v", "isotropic share at low friction": "^",
            "held ratio from the mean stress": "^"}
 
@@ -45,14 +46,16 @@ def draw(path, preparations):
     fabrics.axhline(STUDY_CONTACT_FABRIC, color=figures.BLACK, linewidth=0.8, linestyle="--")
     named = set()
     for made in preparations:
-        colour, marker = COLOURS[made.path], MARKERS.get(made.path, "o")
+        colour, marker = COLOURS[made.path], "*" if made.is_candidate() else MARKERS.get(made.path, "o")
+        size = 11 if made.is_candidate() else 4
         depth = [o for o in made.overburdens() if o >= KEPT_FROM and made.values("k0", o)]
         if not depth:
             continue
-        ratios.plot([made.mean("void_ratio", o) for o in depth], [made.mean("k0", o) for o in depth], color=colour, linewidth=0.8, alpha=0.6)
-        ratios.plot(made.mean("void_ratio", TESTED_AT), made.mean("k0", TESTED_AT), marker, color=colour, markersize=4,
+        ratios.plot([made.mean("void_ratio", o) for o in depth], [made.mean("k0", o) for o in depth], color=colour,
+                    linewidth=2.0 if made.is_candidate() else 0.7, alpha=1.0 if made.is_candidate() else 0.4)
+        ratios.plot(made.mean("void_ratio", TESTED_AT), made.mean("k0", TESTED_AT), marker, color=colour, markersize=size,
                     label=None if made.path in named else made.path)
-        fabrics.plot(made.mean("k0", TESTED_AT), made.mean("contact_fabric", TESTED_AT), marker, color=colour, markersize=4)
+        fabrics.plot(made.mean("k0", TESTED_AT), made.mean("contact_fabric", TESTED_AT), marker, color=colour, markersize=size)
         named.add(made.path)
     ratios.set(xlabel="void ratio", ylabel="K0", xlim=(0.12, 0.23), ylim=(0.25, 0.85))
     fabrics.set(xlabel="K0 at 200 kPa", ylabel="contact fabric at 200 kPa", xlim=(0.25, 0.85), ylim=(0.0, None))
@@ -114,7 +117,8 @@ def section(run, preparations):
     return "\n\n".join([
         f"{head_of('./benchmarks/run preparations', ['g++'])} {run['seeds']} clouds of {run['grains']} grains, {run['cpu_seconds'] / 60:.0f} CPU "
         f"minutes. Mean +- standard deviation over the clouds.",
-        "### Scene and candidates in a biaxial test", of_tests(preparations),
+        "### The scene's preparation and the candidates", of_all([scene, *(made for made in preparations if made.is_candidate())]),
+        "### Biaxial tests at 200 kPa", of_tests(preparations),
         "### All preparations", of_all(preparations),
         "![K0 and contact fabric of all preparations](figures/preparations.png)",
         "### Strains where the stress ratio is held", of_strains(preparations),

@@ -46,7 +46,7 @@ class Preparation:
             return f"at {has['isotropic_pressure'] / 1e3:g} kPa"
         if "friction" in self.path and has["share"] == 0.0:
             return f"vertical friction {has['vertical_friction']:g}"
-        if self.path.startswith("preloaded"):
+        if "preloaded" in self.path:
             return f"{has['preload']:g} times"
         if has["share"] > 0.0:
             return f"share {has['share']:g}"
@@ -59,6 +59,9 @@ class Preparation:
 
     def is_scene(self):
         return self.path == "one-dimensional" and self.parameters["isotropic_friction"] == 0.09
+
+    def is_candidate(self):
+        return self.path.startswith("candidate")
 
     def kept(self):
         return [overburden for overburden in self.overburdens() if overburden >= KEPT_FROM]
