@@ -55,7 +55,7 @@ struct IsotropicPreparation {
 struct OneDimensionalCompression {
   Servo servo{.feedback = {.fastest = 1e-5}, .stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-4};
 
-  /// vertical_pressures [Pa], positive, increasing
+  /// vertical_pressures [Pa], positive, in the order of the path: one below the pressure before it unloads
   /// \return one packing per pressure; the list ends early at one whose verdict is not acceptable
   template <class PackingType>
   std::vector<Prepared<PackingType>> compress(PackingType packing, typename PackingType::Law const& law,
