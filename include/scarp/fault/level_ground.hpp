@@ -12,12 +12,14 @@
 namespace scarp {
 
 /// Level ground of packings without a macroscopic solve: all its columns are alike, so one packing is consolidated at a small
-/// pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy.
+/// pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy. With a preload
+/// the column goes through multiples of the overburdens, and each copy is unloaded to its own.
 template <class Grading>
 struct LevelGround {
   Cloud<Grading> cloud{};
   double unit_weight = 15.68e3;  ///< [N/m3]
   double surcharge = 4e3;        ///< [Pa]
+  double preload = 1.0;          ///< what each depth once carried over its overburden, at least 1: raises K0
   IsotropicPreparation preparation{.pressure = 2e3, .preparation_friction = 0.08};
   OneDimensionalCompression compression{};
 
@@ -36,10 +38,15 @@ struct LevelGround {
           "lower the pressure or raise the surcharge",
           preparation.pressure, overburden(depths.front()));
     }
+    if (!(preload >= 1.0)) {
+      refuse(
+          "the preload is {} (it is what the ground once carried over what it carries now): give 1, for none, or more",
+          preload);
+    }
     depths.erase(std::unique(depths.begin(), depths.end(), [](double a, double b) { return b - a < 1e-6; }),
                  depths.end());
     std::vector<double> pressures;
-    for (double const depth : depths) pressures.push_back(overburden(depth));
+    for (double const depth : depths) pressures.push_back(preload * overburden(depth));
     auto const base = preparation.prepare(cloud.template make<PackingType>(), law);
     if (!base.verdict.acceptable()) {
       throw PreparationError(fmt::format("the packing did not reach {} Pa ({}): try another seed or a higher pressure",
@@ -53,7 +60,23 @@ struct LevelGround {
     }
     PackingsByDepth<PackingType> ground{std::move(depths), {}};
     for (auto& prepared : column) ground.packings.push_back(std::move(prepared.packing));
+    if (preload > 1.0) unload(law, ground);
     return ground;
+  }
+
+ private:
+  template <class PackingType>
+  void unload(typename PackingType::Law const& law, PackingsByDepth<PackingType>& ground) const {
+    for (std::size_t k = 0; k < ground.packings.size(); ++k) {
+      double const pressure = overburden(ground.depths[k]);
+      auto unloaded = compression.compress(std::move(ground.packings[k]), law, {pressure});
+      if (!unloaded.front().verdict.acceptable()) {
+        throw PreparationError(
+            fmt::format("the packing at {} m did not come back from its preload to {} Pa ({}): try another seed",
+                        ground.depths[k], pressure, name(unloaded.front().verdict.reason)));
+      }
+      ground.packings[k] = std::move(unloaded.front().packing);
+    }
   }
 };
 
