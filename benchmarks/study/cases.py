@@ -107,6 +107,9 @@ def rows():
         for below in (4.0, 1.0):
             yield f"{case}: the rupture {below:g} m below the surface [m]", said, 1, lambda one, case=case, below=below: one.crossed(case, 25.0 - below)
     for case in ("heavy", "light"):
+        for below in (4.0, 1.0):
+            yield (f"{case}: its diversion there, {below:g} m below [m]", "", 1,
+                   lambda one, case=case, below=below: one.crossed(case, 25.0 - below) - one.crossed("free", 25.0 - below))
         yield (f"{case}: diversion of x50 at 3/4 of the depth [m]", "", 1,
                lambda one, case=case: one.of(case, upper_band) - one.of("free", upper_band))
         yield f"{case}: tilt [degrees]", "", 2, lambda one, case=case: one.of(case, degrees("tilt"))
