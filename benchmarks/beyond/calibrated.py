@@ -10,16 +10,17 @@ from generated_sections import table
 from measures import below_base, dip, ended, number, spread, summaries, width
 
 CASES = ("free", "heavy", "light")
-SOILS = {"packings": "packings", "study": "Mohr-Coulomb, the study's angles", "calibrated": "Mohr-Coulomb, calibrated"}
-COLOURS = {"packings": "black", "study": "tab:blue", "calibrated": "tab:red"}
+SOILS = {"packings": "packings", "study": "Mohr-Coulomb, the study's angles", "calibrated": "Mohr-Coulomb, calibrated",
+         "volume": "the same, dilation by the volume gained"}
+COLOURS = {"packings": "black", "study": "tab:blue", "calibrated": "tab:red", "volume": "tab:orange"}
 
 
 def folders(output, soil, case):
     """Of the runs of all seeds, in their order."""
     if soil != "packings":
         return [output / "calibrated" / f"{soil}_{case}"]
-    start = output / "grains" / grains.name_of(*grains.STUDY, "") if case == "free" else output / "calibrated" / f"packings_{case}_seed"
-    return sorted(folder for folder in start.parent.glob(f"{start.name}*") if folder.name[len(start.name):].isdigit())
+    start = output / "grains" / grains.name_of(grains.STUDY, "seed") if case == "free" else output / "calibrated" / f"packings_{case}_seed"
+    return sorted(start.parent.glob(f"{start.name}*"))
 
 
 def groups_of(output):
@@ -40,25 +41,30 @@ def parameters(summary):
             **{name: float(options[name]) for name in ("strain-to-residual", "young-modulus", "k0")}}
 
 
-def volume_gained(values):
-    """While the dilation of Mohr-Coulomb ground falls to zero, in plane strain: the integral of sin(psi) over the plastic shear strain."""
-    angle = math.radians(values["peak-dilation"])
-    return values["strain-to-residual"] * (1.0 - math.cos(angle)) / angle
-
-
 def of_calibration(output):
     groups = groups_of(output)
-    study, ours = (parameters(groups[soil, "free"][0]) for soil in ("study", "calibrated"))
+    soils = [parameters(groups[soil, "free"][0]) for soil in SOILS if soil != "packings"]
     _, sources = calibration.calibrated(output)
-    rows = [[what, number(study[name] * scale, digits), number(ours[name] * scale, digits), spread([value * scale for value in sources.get(name, [])], digits)]
+    rows = [[what, *(number(values[name] * scale, digits) for values in soils), spread([value * scale for value in sources.get(name, [])], digits)]
             for what, name, scale, digits in (("peak friction [degrees]", "peak-friction", 1, 1), ("peak dilation [degrees]", "peak-dilation", 1, 1),
                                               ("residual friction [degrees]", "residual-friction", 1, 1),
                                               ("plastic shear strain to residual", "strain-to-residual", 1, 3),
                                               ("Young's modulus [MPa]", "young-modulus", 1e-6, 1), ("K0", "k0", 1, 3))]
-    rows.append(["volume gained [%]", number(100 * volume_gained(study), 1), number(100 * volume_gained(ours), 1),
+    rows.append(["volume gained [%]", *(number(100 * calibration.falling_volume(values["peak-dilation"], values["strain-to-residual"])) for values in soils),
                  spread([100 * value for value in sources["volume"]])])
-    rows.append(["void ratio", "-", "-", spread(sources["void ratio"], 3)])
-    return table(["", "the study's", "calibrated", "packings, mean and deviation"], rows)
+    rows.append(["void ratio", *["-"] * len(soils), spread(sources["void ratio"], 3)])
+    return table(["", "the study's", "calibrated", "dilation by the volume gained", "packings, mean and deviation"], rows)
+
+
+def of_single_parameters(output):
+    """The free field with the study's angles and one calibrated parameter: how far its places move [m]."""
+    found = summaries(output / "calibrated")
+    measures = {"x05": lambda run: run["surface_x05"], "x50": lambda run: run["surface_x50"], "x95": lambda run: run["surface_x95"], "width": width}
+    rows = []
+    for name, run in [(name.removeprefix("only_").replace("-", " "), found[name]) for name in sorted(found) if name.startswith("only_")] + [
+            ("all of them", found["calibrated_free"])]:
+        rows.append([name, *(number(measure(run) - measure(found["study_free"])) for measure in measures.values()), ended(run)])
+    return table(["calibrated alone", *(f"change of {name} [m]" for name in measures), "ends"], rows)
 
 
 def of_runs(output):
@@ -95,7 +101,7 @@ def figure(path, output):
     groups = groups_of(output)
     drawn, (strength, surface) = plt.subplots(1, 2, figsize=(10.0, 3.8), layout="constrained")
     ours = parameters(groups["calibrated", "free"][0])
-    all_rows = calibration.tests(output / "calibration" / "biaxial")
+    all_rows = calibration.tests(output)
     angles = np.array([[calibration.mobilised([row]) for row in rows] for rows in all_rows])
     strains = np.mean([[calibration.plastic_shear(row, ours["young-modulus"]) for row in rows] for rows in all_rows], axis=0)
     strength.plot(strains, angles.mean(axis=0), color=COLOURS["packings"], lw=1.2, label="drained biaxial tests, mean and deviation")
@@ -105,7 +111,7 @@ def figure(path, output):
         values = parameters(groups[soil, "free"][0])
         strength.plot([0.0, values["strain-to-residual"], max(strains.max(), values["strain-to-residual"])],
                       [values["peak-friction"], values["residual-friction"], values["residual-friction"]], color=COLOURS[soil], label=SOILS[soil])
-    strength.set(xlabel="plastic shear strain", ylabel="mobilised friction angle [degrees]", ylim=(0.0, None))
+    strength.set(xlabel="plastic shear strain", ylabel="mobilised friction angle [degrees]", ylim=(10.0, None))
     strength.legend(fontsize=8, loc="lower right")
     for soil, title in SOILS.items():
         for k, folder in enumerate(folders(output, soil, "free")):

@@ -22,17 +22,23 @@ STRAIN = 0.2  # axial, at the end
 POISSON = 0.25  # of the scene's ground without packings
 
 
-def tests(folder):
-    """Rows of every seed's test, as numbers; runs them unless they have been."""
+def run(output):
+    """The tests, and the scene's ground at rest, unless they have been.
+    output: folder of all runs of the benchmark, as below"""
+    run_once([program(), "--grains", GRAINS, "--throw-over-depth", 1e-5, "--frames", 1, "--threads", 1], output / "calibration" / "at_rest")
+    folder = output / "calibration" / "biaxial"
     if not (folder / "summary.json").exists():
-        folder.parent.mkdir(parents=True, exist_ok=True)
         command = [example("rve_biaxial"), "--grains", GRAINS, "--seeds", SEEDS, "--pressure", PRESSURE, "--preparation-friction", PREPARATION_FRICTION,
                    "--strain", STRAIN, "--smoothing", WINDOW, "--output", folder, "--overwrite"]
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         if done.returncode != 0:
             sys.exit(f"{' '.join(map(str, command))} ended with {done.returncode}:\n{done.stderr[-2000:]}")
+
+
+def tests(output):
+    """Rows of every seed's test, as numbers."""
     found = {}
-    with open(folder / "biaxial.csv", newline="") as file:
+    with open(output / "calibration" / "biaxial" / "biaxial.csv", newline="") as file:
         for row in csv.DictReader(file):
             found.setdefault(row["seed"], []).append({name: float(value) for name, value in row.items()})
     return list(found.values())
@@ -75,21 +81,40 @@ def volume_gained(rows):
     return max(row["volumetric_strain"] for row in rows) - rows[-1]["volumetric_strain"]
 
 
+def falling_volume(dilation, strain):
+    """Volume that Mohr-Coulomb ground gains while its dilation [degrees] falls to zero over a plastic shear strain, in plane strain: the
+    integral of sin(psi)."""
+    angle = math.radians(dilation)
+    return strain * (1.0 - math.cos(angle)) / angle
+
+
+def dilation_for(volume, strain):
+    """The angle [degrees] from which ground gains so much."""
+    low, high = 0.0, 90.0
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if falling_volume(middle, strain) < volume else (low, middle)
+    return low
+
+
+def by_volume(output):
+    """The calibrated options, but the dilation that gains as much volume as the tests."""
+    options, sources = calibrated(output)
+    return {**options, "peak-dilation": dilation_for(statistics.fmean(sources["volume"]), options["strain-to-residual"])}
+
+
 def calibrated(output):
-    """The options of fault_rupture by their names, and what they come from: angles of each packing, volume gained by it.
-    output: folder of all runs of the benchmark"""
-    folder = output / "calibration" / "biaxial"
-    all_rows = tests(folder)
-    peaks = [next(peak for peak in packing["peaks"] if peak["window"] == WINDOW) for packing in json.loads((folder / "summary.json").read_text())["packings"]]
-    at_rest = output / "calibration" / "at_rest"
-    run_once([program(), "--grains", GRAINS, "--throw-over-depth", 1e-5, "--frames", 1, "--threads", 1], at_rest)
+    """The options of fault_rupture by their names, and what they come from: angles of each packing, volume gained by it."""
+    found, at_rest = (json.loads((output / "calibration" / name / "summary.json").read_text()) for name in ("biaxial", "at_rest"))
+    all_rows = tests(output)
+    peaks = [next(peak for peak in packing["peaks"] if peak["window"] == WINDOW) for packing in found["packings"]]
     residuals = [mobilised([row for row in rows if row["axial_strain"] > STRAIN - WINDOW]) for rows in all_rows]
     moduli = [young_modulus(rows) for rows in all_rows]
     peak, residual, modulus = statistics.fmean(one["phi_max"] for one in peaks), statistics.fmean(residuals), statistics.fmean(moduli)
     peak_strain = statistics.fmean(one["phi_max_axial_strain"] for one in peaks)
     options = {"peak-friction": peak, "peak-dilation": statistics.fmean(one["psi_max"] for one in peaks), "residual-friction": residual,
                "strain-to-residual": strain_to_residual(all_rows, peak_strain, peak, residual, modulus), "young-modulus": modulus,
-               "k0": json.loads((at_rest / "summary.json").read_text())["k0"]}
+               "k0": at_rest["k0"]}
     return options, {"peak-friction": [one["phi_max"] for one in peaks], "peak-dilation": [one["psi_max"] for one in peaks],
                      "residual-friction": residuals, "young-modulus": moduli, "void ratio": [rows[0]["void_ratio"] for rows in all_rows],
                      "volume": [volume_gained(rows) for rows in all_rows]}

@@ -14,40 +14,41 @@ MEASURES = {"K0": (lambda run: run["k0"], 3), "x05 [m]": (lambda run: run["surfa
             "x95 [m]": (lambda run: run["surface_x95"], 1), "width [m]": (width, 1), "mid-line's dip [degrees]": (dip, 1)}
 
 
-def name_of(aspect, friction, seed):
-    return f"aspect{aspect}_friction{friction}_seed{seed}"
+def name_of(kind, run):
+    """run: seed1 and so on, densest or loosest"""
+    return f"aspect{kind[0]}_friction{kind[1]}_{run}"
 
 
 def runs(seeds):
-    """(name, options); the study's grains first. Densest and loosest: only the ground at rest, of packings that are prepared without friction
-    and with the grains' own."""
-    for aspect, friction in sorted(KINDS, key=lambda kind: kind != STUDY):
-        kind = [] if (aspect, friction) == STUDY else ["--grain-aspect", aspect, "--grain-friction", friction]
-        for seed in seeds:
-            yield name_of(aspect, friction, seed), [*kind, "--seed", seed]
-        for state, preparation in (("densest", 0.0), ("loosest", friction)):
-            yield name_of(aspect, friction, state), [*kind, "--preparation-friction", preparation, "--throw-over-depth", 1e-5]
+    """(name, options). Densest and loosest: only the ground at rest, of packings that are prepared almost without friction (without any, some
+    do not come to rest at 2 kPa) and with the grains' own."""
+    kinds = {(aspect, friction): ["--grain-aspect", aspect, "--grain-friction", friction] for aspect, friction in KINDS}
+    for kind, options in kinds.items():
+        for state, preparation in (("densest", 0.02), ("loosest", kind[1])):
+            yield name_of(kind, state), [*options, "--preparation-friction", preparation, "--throw-over-depth", 1e-5]
+    for seed in seeds:
+        for kind, options in kinds.items():
+            yield name_of(kind, f"seed{seed}"), [*options, "--seed", seed]
 
 
-def of_kind(found, aspect, friction):
+def of_kind(found, kind):
     """Runs of all seeds."""
-    start = name_of(aspect, friction, "")
-    return [summary for name, summary in sorted(found.items()) if name.startswith(start) and name[len(start):].isdigit()]
+    return [summary for name, summary in sorted(found.items()) if name.startswith(name_of(kind, "seed"))]
 
 
-def relative_density(found, aspect, friction):
+def relative_density(found, kind):
     """(e_max - e)/(e_max - e_min) of mean void ratios over the ground's points, for each seed."""
-    dense, loose = (found[name_of(aspect, friction, state)]["void_ratio"] for state in ("densest", "loosest"))
-    return [(loose - run["void_ratio"]) / (loose - dense) for run in of_kind(found, aspect, friction)]
+    dense, loose = (found[name_of(kind, state)]["void_ratio"] for state in ("densest", "loosest"))
+    return [(loose - run["void_ratio"]) / (loose - dense) for run in of_kind(found, kind)]
 
 
 def of_grains(found):
     rows = []
-    for aspect, friction in KINDS:
-        group = of_kind(found, aspect, friction)
-        rows.append([f"{aspect}", f"{friction}", number(statistics.fmean(run["void_ratio"] for run in group), 3),
+    for kind in KINDS:
+        group = of_kind(found, kind)
+        rows.append([f"{kind[0]}", f"{kind[1]}", number(statistics.fmean(run["void_ratio"] for run in group), 3),
                      f"{min(run['void_ratio_min'] for run in group):.3f}-{max(run['void_ratio_max'] for run in group):.3f}",
-                     number(statistics.fmean(relative_density(found, aspect, friction)), 2),
+                     number(statistics.fmean(relative_density(found, kind)), 2),
                      *(spread(map(measure, group), digits) for measure, digits in MEASURES.values()),
                      ", ".join(f"{run['refused_steps']}" for run in group), ", ".join(number(run["cpu_seconds"], 0) for run in group),
                      ", ".join(sorted({ended(run) for run in group}))])
@@ -56,7 +57,7 @@ def of_grains(found):
 
 def change(found, measure, first, second):
     """Mean over pairs of kinds of the difference second - first, in words, with its standard error from the scatter of the seeds."""
-    values = [[[measure(run) for run in of_kind(found, *kind)] for kind in kinds] for kinds in zip(first, second)]
+    values = [[[measure(run) for run in of_kind(found, kind)] for kind in kinds] for kinds in zip(first, second)]
     shift = statistics.fmean(statistics.fmean(after) - statistics.fmean(before) for before, after in values)
     variance = sum(statistics.variance(seeds) / len(seeds) for pair in values for seeds in pair) / len(values) ** 2
     return shift, variance**0.5
@@ -64,7 +65,7 @@ def change(found, measure, first, second):
 
 def scatter(found, measure):
     """Standard deviation over seeds, pooled over all kinds of grains."""
-    return statistics.fmean(statistics.variance(map(measure, of_kind(found, *kind))) for kind in KINDS) ** 0.5
+    return statistics.fmean(statistics.variance(map(measure, of_kind(found, kind))) for kind in KINDS) ** 0.5
 
 
 def of_effects(found):
@@ -83,4 +84,4 @@ def of_effects(found):
 
 
 def is_whole(found):
-    return all(len(of_kind(found, *kind)) > 1 and all(name_of(*kind, state) in found for state in ("densest", "loosest")) for kind in KINDS)
+    return all(len(of_kind(found, kind)) > 1 and all(name_of(kind, state) in found for state in ("densest", "loosest")) for kind in KINDS)

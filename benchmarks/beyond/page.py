@@ -137,6 +137,7 @@ def write(root, output):
         page = with_section(page, "effects", grains.of_effects(found))
     if calibrated.is_whole(output):
         page = with_section(page, "calibration", calibrated.of_calibration(output))
+        page = with_section(page, "single", calibrated.of_single_parameters(output))
         page = with_section(page, "calibrated", calibrated.of_runs(output))
         calibrated.figure(figures / "beyond_calibrated.png", output)
     rewrite(path, page)
