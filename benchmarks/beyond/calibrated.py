@@ -120,7 +120,7 @@ def figure(path, output):
                          label=title + (", three seeds" if soil == "packings" else "") if k == 0 else None)
     surface.invert_yaxis()
     surface.set(xlabel="x [m]; the tip is below 0", ylabel="settlement of the surface [m]", title="free field, h/H = 0.085")
-    surface.legend(fontsize=8, loc="lower left")
+    surface.legend(fontsize=8, loc="upper right")
     for axis in (strength, surface):
         axis.grid(alpha=0.3)
     drawn.savefig(path, dpi=90)

@@ -24,7 +24,7 @@ def runs(seeds):
     do not come to rest at 2 kPa) and with the grains' own."""
     kinds = {(aspect, friction): ["--grain-aspect", aspect, "--grain-friction", friction] for aspect, friction in KINDS}
     for kind, options in kinds.items():
-        for state, preparation in (("densest", 0.02), ("loosest", kind[1])):
+        for state, preparation in (("densest", 0.03), ("loosest", kind[1])):
             yield name_of(kind, state), [*options, "--preparation-friction", preparation, "--throw-over-depth", 1e-5]
     for seed in seeds:
         for kind, options in kinds.items():
