@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Runs of fault_rupture for a benchmark: the program, and one run unless it has been."""
+"""Runs of fault_rupture for a benchmark: the programs, and one run unless it has been."""
 import json
 import os
 import pathlib
@@ -9,15 +9,20 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 
-def program(element="tri3"):
-    """The scene's program for an element: that of SCARP_EXAMPLES, or built."""
-    suffix = "" if element == "tri3" else f"_{element}"
+def example(name, *options, target=None):
+    """An example's program: that of SCARP_EXAMPLES, or built.
+    options: that examples/run chooses the target by"""
     if "SCARP_EXAMPLES" in os.environ:
-        return pathlib.Path(os.environ["SCARP_EXAMPLES"]).resolve() / f"fault_rupture{suffix}"
-    done = subprocess.run([ROOT / "examples" / "run", "fault_rupture", "--element", element, "--help"], stdout=subprocess.DEVNULL)
+        return pathlib.Path(os.environ["SCARP_EXAMPLES"]).resolve() / (target or name)
+    done = subprocess.run([ROOT / "examples" / "run", name, *options, "--help"], stdout=subprocess.DEVNULL)
     if done.returncode != 0:
-        sys.exit(f"fault_rupture for {element} does not build")
-    return ROOT / "build" / "release" / "examples" / f"fault_rupture{suffix}"
+        sys.exit(f"{target or name} does not build")
+    return ROOT / "build" / "release" / "examples" / (target or name)
+
+
+def program(element="tri3"):
+    """The scene's program for an element."""
+    return example("fault_rupture", "--element", element, target="fault_rupture" if element == "tri3" else f"fault_rupture_{element}")
 
 
 def has_run(folder):

@@ -1,27 +1,12 @@
 # SPDX-License-Identifier: BSL-1.0
 """The page of the runs, docs/beyond.md, and its figures."""
-import json
 import math
 import statistics
 
+import calibrated
+import grains
 from generated_sections import rewrite, table, with_section
-
-
-def number(value, digits=1):
-    return "-" if value is None or math.isnan(value) else f"{round(value, digits) + 0.0:.{digits}f}"  # + 0: no minus before zero
-
-
-def summaries(folder):
-    return {file.parent.name: json.loads(file.read_text()) for file in folder.glob("*/summary.json")}
-
-
-def ended(summary):
-    return summary["status"] if summary["status"] == "ok" else f"{summary['status']} at h/H {summary['throw_over_depth']:.4f}"
-
-
-def below_base(summary):
-    """Where half of the throw has passed, three quarters of the depth above bedrock [m]."""
-    return summary["bands"][-1]["band_x50"]
+from measures import below_base, ended, number, summaries
 
 
 def place_of(name):
@@ -147,4 +132,12 @@ def write(root, output):
         dips_figure(figures / "beyond_dips.png", found)
     if found := summaries(output / "packings"):
         page = with_section(page, "packings", of_packings(found, summaries(output / "map")))
+    if grains.is_whole(found := summaries(output / "grains")):
+        page = with_section(page, "grains", grains.of_grains(found))
+        page = with_section(page, "effects", grains.of_effects(found))
+    if calibrated.is_whole(output):
+        page = with_section(page, "calibration", calibrated.of_calibration(output))
+        page = with_section(page, "single", calibrated.of_single_parameters(output))
+        page = with_section(page, "calibrated", calibrated.of_runs(output))
+        calibrated.figure(figures / "beyond_calibrated.png", output)
     rewrite(path, page)

@@ -189,6 +189,10 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
   text += fmt::format("uncertainty: runs that were not fitted took up to {:.1f} times more or less (docs/scaling.md)\n",
                       model.largest_error);
   if (choice.scene != Case::free) text += "warning: no scene with a footing was measured; many take more iterations\n";
+  Choice const usual;
+  if (choice.soil == Soil::dem &&
+      (choice.grain_aspect != usual.grain_aspect || choice.grain_friction != usual.grain_friction))
+    text += "warning: no other grains than the study's were measured\n";
   if (choice.soil == Soil::elastic) text += "warning: no elastic ground was measured\n";
   if (choice.budget_companions)
     text += "companions of the budget come on top: about one and a half to three times more\n";

@@ -46,6 +46,30 @@ void make_quick(Choice& choice) {
 
 void make_study(Choice& choice) { choice.triangles = 7563; }
 
+void declare_materials(CLI::App& app, Choice& choice) {
+  using examples::number_from;
+  app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
+      ->check(number_from(0.0, true, 10.0));
+  app.add_option("--grain-aspect", choice.grain_aspect, "width over length of the grains, ellipses of the same lengths")
+      ->check(number_from(0.1, true, 1.0));
+  app.add_option("--grain-friction", choice.grain_friction, "coefficient between grains")
+      ->check(number_from(0.0, true, 10.0));
+  app.add_option("--peak-friction", choice.peak_friction, "angle of Mohr-Coulomb ground [degrees]")
+      ->check(number_from(0.0, false, 89.0));
+  app.add_option("--peak-dilation", choice.peak_dilation, "angle of Mohr-Coulomb ground [degrees]")
+      ->check(number_from(0.0, true, 89.0));
+  app.add_option("--residual-friction", choice.residual_friction,
+                 "angle of Mohr-Coulomb ground [degrees]; without, the peak's less 0.8 of the dilation (Bolton)")
+      ->check(number_from(0.0, true, 89.0));
+  app.add_option("--strain-to-residual", choice.strain_to_residual,
+                 "plastic shear strain over which Mohr-Coulomb ground falls from peak to residual strength")
+      ->check(number_from(0.0, false, 100.0));
+  app.add_option("--young-modulus", choice.young_modulus, "of ground without packings [Pa]")
+      ->check(number_from(0.0, false, 1e12));
+  app.add_option("--k0", choice.k0, "of ground without packings: horizontal over vertical stress before faulting")
+      ->check(number_from(0.0, false, 10.0));
+}
+
 void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element,
                      std::vector<std::uint64_t>& seeds) {
   using namespace fault_rupture;
@@ -118,8 +142,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
          "several packings at once, as 1,2,3: each in a folder of its own, and mean and scatter of all measures")
       ->check(examples::each_of_list(examples::seed_number()))
       ->excludes(seed);
-  app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
-      ->check(number_from(0.0, true, 10.0));
+  declare_materials(app, choice);
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));
   app.add_option("--dip", choice.dip, "of the fault [degrees]")->check(number_from(0.0, false, 90.0));
   app.add_flag("--reverse", choice.reverse, "the hanging wall is pushed up the fault plane");

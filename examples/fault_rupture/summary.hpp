@@ -25,21 +25,23 @@ struct AtRest {
   double k0 = 0.0;  ///< mean over the soil's points of horizontal over vertical stress
   double k0_min = 0.0;
   double k0_max = 0.0;
-  double void_ratio_min = 0.0;  ///< not finite where the soil has no packings
+  double void_ratio = 0.0;  ///< mean over the soil's points; these three are not finite where it has no packings
+  double void_ratio_min = 0.0;
   double void_ratio_max = 0.0;
   double vertical_error = 0.0;      ///< largest |vertical stress / overburden - 1|
   scarp::GroundAtRest<2> ground{};  ///< with what stands on it
 
-  SCARP_MEMBERS(k0, k0_min, k0_max, void_ratio_min, void_ratio_max, vertical_error, ground)
+  SCARP_MEMBERS(k0, k0_min, k0_max, void_ratio, void_ratio_min, void_ratio_max, vertical_error, ground)
 };
 
 template <class Problem, class SceneType>
 AtRest at_rest(Problem const& problem, SceneType const& scene) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  AtRest rest{0.0, infinity, -infinity, infinity, -infinity, 0.0, {}};
+  AtRest rest{0.0, infinity, -infinity, 0.0, infinity, -infinity, 0.0, {}};
   auto const& grid = problem.discretisation();
   int const soil = scarp::region_number(grid.mesh(), "soil");
   int points = 0;
+  int packings = 0;
   for (int point = 0; point < grid.point_count(); ++point) {
     auto const site = grid.site(point, scene.ground.surface_level());
     if (site.region != soil) continue;
@@ -54,12 +56,15 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
     visit_point(problem, point, [&](auto const& provider, auto const& state) {
       for (auto const& [quantity, value] : scarp::RveQuantities{}(provider, state)) {
         if (quantity != "void_ratio") continue;
+        ++packings;
+        rest.void_ratio += value;
         rest.void_ratio_min = std::min(rest.void_ratio_min, value);
         rest.void_ratio_max = std::max(rest.void_ratio_max, value);
       }
     });
   }
   rest.k0 /= points;
+  rest.void_ratio /= packings;
   return rest;
 }
 
@@ -142,6 +147,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["k0_min"] = rest.k0_min;
   json["k0_max"] = rest.k0_max;
   if (choice.soil == Soil::dem) {
+    json["void_ratio"] = rest.void_ratio;
     json["void_ratio_min"] = rest.void_ratio_min;
     json["void_ratio_max"] = rest.void_ratio_max;
   }

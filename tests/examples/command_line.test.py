@@ -92,6 +92,16 @@ def check_bad_input():
     check_refusal(FAULT, "unknown soil", "--soil", "cheese", "--soil")
     check_refusal(FAULT, "unknown footing", "--footing", "flying", "--footing")
     check_refusal(FAULT, "negative bearing pressure", "--bearing-pressure", "-1", "--bearing-pressure")
+    check_refusal(FAULT, "grains wider than long", "--grain-aspect", "1.2", "--grain-aspect")
+    check_refusal(FAULT, "NaN width of grains", "--grain-aspect", "nan", "--grain-aspect")
+    check_refusal(FAULT, "negative friction of grains", "--grain-friction", "-0.1", "--grain-friction")
+    check_refusal(FAULT, "a vertical friction angle", "--peak-friction", "90", "--peak-friction")
+    check_refusal(FAULT, "softening at once", "--strain-to-residual", "0", "--strain-to-residual")
+    check_refusal(FAULT, "a soil without stiffness", "--young-modulus", "0", "--young-modulus")
+    check_refusal(FAULT, "a negative K0", "--k0", "-0.4", "--k0")
+    on_mohr_coulomb = {"--soil": "mohr_coulomb"}
+    check_refusal(FAULT, "more dilation than friction", "--peak-dilation", "35", "--peak-dilation 35", also=on_mohr_coulomb)
+    check_refusal(FAULT, "a soil that hardens", "--residual-friction", "35", "--residual-friction 35", also=on_mohr_coulomb)
     check_refusal(FAULT, "negative threads", "--threads", "-2", "--threads")
     check_refusal(FAULT, "a value for a flag", "--quick=false", None, "quick was given", without=["--quick"])
     check_refusal(FAULT, "two sizes at once", "--study", None, "--study")
@@ -143,6 +153,28 @@ def check_warnings():
             expect(told in said if told else "warning" not in said, f"{title}: said\n{said}")
     check_refusal(FAULT, "negative length", "--length", "-1", "--length")
     check_refusal(FAULT, "NaN length", "--length", "nan", "--length")
+
+
+def check_materials():
+    """Each property of the soil changes the answer; its default, given, does not."""
+    sand = {"--throw-over-depth": "0.001"}
+    plain = {"--soil": "mohr_coulomb", "--throw-over-depth": "0.02"}
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+
+        def surface(name, *given):
+            code, said = run(FAULT, "--quick", *command(TINY, *given), "--output", name, folder=scratch)
+            expect(code == 0, f"{given}: ended with {code}\n{said}")
+            return (scratch / name / "surface.csv").read_text() if code == 0 else ""
+
+        for soil, options in ((sand, {"--grain-aspect": ("0.75", "0.6"), "--grain-friction": ("0.55", "0.3")}),
+                              (plain, {"--peak-friction": ("30.8", "35"), "--peak-dilation": ("6.6", "3"), "--residual-friction": (None, "20"),
+                                       "--strain-to-residual": ("0.15", "0.02"), "--young-modulus": ("25e6", "10e6"), "--k0": ("0.4", "0.6")})):
+            usual = surface(f"usual{len(options)}", soil)
+            given = {option: values[0] for option, values in options.items() if values[0] is not None}
+            expect(surface(f"given{len(options)}", soil, given) == usual, f"{given} are not the defaults")
+            for option, (_, other) in options.items():
+                expect(surface(option.strip("-"), soil, {option: other}) != usual, f"{option} {other} changes nothing")
 
 
 def check_mesh_file():
@@ -268,7 +300,7 @@ def check_repeat():
 if not (FAULT.is_file() and BIAXIAL.is_file()):
     print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_help, check_bad_input, check_warnings, check_mesh_file, check_config, check_list, check_repeat, check_time_limit, check_interrupt):
+for check in (check_help, check_bad_input, check_warnings, check_materials, check_mesh_file, check_config, check_list, check_repeat, check_time_limit, check_interrupt):
     started = time.monotonic()
     check()
     print(f"{check.__name__}: {time.monotonic() - started:.1f} s")

@@ -43,6 +43,13 @@ with tempfile.TemporaryDirectory() as scratch:
     expect(finer["steps"] >= 1.3 * summary["steps"], "load steps of the companion are smaller")
     expect(parts["load_step"]["value"] > 0.0, "and change the answer")
 
+    def names(entry):
+        return [line.split(" = ")[0] for line in entry["scene"].splitlines()]
+
+    known = json.loads(pathlib.Path(scratch, "known.json").read_text())
+    shipped = json.loads((pathlib.Path(__file__).resolve().parents[2] / "examples/fault_rupture/companions.json").read_text())
+    expect(all(names(entry) == names(known[0]) for entry in shipped), "scenes of the file that comes with the program have the lines of today")
+
     # Known from now on, to the same scene, whatever is written on the way.
     done, later = run(scratch, "--probe-a-x", "-5")
     expect(later["error_budget"]["parts"]["mesh"] == parts["mesh"], "a later run of the same scene tells it")

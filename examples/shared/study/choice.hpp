@@ -35,6 +35,14 @@ struct Choice {
   bool mirrored_packings = false;  ///< draws among their mirror images too
   std::uint64_t seed = 1;
   double preparation_friction = 0.09;
+  double grain_aspect = 0.75;               ///< width over length of the ellipses
+  double grain_friction = 0.55;             ///< coefficient between grains
+  double peak_friction = 30.8;              ///< [degrees], of Mohr-Coulomb ground, as the next three
+  double peak_dilation = 6.6;               ///< [degrees]
+  std::optional<double> residual_friction;  ///< [degrees]; Bolton's, peak friction less 0.8 of the dilation
+  double strain_to_residual = 0.15;         ///< plastic shear strain
+  double young_modulus = 25e6;              ///< [Pa], of ground without packings, as the next one
+  double k0 = 0.4;                          ///< horizontal over vertical stress before faulting
   double throw_over_depth = 0.085;
   double dip = 60.0;     ///< [degrees]
   bool reverse = false;  ///< the hanging wall goes up
@@ -83,6 +91,14 @@ struct Choice {
     visit("mirrored-packings", self.mirrored_packings);
     visit("seed", self.seed);
     visit("preparation-friction", self.preparation_friction);
+    visit("grain-aspect", self.grain_aspect);
+    visit("grain-friction", self.grain_friction);
+    visit("peak-friction", self.peak_friction);
+    visit("peak-dilation", self.peak_dilation);
+    visit("residual-friction", self.residual_friction);
+    visit("strain-to-residual", self.strain_to_residual);
+    visit("young-modulus", self.young_modulus);
+    visit("k0", self.k0);
     visit("throw-over-depth", self.throw_over_depth);
     visit("dip", self.dip);
     visit("tip", self.tip);

@@ -16,8 +16,10 @@ namespace fault_rupture {
 
 namespace {
 
-/// Level ground at the study's K0 of about 0.4.
-scarp::GeostaticStress<2> ground_at_rest() { return {.surcharge = surcharge, .unit_weight = unit_weight, .k0 = 0.4}; }
+/// Level ground, by default at the study's K0 of about 0.4.
+scarp::GeostaticStress<2> ground_at_rest(Choice const& choice) {
+  return {.surcharge = surcharge, .unit_weight = unit_weight, .k0 = choice.k0};
+}
 
 /// What all soils' scenes share.
 template <class Soil>
@@ -32,15 +34,28 @@ AnySoil solved(Choice const& choice, Soil const& soil, typename Soil::Solver sol
           .loose_pressure = 0.25 * surcharge};
 }
 
-scarp::IsotropicElasticity soil_elasticity() { return scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25); }
+scarp::IsotropicElasticity soil_elasticity(Choice const& choice) {
+  return scarp::IsotropicElasticity::from_young_poisson(choice.young_modulus, 0.25);
+}
+
+/// \throws scarp::InputError
+void require_angles_in_order(Choice const& choice, double residual_friction) {
+  if (choice.peak_dilation > choice.peak_friction)
+    scarp::refuse(
+        "--peak-dilation {} is above --peak-friction {} degrees (flow would create energy): give less dilation",
+        choice.peak_dilation, choice.peak_friction);
+  if (residual_friction > choice.peak_friction)
+    scarp::refuse("--residual-friction {} is above --peak-friction {} degrees (the soil would harden): give less",
+                  residual_friction, choice.peak_friction);
+}
 
 std::size_t images_of(Choice const& choice) { return choice.mirrored_packings ? 2 : 1; }
 
 /// No more than what points draw, at the same time where threads are asked for.
 Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
-  auto const law = examples::study_law();
+  auto const law = examples::study_law(choice.grain_friction);
   scarp::LevelGround<scarp::EllipseGrading> ground;
-  ground.cloud = examples::study_cloud(choice.grains, choice.seed);
+  ground.cloud = examples::study_cloud(choice.grains, choice.seed, choice.grain_aspect);
   ground.unit_weight = unit_weight;
   ground.surcharge = surcharge;
   ground.preparation.preparation_friction = choice.preparation_friction;
@@ -79,7 +94,7 @@ std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<
 Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   Sand sand;
   auto& packings = sand.provider;
-  packings.law = examples::study_law();
+  packings.law = examples::study_law(choice.grain_friction);
   packings.source = make_columns(choice, sites);
   packings.strain_per_step = choice.strain_per_step;
   packings.least_steps = choice.least_dem_steps;
@@ -88,14 +103,19 @@ Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   return sand;
 }
 
-FrictionalSoil make_frictional_soil() {
+FrictionalSoil make_frictional_soil(Choice const& choice) {
   constexpr double degree = std::numbers::pi / 180.0;
-  scarp::Strength const peak{.cohesion = 1e3, .friction = 30.8 * degree, .dilation = 6.6 * degree};
-  scarp::Strength const residual{.cohesion = 1e3, .friction = (30.8 - 0.8 * 6.6) * degree, .dilation = 0.0};
-  return {{soil_elasticity(), {.peak = peak, .residual = residual, .strain_to_residual = 0.15}, ground_at_rest()}};
+  double const residual_friction = choice.residual_friction.value_or(choice.peak_friction - 0.8 * choice.peak_dilation);
+  require_angles_in_order(choice, residual_friction);
+  scarp::Strength const peak{
+      .cohesion = 1e3, .friction = choice.peak_friction * degree, .dilation = choice.peak_dilation * degree};
+  scarp::Strength const residual{.cohesion = 1e3, .friction = residual_friction * degree, .dilation = 0.0};
+  return {{soil_elasticity(choice),
+           {.peak = peak, .residual = residual, .strain_to_residual = choice.strain_to_residual},
+           ground_at_rest(choice)}};
 }
 
-ElasticSoil make_elastic_soil() { return {{soil_elasticity(), ground_at_rest()}}; }
+ElasticSoil make_elastic_soil(Choice const& choice) { return {{soil_elasticity(choice), ground_at_rest(choice)}}; }
 
 AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   switch (choice.soil) {
@@ -115,11 +135,11 @@ AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites)
     case Soil::mohr_coulomb: {
       FrictionalSoil::Solver solver;
       solver.rule.floor = FrictionalSoil::tangent_floor;
-      return solved(choice, make_frictional_soil(), solver);
+      return solved(choice, make_frictional_soil(choice), solver);
     }
     case Soil::elastic: break;
   }
-  return solved(choice, make_elastic_soil(), {});
+  return solved(choice, make_elastic_soil(choice), {});
 }
 
 }  // namespace fault_rupture

@@ -27,10 +27,10 @@ SceneType make(Choice const& choice) {
   if constexpr (std::is_same_v<SoilType, Sand>) {
     scene.soil = make_sand(choice, scene.soil_sites());
   } else if constexpr (std::is_same_v<SoilType, FrictionalSoil>) {
-    scene.soil = make_frictional_soil();
+    scene.soil = make_frictional_soil(choice);
     scene.solver.rule.floor = FrictionalSoil::tangent_floor;
   } else {
-    scene.soil = make_elastic_soil();
+    scene.soil = make_elastic_soil(choice);
   }
   return scene;
 }
