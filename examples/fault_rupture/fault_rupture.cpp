@@ -50,6 +50,9 @@ void declare_materials(CLI::App& app, Choice& choice) {
   using examples::number_from;
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
+  app.add_option("--preload", choice.preload,
+                 "what sand once carried over its overburden, at least 1; raises K0 (docs/preparations.md)")
+      ->check(number_from(1.0, true, 10.0));
   app.add_option("--grain-aspect", choice.grain_aspect, "width over length of the grains, ellipses of the same lengths")
       ->check(number_from(0.1, true, 1.0));
   app.add_option("--grain-friction", choice.grain_friction, "coefficient between grains")

@@ -92,6 +92,7 @@ def check_bad_input():
     check_refusal(FAULT, "unknown soil", "--soil", "cheese", "--soil")
     check_refusal(FAULT, "unknown footing", "--footing", "flying", "--footing")
     check_refusal(FAULT, "negative bearing pressure", "--bearing-pressure", "-1", "--bearing-pressure")
+    check_refusal(FAULT, "ground that carried less", "--preload", "0.9", "--preload")
     check_refusal(FAULT, "grains wider than long", "--grain-aspect", "1.2", "--grain-aspect")
     check_refusal(FAULT, "NaN width of grains", "--grain-aspect", "nan", "--grain-aspect")
     check_refusal(FAULT, "negative friction of grains", "--grain-friction", "-0.1", "--grain-friction")
@@ -167,7 +168,7 @@ def check_materials():
             expect(code == 0, f"{given}: ended with {code}\n{said}")
             return (scratch / name / "surface.csv").read_text() if code == 0 else ""
 
-        for soil, options in ((sand, {"--grain-aspect": ("0.75", "0.6"), "--grain-friction": ("0.55", "0.3")}),
+        for soil, options in ((sand, {"--grain-aspect": ("0.75", "0.6"), "--grain-friction": ("0.55", "0.3"), "--preload": ("1", "1.3")}),
                               (plain, {"--peak-friction": ("30.8", "35"), "--peak-dilation": ("6.6", "3"), "--residual-friction": (None, "20"),
                                        "--strain-to-residual": ("0.15", "0.02"), "--young-modulus": ("25e6", "10e6"), "--k0": ("0.4", "0.6")})):
             usual = surface(f"usual{len(options)}", soil)

@@ -62,7 +62,7 @@ TABLE = {
         "footing": one_of("sticking", "frictional"), "footing-centre": between(-45, 18), "footing-width": decades(1, 20),
         "bearing-pressure": between(0, 1e6), "base-friction": between(0, 2), "size": between(4, 25),
         "pattern": one_of("crossed", "left", "right", "jittered"), "aspect": between(0.3, 3), "mesh-seed": SEEDS,
-        "grains": whole(1, 100), "seed": SEEDS, "preparation-friction": between(0, 1), "grain-aspect": between(0.1, 1),
+        "grains": whole(1, 100), "seed": SEEDS, "preparation-friction": between(0, 1), "preload": between(1, 3), "grain-aspect": between(0.1, 1),
         "grain-friction": between(0, 2), "peak-friction": between(20, 50), "peak-dilation": between(0, 20),
         "residual-friction": between(10, 30), "strain-to-residual": decades(1e-3, 1), "young-modulus": decades(1e5, 1e9), "k0": between(0.2, 2),
         "throw-over-depth": decades(1e-4, 1), "dip": between(5, 90), "reverse": flag, "tip": between(-50, 22),

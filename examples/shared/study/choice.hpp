@@ -35,6 +35,7 @@ struct Choice {
   bool mirrored_packings = false;  ///< draws among their mirror images too
   std::uint64_t seed = 1;
   double preparation_friction = 0.09;
+  double preload = 1.0;                     ///< what the sand once carried over its overburden
   double grain_aspect = 0.75;               ///< width over length of the ellipses
   double grain_friction = 0.55;             ///< coefficient between grains
   double peak_friction = 30.8;              ///< [degrees], of Mohr-Coulomb ground, as the next three
@@ -91,6 +92,7 @@ struct Choice {
     visit("mirrored-packings", self.mirrored_packings);
     visit("seed", self.seed);
     visit("preparation-friction", self.preparation_friction);
+    visit("preload", self.preload);
     visit("grain-aspect", self.grain_aspect);
     visit("grain-friction", self.grain_friction);
     visit("peak-friction", self.peak_friction);

@@ -59,6 +59,7 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
   ground.unit_weight = unit_weight;
   ground.surcharge = surcharge;
   ground.preparation.preparation_friction = choice.preparation_friction;
+  ground.preload = choice.preload;
   auto depths = drawn_depths(choice, sites);
   std::size_t const count = depths.size();
   std::size_t const images = images_of(choice);
