@@ -118,9 +118,8 @@ def figure(path, output):
             places, settlements = zip(*last_profile(folder))
             surface.plot(places, settlements, color=COLOURS[soil], lw=1.0 if soil == "packings" else 1.6, alpha=0.7 if soil == "packings" else 1.0,
                          label=title + (", three seeds" if soil == "packings" else "") if k == 0 else None)
-    surface.invert_yaxis()
-    surface.set(xlabel="x [m]; the tip is below 0", ylabel="settlement of the surface [m]", title="free field, h/H = 0.085")
-    surface.legend(fontsize=8, loc="upper right")
+    surface.set(xlabel="x [m]; the tip is below 0", ylabel="settlement of the surface [m]", title="free field, h/H = 0.085", ylim=(3.3, -0.1))
+    surface.legend(fontsize=8, loc="lower left")
     for axis in (strength, surface):
         axis.grid(alpha=0.3)
     drawn.savefig(path, dpi=90)
