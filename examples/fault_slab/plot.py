@@ -30,11 +30,11 @@ def draw_map(fig, axes, folder):
         places = [place for place in places if place[0] is not None]
         if places:
             axes.plot(*zip(*places), style, color=colour, marker="o", markersize=3,
-                      label=f"{name[1:]} % of the throw below")
+                      label=f"{int(name[1:])} % of the throw below")
     axes.axvline(0.0, color="white", linewidth=0.8)
     axes.annotate("fault at bedrock", (0.0, lines[-1]), xytext=(3, -9), textcoords="offset points", color="white",
                   fontsize=7)
-    axes.legend(loc="lower left", labelcolor="white", fontsize=7)
+    axes.legend(loc="lower left", labelcolor="white", fontsize=7, handlelength=3.0)
     axes.grid(False)
     axes.set(ylabel="along the strike [m]", xlim=(across[0], across[-1]), ylim=(lines[0], lines[-1]))
 
@@ -62,8 +62,7 @@ def slab(folder):
         cells = PolyCollection(outlines, array=strain[there], norm=limit, cmap="magma_r", edgecolors="#00000030",
                                linewidths=0.3)
         axes.add_collection(cells)
-        axes.autoscale_view()
-        axes.set_aspect("equal", "datalim")
+        axes.set(aspect="equal", ylim=(-0.5, grid.points[:, 2].max() + 0.5))
         axes.grid(False)
         axes.plot(0.0, 0.0, "^", color=BLACK, markersize=4, clip_on=False)
         axes.set_ylabel("height [m]")
