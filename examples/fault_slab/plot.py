@@ -62,7 +62,7 @@ def slab(folder):
         cells = PolyCollection(outlines, array=strain[there], norm=limit, cmap="magma_r", edgecolors="#00000030",
                                linewidths=0.3)
         axes.add_collection(cells)
-        axes.set(aspect="equal", ylim=(-0.5, grid.points[:, 2].max() + 0.5))
+        axes.set(aspect="equal", ylim=(grid.points[:, 2].min() - 0.5, grid.points[:, 2].max() + 0.5))
         axes.grid(False)
         axes.plot(0.0, 0.0, "^", color=BLACK, markersize=4, clip_on=False)
         axes.set_ylabel("height [m]")
