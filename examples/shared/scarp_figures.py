@@ -91,14 +91,14 @@ def finite(value):
 
 
 class Grid(typing.NamedTuple):
-    points: np.ndarray  # [m], shape (nodes, 2)
-    cells: np.ndarray   # node numbers of the corners, shape (cells, 3) or (cells, 4)
+    points: np.ndarray  # [m], shape (nodes, 2), of hexahedra (nodes, 3)
+    cells: np.ndarray   # node numbers of the corners, shape (cells, 3) or (cells, 4), of hexahedra (cells, 8)
     at_nodes: dict
     at_cells: dict
 
 
 def read_vtu(path):
-    """An unstructured grid of triangles or quadrilaterals as io/vtu.hpp writes it."""
+    """An unstructured grid of triangles, quadrilaterals or linear hexahedra as io/vtu.hpp writes it."""
     require_file(path)
     try:
         root = xml.parse(path).getroot()
@@ -117,6 +117,9 @@ def read_vtu(path):
         piece = root.find("UnstructuredGrid/Piece")
         arrays = {part.tag: {item.get("Name"): array(item) for item in part} for part in piece}
         offsets = arrays["Cells"]["offsets"]
+        if np.all(arrays["Cells"]["types"] == 12) and len(offsets):
+            return Grid(arrays["Points"]["Points"], arrays["Cells"]["connectivity"].reshape(-1, 8), arrays["PointData"],
+                        arrays["CellData"])
         nodes = int(offsets[0]) if len(offsets) else 0
         if nodes not in (3, 4, 6, 8) or np.any(np.diff(offsets) != nodes):
             raise ValueError("its cells are not all triangles or all quadrilaterals")

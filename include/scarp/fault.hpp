@@ -25,3 +25,4 @@
 #include "scarp/fault/shared_slip.hpp"
 #include "scarp/fault/sticking_footing.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
+#include "scarp/fault/tapered_slip.hpp"

@@ -204,6 +204,8 @@ TEST_CASE("sizes that are not positive or not finite are refused") {
     CHECK_THROWS_AS((FaultMesh{.row_coarsening = wrong}.generate()), scarp::InputError);
     CHECK_THROWS_AS((FaultMesh{.strike = wrong}.generate<scarp::Hex8>()), scarp::InputError);
   }
+  for (int const wrong : {-1, 0, 10'001})
+    CHECK_THROWS_AS((FaultMesh{.strike_cells = wrong}.generate<scarp::Hex8>()), scarp::InputError);
   CHECK_THROWS_AS((FaultMesh{.tip = nan}.generate()), scarp::InputError);
   CHECK_THROWS_AS((FaultMesh{.left = 30.0}.generate()), scarp::InputError);
   CHECK_THROWS_AS((FaultMesh{.band_left = 10.0, .band_right = 0.0}.generate()), scarp::InputError);
@@ -291,6 +293,24 @@ TEST_CASE_TEMPLATE("any element fills the layer once between its boundaries", El
     }();
     for (double const line : {-16.0, -9.0, -3.0}) CHECK(lines.count(line) == 1);
   }
+}
+
+TEST_CASE(
+    "a layer in space has as many equal cells along the strike as are asked for, in the plane they do not matter") {
+  FaultMesh const one{.size = 5.0, .strike = 12.0};
+  FaultMesh const three{.size = 5.0, .strike = 12.0, .strike_cells = 3};
+  auto const mesh = three.generate<scarp::Hex8>();
+  CHECK(mesh.elements.size() == 3 * one.generate<scarp::Hex8>().elements.size());
+  CHECK(static_cast<int>(mesh.elements.size()) == three.element_count<scarp::Hex8>());
+  CHECK(volume(mesh) == samples::Approx(75.0 * 25.0 * 12.0).epsilon(1e-12));
+  std::set<double> lines;
+  for (int const node : scarp::boundary_nodes(mesh, "surface"))
+    lines.insert(mesh.nodes[static_cast<std::size_t>(node)](1));
+  CHECK(lines == std::set{0.0, 4.0, 8.0, 12.0});
+  CHECK(three.element_count<scarp::Quad4>() == one.element_count<scarp::Quad4>());
+  double const size = one.with_about<scarp::Hex8>(300).size;
+  CHECK(three.with_about<scarp::Hex8>(900).size == samples::Approx(size).epsilon(1e-12));  // round-off of a bisection
+  CHECK_THROWS_AS(three.with_about<scarp::Hex8>(2), scarp::InputError);
 }
 
 TEST_CASE_TEMPLATE("a layer in space has the plane's grid in every section along the strike", Element, scarp::Tet4,

@@ -5,6 +5,7 @@
 
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/element/hex8.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/scene/scene.hpp"
@@ -47,5 +48,33 @@ TEST_CASE("an element's stress is the mean over its points, and so is a quantity
     CHECK(std::abs(fields.quantities.at("depth")[e] - (middle - 0.5 / std::sqrt(3.0))) < 1e-9);
     CHECK(std::abs(fields.volumetric[e]) < 1e-14);
     CHECK(fields.status[e] == 0);
+  }
+}
+
+TEST_CASE("in space strains are those of the whole tensor, and stress has its six components") {
+  using Ground = scarp::LinearElastic<3, scarp::GeostaticStress<3>>;
+  scarp::SerialExecutor serial;
+  scarp::Discretisation<scarp::Hex8> grid(scarp::BoxMesh<scarp::Hex8>{.cells = {1, 2, 1}}.generate());
+  scarp::Constraints constraints(grid.mesh());
+  // Analytic: stretches 1.1 along x and 0.9 along z of all nodes.
+  auto const& nodes = grid.mesh().nodes;
+  for (int n = 0; n < static_cast<int>(nodes.size()); ++n) {
+    auto const& place = nodes[static_cast<std::size_t>(n)];
+    constraints.move(n, 0, 0.1 * place.x());
+    constraints.fix(n, 1);
+    constraints.move(n, 2, -0.1 * place.z());
+  }
+  grid.commit(constraints.displacement(1.0));
+  auto const soil = Ground::from_young_poisson(1e6, 0.3, {.surcharge = 1e3, .k0 = 0.5});
+  auto const region = grid.mesh().regions.front();
+  auto problem = scarp::make_problem(grid, 1.0, boost::hana::make_tuple(scarp::Region{region, soil}),
+                                     std::move(constraints), scarp::LoadHistory(), serial);
+  auto const fields = scarp::detail::element_fields(problem, scarp::NoQuantities());
+  REQUIRE(fields.stress.size() == 12);
+  for (std::size_t e = 0; e < 2; ++e) {
+    CHECK(std::abs(fields.volumetric[e] + std::log(1.1 * 0.9)) < 1e-12);
+    CHECK(std::abs(fields.deviatoric[e] - std::log(1.1 / 0.9)) < 1e-12);
+    CHECK(std::abs(fields.stress[6 * e + 1] + 500.0) < 1e-9);
+    CHECK(std::abs(fields.stress[6 * e + 2] + 1e3) < 1e-9);
   }
 }

@@ -23,7 +23,7 @@ struct NoQuantities {
   }
 };
 
-/// Void ratio, fabrics, coordination and balance of points that carry a packing, also within adaptors; nothing of others.
+/// Void ratio, in the plane fabrics, coordination and balance of points that carry a packing, also within adaptors; nothing of others.
 struct RveQuantities {
   template <class Provider>
   Quantities operator()(Provider const& provider, typename Provider::State const& state) const {
@@ -36,12 +36,11 @@ struct RveQuantities {
     if constexpr (requires { provider.quantities(state); }) {
       return provider.quantities(state);
     } else if constexpr (requires { state.packing.void_ratio(); }) {
-      Quantities quantities{
-          {"void_ratio", state.packing.void_ratio()},
-          {"contact_fabric", fabric_anisotropy(contact_fabric(state.packing, provider.law))},
-          {"coordination", coordination(state.packing, provider.law).all},
-          {"unbalanced_ratio", state.unbalanced_ratio},
-      };
+      Quantities quantities{{"void_ratio", state.packing.void_ratio()}};
+      if constexpr (Provider::dim == 2)
+        quantities.emplace_back("contact_fabric", fabric_anisotropy(contact_fabric(state.packing, provider.law)));
+      quantities.emplace_back("coordination", coordination(state.packing, provider.law).all);
+      quantities.emplace_back("unbalanced_ratio", state.unbalanced_ratio);
       if constexpr (requires { particle_fabric(state.packing); }) {
         quantities.emplace_back("particle_fabric", fabric_anisotropy(particle_fabric(state.packing)));
       }

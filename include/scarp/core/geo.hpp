@@ -36,4 +36,12 @@ inline PlaneStrain plane_strain(Tensor<2> const& deformation) {
   return {-(smaller + larger), larger - smaller};
 }
 
+/// The same in space: the deviatoric part is the difference of the outer principal strains.
+inline PlaneStrain space_strain(Tensor<3> const& deformation) {
+  Eigen::SelfAdjointEigenSolver<Tensor<3>> solver;
+  solver.computeDirect(deformation.transpose() * deformation, Eigen::EigenvaluesOnly);
+  Vector<3> const strains = solver.eigenvalues().array().log() / 2.0;
+  return {-strains.sum(), strains(2) - strains(0)};
+}
+
 }  // namespace scarp::geo

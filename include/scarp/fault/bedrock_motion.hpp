@@ -46,6 +46,12 @@ struct MissingOfMotion {
 template <class Motion>
 concept CheckedMotion = BedrockMotion<Motion> || detail::MissingOfMotion<Motion>::nothing;
 
+/// A fault whose slip changes along its strike: share_along(y) of `left()` and `right()` at the strike y [m].
+template <class Motion>
+concept ChangesAlongStrike = BedrockMotion<Motion> && requires(Motion const& motion, double y) {
+  { motion.share_along(y) } -> std::same_as<double>;
+};
+
 /// How far both walls have settled at a throw [m], for the measures of the rupture above.
 template <BedrockMotion Motion>
 FaultOffset offset_at(Motion const& motion, double fault_throw) {
@@ -70,7 +76,7 @@ SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
 /// The sides "left" and "right" of a mesh and its "bottom" move with the two sides of a fault, by course(load factor)
 /// in units of throw; in between, at the tip, the bottom takes the step as detail::StepAtTip says. The first axis is
 /// horizontal, the last vertical; in space the fault strikes along the second, where nothing moves on "front", "back"
-/// and the prescribed sides.
+/// and the prescribed sides. A motion that changes along its strike moves each node by its share there.
 /// \throws InputError for parameters that the motion refuses, a tip outside the bottom, or a mesh without these
 /// boundaries
 template <BedrockMotion Motion, class Element>
@@ -82,7 +88,9 @@ SCARP_EXPORT Constraints bedrock_constraints(Mesh<Element> const& mesh, Motion c
   detail::StepAtTip const step(mesh, motion.tip);
   Constraints constraints(mesh, extra_dofs);
   auto const move = [&](int node, double share) {
-    Vector<2> const rate = left + share * (right - left);
+    Vector<2> rate = left + share * (right - left);
+    if constexpr (dim == 3 && ChangesAlongStrike<Motion>)
+      rate *= motion.share_along(mesh.nodes[detail::index(node)](1));
     constraints.move(node, 0, rate.x(), course);
     constraints.move(node, dim - 1, rate.y(), course);
     if constexpr (dim == 3) constraints.fix(node, 1);

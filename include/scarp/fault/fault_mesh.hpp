@@ -18,8 +18,8 @@ namespace scarp {
 
 /// Soil layer over a fault: height 0 is bedrock level, `depth` the ground surface, the fault meets bedrock at (tip, 0).
 /// The last axis is vertical. A grid, finest in the band where the shear band and its outcrop are expected; a line
-/// passes through the tip. Region "soil"; boundaries "left", "right", "bottom", "surface". In space the grid is one
-/// element thick along the strike, the second axis, with "front" (y = 0) and "back".
+/// passes through the tip. Region "soil"; boundaries "left", "right", "bottom", "surface". In space the grid goes on along
+/// the strike, the second axis, in cells of one length, with "front" (y = 0) and "back".
 struct FaultMesh {
   double left = -52.0;                 ///< [m]
   double right = 23.0;                 ///< [m]
@@ -35,6 +35,7 @@ struct FaultMesh {
   double jitter = 0.0;                 ///< random move of inner nodes over the distance of the nearest, up to 0.3
   std::uint64_t seed = 1;              ///< of the jitter
   double strike = 1.0;                 ///< thickness in space [m]
+  int strike_cells = 1;                ///< over the thickness, in space
 
   /// edges: further x [m] where a grid line must pass, such as the edges of a structure; one that misses the tip or
   /// another edge by round-off is put on it
@@ -56,7 +57,8 @@ struct FaultMesh {
   template <ReferenceElement Element = Tri3>
   FaultMesh with_about(int elements) const {
     detail::require_shape(*this);
-    if (int const least = elements_per_cell<Element>(pattern); elements < least || elements > most_elements) {
+    if (int const least = elements_per_cell<Element>(pattern) * cells_along_strike<Element>();
+        elements < least || elements > most_elements) {
       refuse("a mesh of {} elements is asked for (from {} to {} are possible): choose another number", elements, least,
              most_elements);
     }
@@ -107,12 +109,17 @@ struct FaultMesh {
     return fixed;
   }
 
+  template <class Element>
+  int cells_along_strike() const {
+    return Element::dim == 3 ? strike_cells : 1;
+  }
+
   /// Without rounding to whole cells: falls steadily with `size`.
   template <class Element>
   double ideal_elements() const {
     Spacing const spacing = columns();
-    return elements_per_cell<Element>(pattern) * (spacing.cells_to(right) - spacing.cells_to(left)) *
-           rows().cells_to(depth);
+    return elements_per_cell<Element>(pattern) * cells_along_strike<Element>() *
+           (spacing.cells_to(right) - spacing.cells_to(left)) * rows().cells_to(depth);
   }
 
   template <class Element>
@@ -123,13 +130,14 @@ struct FaultMesh {
     for (std::size_t k = 1; k < fixed.size(); ++k) {
       cells += cells_between(spacing, fixed[k - 1], fixed[k]);
     }
-    return elements_per_cell<Element>(pattern) * cells * cells_between(rows(), 0.0, depth);
+    return elements_per_cell<Element>(pattern) * cells_along_strike<Element>() * cells *
+           cells_between(rows(), 0.0, depth);
   }
 
   template <class Element>
   Mesh<Element> corner_mesh(std::vector<Vector<2>> nodes, GridNumbers const& numbers) const {
     if constexpr (Element::dim == 3) {
-      auto mesh = detail::grid_slab<Element>(nodes, numbers, strike);
+      auto mesh = detail::grid_slab<Element>(nodes, numbers, strike, strike_cells);
       mesh.boundaries["surface"] = std::move(mesh.boundaries["top"]);
       mesh.boundaries.erase("top");
       return mesh;

@@ -14,7 +14,7 @@
 
 namespace scarp {
 
-/// Writes the fields of a plane scene as a VTU series: displacement at the nodes; at the elements (the mean of
+/// Writes the fields of a scene as a VTU series: displacement at the nodes; at the elements (the mean of
 /// their points, weighted by volume; the worst status)
 /// Cauchy stress [Pa] tension positive, logarithmic volumetric (contraction positive) and deviatoric strain, status
 /// and the given quantities. Every file is complete when it appears; the PVD's time is load / load_unit.
@@ -64,7 +64,10 @@ class FieldSeries : public NeverStops {
     auto const at_elements = detail::element_fields(problem, quantities_);
     VtuFields fields;
     fields.at_nodes.push_back({"displacement", Grid::dim, std::span<double const>(displacement), {}});
-    fields.at_elements.push_back({"stress", 3, std::span<double const>(at_elements.stress), {"xx", "yy", "xy"}});
+    std::vector<std::string> components{"xx", "yy", "xy"};
+    if constexpr (Grid::dim == 3) components = {"xx", "yy", "zz", "yz", "zx", "xy"};
+    fields.at_elements.push_back(
+        {"stress", voigt_size<Grid::dim>, std::span<double const>(at_elements.stress), components});
     fields.at_elements.push_back({"volumetric_strain", 1, std::span<double const>(at_elements.volumetric), {}});
     fields.at_elements.push_back({"deviatoric_strain", 1, std::span<double const>(at_elements.deviatoric), {}});
     fields.at_elements.push_back({"status", 1, std::span<int const>(at_elements.status), {}});

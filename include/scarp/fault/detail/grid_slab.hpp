@@ -10,11 +10,11 @@
 
 namespace scarp::detail {
 
-/// A slab one cell thick over a grid in the plane: x stays, the strike becomes y, the plane's y becomes z. Boundaries
+/// A slab over a grid in the plane: x stays, the strike becomes y, the plane's y becomes z. Boundaries
 /// as BoxMesh names them.
-/// nodes: of the plane grid [m]; strike: thickness [m]
+/// nodes: of the plane grid [m]; strike: thickness [m], in so many cells
 template <ReferenceElement Element>
-Mesh<Element> grid_slab(std::vector<Vector<2>> const& nodes, GridNumbers const& numbers, double strike) {
+Mesh<Element> grid_slab(std::vector<Vector<2>> const& nodes, GridNumbers const& numbers, double strike, int cells) {
   static_assert(Element::dim == 3 && !HasMidSides<Element>);
   auto const to_place = [&](Vector<3> const& counted) -> Vector<3> {  // counted in cells along x and z
     auto const line = [&](int axis) { return static_cast<int>(std::lround(counted(axis))); };
@@ -22,7 +22,7 @@ Mesh<Element> grid_slab(std::vector<Vector<2>> const& nodes, GridNumbers const& 
     return {place.x(), counted.y(), place.y()};
   };
   return BoxMesh<Element>{.lengths = Vector<3>(numbers.columns(), strike, numbers.rows()),
-                          .cells = {numbers.columns(), 1, numbers.rows()},
+                          .cells = {numbers.columns(), cells, numbers.rows()},
                           .map = to_place}
       .generate();
 }

@@ -15,6 +15,10 @@ void require_shape(Layer const& layer) {
   require_finite("right end of the layer", layer.right);
   require_positive("depth of the layer", layer.depth);
   require_positive("length of the layer along the strike", layer.strike);
+  if (!(layer.strike_cells >= 1 && layer.strike_cells <= 10'000)) {
+    refuse("the layer has {} cells along the strike (from 1 to 10000 are possible): choose another number",
+           layer.strike_cells);
+  }
   require_positive("element size", layer.size);
   require_positive("row aspect", layer.row_aspect);
   require_positive("row coarsening", layer.row_coarsening);

@@ -56,7 +56,7 @@ struct Mean {
   }
 };
 
-/// One number for each element; stress three, xx, yy, xy.
+/// One number for each element; stress as many as Voigt's order has.
 struct ElementFields {
   std::vector<double> stress;  ///< [Pa], tension positive
   std::vector<double> volumetric;
@@ -83,7 +83,14 @@ ElementFields element_fields(Problem const& problem, PointQuantities const& quan
       int const point = Grid::points_per_element * static_cast<int>(e) + k;
       double const volume = volumes[static_cast<std::size_t>(point)];
       whole += volume;
-      auto const here = geo::plane_strain(total_deformation(grid, point));
+      auto const here = [&] {
+        auto const deformation = total_deformation(grid, point);
+        if constexpr (Grid::dim == 2) {
+          return geo::plane_strain(deformation);
+        } else {
+          return geo::space_strain(deformation);
+        }
+      }();
       strain.volumetric += volume * here.volumetric;
       strain.deviatoric += volume * here.deviatoric;
       worst = std::max(worst, problem.responses()[static_cast<std::size_t>(point)].verdict.status);
