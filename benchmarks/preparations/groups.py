@@ -19,14 +19,17 @@ class Preparation:
         self.packings = {}  # {overburden: {seed: row}}
 
     def add(self, row):
+        arrived = self.packings.setdefault(float(row["overburden"]), {})
         if row["status"] == "ok":
-            self.packings.setdefault(float(row["overburden"]), {})[row["seed"]] = row
+            arrived[row["seed"]] = row
 
     def overburdens(self):
         return sorted(self.packings)
 
     def seeds(self):
         """That arrived at every depth."""
+        if not self.packings:
+            return []
         return sorted(set.intersection(*(set(packings) for packings in self.packings.values())), key=int)
 
     def values(self, column, overburden):
@@ -34,7 +37,8 @@ class Preparation:
         return [value for value in found if math.isfinite(value)]
 
     def mean(self, column, overburden):
-        return statistics.fmean(self.values(column, overburden))
+        values = self.values(column, overburden)
+        return statistics.fmean(values) if values else math.nan
 
     def friction(self):
         return f"{self.parameters['isotropic_friction']:g}"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
 
@@ -125,14 +124,14 @@ int main(int argc, char** argv) {
       options.grains = 60;
       options.seeds = 2;
     }
+    std::filesystem::path const folder = options.out;
+    std::filesystem::create_directories(folder);
     scarp::CpuTime const time;
     std::vector<std::vector<Row>> of_seeds(static_cast<std::size_t>(options.seeds));
     scarp::ThreadExecutor executor(options.threads);
     executor.for_each(options.seeds, [&](int k) {
       of_seeds[static_cast<std::size_t>(k)] = rows_of(options, options.seed + static_cast<std::uint64_t>(k));
     });
-    std::filesystem::path const folder = options.out;
-    std::filesystem::create_directories(folder);
     write(folder, of_seeds);
     nlohmann::json const run{{"grains", options.grains},      {"seeds", options.seeds},
                              {"seed", options.seed},          {"quick", options.quick},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <utility>
 
@@ -12,12 +13,13 @@ namespace scarp {
 /// A packing in the mirror that turns one axis round, x -> -x if none is named, with all that its contacts remember. It answers a
 /// mirrored strain with the mirrored stress, bit by bit until lists of pairs are made anew, whose order is another, or a grain that
 /// stood still is met, whose +0 damping takes for forwards. Where a packing is stiffer by accident to one side, its image is to the
-/// other. For spheres, and for plane shapes that are symmetric about the axis of their orientation and the one across, as ellipses are.
+/// other. axis: 0 to dim - 1. For spheres, and for plane shapes that are symmetric about the axis of their orientation and the one across, as ellipses are.
 template <class PackingType>
 PackingType mirrored(PackingType packing, int axis = 0) {
   using Shape = typename PackingType::Shape;
   using Law = typename PackingType::Law;
   constexpr int dim = PackingType::dim;
+  assert(0 <= axis && axis < dim);
   static_assert((dim == 2 || Shape::orientation_count == 0) && part_count<Shape>() == 1,
                 "scarp: only spheres and packings in the plane whose grains have one part can be mirrored: a clump's "
                 "image is another clump");
