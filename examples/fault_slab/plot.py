@@ -36,7 +36,7 @@ def draw_map(fig, axes, folder):
                   fontsize=7)
     axes.legend(loc="lower left", labelcolor="white", fontsize=7, handlelength=3.0)
     axes.grid(False)
-    axes.set(ylabel="along the strike [m]", xlim=(across[0], across[-1]), ylim=(lines[0], lines[-1]))
+    axes.set(aspect="equal", ylabel="along the strike [m]", xlim=(across[0], across[-1]), ylim=(lines[0], lines[-1]))
 
 
 def side(grid, corners, y):
@@ -52,7 +52,7 @@ def slab(folder):
     if grid.cells.shape[1] != 8:
         raise figures.InputError(f"'{path}' holds no hexahedra: run the example anew")
     strain = 100.0 * figures.field(grid.at_cells, "deviatoric_strain", path)
-    fig, (top, near, far) = plt.subplots(3, 1, figsize=(7.2, 7.4), sharex=True, height_ratios=[1.5, 1, 1])
+    fig, (top, near, far) = plt.subplots(3, 1, figsize=(7.2, 9.0), sharex=True, height_ratios=[1.9, 1, 1])
     draw_map(fig, top, folder)
     top.set_title(f"Settlement of the surface at h/H = {throw:.3g} on the near side", loc="left")
     limit = Normalize(0.0, max(np.quantile(strain, 0.99), 1e-9))
