@@ -100,7 +100,7 @@ def check_records(folder):
         output = folder / title.replace(" ", "_")
         record = json.loads(next(path for path in output.glob("run*.json")).read_text())
         help_text = run([*TINY[title][:2 if " " in title else 1], "--help"], folder)[1]
-        names = set(re.findall(r"^  (?:-o,)?--([a-z-]+)", help_text, re.M)) - {"help", "version"}
+        names = set(re.findall(r"^  (?:-o,)?--([a-z0-9-]+)", help_text, re.M)) - {"help", "version"}
         expect(len(names) > 8, f"{title}: only the options {names} in its help")
         expect(names == set(record["options"]), f"{title}: run.json differs in {names ^ set(record['options'])}")
         told = [record["build"]]
