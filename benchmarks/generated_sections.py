@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSL-1.0
 """Sections of a page that a program writes, between the lines <!-- NAME --> and <!-- end of NAME -->, and their tables."""
 
+import math
 import re
+import statistics
 import sys
 
 
@@ -27,3 +29,15 @@ def rewrite(path, page):
 def table(columns, rows):
     """Markdown of rows of words."""
     return "\n".join("| " + " | ".join(line) + " |" for line in [columns, ["---"] * len(columns), *rows])
+
+
+def number(value, digits=1):
+    return "-" if value is None or math.isnan(value) else f"{round(value, digits) + 0.0:.{digits}f}"  # + 0: no minus before zero
+
+
+def spread(values, digits=1, digits_of_deviation=None):
+    """Mean +- sample standard deviation of what is known, in words."""
+    known = [value for value in values if not math.isnan(value)]
+    if len(known) < 2:
+        return number(known[0], digits) if known else "-"
+    return f"{number(statistics.fmean(known), digits)} +- {number(statistics.stdev(known), digits if digits_of_deviation is None else digits_of_deviation)}"

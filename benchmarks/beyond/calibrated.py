@@ -6,8 +6,8 @@ import statistics
 
 import calibration
 import grains
-from generated_sections import table
-from measures import below_base, dip, ended, number, spread, summaries, width
+from generated_sections import number, spread, table
+from measures import below_base, dip, ended, summaries, width
 
 CASES = ("free", "heavy", "light")
 SOILS = {"packings": "packings", "study": "Mohr-Coulomb, the study's angles", "calibrated": "Mohr-Coulomb, calibrated",
@@ -35,7 +35,7 @@ def is_whole(output):
 
 def parameters(summary):
     """Of a run on Mohr-Coulomb ground, by their options."""
-    options = {name: value for name, value in summary["run"]["options"].items()}
+    options = summary["run"]["options"]
     peak, dilation = float(options["peak-friction"]), float(options["peak-dilation"])
     return {"peak-friction": peak, "peak-dilation": dilation, "residual-friction": float(options["residual-friction"] or peak - 0.8 * dilation),
             **{name: float(options[name]) for name in ("strain-to-residual", "young-modulus", "k0")}}

@@ -3,8 +3,8 @@
 import itertools
 import statistics
 
-from generated_sections import table
-from measures import dip, ended, number, spread, width
+from generated_sections import number, spread, table
+from measures import dip, ended, width
 
 ASPECTS = (1.0, 0.75, 0.5)  # width over length
 FRICTIONS = (0.3, 0.55)

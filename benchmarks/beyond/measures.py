@@ -2,19 +2,6 @@
 """What the parts of the page say of a run's summary."""
 import json
 import math
-import statistics
-
-
-def number(value, digits=1):
-    return "-" if value is None or math.isnan(value) else f"{round(value, digits) + 0.0:.{digits}f}"  # + 0: no minus before zero
-
-
-def spread(values, digits=1):
-    """Mean +- sample standard deviation, in words."""
-    values = list(values)
-    if len(values) < 2:
-        return number(values[0], digits) if values else "-"
-    return f"{number(statistics.fmean(values), digits)} +- {number(statistics.stdev(values), digits)}"
 
 
 def summaries(folder):

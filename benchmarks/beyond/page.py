@@ -5,8 +5,8 @@ import statistics
 
 import calibrated
 import grains
-from generated_sections import rewrite, table, with_section
-from measures import below_base, ended, number, summaries
+from generated_sections import number, rewrite, table, with_section
+from measures import below_base, ended, summaries
 
 
 def place_of(name):

@@ -13,7 +13,7 @@ sys.path[:0] = [str(REPOSITORY / "benchmarks"), str(REPOSITORY / "examples" / "s
 import numpy as np
 import case_figures
 import ground_points
-from generated_sections import rewrite, table, with_section
+from generated_sections import number, rewrite, spread, table, with_section
 
 OUTPUT = REPOSITORY / "output"
 PAGE = REPOSITORY / "docs" / "study" / "cases.md"
@@ -141,23 +141,12 @@ def rows():
                lambda one, case=case: one.at(case, "B", lambda series: series["q"][-1] / series["q"].max()))
 
 
-def number(value, digits):
-    return "-" if math.isnan(value) else f"{round(value, digits) + 0.0:.{digits}f}"  # + 0: no minus before zero
-
-
-def spread(values, digits):
-    known = [value for value in values if not math.isnan(value)]
-    if len(known) < 2:
-        return number(known[0], digits) if known else "-"
-    return f"{number(float(np.mean(known)), digits)} +- {number(float(np.std(known, ddof=1)), max(digits, 1))}"
-
-
 def numbers(sets):
     lines = []
     for what, said, digits, measure in rows():
         seeds = [measure(sets[f"seed {seed}"]) for seed in SEEDS]
         of_length = {name: number(measure(sets[name]), digits) for name in ("8 m", "5.66 m", "4 m")}
-        lines.append([what, said or "-", of_length["8 m"], of_length["4 m"], spread(seeds, digits), of_length["5.66 m"]])
+        lines.append([what, said or "-", of_length["8 m"], of_length["4 m"], spread(seeds, digits, max(digits, 1)), of_length["5.66 m"]])
     return table(["", "study", "8 m", "4 m", "8 m, 1904 triangles: three seeds", "5.66 m, 1904 triangles"], lines)
 
 
