@@ -81,7 +81,14 @@ template <class Scalar, std::size_t Width>
                                                            BasicPack<Scalar, Width> const& b) {
 #if defined(__AVX__)
   using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
-  // g++ compares and chooses where one operand is a constant.
+  // Compilers compare and choose: always with AVX-512, g++ with AVX where one operand is a constant.
+#if defined(__AVX512F__) && defined(__clang__)
+  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
+    return Pack(__builtin_ia32_minpd512(a.vector, b.vector, 4));
+#elif defined(__AVX512F__)
+  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
+    return Pack(__builtin_ia32_minpd512_mask(a.vector, b.vector, a.vector, -1, 4));
+#endif
   if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 8)
     return Pack(__builtin_ia32_minpd256(a.vector, b.vector));
   if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 4)
@@ -95,6 +102,13 @@ template <class Scalar, std::size_t Width>
                                                            BasicPack<Scalar, Width> const& b) {
 #if defined(__AVX__)
   using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
+#if defined(__AVX512F__) && defined(__clang__)
+  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
+    return Pack(__builtin_ia32_maxpd512(a.vector, b.vector, 4));
+#elif defined(__AVX512F__)
+  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
+    return Pack(__builtin_ia32_maxpd512_mask(a.vector, b.vector, a.vector, -1, 4));
+#endif
   if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 8)
     return Pack(__builtin_ia32_maxpd256(a.vector, b.vector));
   if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 4)

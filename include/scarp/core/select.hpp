@@ -31,7 +31,7 @@ std::array<BasicPack<Scalar, Width>, Size> select(BasicMask<Scalar, Width> const
   return chosen;
 }
 
-/// The greater one; not-a-number in `value` stays, which `max` does not promise for packs.
+/// The greater one; not-a-number in `value` stays: of packs it is the second operand of `max`.
 template <std::floating_point T>
 T at_least(T const& value, T const& floor) {
   return value < floor ? floor : value;
@@ -39,10 +39,10 @@ T at_least(T const& value, T const& floor) {
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> at_least(BasicPack<Scalar, Width> const& value,
                                                                 BasicPack<Scalar, Width> const& floor) {
-  return select(value < floor, floor, value);
+  return max(floor, value);
 }
 
-/// The smaller one; not-a-number in `value` stays, which `min` does not promise for packs.
+/// The smaller one; not-a-number in `value` stays: of packs it is the second operand of `min`.
 template <std::floating_point T>
 T at_most(T const& value, T const& ceiling) {
   return ceiling < value ? ceiling : value;
@@ -50,7 +50,7 @@ T at_most(T const& value, T const& ceiling) {
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> at_most(BasicPack<Scalar, Width> const& value,
                                                                BasicPack<Scalar, Width> const& ceiling) {
-  return select(ceiling < value, ceiling, value);
+  return min(ceiling, value);
 }
 
 }  // namespace scarp::lanes

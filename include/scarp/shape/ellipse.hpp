@@ -6,12 +6,14 @@
 #include <numbers>
 
 #include "scarp/core/precompiled.hpp"
+#include "scarp/core/roots.hpp"
 #include "scarp/shape/support_touch.hpp"
 
 namespace scarp {
 
 /// Elliptical grain in the plane; size is (semi-major a, semi-minor b), orientation (cos, sin) of the major axis.
-/// The pose is the matrix of its support function, \f$ h(n)^2 = n \cdot A n,\; A = R\,diag(a^2, b^2) R^T \f$, as (xx, xy, yy).
+/// The pose is the matrix of its support function, \f$ h(n)^2 = n \cdot A n,\; A = R\,diag(a^2, b^2) R^T \f$, as mean and deviator,
+/// \f$ A = [m + p,\ q;\ q,\ m - p] \f$.
 struct Ellipse {
   static constexpr int dim = 2;
   static constexpr int size_count = 2;
@@ -34,45 +36,42 @@ struct Ellipse {
 
   template <class T>
   static std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
+    T const major = size[0] * size[0];
     T const minor = size[1] * size[1];
-    T const excess = size[0] * size[0] - minor;
     T const c = orientation[0];
     T const s = orientation[1];
-    return {minor + excess * c * c, excess * c * s, minor + excess * s * s};
+    T const deviator = constant<T>(0.5) * (major - minor);
+    return {constant<T>(0.5) * (major + minor), deviator * (c * c - s * s), deviator * (c * s + c * s)};
   }
 
   /// Radius of the circle of equal area, \f$ \sqrt{ab} = (\det A)^{1/4} \f$.
   template <class T>
   static T contact_radius(std::array<T, 3> const& pose) {
     using std::sqrt;
-    return sqrt(sqrt(pose[0] * pose[2] - pose[1] * pose[1]));
+    return sqrt(sqrt(pose[0] * pose[0] - pose[1] * pose[1] - pose[2] * pose[2]));
   }
 
   /// Least radius of curvature b^2/a: a disc of that radius rolls along the inside of the boundary.
   static double inner_radius(std::array<double, 3> const& pose) {
-    double const larger = (pose[0] + pose[2]) / 2.0 + std::hypot((pose[0] - pose[2]) / 2.0, pose[1]);
-    return (pose[0] * pose[2] - pose[1] * pose[1]) / (larger * std::sqrt(larger));
+    double const deviator = std::sqrt(pose[1] * pose[1] + pose[2] * pose[2]);
+    return (pose[0] - deviator) / std::sqrt(pose[0] + deviator);
   }
 
   template <class T>
   static Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& normal) {
-    using std::sqrt;
-    Ray<T> const along = ray(pose, normal);
-    T const value = sqrt(along.squared);
-    return complete(along, value, constant<T>(1) / value);
+    return supports(pose, pose, normal)[0];
   }
 
-  /// Support functions of both grains of a pair along one normal; their divisions are shared.
+  /// Support functions of both grains of a pair along one unit normal.
   template <class T>
   static std::array<Support<T>, 2> supports(std::array<T, 3> const& first, std::array<T, 3> const& second,
                                             Point<2, T> const& normal) {
-    using std::sqrt;
-    Ray<T> const a = ray(first, normal);
-    Ray<T> const b = ray(second, normal);
-    T const value_a = sqrt(a.squared);
-    T const value_b = sqrt(b.squared);
-    T const inverse = constant<T>(1) / (value_a * value_b);
-    return {complete(a, value_a, inverse * value_b), complete(b, value_b, inverse * value_a)};
+    T const product = normal[0] * normal[1];
+    Point<2, T> const doubled{normal[0] * normal[0] - normal[1] * normal[1], product + product};
+    Ray<T> const a = ray(first, doubled);
+    Ray<T> const b = ray(second, doubled);
+    auto const roots = lanes::roots(a.squared, b.squared);
+    return {complete(a, roots[0]), complete(b, roots[1])};
   }
 
   template <class T>
@@ -84,21 +83,23 @@ struct Ellipse {
  private:
   template <class T>
   struct Ray {
-    T squared;      ///< h^2
-    T slope;        ///< h dh/dphi
-    T determinant;  ///< of A
+    T squared;  ///< h^2
+    T slope;    ///< h dh/dphi
+    T across;   ///< square of h a quarter turn on
   };
 
+  /// Along the normal whose angle is half that of the unit vector `doubled`.
   template <class T>
-  static Ray<T> ray(std::array<T, 3> const& pose, Point<2, T> const& normal) {
-    T const x = pose[0] * normal[0] + pose[1] * normal[1];
-    T const y = pose[1] * normal[0] + pose[2] * normal[1];
-    return {x * normal[0] + y * normal[1], y * normal[0] - x * normal[1], pose[0] * pose[2] - pose[1] * pose[1]};
+  static Ray<T> ray(std::array<T, 3> const& pose, Point<2, T> const& doubled) {
+    T const along = pose[1] * doubled[0] + pose[2] * doubled[1];
+    return {pose[0] + along, pose[2] * doubled[0] - pose[1] * doubled[1], pose[0] - along};
   }
 
+  /// \f$ h + h'' = (h_\perp^2 - h'^2)/h \f$
   template <class T>
-  static Support<T> complete(Ray<T> const& ray, T const& value, T const& inverse) {
-    return {value, ray.slope * inverse, ray.determinant * inverse * inverse * inverse};
+  static Support<T> complete(Ray<T> const& ray, lanes::Root<T> const& h) {
+    T const slope = ray.slope * h.inverse;
+    return {h.value, slope, (ray.across - slope * slope) * h.inverse};
   }
 };
 

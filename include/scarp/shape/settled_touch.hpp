@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "scarp/shape/least_overlap.hpp"
@@ -8,6 +9,15 @@
 namespace scarp {
 
 namespace detail {
+
+/// Whether a step from a unit normal turned it by so small an angle that the square of it, which is left, is round-off. A shape
+/// that tells no angle tells zero.
+template <int Dim>
+bool is_last_step(Touch<Dim, double> const& touch, Point<Dim, double> const& before) {
+  double excess = -1.0;
+  for (double const part : before) excess += part * part;
+  return touch.unsettled > 0.0 && touch.unsettled < 1e-8 && std::abs(excess) < 1e-15;
+}
 
 /// Whether a normal at which the overlap is stationary is that of the least overlap. A gap is: a line parts the grains
 /// there. An overlap less deep than a disc that rolls inside the sum of the shapes is too, since the disc touches the
@@ -35,7 +45,7 @@ Touch<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape
   if constexpr (Shape::remembers_normal) {
     constexpr int most_iterations = 30;  // quadratic convergence: a handful is usual
     constexpr double still = 1e-28;      // squared change of a unit vector, near round-off
-    bool stands = false;
+    bool stands = detail::is_last_step<Shape::dim>(touch, start);
     for (int k = 0; k < most_iterations && !stands; ++k) {
       auto const before = touch.normal;
       touch = Shape::touch(first, second, branch, before);
@@ -43,7 +53,7 @@ Touch<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape
       for (std::size_t a = 0; a < before.size(); ++a) {
         change += (touch.normal[a] - before[a]) * (touch.normal[a] - before[a]);
       }
-      stands = change < still;
+      stands = change < still || detail::is_last_step<Shape::dim>(touch, before);
     }
     touch.unsettled = stands ? 0.0 : std::numeric_limits<double>::infinity();
     if constexpr (TellsSupport<Shape>) {

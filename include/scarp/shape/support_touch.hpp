@@ -40,8 +40,7 @@ Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> con
   // 1/sqrt(1 + excess) by its series: the stored normal is a unit vector and turns little in a step; a poor start of a new
   // pair becomes one while the touch is iterated.
   T const excess = (normal[0] * normal[0] + normal[1] * normal[1]) * (constant<T>(1) + turn * turn) - constant<T>(1);
-  T const shrink =
-      constant<T>(1) - excess * (constant<T>(0.5) - excess * (constant<T>(0.375) - excess * constant<T>(0.3125)));
+  T const shrink = constant<T>(1) - excess * (constant<T>(0.5) - excess * constant<T>(0.375));
   Point<2, T> const turned{(normal[0] + turn * tangent[0]) * shrink, (normal[1] + turn * tangent[1]) * shrink};
   T const overlap = depth + constant<T>(0.5) * slope * turn;
   // Support points: h n + h' t, which move along t by the radius of curvature per radian.
