@@ -24,7 +24,10 @@ LEVEL = 21.0
 SETS = {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_medium_{case}_5.66" for case in CASES},
         "4 m": {case: f"study_{case}_4" for case in CASES}}
 SETS |= {f"seed {seed}": {case: f"study_medium_{case}/seed_{seed}" for case in CASES} for seed in SEEDS}
-BASES = ["heavy_frictional", "light_frictional"]
+# The same with a rigid base that may slide and lift in the place of one that sticks.
+FRICTIONAL = {"8 m": {"free": "study_free"} | {case: f"study_{case}_frictional" for case in ("heavy", "light")}}
+FRICTIONAL |= {f"seed {seed}": {"free": f"study_medium_free/seed_{seed}"} |
+               {case: f"study_medium_{case}_frictional/seed_{seed}" for case in ("heavy", "light")} for seed in SEEDS}
 
 
 @dataclasses.dataclass
@@ -150,6 +153,27 @@ def numbers(sets):
     return table(["", "study", "8 m", "4 m", "8 m, 1904 triangles: three seeds", "5.66 m, 1904 triangles"], lines)
 
 
+def base_rows(case):
+    """(what, digits, of a set) of a footing"""
+    yield "tilt [degrees]", 2, lambda one: one.of(case, degrees("tilt"))
+    yield "settlement [m]", 2, lambda one: one.of(case, lambda summary: summary["settlement"])
+    yield "least pressure on the base [kPa]", 0, lambda one: one.of(case, lambda summary: 1e-3 * summary["contact_pressure_min"])
+    yield "largest", 0, lambda one: one.of(case, lambda summary: 1e-3 * summary["contact_pressure_max"])
+    yield "the rupture 1 m below the surface [m]", 1, lambda one: one.crossed(case, 24.0)
+    yield "surface x50 [m]", 1, lambda one: one.of(case, lambda summary: summary["surface_x50"])
+    yield "diversion of x50 at 3/4 of the depth [m]", 1, lambda one: one.of(case, upper_band) - one.of("free", upper_band)
+
+
+def bases(sticking, frictional):
+    """Footings on both bases, beside each other."""
+    lines = []
+    for case in ("heavy", "light"):
+        for what, digits, measure in base_rows(case):
+            lines.append([f"{case}: {what}", *(number(measure(sets["8 m"]), digits) for sets in (sticking, frictional)),
+                          *(spread([measure(sets[f"seed {seed}"]) for seed in SEEDS], digits) for sets in (sticking, frictional))])
+    return table(["", "sticking, 7592 triangles", "frictional, 7504", "sticking, 1952: three seeds", "frictional, 1904: three seeds"], lines)
+
+
 def cost_row(name, summary):
     footing = "tilt" in summary
     parts = summary["error_budget"]["parts"].items()
@@ -162,20 +186,21 @@ def cost_row(name, summary):
             "inside" if not outside else ", ".join(outside)]
 
 
-def costs(sets):
+def costs(sets, frictional):
     lines = [cost_row(f"{case}, {name}", run.summary) for name, one in sets.items() for case, run in one.runs.items()]
-    lines += [cost_row(f"{name.replace('_', ', ')}, 8 m", run.summary) for name in BASES if (run := run_of(f"study_{name}")) is not None]
+    lines += [cost_row(f"{case}, frictional, {name}", one.runs[case].summary) for name, one in frictional.items() for case in one.runs if case != "free"]
     return table(["run", "triangles", "steps, refused", "iterations", "million DEM steps", "largest residual", "imbalance over weight", "tilt [degrees]",
                   "contact pressure [kPa]", "CPU s", "wall s", "threads", "GiB", "error budget"], lines)
 
 
 def main():
-    sets = {name: CaseSet(names) for name, names in SETS.items()}
+    sets, frictional = ({name: CaseSet(names) for name, names in named.items()} for named in (SETS, FRICTIONAL))
     if not sets["8 m"].runs:
         sys.exit("there is no run in output/study_free, study_heavy or study_light: benchmarks/study/run free, heavy, light")
     page = PAGE.read_text() if PAGE.is_file() else "# The study's three cases\n"
     page = with_section(page, "numbers", numbers(sets))
-    page = with_section(page, "costs", costs(sets))
+    page = with_section(page, "bases", bases(sets, frictional))
+    page = with_section(page, "costs", costs(sets, frictional))
     case_figures.write(PAGE.parent, sets, LEVEL)
     rewrite(PAGE, page)
 

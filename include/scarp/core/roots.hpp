@@ -39,9 +39,9 @@ template <class Scalar>
   auto const root = [](T const& x) {
     T estimate{};
     if constexpr (is_double) {
-      estimate.vector = __builtin_ia32_rsqrt14pd512_mask(x.vector, estimate.vector, -1);
+      estimate.vector = __builtin_ia32_rsqrt14pd512_mask(x.vector, estimate.vector, 0xff);
     } else {
-      estimate.vector = __builtin_ia32_rsqrt14ps256_mask(x.vector, estimate.vector, -1);
+      estimate.vector = __builtin_ia32_rsqrt14ps256_mask(x.vector, estimate.vector, 0xff);
     }
     T const product = x * estimate;
     T const e = constant<T>(1) - product * estimate;

@@ -99,25 +99,31 @@ std::size_t fill_ghost_rows(PackingType const& packing, typename PackingType::Sc
   return nobody;
 }
 
+/// Adds a row of forces to another.
+template <class Layout, class Scalar>
+void add_force_row(Scalar const* row, Scalar* to) {
+  for (std::size_t quad = 0; quad < Layout::force_size; quad += 4) {
+    auto sum = lanes::FourScalars<Scalar>::read(to + quad);
+    sum.value += lanes::FourScalars<Scalar>::read(row + quad).value;
+    sum.write(to + quad);
+  }
+}
+
 /// Adds what ghosts and parts have received to their grains, whose rows of forces then come first.
 template <class PackingType>
 void gather_forces(PackingType const& packing, typename PackingType::Scalar* forces) {
   using Layout = RowLayout<typename PackingType::Shape, typename PackingType::Law>;
   constexpr auto parts = static_cast<std::size_t>(part_count<typename PackingType::Shape>());
   constexpr std::size_t size = Layout::force_size;
-  constexpr std::size_t used = Layout::torque + Layout::turns;
   auto const& owner = packing.pairs.ghost_owner;
   std::size_t const own = packing.row_count();
-  for (std::size_t g = 0; g < owner.size(); ++g) {
-    for (std::size_t k = 0; k < used; ++k) forces[detail::index(owner[g]) * size + k] += forces[(own + g) * size + k];
-  }
+  for (std::size_t g = 0; g < owner.size(); ++g)
+    add_force_row<Layout>(forces + (own + g) * size, forces + detail::index(owner[g]) * size);
   if constexpr (parts > 1) {
     for (std::size_t grain = 0; grain < packing.grain_count(); ++grain) {
-      for (std::size_t k = 0; k < used; ++k) {
-        auto sum = forces[grain * parts * size + k];
-        for (std::size_t part = 1; part < parts; ++part) sum += forces[(grain * parts + part) * size + k];
-        forces[grain * size + k] = sum;
-      }
+      auto* const first = forces + grain * parts * size;
+      for (std::size_t part = 1; part < parts; ++part) add_force_row<Layout>(first + part * size, first);
+      std::copy(first, first + size, forces + grain * size);
     }
   }
 }
