@@ -19,6 +19,13 @@ def with_section(page, name, text):
     return re.sub(re.escape(first) + ".*?" + re.escape(last), lambda _: block, page, flags=re.DOTALL)
 
 
+def rows_on(page, section):
+    """Cells of the rows of a table in a section of the page, without its two head lines."""
+    found = re.search(f"<!-- {re.escape(section)} -->(.*?)<!-- end of", page, re.DOTALL)
+    lines = [line for line in found.group(1).splitlines() if line.startswith("|")] if found else []
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
 def rewrite(path, page):
     """Replaces the file at once, so that an interruption leaves the old page."""
     partial = path.with_suffix(".partial")

@@ -5,8 +5,8 @@ import math
 import statistics
 
 import pressure
-from generated_sections import rewrite, table, with_section
-from runs import HEAD, by_length, number, rows_on
+from generated_sections import rewrite, rows_on, table, with_section
+from runs import HEAD, by_length, number
 from spread import PARTS, measures, ranges, summaries
 
 TITLES = dict(zip(PARTS, HEAD[3:]))

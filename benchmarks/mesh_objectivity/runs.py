@@ -2,8 +2,8 @@
 """What runs came to: from their summaries or, where these are gone, from the page that they wrote."""
 import dataclasses
 import math
-import re
 
+from generated_sections import rows_on
 from spread import PARTS, measures, summaries
 
 HEAD = ["length [m]", "mesh", "elements", "x05 [m]", "x50 [m]", "x95 [m]", "width [m]", "mid-line dip", "iterations", "refused", "CPU s", "ends"]
@@ -35,13 +35,6 @@ class Run:
 
     def cells(self):
         return [self.elements, *(number(self.said[part], 2) for part in PARTS), self.iterations, self.refused, self.cpu_seconds, self.ends]
-
-
-def rows_on(page, section):
-    """Cells of the rows of a table in a section of the page, without its two head lines."""
-    found = re.search(f"<!-- {re.escape(section)} -->(.*?)<!-- end of", page, re.DOTALL)
-    lines = [line for line in found.group(1).splitlines() if line.startswith("|")] if found else []
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
 
 
 def by_length(output, page, soil):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """cases.py: the three cases beside the study, from the runs in output/study_*: figures and the generated sections of docs/study/cases.md.
-Run by `benchmarks/study/run cases`; what has not been run is left out."""
+Run by `benchmarks/study/run cases`; where a run is missing the page keeps what it says."""
 import dataclasses
 import json
 import math
@@ -13,7 +13,7 @@ sys.path[:0] = [str(REPOSITORY / "benchmarks"), str(REPOSITORY / "examples" / "s
 import numpy as np
 import case_figures
 import ground_points
-from generated_sections import number, rewrite, spread, table, with_section
+from generated_sections import number, rewrite, rows_on, spread, table, with_section
 
 OUTPUT = REPOSITORY / "output"
 PAGE = REPOSITORY / "docs" / "study" / "cases.md"
@@ -25,9 +25,8 @@ SETS = {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"stu
         "4 m": {case: f"study_{case}_4" for case in CASES}}
 SETS |= {f"seed {seed}": {case: f"study_medium_{case}/seed_{seed}" for case in CASES} for seed in SEEDS}
 # The same with a rigid base that may slide and lift in the place of one that sticks.
-FRICTIONAL = {"8 m": {"free": "study_free"} | {case: f"study_{case}_frictional" for case in ("heavy", "light")}}
-FRICTIONAL |= {f"seed {seed}": {"free": f"study_medium_free/seed_{seed}"} |
-               {case: f"study_medium_{case}_frictional/seed_{seed}" for case in ("heavy", "light")} for seed in SEEDS}
+FRICTIONAL = {"8 m": {case: f"study_{case}_frictional" for case in ("heavy", "light")}}
+FRICTIONAL |= {f"seed {seed}": {case: f"study_medium_{case}_frictional/seed_{seed}" for case in ("heavy", "light")} for seed in SEEDS}
 
 
 @dataclasses.dataclass
@@ -144,13 +143,23 @@ def rows():
                lambda one, case=case: one.at(case, "B", lambda series: series["q"][-1] / series["q"].max()))
 
 
+def merged(page, section, lines):
+    """Lines of a table, by their first cells, with what the page says where they know nothing; further ones of the page first."""
+    said = {first: cells for first, *cells in rows_on(page, section)}
+    for first, *cells in lines:
+        old = said.get(first, ["-"] * len(cells))
+        said[first] = [new if new != "-" else before for new, before in zip(cells, old, strict=True)]
+    return [[first, *cells] for first, cells in said.items()]
+
+
 def numbers(sets):
+    """Lines of the table."""
     lines = []
     for what, said, digits, measure in rows():
         seeds = [measure(sets[f"seed {seed}"]) for seed in SEEDS]
         of_length = {name: number(measure(sets[name]), digits) for name in ("8 m", "5.66 m", "4 m")}
         lines.append([what, said or "-", of_length["8 m"], of_length["4 m"], spread(seeds, digits, max(digits, 1)), of_length["5.66 m"]])
-    return table(["", "study", "8 m", "4 m", "8 m, 1904 triangles: three seeds", "5.66 m, 1904 triangles"], lines)
+    return lines
 
 
 def base_rows(case):
@@ -158,20 +167,19 @@ def base_rows(case):
     yield "tilt [degrees]", 2, lambda one: one.of(case, degrees("tilt"))
     yield "settlement [m]", 2, lambda one: one.of(case, lambda summary: summary["settlement"])
     yield "least pressure on the base [kPa]", 0, lambda one: one.of(case, lambda summary: 1e-3 * summary["contact_pressure_min"])
-    yield "largest", 0, lambda one: one.of(case, lambda summary: 1e-3 * summary["contact_pressure_max"])
+    yield "largest pressure [kPa]", 0, lambda one: one.of(case, lambda summary: 1e-3 * summary["contact_pressure_max"])
     yield "the rupture 1 m below the surface [m]", 1, lambda one: one.crossed(case, 24.0)
     yield "surface x50 [m]", 1, lambda one: one.of(case, lambda summary: summary["surface_x50"])
-    yield "diversion of x50 at 3/4 of the depth [m]", 1, lambda one: one.of(case, upper_band) - one.of("free", upper_band)
 
 
 def bases(sticking, frictional):
-    """Footings on both bases, beside each other."""
+    """Lines of the table of both bases."""
     lines = []
     for case in ("heavy", "light"):
         for what, digits, measure in base_rows(case):
             lines.append([f"{case}: {what}", *(number(measure(sets["8 m"]), digits) for sets in (sticking, frictional)),
                           *(spread([measure(sets[f"seed {seed}"]) for seed in SEEDS], digits) for sets in (sticking, frictional))])
-    return table(["", "sticking, 7592 triangles", "frictional, 7504", "sticking, 1952: three seeds", "frictional, 1904: three seeds"], lines)
+    return lines
 
 
 def cost_row(name, summary):
@@ -187,21 +195,26 @@ def cost_row(name, summary):
 
 
 def costs(sets, frictional):
+    """Lines of the table."""
     lines = [cost_row(f"{case}, {name}", run.summary) for name, one in sets.items() for case, run in one.runs.items()]
-    lines += [cost_row(f"{case}, frictional, {name}", one.runs[case].summary) for name, one in frictional.items() for case in one.runs if case != "free"]
-    return table(["run", "triangles", "steps, refused", "iterations", "million DEM steps", "largest residual", "imbalance over weight", "tilt [degrees]",
-                  "contact pressure [kPa]", "CPU s", "wall s", "threads", "GiB", "error budget"], lines)
+    return lines + [cost_row(f"{case}, frictional, {name}", one.runs[case].summary) for name, one in frictional.items() for case in one.runs]
+
+
+HEADS = {
+    "numbers": ["", "study", "8 m", "4 m", "8 m, 1904 triangles: three seeds", "5.66 m, 1904 triangles"],
+    "bases": ["", "sticking, 7592 triangles", "frictional, 7504", "sticking, 1952: three seeds", "frictional, 1904: three seeds"],
+    "costs": ["run", "triangles", "steps, refused", "iterations", "million DEM steps", "largest residual", "imbalance over weight", "tilt [degrees]",
+              "contact pressure [kPa]", "CPU s", "wall s", "threads", "GiB", "error budget"],
+}
 
 
 def main():
     sets, frictional = ({name: CaseSet(names) for name, names in named.items()} for named in (SETS, FRICTIONAL))
-    if not sets["8 m"].runs:
-        sys.exit("there is no run in output/study_free, study_heavy or study_light: benchmarks/study/run free, heavy, light")
-    page = PAGE.read_text() if PAGE.is_file() else "# The study's three cases\n"
-    page = with_section(page, "numbers", numbers(sets))
-    page = with_section(page, "bases", bases(sets, frictional))
-    page = with_section(page, "costs", costs(sets, frictional))
-    case_figures.write(PAGE.parent, sets, LEVEL)
+    page = PAGE.read_text()
+    for section, lines in (("numbers", numbers(sets)), ("bases", bases(sets, frictional)), ("costs", costs(sets, frictional))):
+        page = with_section(page, section, table(HEADS[section], merged(page, section, lines)))
+    if set(CASES) <= set(sets["8 m"].runs):
+        case_figures.write(PAGE.parent, sets, LEVEL)
     rewrite(PAGE, page)
 
 
