@@ -13,7 +13,7 @@ root = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(root / "benchmarks"), str(root / "benchmarks" / "compile"), str(root / "examples" / "shared")]
 import groups
 import scarp_figures as figures
-from generated_sections import rewrite, table, with_section
+from generated_sections import rewrite, spread, table, with_section
 from groups import KEPT_FROM, STUDY_K0, STUDY_VOID_RATIO, TESTED_AT
 from provenance import head_of
 from scarp_figures import plt
@@ -27,10 +27,6 @@ COLOURS = {"one-dimensional": figures.BLACK, "one-dimensional, ten times slower"
            "candidate: held ratio": figures.PURPLE, "held ratio": figures.PURPLE, "held ratio from the mean stress": figures.PURPLE, "laid grains": figures.ORANGE}
 MARKERS = {"rising friction from 0.5 kPa": "s", "preloaded from 0.5 kPa": "s", "one-dimensional, ten times slower": "x", "falling friction": "v", "isotropic share at low friction": "^",
            "held ratio from the mean stress": "^"}
-
-
-def spread(values, digits):
-    return f"{statistics.fmean(values):.{digits}f} +- {statistics.stdev(values):.{digits}f}" if len(values) > 1 else "-"
 
 
 def correlation(some, others):

@@ -121,8 +121,8 @@ int main(int argc, char** argv) {
   }
   try {
     if (options.quick) {
-      options.grains = 60;
-      options.seeds = 2;
+      if (app.count("--grains") == 0) options.grains = 60;
+      if (app.count("--seeds") == 0) options.seeds = 2;
     }
     std::filesystem::path const folder = options.out;
     std::filesystem::create_directories(folder);

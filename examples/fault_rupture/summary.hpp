@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sys/resource.h>
-
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 
+#include "../shared/process_usage.hpp"
 #include "any_scene.hpp"
 #include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/core/described.hpp"
@@ -68,20 +67,6 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
   return rest;
 }
 
-struct Usage {
-  double cpu_seconds;
-  double peak_memory_bytes;
-};
-
-inline Usage usage() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  auto const seconds = [](timeval const& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return {seconds(used.ru_utime) + seconds(used.ru_stime), 1024.0 * static_cast<double>(used.ru_maxrss)};
-}
-
 /// A structure's motion and what presses on its base; nothing for bare ground.
 template <class Problem, class SceneType>
 void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem const& problem) {
@@ -132,7 +117,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
   auto const offset = scarp::offset_at(scene.fault, std::max(run.load, 0.0));
   auto const survey = scarp::rupture_survey(grid.mesh(), ground, grid.positions(), offset);
-  Usage const used = usage();
+  auto const used = examples::usage();
   constexpr double from_side = 5.0;  // [m], where the far field is read: the sides themselves are prescribed
   nlohmann::ordered_json json;
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));

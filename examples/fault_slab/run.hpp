@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sys/resource.h>
-
 #include <filesystem>
 
+#include "../shared/process_usage.hpp"
 #include "../shared/run_options.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
@@ -39,11 +38,7 @@ inline nlohmann::ordered_json json_of(Section const& section) {
 template <class Problem>
 nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, Problem const& problem,
                                std::vector<Section> const& all, scarp::RunReport const& run) {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  auto const seconds = [](timeval const& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
+  auto const used = examples::usage();
   auto const& grid = problem.discretisation();
   nlohmann::ordered_json json;
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
@@ -64,8 +59,8 @@ nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, Problem
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_points"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
-  json["cpu_seconds"] = seconds(used.ru_utime) + seconds(used.ru_stime);
-  json["peak_memory_bytes"] = 1024.0 * static_cast<double>(used.ru_maxrss);
+  json["cpu_seconds"] = used.cpu_seconds;
+  json["peak_memory_bytes"] = used.peak_memory_bytes;
   return json;
 }
 
