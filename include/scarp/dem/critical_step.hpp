@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
+#include "scarp/core/largest_principal.hpp"
 #include "scarp/dem/contacts.hpp"
 
 namespace scarp {
@@ -64,11 +64,11 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
           ((k == l ? centres : 0.0) +
            spin_first * inner_product(cross(contact.touch.arm_first, e), cross(contact.touch.arm_first, f)) +
            spin_second * inner_product(cross(contact.touch.arm_second, e), cross(contact.touch.arm_second, f)));
+      modes(l, k) = modes(k, l);
     }
   }
-  Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
-  solver.computeDirect(modes, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()(Dim - 1) + stiffness.rolling * (spin_first + spin_second);
+  // No negative ones are among them.
+  return largest_principal<Dim>(modes) + stiffness.rolling * (spin_first + spin_second);
 }
 
 }  // namespace detail
@@ -87,16 +87,14 @@ template <class PackingType>
 double critical_step(PackingType const& packing, typename PackingType::Law const& law) {
   constexpr int dim = PackingType::dim;
   auto const& population = *packing.population;
+  auto const& pairs = packing.pairs;
   std::vector<double> shares(packing.grain_count(), 0.0);
-  std::vector<Contact<dim>> contacts;
-  for_each_near_pair(packing, law, [&](Contact<dim> const& contact) {
-    shares[contact.first] += 1.0;
-    shares[contact.second] += 1.0;
-    contacts.push_back(contact);
-  });
+  for (auto const* rows : {&pairs.first, &pairs.second}) {
+    for (auto const row : *rows) shares[grain_of_row(packing, detail::index(row))] += 1.0;
+  }
   double const ratio = damping_ratio_of(law);
   double shortest = std::numeric_limits<double>::infinity();
-  for (auto const& contact : contacts) {
+  for_each_near_pair(packing, law, [&](Contact<dim> const& contact) {
     auto const inverse_mass = [&](std::size_t grain) { return static_cast<double>(population.inverse_mass()[grain]); };
     auto const spin = [&](std::size_t grain) {
       return shares[grain] * static_cast<double>(population.inverse_inertia()[grain]);
@@ -114,8 +112,8 @@ double critical_step(PackingType const& packing, typename PackingType::Law const
       step *= std::sqrt(1.0 + damping * damping) - damping;
     }
     if (!std::isnan(shortest) && !(step >= shortest)) shortest = step;  // one that is no number stays
-  }
-  if (!contacts.empty()) return shortest;
+  });
+  if (pairs.count() > 0) return shortest;
   double lightest = 0.0;
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {
     lightest = std::max(lightest, static_cast<double>(population.inverse_mass()[i]));

@@ -10,13 +10,17 @@ namespace scarp {
 
 namespace detail {
 
-/// Whether a step from a unit normal turned it by so small an angle that the square of it, which is left, is round-off. A shape
-/// that tells no angle tells zero.
+/// Whether a search's step from this normal was the last one: it left the normal where it was, or turned a unit vector by so
+/// small an angle that the square of it, which is left, is round-off. A shape that tells no angle tells zero.
 template <int Dim>
-bool is_last_step(Touch<Dim, double> const& touch, Point<Dim, double> const& before) {
+bool stands_still(Touch<Dim, double> const& touch, Point<Dim, double> const& before) {
+  double change = 0.0;
   double excess = -1.0;
-  for (double const part : before) excess += part * part;
-  return touch.unsettled > 0.0 && touch.unsettled < 1e-8 && std::abs(excess) < 1e-15;
+  for (std::size_t a = 0; a < before.size(); ++a) {
+    change += (touch.normal[a] - before[a]) * (touch.normal[a] - before[a]);
+    excess += before[a] * before[a];
+  }
+  return change < 1e-28 || (touch.unsettled > 0.0 && touch.unsettled < 1e-8 && std::abs(excess) < 1e-15);
 }
 
 /// Whether a normal at which the overlap is stationary is that of the least overlap. A gap is: a line parts the grains
@@ -44,16 +48,12 @@ Touch<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape
   auto touch = Shape::touch(first, second, branch, start);
   if constexpr (Shape::remembers_normal) {
     constexpr int most_iterations = 30;  // quadratic convergence: a handful is usual
-    constexpr double still = 1e-28;      // squared change of a unit vector, near round-off
-    bool stands = detail::is_last_step<Shape::dim>(touch, start);
+    auto before = start;
+    bool stands = detail::stands_still<Shape::dim>(touch, before);
     for (int k = 0; k < most_iterations && !stands; ++k) {
-      auto const before = touch.normal;
+      before = touch.normal;
       touch = Shape::touch(first, second, branch, before);
-      double change = 0.0;
-      for (std::size_t a = 0; a < before.size(); ++a) {
-        change += (touch.normal[a] - before[a]) * (touch.normal[a] - before[a]);
-      }
-      stands = change < still || detail::is_last_step<Shape::dim>(touch, before);
+      stands = detail::stands_still<Shape::dim>(touch, before);
     }
     touch.unsettled = stands ? 0.0 : std::numeric_limits<double>::infinity();
     if constexpr (TellsSupport<Shape>) {
