@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,8 +68,14 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
       modes(l, k) = modes(k, l);
     }
   }
-  // No negative ones are among them.
-  return largest_principal<Dim>(modes) + stiffness.rolling * (spin_first + spin_second);
+  double const rolling = stiffness.rolling * (spin_first + spin_second);
+  if constexpr (Dim == 2) {
+    return largest_principal<2>(modes) + rolling;  // no eigenvalue is negative
+  } else {
+    Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
+    solver.computeDirect(modes, Eigen::EigenvaluesOnly);
+    return solver.eigenvalues()(Dim - 1) + rolling;
+  }
 }
 
 }  // namespace detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "scarp/core/index.hpp"
 #include "scarp/dem/contacts.hpp"
 
