@@ -105,7 +105,7 @@ void declare_options(CLI::App& app, Options& options) {
   app.add_option("--seed", options.seed, "seed of the first cloud; the others follow")->check(examples::seed_number());
   app.add_option("--threads", options.threads, "0 takes all processors")->check(CLI::Range(0, 1024));
   app.add_option("--out", options.out, "folder for preparations.csv and run.json");
-  app.add_flag("--quick", options.quick, "two clouds of 60 grains, no page");
+  app.add_flag("--quick", options.quick, "two clouds of 60 grains unless said otherwise, no page");
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 import math
 
 import fit
-from generated_sections import with_section
-from page import digits, outside, predicted, read_lines, table
+from generated_sections import table, with_section
+from page import digits, outside, predicted, read_lines
 
 RANKS = [2, 4, 8, 16, 32, 64, 128, 256, 512, 1000]
 # Assumed of the network: ten gigabits a second, small messages in 30 us; an exchange with all takes log2 of the ranks of these.

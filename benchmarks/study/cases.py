@@ -143,23 +143,32 @@ def rows():
                lambda one, case=case: one.at(case, "B", lambda series: series["q"][-1] / series["q"].max()))
 
 
-def merged(page, section, lines):
-    """Lines of a table, by their first cells, with what the page says where they know nothing; further ones of the page first."""
+def kept(page, section, lines):
+    """Lines of a table by their first cells; a cell that is None stays what the page says."""
     said = {first: cells for first, *cells in rows_on(page, section)}
-    for first, *cells in lines:
-        old = said.get(first, ["-"] * len(cells))
-        said[first] = [new if new != "-" else before for new, before in zip(cells, old, strict=True)]
-    return [[first, *cells] for first, cells in said.items()]
+    return [[first, *(before if new is None else new for new, before in zip(cells, said.get(first, ["-"] * len(cells)), strict=True))]
+            for first, *cells in lines]
+
+
+def column(sets, names, cases, written):
+    """written(measure) for a column of the table; None of a measure where one of these sets has not run all of its cases."""
+    complete = all(set(cases) <= set(sets[name].runs) for name in names)
+    return lambda measure, digits: written([measure(sets[name]) for name in names], digits) if complete else None
+
+
+def alone(values, digits):
+    return number(values[0], digits)
+
+
+def of_seeds(values, digits):
+    return spread(values, digits, max(digits, 1))
 
 
 def numbers(sets):
     """Lines of the table."""
-    lines = []
-    for what, said, digits, measure in rows():
-        seeds = [measure(sets[f"seed {seed}"]) for seed in SEEDS]
-        of_length = {name: number(measure(sets[name]), digits) for name in ("8 m", "5.66 m", "4 m")}
-        lines.append([what, said or "-", of_length["8 m"], of_length["4 m"], spread(seeds, digits, max(digits, 1)), of_length["5.66 m"]])
-    return lines
+    columns = [column(sets, ["8 m"], CASES, alone), column(sets, ["4 m"], CASES, alone),
+               column(sets, [f"seed {seed}" for seed in SEEDS], CASES, of_seeds), column(sets, ["5.66 m"], CASES, alone)]
+    return [[what, said or "-", *(cell(measure, digits) for cell in columns)] for what, said, digits, measure in rows()]
 
 
 def base_rows(case):
@@ -174,12 +183,10 @@ def base_rows(case):
 
 def bases(sticking, frictional):
     """Lines of the table of both bases."""
-    lines = []
-    for case in ("heavy", "light"):
-        for what, digits, measure in base_rows(case):
-            lines.append([f"{case}: {what}", *(number(measure(sets["8 m"]), digits) for sets in (sticking, frictional)),
-                          *(spread([measure(sets[f"seed {seed}"]) for seed in SEEDS], digits) for sets in (sticking, frictional))])
-    return lines
+    seeds = [f"seed {seed}" for seed in SEEDS]
+    columns = [column(sets, names, ["heavy", "light"], written)
+               for names, written in ((["8 m"], alone), (seeds, of_seeds)) for sets in (sticking, frictional)]
+    return [[f"{case}: {what}", *(cell(measure, digits) for cell in columns)] for case in ("heavy", "light") for what, digits, measure in base_rows(case)]
 
 
 def cost_row(name, summary):
@@ -194,10 +201,15 @@ def cost_row(name, summary):
             "inside" if not outside else ", ".join(outside)]
 
 
-def costs(sets, frictional):
-    """Lines of the table."""
-    lines = [cost_row(f"{case}, {name}", run.summary) for name, one in sets.items() for case, run in one.runs.items()]
-    return lines + [cost_row(f"{case}, frictional, {name}", one.runs[case].summary) for name, one in frictional.items() for case in one.runs]
+def costs(page, sets, frictional):
+    """Lines of the table: those of the page, and of the runs that are there."""
+    lines = {first: cells for first, *cells in rows_on(page, "costs")}
+    for title, group in (("{case}, {name}", sets), ("{case}, frictional, {name}", frictional)):
+        for name, one in group.items():
+            for case, run in one.runs.items():
+                first, *cells = cost_row(title.format(case=case, name=name), run.summary)
+                lines[first] = cells
+    return [[first, *cells] for first, cells in lines.items()]
 
 
 HEADS = {
@@ -211,10 +223,13 @@ HEADS = {
 def main():
     sets, frictional = ({name: CaseSet(names) for name, names in named.items()} for named in (SETS, FRICTIONAL))
     page = PAGE.read_text()
-    for section, lines in (("numbers", numbers(sets)), ("bases", bases(sets, frictional)), ("costs", costs(sets, frictional))):
-        page = with_section(page, section, table(HEADS[section], merged(page, section, lines)))
+    for section, lines in (("numbers", kept(page, "numbers", numbers(sets))), ("bases", kept(page, "bases", bases(sets, frictional))),
+                           ("costs", costs(page, sets, frictional))):
+        page = with_section(page, section, table(HEADS[section], lines))
     if set(CASES) <= set(sets["8 m"].runs):
         case_figures.write(PAGE.parent, sets, LEVEL)
+    else:
+        print("figures stay as they are: they need output/study_free, study_heavy and study_light")
     rewrite(PAGE, page)
 
 

@@ -115,6 +115,16 @@ TEST_CASE_TEMPLATE("one contact's stiffest mode is that of its springs, and roll
   CHECK(mode(2.0, 3.0, 0.5) == samples::Approx(30.0 + 0.5 * (4.0 + 32.0)).epsilon(1e-12));
 }
 
+TEST_CASE("arms that are not along the normal couple the springs of a contact") {
+  scarp::Contact<2> contact{};
+  contact.touch.normal = {1.0, 0.0};
+  contact.touch.arm_first = {0.5, 1.0};
+  contact.touch.arm_second = {0.0, 0.0};
+  double const found = scarp::detail::stiffest_mode<2>(contact, {.normal = 4.0, .tangential = 1.0}, 7.0, 2.0, 0.0);
+  // Analytic: arms across the axes are -1 (normal) and 0.5 (tangent), so that the matrix is [4 (7 + 2), -2; -2, 7 + 0.5].
+  CHECK(found == samples::Approx(21.75 + std::hypot(14.25, 2.0)).epsilon(1e-14));
+}
+
 TEST_CASE("loose grains have the step of the lightest between two others") {
   auto const packing = samples::place<SmoothDiscs>(Tensor<2>::Identity(), {{5e-3}, {2e-3}}, {{0.1, 0.1}, {0.7, 0.7}});
   double const lightest = samples::density * samples::thickness * scarp::Disc::content({2e-3});

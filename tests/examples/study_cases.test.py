@@ -6,8 +6,9 @@ import sys
 
 sys.dont_write_bytecode = True  # the imports below leave no folders in the sources
 root = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(root / "benchmarks" / "study"), str(root / "examples" / "shared")]
+sys.path[:0] = [str(root / "benchmarks" / "study"), str(root / "benchmarks"), str(root / "examples" / "shared")]
 try:
+    import cases
     import numpy as np
     from ground_points import Frame, around, history, steepest_place
 except ImportError as missing:
@@ -41,6 +42,12 @@ for height in (2.0, 8.0):
 before = ground(lambda places: 3.0 * (places[:, 0] > 10.0))
 both = ground(lambda places: dipping(places) + 3.0 * (places[:, 0] > 10.0))
 expect(abs(steepest_place(both, before, 5.0) + 2.5) < 0.1, "what settled before does not count")
+
+page = "<!-- a -->\n| what | study | here |\n| --- | --- | --- |\n| x | 1 | 2 |\n| old | 1 | 3 |\n<!-- end of a -->"
+expect(cases.kept(page, "a", [["new", "-", None], ["x", "-", None]]) == [["new", "-", "-"], ["x", "-", "2"]],
+       "a table's cells without a run stay, and its rows are the program's")
+empty = {name: cases.CaseSet({case: "no such run" for case in cases.CASES}) for name in cases.SETS}
+expect(all(cells[2:] == [None] * 4 for cells in cases.numbers(empty)), "without runs nothing is told")
 
 near = around([rest], np.array([3.0, 5.0]))
 centres = rest.places[rest.cells[near]].mean(axis=1)

@@ -139,6 +139,44 @@ TEST_CASE(
   }
 }
 
+TEST_CASE_TEMPLATE("lanes meet as single numbers do", T, scarp::lanes::Pack<double>, scarp::lanes::Pack<float>) {
+  using Scalar = typename T::value_type;
+  // A hundred roundings of numbers up to ten.
+  constexpr double round_off = 1e3 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+  scarp::Random random(15);
+  for (int draw = 0; draw < 50; ++draw) {
+    std::array<T, 3> first;
+    std::array<T, 3> second;
+    Point<2, T> branch;
+    Point<2, T> start;
+    std::array<scarp::Touch<2, double>, T::size()> single;
+    for (std::size_t lane = 0; lane < T::size(); ++lane) {
+      RandomPair const pair(random);
+      double const off = random.uniform(-0.01, 0.01);
+      auto const normal = pair.settled().normal;
+      Point<2, double> const turned{normal[0] * std::cos(off) - normal[1] * std::sin(off),
+                                    normal[0] * std::sin(off) + normal[1] * std::cos(off)};
+      single[lane] = pair.touch(turned);
+      auto const spread = [lane](auto const& values, auto& to) {
+        for (std::size_t k = 0; k < values.size(); ++k) to[k][lane] = static_cast<Scalar>(values[k]);
+      };
+      spread(pair.first.pose(), first);
+      spread(pair.second.pose(), second);
+      spread(pair.branch, branch);
+      spread(turned, start);
+    }
+    auto const touch = Ellipse::touch<T>(first, second, branch, start);
+    for (std::size_t lane = 0; lane < T::size(); ++lane) {
+      CHECK(std::abs(static_cast<double>(touch.overlap[lane]) - single[lane].overlap) < round_off);
+      CHECK(std::abs(static_cast<double>(touch.unsettled[lane]) - single[lane].unsettled) < round_off);
+      for (std::size_t a = 0; a < 2; ++a) {
+        CHECK(std::abs(static_cast<double>(touch.normal[a][lane]) - single[lane].normal[a]) < round_off);
+        CHECK(std::abs(static_cast<double>(touch.arm_first[a][lane]) - single[lane].arm_first[a]) < round_off);
+      }
+    }
+  }
+}
+
 TEST_CASE("an ellipse of aspect one is a disc") {
   scarp::Random random(8);
   for (int k = 0; k < 20; ++k) {

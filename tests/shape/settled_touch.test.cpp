@@ -154,6 +154,19 @@ TEST_CASE("grains about one centre are unsettled, not answered with any normal")
   CHECK(std::abs(touch.overlap - 1.0) < 1e-12);
 }
 
+TEST_CASE("a start that is no unit vector does not count as the end of a search") {
+  auto const pose = Ellipse::pose<double>({1.0, 0.5}, {0.8, 0.6});
+  Point<2, double> const branch{1.2, 0.7};
+  auto const settled = scarp::settled_touch<Ellipse>(pose, pose, branch, {0.8, 0.6});
+  REQUIRE(settled.unsettled == 0.0);
+  for (double const length : {0.0, 1.0 - 1e-7, 1.0 + 1e-12, 1.3}) {
+    auto const touch =
+        scarp::settled_touch<Ellipse>(pose, pose, branch, {length * settled.normal[0], length * settled.normal[1]});
+    CHECK(std::abs(touch.overlap - settled.overlap) < 1e-14);
+    for (std::size_t a = 0; a < 2; ++a) CHECK(std::abs(touch.normal[a] - settled.normal[a]) < 1e-10);
+  }
+}
+
 TEST_CASE("a position that is no number has no touch") {
   auto const pose = Ellipse::pose<double>({1.0, 0.5}, {1.0, 0.0});
   auto const touch = scarp::settled_touch<Ellipse>(pose, pose, {std::nan(""), 0.0}, {1.0, 0.0});

@@ -30,7 +30,7 @@ template <class T>
 
 #if defined(__AVX512VL__)
 /// The same without roots and divisions, whose unit would be what others wait for: from the processor's own estimate of the
-/// inverse, which errs by 2^-14 at most, by a series in \f$ e = 1 - x y^2 \f$. Errs by two units in the last place at most.
+/// inverse, which errs by 2^-14 at most, by a series in \f$ e = 1 - x y^2 \f$. Relative errors are below two epsilons.
 template <class Scalar>
 [[gnu::always_inline]] inline std::array<Root<BasicPack<Scalar, 8>>, 2> roots(BasicPack<Scalar, 8> const& a,
                                                                               BasicPack<Scalar, 8> const& b) {

@@ -10,8 +10,8 @@ namespace scarp {
 
 namespace detail {
 
-/// Whether a search's step from this normal was the last one: it left the normal where it was, or turned a unit vector by so
-/// small an angle that the square of it, which is left, is round-off. A shape that tells no angle tells zero.
+/// Whether a search's step from this normal was the last one: it left a unit vector where it was, or turned it by so small an
+/// angle that the square of it, which is left, is round-off. A shape that tells no angle tells zero.
 template <int Dim>
 bool stands_still(Touch<Dim, double> const& touch, Point<Dim, double> const& before) {
   double change = 0.0;
@@ -20,7 +20,9 @@ bool stands_still(Touch<Dim, double> const& touch, Point<Dim, double> const& bef
     change += (touch.normal[a] - before[a]) * (touch.normal[a] - before[a]);
     excess += before[a] * before[a];
   }
-  return change < 1e-28 || (touch.unsettled > 0.0 && touch.unsettled < 1e-8 && std::abs(excess) < 1e-15);
+  double const length_error = std::abs(excess);
+  return (change < 1e-28 && length_error < 1e-8) ||
+         (touch.unsettled > 0.0 && touch.unsettled < 1e-8 && length_error < 1e-15);
 }
 
 /// Whether a normal at which the overlap is stationary is that of the least overlap. A gap is: a line parts the grains

@@ -99,7 +99,6 @@ std::size_t fill_ghost_rows(PackingType const& packing, typename PackingType::Sc
   return nobody;
 }
 
-/// Adds a row of forces to another.
 template <class Layout, class Scalar>
 void add_force_row(Scalar const* row, Scalar* to) {
   for (std::size_t quad = 0; quad < Layout::force_size; quad += 4) {
@@ -112,6 +111,7 @@ void add_force_row(Scalar const* row, Scalar* to) {
 /// Adds what ghosts and parts have received to their grains, whose rows of forces then come first.
 template <class PackingType>
 void gather_forces(PackingType const& packing, typename PackingType::Scalar* forces) {
+  using Scalar = typename PackingType::Scalar;
   using Layout = RowLayout<typename PackingType::Shape, typename PackingType::Law>;
   constexpr auto parts = static_cast<std::size_t>(part_count<typename PackingType::Shape>());
   constexpr std::size_t size = Layout::force_size;
@@ -121,9 +121,10 @@ void gather_forces(PackingType const& packing, typename PackingType::Scalar* for
     add_force_row<Layout>(forces + (own + g) * size, forces + detail::index(owner[g]) * size);
   if constexpr (parts > 1) {
     for (std::size_t grain = 0; grain < packing.grain_count(); ++grain) {
-      auto* const first = forces + grain * parts * size;
-      for (std::size_t part = 1; part < parts; ++part) add_force_row<Layout>(first + part * size, first);
-      std::copy(first, first + size, forces + grain * size);
+      Scalar const* const first = forces + grain * parts * size;
+      Scalar* const sum = forces + grain * size;
+      if (grain > 0) std::copy(first, first + size, sum);
+      for (std::size_t part = 1; part < parts; ++part) add_force_row<Layout>(first + part * size, sum);
     }
   }
 }
