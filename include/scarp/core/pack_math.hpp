@@ -81,11 +81,8 @@ template <class Scalar, std::size_t Width>
                                                            BasicPack<Scalar, Width> const& b) {
 #if defined(__AVX__)
   using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
-  // Compilers compare and choose: always with AVX-512, g++ with AVX where one operand is a constant.
-#if defined(__AVX512F__) && defined(__clang__)
-  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
-    return Pack(__builtin_ia32_minpd512(a.vector, b.vector, 4));
-#elif defined(__AVX512F__)
+  // g++ compares and chooses where one operand is a constant.
+#if defined(__AVX512F__) && !defined(__clang__)
   if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
     return Pack(__builtin_ia32_minpd512_mask(a.vector, b.vector, a.vector, -1, 4));
 #endif
@@ -102,10 +99,7 @@ template <class Scalar, std::size_t Width>
                                                            BasicPack<Scalar, Width> const& b) {
 #if defined(__AVX__)
   using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
-#if defined(__AVX512F__) && defined(__clang__)
-  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
-    return Pack(__builtin_ia32_maxpd512(a.vector, b.vector, 4));
-#elif defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__clang__)
   if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
     return Pack(__builtin_ia32_maxpd512_mask(a.vector, b.vector, a.vector, -1, 4));
 #endif

@@ -72,6 +72,7 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
   if constexpr (Dim == 2) {
     return largest_principal<2>(modes) + rolling;  // no eigenvalue is negative
   } else {
+    // Both tangents are often alike, where the cosine formula of `largest_principal` loses half of its digits.
     Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
     solver.computeDirect(modes, Eigen::EigenvaluesOnly);
     return solver.eigenvalues()(Dim - 1) + rolling;

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scarp/core/precompiled.hpp"
-#include "scarp/core/roots.hpp"
+#include "scarp/core/square_roots.hpp"
 #include "scarp/shape/support_touch.hpp"
 
 namespace scarp {
@@ -70,7 +70,7 @@ struct Ellipse {
     Point<2, T> const doubled{normal[0] * normal[0] - normal[1] * normal[1], product + product};
     Ray<T> const a = ray(first, doubled);
     Ray<T> const b = ray(second, doubled);
-    auto const roots = lanes::roots(a.squared, b.squared);
+    auto const roots = lanes::square_roots(a.squared, b.squared);
     return {complete(a, roots[0]), complete(b, roots[1])};
   }
 
@@ -97,7 +97,7 @@ struct Ellipse {
 
   /// \f$ h + h'' = (h_\perp^2 - h'^2)/h \f$
   template <class T>
-  static Support<T> complete(Ray<T> const& ray, lanes::Root<T> const& h) {
+  static Support<T> complete(Ray<T> const& ray, lanes::SquareRoot<T> const& h) {
     T const slope = ray.slope * h.inverse;
     return {h.value, slope, (ray.across - slope * slope) * h.inverse};
   }

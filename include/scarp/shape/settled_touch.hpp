@@ -50,10 +50,9 @@ Touch<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape
   auto touch = Shape::touch(first, second, branch, start);
   if constexpr (Shape::remembers_normal) {
     constexpr int most_iterations = 30;  // quadratic convergence: a handful is usual
-    auto before = start;
-    bool stands = detail::stands_still<Shape::dim>(touch, before);
+    bool stands = detail::stands_still<Shape::dim>(touch, start);
     for (int k = 0; k < most_iterations && !stands; ++k) {
-      before = touch.normal;
+      auto const before = touch.normal;
       touch = Shape::touch(first, second, branch, before);
       stands = detail::stands_still<Shape::dim>(touch, before);
     }

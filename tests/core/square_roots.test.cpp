@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/core/roots.hpp"
+#include "scarp/core/square_roots.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 /// Roots of random numbers of all magnitudes, another one in each lane.
 template <class T>
-void check_roots() {
+void check_square_roots() {
   using Scalar = typename scarp::ScalarOf<T>::type;
   // A rounding each of the product, the series and the sum, and half of one left by the series.
   constexpr Scalar bound = 2 * std::numeric_limits<Scalar>::epsilon();
@@ -30,7 +30,7 @@ void check_roots() {
         for (std::size_t lane = 0; lane < T::size(); ++lane) values[lane] = number();
       }
     }
-    auto const found = scarp::lanes::roots(asked[0], asked[1]);
+    auto const found = scarp::lanes::square_roots(asked[0], asked[1]);
     auto const check = [&](Scalar square, Scalar root, Scalar inverse) {
       auto const exact = std::sqrt(static_cast<long double>(square));
       CHECK(std::abs(static_cast<Scalar>(root / exact - 1)) <= bound);
@@ -51,5 +51,5 @@ void check_roots() {
 
 TEST_CASE_TEMPLATE("square roots and their inverses err by two epsilons at most, in lanes as in single numbers", T,
                    double, scarp::lanes::Pack<double>, scarp::lanes::Pack<float>) {
-  check_roots<T>();
+  check_square_roots<T>();
 }
