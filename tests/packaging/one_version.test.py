@@ -108,7 +108,8 @@ def reached(header, seen):
 
 with tempfile.TemporaryDirectory() as folder:
     found = list(faults(Scratch(folder)))
-for room in sorted(include.glob("scarp/*.hpp")):
-    if "scarp/core/one_version.hpp" not in reached(f"scarp/{room.name}", set()):
-        found.append(f"scarp/{room.name} does not include core/one_version.hpp, not even by way of others")
+for room in sorted(folder for folder in (include / "scarp").iterdir() if any(folder.glob("*.hpp"))):
+    if not any("scarp/core/one_version.hpp" in reached(f"scarp/{room.name}/{header.name}", set())
+               for header in room.glob("*.hpp")):
+        found.append(f"no header of scarp/{room.name} includes core/one_version.hpp, not even by way of others")
 sys.exit("\n".join(found) or None)
