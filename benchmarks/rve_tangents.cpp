@@ -16,7 +16,6 @@
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
-#include "scarp/homogenise/sliding_aware_tangent.hpp"
 
 namespace {
 
@@ -126,14 +125,11 @@ int main() {
   }
 
   using scarp::CondensedTangent;
-  using scarp::SlidingAwareTangent;
   auto const policy = [](std::string name, auto const& tangent) {
     return Policy{std::move(name), [tangent](Packing const& packing) { return tangent(packing, law); }};
   };
   std::vector<Policy> const policies{
       policy("eq. 6", scarp::ElasticContactTangent{}),
-      policy("sliding-aware, share 0", SlidingAwareTangent{}),
-      policy("sliding-aware, share 0, coupled", SlidingAwareTangent{.sliding = {.coupled = true}}),
       policy("condensed, share 1", CondensedTangent{.sliding = {.shear_share = 1.0}}),
       policy("condensed, share 0.5", CondensedTangent{.sliding = {.shear_share = 0.5}}),
       policy("condensed, share 0", CondensedTangent{}),

@@ -7,13 +7,6 @@ namespace error_vs_time {
 
 namespace {
 
-auto with(FaultSolver solver) {
-  return [solver](FaultSettings& settings, double gradient) {
-    settings.solver = solver;
-    settings.largest_gradient = gradient;
-  };
-}
-
 FaultSettings base_of(Options const& options) {
   FaultSettings base = fault_rupture_defaults();
   if (options.quick) {
@@ -49,10 +42,6 @@ scarp::SweepTable fault(Options const& options) {
   sweep.vary("Lazy tolerance", &FaultSettings::lazy, {0.01, 0.03});
   sweep.vary("least DEM steps", &FaultSettings::least_steps, {5});
   sweep.vary("strain per DEM step", &FaultSettings::strain_per_step, {3e-5});
-  sweep.vary("along iterates, gradient", with(FaultSolver::along_iterates), {0.01, 0.005, 0.0025});
-  sweep.vary("frozen tangent with BFGS, gradient", with(FaultSolver::frozen_bfgs), {0.005});
-  sweep.vary("dynamic relaxation, gradient", with(FaultSolver::relaxation), {0.005});
-  sweep.vary("condensed tangent", &FaultSettings::condensed, {true});
   auto halved = base;
   halved.largest_gradient = base.largest_gradient / 2.0;
   auto lazy = halved;

@@ -8,7 +8,6 @@
 #include "cpu_time_limit.hpp"
 #include "scarp/fault/fault_scene.hpp"
 #include "scarp/measure/measured.hpp"
-#include "scarp/observe/band_angle.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/observers.hpp"
@@ -48,19 +47,6 @@ Eigen::VectorXd held_forces(Problem& problem, double tip) {
   return sums;
 }
 
-/// Inclination [rad] of the band in which the ground has sheared.
-template <class Problem>
-double band_angle(Problem const& problem) {
-  auto const& grid = problem.discretisation();
-  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
-  std::vector<scarp::StrainedPlace> places;
-  for (int point = 0; point < grid.point_count(); ++point) {
-    double const strain = scarp::geo::plane_strain(total_deformation(grid, point)).deviatoric;
-    places.push_back({grid.site(point, 0.0).position, strain, volumes[static_cast<std::size_t>(point)]});
-  }
-  return scarp::band_angle(places);
-}
-
 /// What a fault scene answers at the end of its run, and what the run took.
 /// most_seconds: of the processor, after which the run ends as `interrupted`
 template <class SceneType, class Executor>
@@ -87,7 +73,6 @@ scarp::Measured run_fault(SceneType const& scene, Executor& executor, double mos
   measured.answer("x50", survey.surface.surface_x50);
   measured.answer("x95", survey.surface.surface_x95);
   measured.answer("band width", survey.surface.outcrop_width);
-  measured.answer("band angle", band_angle(problem));
   measured.answer("reactions", held_forces(problem, scene.fault.tip));
   if constexpr (requires { scene.structure.motion(problem); }) {
     auto const motion = scene.structure.motion(problem);

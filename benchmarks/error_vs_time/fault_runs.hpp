@@ -8,15 +8,12 @@
 
 namespace error_vs_time {
 
-/// Who brings the fault scene of packings into balance.
-enum class FaultSolver { point_secant, along_iterates, frozen_bfgs, relaxation };
-
 /// What a run of the free-field fault may be made with.
 struct FaultSettings {
   double size = 5.0;  ///< of a cell in the band [m], see set_mesh
   MeshPattern pattern = MeshPattern::crossed;
   double aspect = 1.0;  ///< height of a cell over its width
-  double length = 0.0;  ///< intrinsic [m], for the point secant only; 0: local
+  double length = 0.0;  ///< intrinsic [m]; 0: local
   double throw_over_depth = 0.02;
   int grains = 100;
   int packings = 1;  ///< columns of them; of several, points draw among the mirror images too
@@ -27,9 +24,7 @@ struct FaultSettings {
   int least_steps = 20;
   double inertial_number = 5e-3;
   double unbalanced = 0.05;
-  double lazy = 0.0;       ///< tolerance of predicted answers; 0 asks always
-  bool condensed = false;  ///< condensed tangents instead of eq. 6
-  FaultSolver solver = FaultSolver::point_secant;
+  double lazy = 0.0;            ///< tolerance of predicted answers; 0 asks always
   double most_seconds = 150.0;  ///< of the processor
 };
 
@@ -40,7 +35,6 @@ FaultSettings fault_rupture_defaults();
 /// The free field with a packing in every triangle. Packings are prepared once for each mesh, number of grains and seed, outside of
 /// the time that is measured.
 /// repetition: moves the seed on
-/// \throws scarp::InputError for a length with another solver
 scarp::Measured sand_fault(FaultSettings const& settings, int repetition);
 
 }  // namespace error_vs_time

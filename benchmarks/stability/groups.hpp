@@ -16,13 +16,12 @@ Cases packing_cases();
 Cases rve_cases();
 Cases solver_cases();
 Cases strength_cases();
-Cases time_step_cases();
 
 /// All cases in the order of the page.
 inline Cases all_cases() {
   Cases all;
-  for (auto* const group : {contact_cases, packing_cases, rve_cases, time_step_cases, dashpot_cases, strength_cases,
-                            mesh_cases, solver_cases, fault_cases, floor_cases, footing_cases}) {
+  for (auto* const group : {contact_cases, packing_cases, rve_cases, dashpot_cases, strength_cases, mesh_cases,
+                            solver_cases, fault_cases, floor_cases, footing_cases}) {
     for (Case& one : group()) all.push_back(std::move(one));
   }
   return all;

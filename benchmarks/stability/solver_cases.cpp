@@ -9,7 +9,6 @@
 #include "scarp/solver/consistent_tangent.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/sparse_ldlt.hpp"
 #include "stability/groups.hpp"
 #include "stability/measures.hpp"
 #include "stability/soil_block.hpp"
@@ -21,7 +20,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double degree = std::numbers::pi / 180.0;
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
-using SymmetricNewton = scarp::QuasiNewton<scarp::ConsistentTangent, scarp::PlainStep, scarp::SparseLdlt>;
 
 std::string words(scarp::RunReport const& run, Watch const& watch) {
   return fmt::format("{} (last refusal {}) at load {:.5g}, {} attempts, {} refused, {} iterations",
@@ -111,19 +109,6 @@ Outcome beyond_the_limit_load(double residual_cohesion, double most) {
   return {named && watch.attempts < watch.most && carried > 0.95 && carried < most &&
               relative(base_force(problem), run.load) < 1e-6,
           carried, "load carried over the unconfined strength", words(run, watch)};
-}
-
-/// Flow that is not associated makes the tangent unsymmetric: the linear residual tells whether the solver can take it.
-template <class Solver>
-Outcome unsymmetric(bool fits) {
-  auto problem = Block{}.make();
-  scarp::LoadStepping const stepping{.first = 2e-3, .smallest = 1e-6, .largest = 2e-3};
-  Solver const solver{.tolerance = 1e-8, .rule = {.floor = 1e-4}};
-  Watch watch;
-  auto const run = stepping.run(solver, problem, 0.0, 0.02, watch);
-  bool const reached = run.verdict.acceptable();
-  bool const told = fits ? reached && watch.linear_residual < 1e-10 : watch.linear_residual > 1e-3;
-  return {told && watch.attempts < watch.most, watch.linear_residual, "largest linear residual", words(run, watch)};
 }
 
 /// A block that may slide along x: the status says singular, the degree of freedom is one along x.
@@ -220,9 +205,6 @@ Cases solver_cases() {
       [](Size) { return beyond_the_limit_load(20e3, 2.0); });
   add("softening beyond the limit load", "step_too_small at the peak",
       [](Size) { return beyond_the_limit_load(2e3, 1.05); });
-  add("unsymmetric tangent, LU", "solved", [](Size) { return unsymmetric<Newton>(true); });
-  add("unsymmetric tangent, symmetric solver", "the linear residual tells",
-      [](Size) { return unsymmetric<SymmetricNewton>(false); });
   add("block that may slide", "singular_system, a degree of freedom along x", [](Size) { return mechanism(); });
   add("a point that answers NaN", "not_finite, the point named, the last state whole",
       [](Size) { return poisoned_point(); });
