@@ -58,6 +58,22 @@ inline double require_not_negative(std::string_view what, double value) {
   return value;
 }
 
+/// \throws InputError unless value lies between the two, which it may equal; NaN never does
+template <class Number>
+Number require_between(std::string_view what, Number value, Number least, Number most) {
+  if (!(value >= least && value <= most)) {
+    refuse("{} is {} (it must lie between {} and {}): give a number in this range", what, value, least, most);
+  }
+  return value;
+}
+
+/// \throws InputError for a value below the least one, and for NaN
+template <class Number>
+Number require_at_least(std::string_view what, Number value, Number least) {
+  if (!(value >= least)) refuse("{} is {} (it must be at least {}): give a larger number", what, value, least);
+  return value;
+}
+
 /// \throws InputError unless value is finite
 inline double require_finite(std::string_view what, double value) {
   if (!std::isfinite(value)) {
@@ -65,5 +81,14 @@ inline double require_finite(std::string_view what, double value) {
   }
   return value;
 }
+
+namespace detail {
+/// Settings after a check by their own `void validate() const`, where they have one.
+template <class Settings>
+Settings const& validated(Settings const& settings) {
+  if constexpr (requires { settings.validate(); }) settings.validate();
+  return settings;
+}
+}  // namespace detail
 
 }  // namespace scarp
