@@ -256,7 +256,7 @@ bool cell_is_wide_enough(PackingType const& packing, double reach) {
 
 /// Makes the list of pairs whose gap is below `skin` + `law_reach` [m] (nanoflann k-d tree over grains and ghosts), carrying
 /// over normals and memories of pairs that stay. The list is good until gaps have shrunk by the skin; `law_reach` is the gap
-/// across which the contact law acts. Reduces the cell and wraps positions on the way. Deterministic.
+/// across which the contact law acts. Reduces the cell and wraps positions. Deterministic; a packing whose list fails stays as it was.
 /// \return failed / cell_collapsed for a cell too thin for its grains, failed / not_finite for positions that are no
 /// numbers, failed / lost_grain for one that is more than a million cells away, failed / unsettled_touch where the shape
 /// does not find how two grains touch
@@ -267,20 +267,17 @@ Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0)
   auto& pairs = packing.pairs;
   double const reach = skin + law_reach;
   if (!cell_is_wide_enough(packing, reach)) return {Status::failed, Reason::cell_collapsed};
+  auto cell = packing.cell;
   auto places = detail::grain_places(packing);
   for (auto const& place : places) {
     if (!place.allFinite()) return {Status::failed, Reason::not_finite};
   }
   detail::Renaming<dim> renaming;
-  if (!detail::reduce_and_wrap(packing.cell, places, renaming)) return {Status::failed, Reason::lost_grain};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    for (int a = 0; a < dim; ++a) packing.position(i, a) = static_cast<Scalar>(places[i](a));
-  }
-  places = detail::grain_places(packing);  // as stored
+  if (!detail::reduce_and_wrap(cell, places, renaming)) return {Status::failed, Reason::lost_grain};
+  for (auto& place : places) place = place.template cast<Scalar>().template cast<double>().eval();  // as stored
   auto const former = detail::former_pairs<dim>(pairs.first, pairs.second, pairs.ghost_owner, pairs.ghost_shift,
                                                 packing.row_count(), renaming);
-  auto const all =
-      detail::grains_and_images<dim>(packing.cell, places, 2.0 * packing.population->largest_radius() + reach);
+  auto const all = detail::grains_and_images<dim>(cell, places, 2.0 * packing.population->largest_radius() + reach);
   auto const sorted =
       detail::find_near_pairs(*packing.population, detail::row_poses(packing), all, former, pairs.normal, reach);
   if (!sorted) return {Status::failed, Reason::unsettled_touch};
@@ -290,6 +287,10 @@ Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0)
   detail::write_members<part_count<typename PackingType::Shape>()>(next, found, all, packing.row_count());
   detail::write_memory(next, found, pairs);
   pairs = std::move(next);
+  packing.cell = cell;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (int a = 0; a < dim; ++a) packing.position(i, a) = static_cast<Scalar>(places[i](a));
+  }
   return {};
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -13,7 +16,29 @@
 
 namespace scarp {
 
-/// Pairs of grains closer than a skin, each once. Numbers are *rows*: part p of grain i has row
+/// What a list of near pairs and its critical step were made from beside the grains' places. With another law, or with
+/// grains of another mass, the list is made anew.
+struct ListBasis {
+  double reach = 0.0;                  ///< gap across which the law acts [m]
+  double damping_ratio = 0.0;          ///< of the law's dashpots
+  double mass = 0.0;                   ///< of all grains [kg]
+  std::array<double, 12> stiffness{};  ///< the law's springs at some depths and radii, see `list_basis`
+
+  SCARP_MEMBERS(reach, damping_ratio, mass, stiffness)
+
+  /// Equal but for the round-off of another compiler or instruction set.
+  bool agrees_with(ListBasis const& other) const {
+    auto const close = [](double a, double b) {
+      return a == b || std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
+    };
+    return close(reach, other.reach) && close(damping_ratio, other.damping_ratio) && close(mass, other.mass) &&
+           std::equal(stiffness.begin(), stiffness.end(), other.stiffness.begin(), close);
+  }
+
+  friend bool operator==(ListBasis const&, ListBasis const&) = default;
+};
+
+/// Pairs of grains closer than a skin (Verlet list), each once. Numbers are *rows*: part p of grain i has row
 /// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
 /// moved by cell x `ghost_shift[g]`. What a shape or law does not remember takes no room.
 template <CheckedShape Shape, CheckedContactLaw Law, class Scalar>
@@ -33,11 +58,13 @@ struct NearPairs {
   double drift = 0.0;          ///< bound on how far gaps have shrunk since the list was made [m]
   double skin = -1.0;          ///< gap up to which pairs are listed [m]; negative before the first list
   double critical_step = 0.0;  ///< lower bound of the largest stable time step [s] while the list lasts
+  ListBasis basis;
 
   std::size_t count() const { return first.size(); }
 
   /// What is saved and loaded.
-  SCARP_MEMBERS(first, second, normal, shear, moment, scalars, ghost_owner, ghost_shift, drift, skin, critical_step)
+  SCARP_MEMBERS(first, second, normal, shear, moment, scalars, ghost_owner, ghost_shift, drift, skin, critical_step,
+                basis)
 
   friend bool operator==(NearPairs const&, NearPairs const&) = default;
 };
@@ -103,6 +130,24 @@ struct Packing {
 
   friend bool operator==(Packing const&, Packing const&) = default;
 };
+
+/// What a list with this skin [m] follows from: the springs of smallest and of largest grains at the skin, which is how deep
+/// a near pair may get at least, and at twice the skin.
+template <class PackingType>
+ListBasis list_basis(PackingType const& packing, typename PackingType::Law const& law, double skin) {
+  auto const& population = *packing.population;
+  ListBasis basis{.reach = reach_of(law), .damping_ratio = damping_ratio_of(law), .mass = population.mass()};
+  std::size_t k = 0;
+  for (double const radius : {population.smallest_radius(), population.largest_radius()}) {
+    for (double const depth : {skin, 2.0 * skin}) {
+      ContactStiffness const springs = law.stiffness(depth, radius / 2.0);
+      basis.stiffness[k++] = springs.normal;
+      basis.stiffness[k++] = springs.tangential;
+      basis.stiffness[k++] = springs.rolling;
+    }
+  }
+  return basis;
+}
 
 /// Memory [bytes] of one state without the shared population.
 template <class PackingType>

@@ -70,7 +70,8 @@ class TimeStepper {
 
   double time_step_share = usual_time_step_share;  ///< of the lower bound of the critical step
 
-  /// Makes the pair list where there is none or it has become too old, and the critical step with it.
+  /// Makes the pair list where there is none, it has become too old or it was made for another law or other masses, and the
+  /// critical step with it.
   /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary ones
   Verdict refresh(PackingType& packing, Law const& law) const {
     if constexpr (in_library) {
@@ -121,10 +122,20 @@ class TimeStepper {
       double const friction = Law(law).friction_coefficient();
       if (!(std::isfinite(friction) && friction >= 0.0)) return {Status::failed, Reason::not_finite};
     }
-    if (packing.pairs.drift <= packing.pairs.skin) return {};  // false also when the drift is no number
-    Verdict const verdict = rebuild_pairs(packing, skin_ratio * packing.population->largest_radius(), reach_of(law));
-    if (verdict.acceptable()) packing.pairs.critical_step = critical_step(packing, law);
-    return verdict;
+    // The first is false also when the drift is no number.
+    if (packing.pairs.drift <= packing.pairs.skin &&
+        packing.pairs.basis.agrees_with(list_basis(packing, law, packing.pairs.skin)))
+      return {};
+    return renew(packing, law);
+  }
+
+  [[gnu::noinline, gnu::cold]] Verdict renew(PackingType& packing, Law const& law) const {
+    double const skin = skin_ratio * packing.population->largest_radius();
+    Verdict const verdict = rebuild_pairs(packing, skin, reach_of(law));
+    if (!verdict.acceptable()) return verdict;
+    packing.pairs.critical_step = critical_step(packing, law);
+    packing.pairs.basis = list_basis(packing, law, skin);
+    return {};
   }
 
   template <Observe what>
@@ -143,7 +154,8 @@ class TimeStepper {
     }
     packing.cell = (cell_step * packing.cell).eval();
     packing.last_move = {strain_step, time_step};
-    packing.pairs.drift += strain_step.norm() * (2.0 * packing.population->largest_radius() + packing.pairs.skin);
+    packing.pairs.drift += strain_step.norm() * (2.0 * packing.population->largest_radius() + packing.pairs.skin +
+                                                 packing.pairs.basis.reach);
     return {};
   }
 

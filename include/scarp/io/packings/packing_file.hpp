@@ -10,7 +10,7 @@ namespace scarp {
 
 namespace detail {
 
-inline constexpr FileFormat packing_format{"SCARPPAK", 3, "packing", "save_packing"};
+inline constexpr FileFormat packing_format{"SCARPPAK", 4, "packing", "save_packing"};
 
 struct LayoutEntry {
   std::string_view what;
