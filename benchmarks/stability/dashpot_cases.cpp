@@ -7,12 +7,12 @@
 #include <cmath>
 #include <utility>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "stability/groups.hpp"
 #include "stability/measures.hpp"
+#include "support/packings.hpp"
 
 namespace stability {
 

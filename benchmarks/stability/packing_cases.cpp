@@ -8,9 +8,9 @@
 #include <limits>
 #include <set>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "stability/groups.hpp"
+#include "support/packings.hpp"
 
 namespace stability {
 

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/core/worse_of.hpp"
@@ -13,6 +12,7 @@
 #include "stability/groups.hpp"
 #include "stability/measures.hpp"
 #include "stability/shearing.hpp"
+#include "support/packings.hpp"
 
 namespace stability {
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/dem/loading_paths.hpp"
+#include "support/packings.hpp"
 
 namespace stability {
 

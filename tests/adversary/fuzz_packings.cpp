@@ -250,7 +250,7 @@ Game pair(std::string name) {
   using P = scarp::Packing<Shape, Law>;
   constexpr int dim = P::dim;
   return {std::move(name), [](Random& random) {
-            auto law = test_support::Sample<Law>::law();
+            auto law = samples::Sample<Law>::law();
             draw_friction(law, random);
             auto const drawn = draw<dim>(random);
             std::vector<std::size_t> same(drawn.grains());

@@ -5,13 +5,14 @@
 
 #include "adversary/contest.hpp"
 #include "adversary/damage.hpp"
-#include "io/scratch_folder.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
+#include "support/files.hpp"
 
 /// Readers under attack, each with valid files to begin with.
 namespace adversary {
 
+using samples::ScratchFolder;
 using scarp::InputError;
 using scarp::Random;
 

@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

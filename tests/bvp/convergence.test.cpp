@@ -3,12 +3,12 @@
 
 #include "../../examples/cook_membrane/membrane.hpp"
 #include "../../examples/mesh_orders/manufactured.hpp"
-#include "approx.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
-#include "approx.hpp"
 #include "bvp/stiffness_check.hpp"
-#include "factorisations.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "support/approx.hpp"
+#include "support/factorisations.hpp"
 
 namespace {
 
@@ -22,46 +22,46 @@ static_assert(!scarp::Kinematics<Eulerian>, "a policy that only tells its config
 
 TEST_CASE_TEMPLATE("the stiffness is the derivative of the internal force at a large increment", Element, scarp::Tri3,
                    scarp::Quad4, scarp::Tet4) {
-  scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(2));
-  sample::NeoHookean<Element::dim> const solid;
+  scarp::Discretisation<Element> const disc(samples::distorted_block<Element>(2));
+  samples::NeoHookean<Element::dim> const solid;
   Eigen::VectorXd const increment =
-      sample::affine<Element::dim>(disc.mesh().nodes, sample::general_gradient<Element::dim>(0.3)) +
-      sample::random_increment(disc.dof_count(), 0.03, 9);
+      samples::affine<Element::dim>(disc.mesh().nodes, samples::general_gradient<Element::dim>(0.3)) +
+      samples::random_increment(disc.dof_count(), 0.03, 9);
   // Central differences: truncation about (1e-6 over an element size of 0.1)^2, round-off 1e-16 over 1e-6, with the
   // force per stiffness up to 0.1: both below 1e-9.
-  CHECK(sample::stiffness_error(solid, disc, sample::fresh<decltype(solid)>(disc), increment) < 1e-8);
+  CHECK(samples::stiffness_error(solid, disc, samples::fresh<decltype(solid)>(disc), increment) < 1e-8);
 }
 
 TEST_CASE_TEMPLATE("the stiffness includes the turning of the stress that a point already carries", Element,
                    scarp::Tri3, scarp::Tet4) {
   using Provider = scarp::LinearElastic<Element::dim>;
-  scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(2));
+  scarp::Discretisation<Element> const disc(samples::distorted_block<Element>(2));
   auto const soil = Provider::from_lame(3e6, 2e6);
   scarp::VoigtStress<Element::dim> const high = scarp::VoigtStress<Element::dim>::LinSpaced(-2e6, 1e6);
   std::vector<typename Provider::State> const stressed(static_cast<std::size_t>(disc.point_count()), {high});
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
-  CHECK(sample::stiffness_error(soil, disc, stressed, nothing) < 1e-8);  // as above
+  CHECK(samples::stiffness_error(soil, disc, stressed, nothing) < 1e-8);  // as above
 }
 
 TEST_CASE("small-strain stiffness is the derivative of the internal force") {
-  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain> const disc(sample::distorted_block<scarp::Quad4>(2));
+  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain> const disc(samples::distorted_block<scarp::Quad4>(2));
   auto const soil = scarp::LinearElastic<2>::from_lame(3e6, 2e6);
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
-  CHECK(sample::stiffness_error(soil, disc, sample::fresh<scarp::LinearElastic<2>>(disc), nothing) < 1e-8);
+  CHECK(samples::stiffness_error(soil, disc, samples::fresh<scarp::LinearElastic<2>>(disc), nothing) < 1e-8);
 }
 
 TEST_CASE("a stressed patch that turns by 30 degrees keeps its stress in its own frame and its forces turn along") {
-  scarp::Discretisation<scarp::Tri3> disc(sample::distorted_block<scarp::Tri3>(3));
+  scarp::Discretisation<scarp::Tri3> disc(samples::distorted_block<scarp::Tri3>(3));
   auto const soil = scarp::LinearElastic<2>::from_lame(3e6, 2e6);
-  Eigen::VectorXd const first = sample::random_increment(disc.dof_count(), 0.02, 4);
-  auto const before = sample::answers(soil, disc, sample::fresh<scarp::LinearElastic<2>>(disc), first);
+  Eigen::VectorXd const first = samples::random_increment(disc.dof_count(), 0.02, 4);
+  auto const before = samples::answers(soil, disc, samples::fresh<scarp::LinearElastic<2>>(disc), first);
   Eigen::VectorXd force_before;
   disc.internal_force(first, before.stresses, force_before);
   disc.commit(first);
 
   auto const turn = scarp::rotation(std::numbers::pi / 6.0);
-  Eigen::VectorXd const turning = sample::affine<2>(disc.positions(), turn - scarp::Tensor<2>::Identity());
-  auto const after = sample::answers(soil, disc, before.states, turning);
+  Eigen::VectorXd const turning = samples::affine<2>(disc.positions(), turn - scarp::Tensor<2>::Identity());
+  auto const after = samples::answers(soil, disc, before.states, turning);
   Eigen::VectorXd force_after;
   disc.internal_force(turning, after.stresses, force_after);
   for (std::size_t p = 0; p < after.stresses.size(); ++p) {
@@ -82,10 +82,10 @@ TEST_CASE("a stressed patch that turns by 30 degrees keeps its stress in its own
 
 TEST_CASE_TEMPLATE("a free body has its rigid motions and no other zero mode", Element, scarp::Tri3, scarp::Quad4,
                    scarp::Tet4) {
-  scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(2));
+  scarp::Discretisation<Element> const disc(samples::distorted_block<Element>(2));
   auto const soil = scarp::LinearElastic<Element::dim>::from_lame(3e6, 2e6);
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
-  auto const points = sample::answers(soil, disc, sample::fresh<decltype(soil)>(disc), nothing);
+  auto const points = samples::answers(soil, disc, samples::fresh<decltype(soil)>(disc), nothing);
   Eigen::MatrixXd const stiffness = disc.stiffness(nothing, points.stresses, points.tangents);
   CHECK((stiffness - stiffness.transpose()).norm() < 1e-15 * stiffness.norm() * 10.0);
   Eigen::VectorXd const values = samples::eigenvalues(stiffness);
@@ -97,8 +97,8 @@ TEST_CASE_TEMPLATE("a free body has its rigid motions and no other zero mode", E
 }
 
 TEST_CASE("internal forces are in balance for any stress, in sum and in moment") {
-  scarp::Discretisation<scarp::Quad4> const disc(sample::distorted_block<scarp::Quad4>(3), 0.7);
-  Eigen::VectorXd const increment = sample::random_increment(disc.dof_count(), 0.03, 6);
+  scarp::Discretisation<scarp::Quad4> const disc(samples::distorted_block<scarp::Quad4>(3), 0.7);
+  Eigen::VectorXd const increment = samples::random_increment(disc.dof_count(), 0.03, 6);
   std::vector<scarp::VoigtStress<2>> stresses;
   for (int p = 0; p < disc.point_count(); ++p) {
     stresses.emplace_back(1.0 + p, -2.0 + 0.5 * p, 3.0 - p);
@@ -141,7 +141,7 @@ TEST_CASE("small strain drives the material by the symmetric part only and balan
   scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> disc(scarp::RectangleMesh{}.generate());
   scarp::Gradient<2> gradient;
   gradient << 0.1, 0.3, -0.1, 0.2;
-  Eigen::VectorXd const increment = sample::affine<2>(disc.mesh().nodes, gradient);
+  Eigen::VectorXd const increment = samples::affine<2>(disc.mesh().nodes, gradient);
   std::vector<scarp::Gradient<2>> seen(4);
   disc.commit(increment);
   disc.gradients(increment, seen);
@@ -154,20 +154,20 @@ TEST_CASE("small strain drives the material by the symmetric part only and balan
 }
 
 TEST_CASE("gradients refer to the configuration that was committed last") {
-  scarp::Discretisation<scarp::Quad4> disc(sample::distorted_block<scarp::Quad4>(2));
-  auto const first = sample::general_gradient<2>(0.2);
+  scarp::Discretisation<scarp::Quad4> disc(samples::distorted_block<scarp::Quad4>(2));
+  auto const first = samples::general_gradient<2>(0.2);
   auto const second = scarp::Gradient<2>(first.transpose() * 0.7);
-  disc.commit(sample::affine<2>(disc.positions(), first));
+  disc.commit(samples::affine<2>(disc.positions(), first));
   std::vector<scarp::Gradient<2>> gradients(static_cast<std::size_t>(disc.point_count()));
-  disc.gradients(sample::affine<2>(disc.positions(), second), gradients);
+  disc.gradients(samples::affine<2>(disc.positions(), second), gradients);
   for (auto const& gradient : gradients) {
     CHECK((gradient - second).norm() < 1e-13);  // analytic: affine on the moved mesh; round-off over elements of 0.3
   }
 }
 
 TEST_CASE("strains of a small further displacement stand in the rows of their own points") {
-  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain> const disc(sample::distorted_block<scarp::Quad4>(2));
-  Eigen::VectorXd const increment = sample::random_increment(disc.dof_count(), 0.03, 7);
+  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain> const disc(samples::distorted_block<scarp::Quad4>(2));
+  Eigen::VectorXd const increment = samples::random_increment(disc.dof_count(), 0.03, 7);
   std::vector<scarp::Gradient<2>> gradients(static_cast<std::size_t>(disc.point_count()));
   disc.gradients(increment, gradients);
   Eigen::VectorXd const strains = disc.strain_operator(Eigen::VectorXd::Zero(disc.dof_count())) * increment;
@@ -179,10 +179,10 @@ TEST_CASE("strains of a small further displacement stand in the rows of their ow
 }
 
 TEST_CASE("volumes follow the motion and contain the thickness") {
-  scarp::Discretisation<scarp::Tri3> const disc(sample::distorted_block<scarp::Tri3>(2), 0.2);
+  scarp::Discretisation<scarp::Tri3> const disc(samples::distorted_block<scarp::Tri3>(2), 0.2);
   scarp::Gradient<2> gradient;
   gradient << 0.5, 0.1, 0.0, -0.2;
-  auto const volumes = disc.volumes(sample::affine<2>(disc.mesh().nodes, gradient));
+  auto const volumes = disc.volumes(samples::affine<2>(disc.mesh().nodes, gradient));
   double sum = 0.0;
   for (double const volume : volumes) {
     sum += volume;
@@ -204,10 +204,10 @@ TEST_CASE("a site tells where its point is and how deep") {
 }
 
 TEST_CASE("the stiffness matrix keeps its memory from call to call and has the same bits each time") {
-  scarp::Discretisation<scarp::Tri3> const disc(sample::distorted_block<scarp::Tri3>(3));
+  scarp::Discretisation<scarp::Tri3> const disc(samples::distorted_block<scarp::Tri3>(3));
   auto const soil = scarp::LinearElastic<2>::from_lame(3e6, 2e6);
-  Eigen::VectorXd const increment = sample::random_increment(disc.dof_count(), 0.02, 8);
-  auto const points = sample::answers(soil, disc, sample::fresh<scarp::LinearElastic<2>>(disc), increment);
+  Eigen::VectorXd const increment = samples::random_increment(disc.dof_count(), 0.02, 8);
+  auto const points = samples::answers(soil, disc, samples::fresh<scarp::LinearElastic<2>>(disc), increment);
   Eigen::SparseMatrix<double> matrix;
   disc.stiffness(increment, points.stresses, points.tangents, matrix);
   Eigen::SparseMatrix<double> const first = matrix;
@@ -242,6 +242,6 @@ TEST_CASE("arrays of the wrong length and wrong thicknesses are refused") {
   gradients.resize(4);
   CHECK_THROWS_AS(disc.gradients(Eigen::VectorXd::Zero(3), gradients), scarp::InputError);
   CHECK_THROWS_AS(scarp::Discretisation<scarp::Tri3>(scarp::RectangleMesh{}.generate(), 0.0), scarp::InputError);
-  CHECK_THROWS_AS(scarp::Discretisation<scarp::Tet4>(sample::distorted_block<scarp::Tet4>(1), 0.2), scarp::InputError);
+  CHECK_THROWS_AS(scarp::Discretisation<scarp::Tet4>(samples::distorted_block<scarp::Tet4>(1), 0.2), scarp::InputError);
   CHECK_THROWS_AS(scarp::Discretisation<scarp::Tri3>(scarp::Mesh<scarp::Tri3>{}), scarp::InputError);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "bvp/sample_problems.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "support/approx.hpp"
 
 namespace {
 
@@ -35,7 +35,7 @@ struct Column {
     Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
     std::vector<scarp::VoigtStress<2>> const zero(points, scarp::VoigtStress<2>::Zero());
     std::vector<scarp::VoigtTangent<2>> const tangents(points, soil.tangent({}));
-    displacement = sample::solve_free(disc.stiffness(nothing, zero, tangents), constraints, weight);
+    displacement = samples::solve_free(disc.stiffness(nothing, zero, tangents), constraints, weight);
     std::vector<scarp::Gradient<2>> gradients(points);
     disc.gradients(displacement, gradients);
     for (auto const& gradient : gradients) {

@@ -6,12 +6,13 @@
 #include <limits>
 #include <optional>
 
-#include "approx.hpp"
 #include "bvp/stiffness_check.hpp"
-#include "factorisations.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "support/approx.hpp"
+#include "support/elements.hpp"
+#include "support/factorisations.hpp"
 
 namespace {
 
@@ -26,9 +27,6 @@ static_assert(scarp::Integration<scarp::BBar, scarp::Hex20> &&
               scarp::Integration<scarp::ReducedIntegration, scarp::Quad8>);
 static_assert(!scarp::Integration<scarp::ReducedIntegration, scarp::Tri3>, "one point is already the full rule");
 static_assert(!scarp::Integration<scarp::ReducedIntegration, scarp::Tri6>, "three points are the fewest that hold it");
-
-#define ALL_ELEMENTS \
-  scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
 
 /// Stiffness of an unloaded body of linear elastic material.
 template <class Discretisation>
@@ -84,18 +82,18 @@ constexpr int rigid_modes = Element::dim*(Element::dim + 1) / 2;
 template <class Element, class Motion, class Scheme>
 double distance_of_stiffness() {
   scarp::Discretisation<Element, Motion, Scheme> const disc(
-      sample::distorted_block<Element>(Element::dim == 2 ? 2 : 1));
+      samples::distorted_block<Element>(Element::dim == 2 ? 2 : 1));
   Eigen::VectorXd const increment =
-      sample::affine<Element::dim>(disc.mesh().nodes, sample::general_gradient<Element::dim>(0.3)) +
-      sample::random_increment(disc.dof_count(), 0.03, 9);
+      samples::affine<Element::dim>(disc.mesh().nodes, samples::general_gradient<Element::dim>(0.3)) +
+      samples::random_increment(disc.dof_count(), 0.03, 9);
   if constexpr (Motion::follows_motion) {
-    sample::NeoHookean<Element::dim> const solid;
-    return sample::stiffness_error(solid, disc, sample::fresh<decltype(solid)>(disc), increment);
+    samples::NeoHookean<Element::dim> const solid;
+    return samples::stiffness_error(solid, disc, samples::fresh<decltype(solid)>(disc), increment);
   } else {
     using Provider = scarp::LinearElastic<Element::dim>;
     auto const soil = Provider::from_lame(3e6, 2e6);
     Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
-    return sample::stiffness_error(soil, disc, sample::fresh<Provider>(disc), nothing);
+    return samples::stiffness_error(soil, disc, samples::fresh<Provider>(disc), nothing);
   }
 }
 
@@ -134,10 +132,11 @@ TEST_CASE_TEMPLATE("with mean dilatation an element has one volume change and ev
                    Element, scarp::Quad4, scarp::Hex8, scarp::Tri6) {
   constexpr int dim = Element::dim;
   using Tensor = scarp::Tensor<dim>;
-  scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::BBar> const disc(sample::distorted_block<Element>(2));
+  scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::BBar> const disc(
+      samples::distorted_block<Element>(2));
   constexpr auto per_element = static_cast<std::size_t>(disc.points_per_element);
-  Eigen::VectorXd const increment = sample::affine<dim>(disc.mesh().nodes, sample::general_gradient<dim>(0.2)) +
-                                    sample::random_increment(disc.dof_count(), 0.03, 12);
+  Eigen::VectorXd const increment = samples::affine<dim>(disc.mesh().nodes, samples::general_gradient<dim>(0.2)) +
+                                    samples::random_increment(disc.dof_count(), 0.03, 12);
   std::vector<scarp::Gradient<dim>> seen(static_cast<std::size_t>(disc.point_count()));
   CHECK_FALSE(disc.gradients(increment, seen).has_value());
   auto const before = disc.volumes(Eigen::VectorXd::Zero(disc.dof_count()));

@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -14,6 +13,7 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "bvp/sample_problems.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
+#include "support/approx.hpp"
 
 namespace {
 
@@ -34,7 +34,7 @@ TEST_CASE("body forces add up to the weight of each region") {
 TEST_CASE_TEMPLATE("body forces keep the moment of the weight on distorted meshes", Element, scarp::Tri3, scarp::Tri6,
                    scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20) {
   constexpr int dim = Element::dim;
-  scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(3));
+  scarp::Discretisation<Element> const disc(samples::distorted_block<Element>(3));
   scarp::Vector<dim> const gravity = -20e3 * scarp::Vector<dim>::Unit(dim - 1);
   auto const forces = scarp::body_force(disc, [&](int) { return gravity; });
   double lever = 0.0;
@@ -48,7 +48,7 @@ TEST_CASE_TEMPLATE("body forces keep the moment of the weight on distorted meshe
 }
 
 TEST_CASE("a force that varies within the elements has its resultant and its moment") {
-  scarp::Discretisation<scarp::Tri6> const disc(sample::distorted_block<scarp::Tri6>(3), 0.5);
+  scarp::Discretisation<scarp::Tri6> const disc(samples::distorted_block<scarp::Tri6>(3), 0.5);
   auto const forces = scarp::varying_body_force(
       disc, [](scarp::Vector<2> const& x) { return scarp::Vector<2>(0.0, x.x() * x.x() * x.y()); });
   double lever = 0.0;
@@ -62,7 +62,7 @@ TEST_CASE("a force that varies within the elements has its resultant and its mom
 TEST_CASE_TEMPLATE("a traction on a quadratic side does the work of its resultant", Element, scarp::Tri6, scarp::Quad8,
                    scarp::Tet10, scarp::Hex20) {
   constexpr int dim = Element::dim;
-  scarp::Discretisation<Element> const disc(sample::distorted_block<Element>(2));
+  scarp::Discretisation<Element> const disc(samples::distorted_block<Element>(2));
   auto const forces = scarp::traction(disc, "right", scarp::Vector<dim>::LinSpaced(1e3, -2e3));
   CHECK((sum<dim>(forces) - scarp::Vector<dim>::LinSpaced(1e3, -2e3)).norm() < 1e-9);  // analytic: side of 1 m2
   double lever = 0.0;
@@ -85,7 +85,7 @@ TEST_CASE("a traction adds up to its resultant and is shared by length") {
 }
 
 TEST_CASE("a pressure on the side of a block in space adds up to its area") {
-  scarp::Discretisation<scarp::Tet4> const disc(sample::distorted_block<scarp::Tet4>(2));
+  scarp::Discretisation<scarp::Tet4> const disc(samples::distorted_block<scarp::Tet4>(2));
   CHECK(sum<3>(scarp::traction(disc, "top", {0.0, 0.0, -3e3})).z() == samples::Approx(-3e3).epsilon(1e-13));
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("loads stay when the mesh moves") {
   auto const weight = [](int) { return scarp::Vector<2>(0.0, -1.0); };
   auto const before = scarp::body_force(disc, weight);
   auto const pressed_before = scarp::traction(disc, "top", {0.0, -1.0});
-  disc.commit(sample::random_increment(disc.dof_count(), 0.1, 2));
+  disc.commit(samples::random_increment(disc.dof_count(), 0.1, 2));
   CHECK(scarp::body_force(disc, weight) == before);
   CHECK(scarp::traction(disc, "top", {0.0, -1.0}) == pressed_before);
 }

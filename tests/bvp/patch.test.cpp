@@ -4,6 +4,7 @@
 #include "bvp/sample_problems.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "support/elements.hpp"
 
 namespace {
 
@@ -13,12 +14,12 @@ void check_patch(double size, int iterations) {
   constexpr int dim = Element::dim;
   using Provider = scarp::LinearElastic<dim>;
   scarp::Discretisation<Element, Motion, Scheme> const disc(
-      sample::distorted_block<Element>(Element::dim == 2 ? 3 : 2));
+      samples::distorted_block<Element>(Element::dim == 2 ? 3 : 2));
   auto const soil = Provider::from_lame(3e6, 2e6);
-  auto const gradient = sample::general_gradient<dim>(size);
-  Eigen::VectorXd const expected = sample::affine<dim>(disc.mesh().nodes, gradient);
+  auto const gradient = samples::general_gradient<dim>(size);
+  Eigen::VectorXd const expected = samples::affine<dim>(disc.mesh().nodes, gradient);
   scarp::Constraints constraints(disc.mesh());
-  for (int const node : sample::outline(disc.mesh())) {
+  for (int const node : samples::outline(disc.mesh())) {
     for (int axis = 0; axis < dim; ++axis) {
       constraints.move(node, axis, expected(dim * node + axis));
     }
@@ -35,7 +36,7 @@ void check_patch(double size, int iterations) {
   }
   Eigen::VectorXd force;
   for (int k = 0; k < iterations; ++k) {
-    auto points = sample::answers(soil, disc, start, increment);
+    auto points = samples::answers(soil, disc, start, increment);
     if constexpr (!Motion::follows_motion) {
       for (std::size_t p = 0; p < points.stresses.size(); ++p) {
         std::vector<scarp::Gradient<dim>> gradients(points.stresses.size());
@@ -44,7 +45,7 @@ void check_patch(double size, int iterations) {
       }
     }
     disc.internal_force(increment, points.stresses, force);
-    increment -= sample::solve_free(disc.stiffness(increment, points.stresses, points.tangents), constraints, force);
+    increment -= samples::solve_free(disc.stiffness(increment, points.stresses, points.tangents), constraints, force);
   }
   // Analytic: a uniform gradient is in equilibrium on any mesh (patch test). Round-off of the solve, condition below 100.
   CHECK((increment - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.cwiseAbs().maxCoeff() * 10.0);
@@ -52,13 +53,10 @@ void check_patch(double size, int iterations) {
   CHECK_FALSE(disc.gradients(increment, gradients).has_value());
   typename Provider::State trial;
   auto const uniform = soil.respond({}, Motion::template seen<dim>(gradient), trial).stress;
-  for (auto const& stress : sample::answers(soil, disc, start, increment).stresses) {
+  for (auto const& stress : samples::answers(soil, disc, start, increment).stresses) {
     CHECK((stress - uniform).norm() < 1e-12 * 7e6);  // the answer to the affine gradient, relative to the modulus
   }
 }
-
-#define ALL_ELEMENTS \
-  scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
 
 }  // namespace
 
@@ -80,12 +78,12 @@ TEST_CASE_TEMPLATE("a large homogeneous deformation is found inside a distorted 
 }
 
 TEST_CASE("a stretched patch carries the stress of its strain") {
-  scarp::Discretisation<scarp::Tri3> const disc(sample::distorted_block<scarp::Tri3>(3));
+  scarp::Discretisation<scarp::Tri3> const disc(samples::distorted_block<scarp::Tri3>(3));
   auto const soil = scarp::LinearElastic<2>::from_lame(3e6, 2e6);
   scarp::Gradient<2> gradient = scarp::Gradient<2>::Zero();
   gradient.diagonal() << 0.02, -0.01;
   std::vector<scarp::LinearElastic<2>::State> const start(static_cast<std::size_t>(disc.point_count()));
-  auto const points = sample::answers(soil, disc, start, sample::affine<2>(disc.mesh().nodes, gradient));
+  auto const points = samples::answers(soil, disc, start, samples::affine<2>(disc.mesh().nodes, gradient));
   // Analytic: E = 2 e / (2 + e) along each axis; sigma = lambda tr(E) + 2 G E.
   double const across = 0.04 / 2.02;
   double const up = -0.02 / 1.99;

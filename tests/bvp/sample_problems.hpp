@@ -16,7 +16,7 @@
 #include "scarp/solver/sparse_lu.hpp"
 
 /// Small distorted meshes for every element, and what the tests of the finite-element side do with them.
-namespace sample {
+namespace samples {
 
 /// Unit square or cube of `cells` cells along each axis, interior nodes moved at random.
 template <class Element>
@@ -133,4 +133,4 @@ inline Eigen::VectorXd solve_free(Eigen::SparseMatrix<double> const& matrix, sca
   return solution;
 }
 
-}  // namespace sample
+}  // namespace samples

@@ -7,7 +7,7 @@
 #include "bvp/sample_problems.hpp"
 
 /// Checks of a discretisation's stiffness against its own forces.
-namespace sample {
+namespace samples {
 
 /// Compressible neo-Hookean solid, whose stress is a closed function of the whole deformation from the mesh and whose
 /// tangent is exact at any increment: \f$ J\sigma = \mu (b - I) + \lambda \ln J\,I \f$, plane strain in 2D.
@@ -82,4 +82,4 @@ std::vector<typename Provider::State> fresh(Discretisation const& disc) {
   return std::vector<typename Provider::State>(static_cast<std::size_t>(disc.point_count()));
 }
 
-}  // namespace sample
+}  // namespace samples

@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

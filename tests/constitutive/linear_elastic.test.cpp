@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "approx.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 
 #include <Eigen/Geometry>
 
-#include "approx.hpp"
 #include "scarp/constitutive/softening_strength.hpp"
 #include "scarp/core/random.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -11,13 +11,13 @@
 #include "scarp/solver/thread_executor.hpp"
 #include "scarp/solver/wide_equations.hpp"
 #include "scarp/solver/work_balance.hpp"
-#include "solver/sample_block.hpp"
+#include "support/block.hpp"
 
 namespace {
 
 using Elastic = scarp::LinearElastic<2>;
-using Local = sample::Block<sample::Softening, scarp::UpdatedLagrangian>;
-using Materials = scarp::NonlocalMaterials<scarp::ProviderField<sample::Softening>>;
+using Local = samples::Block<samples::Softening, scarp::UpdatedLagrangian>;
+using Materials = scarp::NonlocalMaterials<scarp::ProviderField<samples::Softening>>;
 using Problem = scarp::EquilibriumProblem<Local::Grid, Materials, scarp::SerialExecutor>;
 
 static_assert(scarp::AveragesGradients<Materials>);
@@ -34,8 +34,8 @@ std::vector<double> volumes(Local::Grid const& grid) { return grid.volumes(Eigen
 
 /// The block of the solvers' tests with points that look around themselves.
 /// alone: every so many points is a local one; 0 for none
-Problem block(scarp::Neighbourhood const& neighbourhood, sample::Softening const& soil, scarp::SerialExecutor& executor,
-              std::size_t alone = 0) {
+Problem block(scarp::Neighbourhood const& neighbourhood, samples::Softening const& soil,
+              scarp::SerialExecutor& executor, std::size_t alone = 0) {
   auto const local = Local::make(soil, executor);
   auto const& grid = local.discretisation();
   std::vector<scarp::Neighbourhood> all(sites(grid).size(), neighbourhood);
@@ -89,7 +89,7 @@ TEST_CASE("means keep what is even, stay within a region, and are none for a poi
 
 TEST_CASE("a length of zero, or one that reaches no neighbour, gives the local answer bit for bit") {
   scarp::SerialExecutor executor;
-  sample::Softening const soil{.reference_strain = 0.02};
+  samples::Softening const soil{.reference_strain = 0.02};
   scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
   scarp::NoObserver nobody;
   auto local = Local::make(soil, executor);
@@ -111,7 +111,7 @@ TEST_CASE("a length of zero, or one that reaches no neighbour, gives the local a
 
 TEST_CASE("a field that was saved and loaded goes on with the same bits") {
   scarp::SerialExecutor executor;
-  sample::Softening const soil{.reference_strain = 0.02};
+  samples::Softening const soil{.reference_strain = 0.02};
   Problem first = block({.length = 0.6}, soil, executor);
   Eigen::VectorXd const moves = uneven(first.dof_count(), 0.01);
   first.plan(moves);
@@ -182,7 +182,7 @@ TEST_CASE("equations of a wide stiffness are solved as those of its matrix") {
 
 TEST_CASE("means and what is solved with them are the same bits on any number of threads") {
   auto const positions = [](auto& executor) {
-    sample::Softening const soil{.reference_strain = 0.02};
+    samples::Softening const soil{.reference_strain = 0.02};
     auto const local = Local::make(soil, serial());
     auto const& grid = local.discretisation();
     std::vector<scarp::Neighbourhood> const all(sites(grid).size(), scarp::Neighbourhood{.length = 0.5});
@@ -201,7 +201,7 @@ TEST_CASE("means and what is solved with them are the same bits on any number of
 
 TEST_CASE("the work of a problem with a length balances, the stress against unseen strain included") {
   scarp::SerialExecutor executor;
-  sample::Softening const soil{.reference_strain = 0.02};
+  samples::Softening const soil{.reference_strain = 0.02};
   auto const gap = [&](double largest) {
     auto problem = block({.length = 0.5, .fading = 1e-2}, soil, executor);
     scarp::WorkBalance work(problem, 0.0);

@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "homogenise/tangent_samples.hpp"
 #include "homogenise/yade_packing.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

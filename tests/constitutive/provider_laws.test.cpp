@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "constitutive/provider_laws.hpp"
 
-#include "dem/sample_packings.hpp"
 #include "scarp/constitutive/any_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/dormant.hpp"
@@ -12,6 +11,7 @@
 #include "scarp/constitutive/recorded.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
+#include "support/packings.hpp"
 
 namespace provider_laws {
 

@@ -6,11 +6,12 @@
 #include <set>
 #include <string>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/solver/thread_executor.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -121,14 +122,7 @@ TEST_CASE("a packing that does not settle is reported with its point") {
   auto hasty = recipe();
   hasty.preparation.consolidation.most_steps = 10;
   Source const source{hasty, 7};
-  auto const message_of = [](auto const& attempt) {
-    try {
-      attempt();
-    } catch (scarp::PreparationError const& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  auto const message_of = [](auto const& attempt) { return samples::message_of<scarp::PreparationError>(attempt); };
   std::string const alone = message_of([&] { source.at(point(41)); });
   CHECK(alone.find("of point 41") != std::string::npos);
   CHECK(alone.find("unreachable") != std::string::npos);

@@ -4,7 +4,6 @@
 
 #include "constitutive/nestings.hpp"
 #include "constitutive/provider_laws.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/constitutive/blank_state.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
@@ -19,6 +18,7 @@
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/io/state_bits.hpp"
 #include "scarp/solver/executor.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
@@ -12,6 +11,7 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

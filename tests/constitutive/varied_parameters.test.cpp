@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/correlated_field.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

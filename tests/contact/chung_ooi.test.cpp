@@ -7,11 +7,11 @@
 #include <numbers>
 #include <vector>
 
-#include "approx.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/core/tensor.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/shape/sphere.hpp"
+#include "support/approx.hpp"
 
 // The eight impacts of Chung and Ooi 2011, Granular Matter 13, 643-656. Geometry, speeds and materials of tests 1 to 4 are
 // theirs; those of tests 5 to 8 are ours, since the closed forms hold for any.

@@ -5,11 +5,11 @@
 #include <random>
 #include <vector>
 
-#include "approx.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/linear_frictional.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -6,18 +6,18 @@
 #include <limits>
 #include <random>
 
-#include "approx.hpp"
 #include "contact/every_law.hpp"
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/core/pack.hpp"
+#include "support/approx.hpp"
 
 namespace {
 
+using samples::bond_if_possible;
+using samples::Sample;
 using scarp::Approach;
 using scarp::ContactForce;
 using scarp::ContactMemory;
-using test_support::bond_if_possible;
-using test_support::Sample;
 
 /// Jumps across contact and gap, the same ones in every run.
 struct RandomApproaches {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/linear_frictional.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

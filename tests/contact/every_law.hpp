@@ -16,7 +16,7 @@
       scarp::CohesiveBond<scarp::LinearFrictional>,                                                                  \
       scarp::RollingResistance<scarp::CohesiveBond<scarp::LinearFrictional>>
 
-namespace test_support {
+namespace samples {
 
 using scarp::CohesiveBond;
 using scarp::Frictionless;
@@ -65,4 +65,4 @@ void bond_if_possible(scarp::ContactMemory<Dim, T>& memory) {
   }
 }
 
-}  // namespace test_support
+}  // namespace samples

@@ -7,7 +7,7 @@
 
 #include "scarp/contact/hertz_mindlin.hpp"
 
-#include "approx.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

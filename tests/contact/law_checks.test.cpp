@@ -90,5 +90,5 @@ TEST_CASE("a law with a dashpot must tell its damping ratio, which shortens the 
 }
 
 TEST_CASE_TEMPLATE("every law of the library is consistent", Law, EVERY_CONTACT_LAW) {
-  CHECK_NOTHROW(scarp::require_consistent(test_support::Sample<Law>::law(), 1.0));
+  CHECK_NOTHROW(scarp::require_consistent(samples::Sample<Law>::law(), 1.0));
 }

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "approx.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "approx.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "approx.hpp"
+#include "support/approx.hpp"
 
 TEST_CASE("the stiffest mode of a chain of springs between walls is found to the tolerance asked for") {
   constexpr std::size_t masses = 50;

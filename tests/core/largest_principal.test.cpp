@@ -5,8 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "approx.hpp"
 #include "scarp/core/random.hpp"
+#include "support/approx.hpp"
 
 TEST_CASE_TEMPLATE("the largest principal value is that of the eigenvalues, in any axes", Dimension,
                    std::integral_constant<int, 2>, std::integral_constant<int, 3>) {

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
+#include "support/approx.hpp"
 
 using scarp::Gradient;
 using scarp::logarithm_of_increment;

@@ -5,8 +5,8 @@
 
 #include <limits>
 
-#include "approx.hpp"
 #include "scarp/core/random.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

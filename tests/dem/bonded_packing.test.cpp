@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/servo.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/dem/stability_limit.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/dem/halved_path.hpp"
 #include "scarp/dem/loading_paths.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/dem/time_stepping.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

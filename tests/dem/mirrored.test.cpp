@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/sphere_grading.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <tuple>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-#include "dem/sample_packings.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

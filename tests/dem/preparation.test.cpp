@@ -5,10 +5,10 @@
 
 #include <limits>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -3,12 +3,12 @@
 
 #include <numbers>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/shape/clump_templates.hpp"
 #include "scarp/shape/least_overlap.hpp"
+#include "support/packings.hpp"
 
-#include "approx.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

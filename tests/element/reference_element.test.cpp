@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "approx.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/map.hpp"
 #include "scarp/element/tet10.hpp"
+#include "support/approx.hpp"
+#include "support/elements.hpp"
 
 namespace {
 
@@ -198,9 +199,6 @@ auto surface_integral(scarp::Corners<Element, Element::dim> const& nodes, Of con
   }
   return total;
 }
-
-#define ALL_ELEMENTS \
-  scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
 
 }  // namespace
 

@@ -5,7 +5,6 @@
 
 #include <limits>
 
-#include "approx.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
@@ -13,6 +12,7 @@
 #include "scarp/fault/reverse_fault.hpp"
 #include "scarp/fault/shared_slip.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

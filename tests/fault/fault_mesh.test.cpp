@@ -8,11 +8,12 @@
 #include <map>
 #include <set>
 
-#include "approx.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
+#include "support/approx.hpp"
+#include "support/elements.hpp"
 
 namespace {
 
@@ -81,9 +82,6 @@ double off(scarp::Mesh<Element> const& mesh, char const* name, int axis, double 
   }
   return most;
 }
-
-#define ALL_ELEMENTS \
-  scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
 
 }  // namespace
 

@@ -2,11 +2,11 @@
 // Footings on a mesh of quadratic elements, whose facets have nodes in their middles.
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/sticking_footing.hpp"
 #include "scarp/solver/consistent_tangent.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

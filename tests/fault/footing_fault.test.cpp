@@ -3,13 +3,13 @@
 
 #include <numbers>
 
-#include "approx.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/sticking_footing.hpp"
 #include "scarp/solver/consistent_tangent.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -5,8 +5,6 @@
 
 #include <regex>
 
-#include "approx.hpp"
-#include "io/scratch_folder.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
@@ -16,26 +14,31 @@
 #include "scarp/observe/surface_log.hpp"
 #include "scarp/run/time_limit.hpp"
 #include "scarp/solver/thread_executor.hpp"
-#include "scene/sample_ground.hpp"
+#include "support/approx.hpp"
+#include "support/files.hpp"
+#include "support/ground.hpp"
 
 namespace {
+
+using samples::content;
+using samples::ScratchFolder;
 
 using scarp::Verdict;
 
 static_assert(std::is_empty_v<scarp::StressFree<2>> && std::is_empty_v<scarp::NoObserver>);
-static_assert(sizeof(sample::ElasticSoil::State) == sizeof(scarp::VoigtStress<2>), "elastic points carry stress only");
+static_assert(sizeof(samples::ElasticSoil::State) == sizeof(scarp::VoigtStress<2>), "elastic points carry stress only");
 
 /// All that evolves in a run.
 struct Outcome {
   scarp::RunReport report;
   std::vector<scarp::Vector<2>> positions;
   std::vector<scarp::VoigtStress<2>> stresses;
-  std::vector<sample::Grains> packings;
+  std::vector<samples::Grains> packings;
 };
 
 template <class Executor, class Observer>
 Outcome run_sand(Executor& executor, Observer& observer) {
-  auto const& scene = sample::sandy_ground();
+  auto const& scene = samples::sandy_ground();
   auto problem = scene.problem(executor);
   REQUIRE(scene.settle(problem, observer).verdict == Verdict{});
   Outcome outcome{
@@ -96,7 +99,7 @@ struct FilesAreWhole : scarp::NeverStops {
 }  // namespace
 
 TEST_CASE("elastic ground starts in balance with the given stress ratio and the overburden") {
-  auto const scene = sample::elastic_ground();
+  auto const scene = samples::elastic_ground();
   scarp::SerialExecutor serial;
   auto problem = scene.problem(serial);
   // Analytic: stress linear in depth balances weight and surcharge, and one point per triangle integrates it exactly.
@@ -110,13 +113,13 @@ TEST_CASE("elastic ground starts in balance with the given stress ratio and the 
     double const depth = problem.discretisation().site(point, scene.ground.layer.depth).depth;
     double const overburden = scene.surcharge + scene.unit_weight * depth;
     CHECK(stress(1) == samples::Approx(-overburden).epsilon(1e-12));  // round-off of the settling solve
-    CHECK(stress(0) == samples::Approx(-sample::k0 * overburden).epsilon(1e-12));
+    CHECK(stress(0) == samples::Approx(-samples::k0 * overburden).epsilon(1e-12));
     CHECK(std::abs(stress(2)) < 1e-12 * overburden);
   }
 }
 
 TEST_CASE("the fault moves the hanging wall by the throw and leaves the foot wall") {
-  auto const scene = sample::elastic_ground();
+  auto const scene = samples::elastic_ground();
   scarp::SerialExecutor serial;
   auto problem = scene.problem(serial);
   scarp::NoObserver nobody;
@@ -142,7 +145,7 @@ TEST_CASE("the fault moves the hanging wall by the throw and leaves the foot wal
 TEST_CASE("parts of a scene that make no sense are refused") {
   scarp::SerialExecutor serial;
   auto const refused = [&](auto const& change) {
-    auto scene = sample::elastic_ground();
+    auto scene = samples::elastic_ground();
     change(scene);
     CHECK_THROWS_AS(scene.problem(serial), scarp::InputError);
   };
@@ -154,7 +157,7 @@ TEST_CASE("parts of a scene that make no sense are refused") {
   refused([](auto& scene) { scene.ground.layer.size = 0.0; });
   // What the soil was prepared for and what the scene weighs.
   auto const soil_of = [](double surcharge, double unit_weight) {
-    return sample::ElasticSoil::from_young_poisson(20e6, 0.3, {surcharge, unit_weight, sample::k0});
+    return samples::ElasticSoil::from_young_poisson(20e6, 0.3, {surcharge, unit_weight, samples::k0});
   };
   refused([&](auto& scene) { scene.soil = soil_of(scene.surcharge, 0.98 * scene.unit_weight); });
   refused([&](auto& scene) { scene.soil = soil_of(0.0, scene.unit_weight); });
@@ -164,7 +167,7 @@ TEST_CASE("parts of a scene that make no sense are refused") {
 TEST_CASE("ground of packings ruptures to the asked throw") {
   auto const& outcome = serial_sand();
   CHECK(outcome.report.verdict == Verdict{});
-  CHECK(outcome.report.load == sample::sandy_ground().throw_to);
+  CHECK(outcome.report.load == samples::sandy_ground().throw_to);
   CHECK(outcome.report.iterations > outcome.report.steps);  // so that the comparisons below cover iterations
   MESSAGE(outcome.report.steps << " steps, " << outcome.report.iterations << " iterations, "
                                << outcome.report.inner_steps << " DEM steps");
@@ -181,7 +184,7 @@ TEST_CASE("any number of threads gives the same bits") {
 TEST_CASE("being observed changes no bit and leaves only whole files") {
   ScratchFolder const folder;
   std::filesystem::create_directory(folder / "fields");
-  auto const& scene = sample::sandy_ground();
+  auto const& scene = samples::sandy_ground();
   scarp::SerialExecutor serial;
   double const unit = scene.ground.layer.depth;
   int files = 0;
@@ -198,7 +201,7 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
 }
 
 TEST_CASE("an element with one packing is that packing driven by the same gradient") {
-  auto const& scene = sample::sandy_ground();
+  auto const& scene = samples::sandy_ground();
   scarp::Mesh<scarp::Tri3> mesh;
   mesh.nodes = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
   mesh.elements = {{0, 1, 2}};
@@ -223,7 +226,7 @@ TEST_CASE("an element with one packing is that packing driven by the same gradie
     REQUIRE(problem.plan(increment).acceptable());
     auto const evaluation = problem.evaluate(increment);
     if (step == 0) CHECK(problem.gradients()[0] == gradient);
-    sample::Sand::State trial;
+    samples::Sand::State trial;
     auto const plan = scene.soil.plan(alone, problem.gradients()[0]);
     auto const answer = scene.soil.respond(alone, problem.gradients()[0], trial, plan);
     CHECK(evaluation.inner_steps == plan);

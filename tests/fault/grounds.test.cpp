@@ -2,7 +2,6 @@
 // The fault scene on every element and pattern of a layer.
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/quad8.hpp"
@@ -11,6 +10,7 @@
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/reverse_fault.hpp"
 #include "scarp/solver/consistent_tangent.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

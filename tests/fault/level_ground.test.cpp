@@ -5,10 +5,10 @@
 
 #include <limits>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/dem/ellipse_grading.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 using Grains = samples::Ellipses;
 

@@ -2,7 +2,6 @@
 // The scene in sand, seen in a mirror with its packings.
 #include <doctest/doctest.h>
 
-#include "dem/sample_packings.hpp"
 #include "fault/mirror.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
@@ -10,6 +9,7 @@
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -2,11 +2,11 @@
 // A ground, a motion of the bedrock and a structure of one's own: what follows stands in this file alone.
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/fault_scene.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <set>
 
-#include "approx.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/layered_ground.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -5,11 +5,11 @@
 
 #include <limits>
 
-#include "approx.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/fault/normal_fault.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/shape/sphere.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

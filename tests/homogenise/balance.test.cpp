@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

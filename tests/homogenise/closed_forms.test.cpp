@@ -8,8 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/sphere_grading.hpp"
 #include "scarp/homogenise/balance.hpp"
@@ -18,6 +16,8 @@
 #include "scarp/homogenise/coordination.hpp"
 #include "scarp/homogenise/non_affine.hpp"
 #include "scarp/shape/sphere.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -3,12 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "homogenise/tangent_samples.hpp"
 #include "homogenise/yade_packing.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/homogenise/sliding_aware_tangent.hpp"
 #include "scarp/shape/sphere.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

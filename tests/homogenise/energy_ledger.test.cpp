@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/sphere_grading.hpp"
 #include "scarp/shape/sphere.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 TEST_CASE("moving grains carry a pressure of mass times velocity squared over the content") {
   scarp::Tensor<2> cell;

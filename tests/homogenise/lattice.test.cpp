@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
-#include "dem/sample_packings.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/coordination.hpp"
 #include "scarp/homogenise/fabric.hpp"
+#include "support/approx.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <map>
 
-#include "dem/sample_packings.hpp"
+#include "support/packings.hpp"
 
 namespace samples {
 

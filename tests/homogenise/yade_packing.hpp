@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "dem/sample_packings.hpp"
+#include "support/packings.hpp"
 
 namespace samples {
 

@@ -4,7 +4,11 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
-#include "io/scratch_folder.hpp"
+#include "support/files.hpp"
+#include "support/refusals.hpp"
+
+using samples::content;
+using samples::ScratchFolder;
 
 TEST_CASE("a file is written as a whole and leaves nothing beside it") {
   ScratchFolder const folder;
@@ -28,14 +32,8 @@ TEST_CASE("files that are being written have names of their own, for each proces
 TEST_CASE("a missing folder is named in the complaint") {
   ScratchFolder const folder;
   auto const path = folder / "missing/a.txt";
-  std::string complaint;
-  try {
-    scarp::write_file(path, "text");
-  } catch (scarp::FileError const& error) {
-    complaint = error.what();
-  }
-  CHECK(complaint == "cannot write '" + path.string() + "' (there is no folder '" + path.parent_path().string() +
-                         "'): create it first");
+  CHECK(samples::message_of<scarp::FileError>([&] { scarp::write_file(path, "text"); }) ==
+        samples::Naming{path.string(), "no folder '" + path.parent_path().string() + "'"});
 }
 
 TEST_CASE("the old file stays as it was when the new one cannot take its place") {

@@ -10,11 +10,14 @@
 #include <limits>
 #include <sstream>
 
-#include "io/scratch_folder.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "support/files.hpp"
 
 namespace {
+
+using samples::content;
+using samples::ScratchFolder;
 
 std::vector<std::string> lines_of(std::string const& text) {
   std::vector<std::string> lines;

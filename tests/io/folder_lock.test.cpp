@@ -4,8 +4,10 @@
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
-#include "scratch_folder.hpp"
+#include "support/files.hpp"
 
+using samples::content;
+using samples::ScratchFolder;
 using scarp::FolderError;
 using scarp::FolderLock;
 

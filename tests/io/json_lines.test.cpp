@@ -6,8 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "io/scratch_folder.hpp"
 #include "scarp/io/read_file.hpp"
+#include "support/files.hpp"
+
+using samples::ScratchFolder;
 
 TEST_CASE("text comes back from JSON as it went there, and what follows it stays") {
   std::string all;

@@ -3,9 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include "io/scratch_folder.hpp"
 #include "scarp/element/tet4.hpp"
 #include "scarp/element/tri3.hpp"
+#include "support/files.hpp"
+
+using samples::content;
+using samples::ScratchFolder;
 
 TEST_CASE("a mesh becomes three tables with names of regions and boundaries") {
   ScratchFolder const folder;

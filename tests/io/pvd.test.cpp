@@ -5,9 +5,12 @@
 
 #include <limits>
 
-#include "io/scratch_folder.hpp"
+#include "support/files.hpp"
 
 namespace {
+
+using samples::content;
+using samples::ScratchFolder;
 
 bool complete(std::string const& text) { return text.ends_with("</Collection>\n</VTKFile>\n"); }
 

@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include "dem/sample_packings.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

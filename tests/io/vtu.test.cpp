@@ -3,11 +3,17 @@
 
 #include <doctest/doctest.h>
 
-#include "io/scratch_folder.hpp"
 #include "scarp/element/tet4.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
+#include "support/files.hpp"
+#include "support/refusals.hpp"
 
 namespace {
+
+using samples::contains;
+using samples::content;
+using samples::Naming;
+using samples::ScratchFolder;
 
 std::string encoded(std::string_view text) { return scarp::base64(std::as_bytes(std::span(text))); }
 
@@ -58,8 +64,6 @@ Array<Number> read(std::string const& file, std::string const& name) {
   return array;
 }
 
-bool says(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("base64 gives the texts of its standard") {
@@ -83,8 +87,8 @@ TEST_CASE("a mesh comes back from its file with every bit") {
   positions[2] += scarp::Vector<2>(0.1, -0.2);
   scarp::write_vtu(folder / "m.vtu", mesh, positions);
   auto const file = content(folder / "m.vtu");
-  CHECK(says(file, "NumberOfPoints=\"" + std::to_string(mesh.nodes.size()) + "\" NumberOfCells=\"24\""));
-  CHECK(says(file, "header_type=\"UInt64\""));
+  CHECK(file == Naming{"NumberOfPoints=\"" + std::to_string(mesh.nodes.size()) + "\" NumberOfCells=\"24\""});
+  CHECK(file == Naming{"header_type=\"UInt64\""});
   auto const points = read<double>(file, "Points").values;
   REQUIRE(points.size() == 3 * positions.size());
   for (std::size_t n = 0; n < positions.size(); ++n) {
@@ -123,20 +127,20 @@ TEST_CASE("vectors and tensors are filled up to three dimensions, other fields a
                                     {"status", 1, std::span<int const>(status)}}});
   auto const file = content(folder / "f.vtu");
   auto const moves = read<double>(file, "displacement [m]");
-  CHECK(says(moves.tag, "NumberOfComponents=\"3\""));
+  CHECK(moves.tag == Naming{"NumberOfComponents=\"3\""});
   CHECK(std::vector<double>(moves.values.begin() + 3, moves.values.begin() + 6) ==
         std::vector<double>{displacement[2], displacement[3], 0.0});
   auto const tensors = read<double>(file, "gradient");
-  CHECK(says(tensors.tag, "NumberOfComponents=\"9\""));
+  CHECK(tensors.tag == Naming{"NumberOfComponents=\"9\""});
   CHECK(std::vector<double>(tensors.values.begin(), tensors.values.begin() + 9) ==
         std::vector<double>{gradient[0], gradient[1], 0.0, gradient[2], gradient[3], 0.0, 0.0, 0.0, 0.0});
   auto const stresses = read<double>(file, "stress &lt;Pa&gt;");
-  CHECK(says(stresses.tag, "NumberOfComponents=\"3\" ComponentName0=\"xx\" ComponentName1=\"yy\""));
+  CHECK(stresses.tag == Naming{"NumberOfComponents=\"3\" ComponentName0=\"xx\" ComponentName1=\"yy\""});
   CHECK(stresses.values == stress);
   CHECK(read<std::int32_t>(file, "status").values == status);
   auto const cell_data = file.substr(file.find("<CellData>"));
-  CHECK(says(cell_data, "Name=\"status\""));
-  CHECK_FALSE(says(cell_data, "displacement"));
+  CHECK(cell_data == Naming{"Name=\"status\""});
+  CHECK_FALSE(contains(cell_data, "displacement"));
 }
 
 TEST_CASE("a mesh in space keeps its three coordinates") {

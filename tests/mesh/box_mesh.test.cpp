@@ -7,15 +7,13 @@
 #include <limits>
 #include <numbers>
 
-#include "approx.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
+#include "support/approx.hpp"
+#include "support/elements.hpp"
 
 namespace {
-
-#define ALL_ELEMENTS \
-  scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
 
 template <int Dim>
 scarp::Vector<Dim> lengths() {

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
+#include "support/approx.hpp"
 
 TEST_CASE("an even spacing gives even lines") {
   auto const lines = scarp::graded_lines(scarp::Spacing({{0.0, 0.5}, {2.0, 0.5}}), {0.0, 2.0});

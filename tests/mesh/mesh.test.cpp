@@ -6,8 +6,11 @@
 #include <limits>
 
 #include "scarp/element/tri3.hpp"
+#include "support/refusals.hpp"
 
 namespace {
+
+using samples::Naming;
 
 using Mesh = scarp::Mesh<scarp::Tri3>;
 
@@ -24,45 +27,38 @@ Mesh square() {
 }
 
 std::string complaint(Mesh const& mesh) {
-  try {
-    scarp::validate(mesh);
-  } catch (scarp::InputError const& error) {
-    return error.what();
-  }
-  return "";
+  return samples::message_of([&] { scarp::validate(mesh); });
 }
-
-bool says(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
 TEST_CASE("a sound mesh is accepted") { CHECK(complaint(square()) == ""); }
 
-TEST_CASE("an empty mesh is refused") { CHECK(says(complaint(Mesh{}), "empty")); }
+TEST_CASE("an empty mesh is refused") { CHECK(complaint(Mesh{}) == Naming{"empty"}); }
 
 TEST_CASE("an element that names a node beyond the last is refused with its number") {
   auto mesh = square();
   mesh.elements[1][2] = 4;
-  CHECK(says(complaint(mesh), "element 1 names node 4"));
+  CHECK(complaint(mesh) == Naming{"element 1 names node 4"});
   mesh.elements[1][2] = -1;
-  CHECK(says(complaint(mesh), "element 1 names node -1"));
+  CHECK(complaint(mesh) == Naming{"element 1 names node -1"});
 }
 
 TEST_CASE("a node that is not at a finite place is refused with its number") {
   auto mesh = square();
   mesh.nodes[2].x() = std::numeric_limits<double>::infinity();
-  CHECK(says(complaint(mesh), "node 2 is at (inf"));
+  CHECK(complaint(mesh) == Naming{"node 2 is at (inf"});
 }
 
 TEST_CASE("elements that are turned over, flat or flat up to round-off are refused with their number") {
   auto mesh = square();
   std::swap(mesh.elements[1][0], mesh.elements[1][1]);
-  CHECK(says(complaint(mesh), "element 1 (nodes 2, 0, 3) has the Jacobian -1"));
+  CHECK(complaint(mesh) == Naming{"element 1 (nodes 2, 0, 3) has the Jacobian -1"});
   mesh = square();
   mesh.nodes[3] = {0.5, 0.5};
-  CHECK(says(complaint(mesh), "element 1"));
+  CHECK(complaint(mesh) == Naming{"element 1"});
   mesh.nodes[3] = {0.5, 0.5 + 1e-13};
-  CHECK(says(complaint(mesh), "element 1"));
+  CHECK(complaint(mesh) == Naming{"element 1"});
 }
 
 TEST_CASE("what counts as flat goes with the size of the element") {
@@ -71,28 +67,28 @@ TEST_CASE("what counts as flat goes with the size of the element") {
     for (auto& node : mesh.nodes) node *= size;
     CHECK(complaint(mesh) == "");
     mesh.nodes[3] = size * scarp::Vector<2>(0.5, 0.5 + 1e-13);
-    CHECK(says(complaint(mesh), "element 1"));
+    CHECK(complaint(mesh) == Naming{"element 1"});
   }
 }
 
 TEST_CASE("a node that no element uses is refused") {
   auto mesh = square();
   mesh.nodes.emplace_back(7.0, 7.0);
-  CHECK(says(complaint(mesh), "node 4 at (7, 7) belongs to no element"));
+  CHECK(complaint(mesh) == Naming{"node 4 at (7, 7) belongs to no element"});
 }
 
 TEST_CASE("region numbers without a name and missing region numbers are refused") {
   auto mesh = square();
   mesh.element_region[0] = 2;
-  CHECK(says(complaint(mesh), "element 0 has the region number 2 (the mesh names 2 regions: sand, clay)"));
+  CHECK(complaint(mesh) == Naming{"element 0 has the region number 2 (the mesh names 2 regions: sand, clay)"});
   mesh.element_region = {0};
-  CHECK(says(complaint(mesh), "2 elements but 1 region numbers"));
+  CHECK(complaint(mesh) == Naming{"2 elements but 1 region numbers"});
 }
 
 TEST_CASE("a boundary facet that is no element's side is refused") {
   auto mesh = square();
   mesh.boundaries["bottom"] = {{1, 3}};
-  CHECK(says(complaint(mesh), "boundary 'bottom' holds the facet (1, 3)"));
+  CHECK(complaint(mesh) == Naming{"boundary 'bottom' holds the facet (1, 3)"});
 }
 
 TEST_CASE("boundary nodes come sorted and once each") {

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "support/elements.hpp"
+
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
@@ -11,9 +13,6 @@
 #include "scarp/mesh/joined_meshes.hpp"
 
 namespace {
-
-#define ALL_ELEMENTS \
-  scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
 
 /// A unit box of so many cells along each axis, moved along the first.
 template <class Element>

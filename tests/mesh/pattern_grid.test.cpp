@@ -3,12 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/tet4.hpp"
 #include "scarp/element/tri6.hpp"
 #include "scarp/mesh/jittered_grid.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

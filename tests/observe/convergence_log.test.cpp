@@ -5,16 +5,14 @@
 
 #include <limits>
 
-#include "io/scratch_folder.hpp"
+#include "support/files.hpp"
 
 namespace {
 
-struct NoProblem {};
+using samples::content;
+using samples::ScratchFolder;
 
-std::string text_of(std::filesystem::path const& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+struct NoProblem {};
 
 /// Two iterations whose second one is accepted.
 scarp::StepReport two_iterations() {
@@ -74,8 +72,8 @@ TEST_CASE("every iteration and every attempt is a line of JSON beside the table"
       R"("largest_gradient":0.01,"condition":1000000,"dem_steps":64,"seconds":4,"seconds_in_points":1.5,)"
       R"("share_outside_points":0.625})"
       "\n";
-  CHECK(text_of(folder / "convergence.jsonl") == lines);
-  std::string const table = text_of(folder / "convergence.csv");
+  CHECK(content(folder / "convergence.jsonl") == lines);
+  std::string const table = content(folder / "convergence.csv");
   CHECK(std::count(table.begin(), table.end(), '\n') == 4);  // header and three iterations
   CHECK(table.find(",dem_steps,seconds,seconds_in_points\n") != std::string::npos);
   CHECK(table.find(",64,2,1.5\n") != std::string::npos);  // in the words of the lines
@@ -100,6 +98,6 @@ TEST_CASE("a step of a problem with parts tells the residual of each") {
   auto report = two_iterations();
   report.parts = {{"all", 0.125}, {"a \"light\" footing", 0.0625}};
   log.attempted(NoProblem{}, report);
-  CHECK(text_of(folder / "convergence.jsonl").find(R"("residuals":{"all":0.125,"a \"light\" footing":0.0625})") !=
+  CHECK(content(folder / "convergence.jsonl").find(R"("residuals":{"all":0.125,"a \"light\" footing":0.0625})") !=
         std::string::npos);
 }

@@ -5,12 +5,12 @@
 
 #include <numbers>
 
-#include "approx.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/observe/rupture_survey.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -3,8 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include "dem/sample_packings.hpp"
-#include "io/scratch_folder.hpp"
 #include "scarp/constitutive/any_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -13,8 +11,12 @@
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/state_bits.hpp"
 #include "scarp/solver/thread_executor.hpp"
+#include "support/files.hpp"
+#include "support/packings.hpp"
 
 namespace {
+
+using samples::ScratchFolder;
 
 using Rve = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>;
 using Any = scarp::AnyProvider<2>;

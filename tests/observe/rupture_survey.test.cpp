@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "approx.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
-#include "scene/sample_ground.hpp"
+#include "support/approx.hpp"
+#include "support/ground.hpp"
 
 namespace {
 
@@ -23,9 +23,9 @@ struct Run {
 
 /// forgotten: part of the weight that the ground was not prepared for, so that it settles before the fault moves
 Run run(double forgotten) {
-  auto scene = sample::elastic_ground();
-  scene.soil = sample::ElasticSoil::from_young_poisson(
-      20e6, 0.3, {scene.surcharge, (1.0 - forgotten) * scene.unit_weight, sample::k0});
+  auto scene = samples::elastic_ground();
+  scene.soil = samples::ElasticSoil::from_young_poisson(
+      20e6, 0.3, {scene.surcharge, (1.0 - forgotten) * scene.unit_weight, samples::k0});
   scene.throw_to = 0.02;
   scarp::SerialExecutor serial;
   scarp::NoObserver nobody;

@@ -3,13 +3,16 @@
 
 #include <doctest/doctest.h>
 
-#include "io/scratch_folder.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "support/files.hpp"
 
 namespace {
+
+using samples::content;
+using samples::ScratchFolder;
 
 /// As much of a problem as the log looks at; it sinks by hand.
 struct Ground {

@@ -3,13 +3,13 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -8,10 +8,10 @@
 #include <set>
 #include <tuple>
 
-#include "approx.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/time_stepping.hpp"
+#include "support/approx.hpp"
 
 /// The list of near pairs and the forces that follow from it against every pair with every image.
 namespace neighbours {

@@ -141,7 +141,7 @@ class SpecimenOf final : public Specimen<P::Shape::dim> {
   void bond() override {
     REQUIRE(stepper_.refresh(packing_, law_).acceptable());
     scarp::ContactMemory<dim, double> memory;
-    test_support::bond_if_possible<Law>(memory);
+    samples::bond_if_possible<Law>(memory);
     auto row = packing_.pairs.scalars.row(0);
     std::copy_n(memory.scalars.begin(), row.size(), row.begin());
     for (std::size_t p = 0; p < packing_.pairs.count(); ++p) packing_.pairs.scalars.set_row(p, row);
@@ -157,7 +157,7 @@ class SpecimenOf final : public Specimen<P::Shape::dim> {
   bool turns_grains() const override { return Shape::orientation_count > 0 || Law::needs.shear || Law::needs.moment; }
 
  private:
-  Law law_ = test_support::Sample<Law>::law();
+  Law law_ = samples::Sample<Law>::law();
   scarp::TimeStepper<scarp::Packing<Shape, Law>> stepper_;
   scarp::Packing<Shape, Law> packing_;
 };

@@ -15,7 +15,7 @@
 #include "scarp/scene/nonlocal_scene.hpp"
 #include "scarp/solver/rank_executor.hpp"
 #include "scarp/solver/thread_executor.hpp"
-#include "scene/sample_ground.hpp"
+#include "support/ground.hpp"
 
 namespace {
 
@@ -87,11 +87,11 @@ int main(int argc, char** argv) {
   if (argc > 3)
     files = {{.folder = argv[3], .resume = true, .every_attempts = 1}, fmt::format("length = {}\n", length)};
   int const attempts = argc > 4 ? std::atoi(argv[4]) : 1000;
-  auto const& ground = sample::sandy_ground();
+  auto const& ground = samples::sandy_ground();
   if (length == 0.0) {
     rupture(ground, threads, files, attempts);
   } else {
-    scarp::FreeFieldFault<scarp::Nonlocal<sample::Sand>> scene;
+    scarp::FreeFieldFault<scarp::Nonlocal<samples::Sand>> scene;
     scene.soil = {.provider = ground.soil, .length = length};
     scene.ground = ground.ground;
     scene.throw_to = ground.throw_to;

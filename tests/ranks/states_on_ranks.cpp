@@ -8,11 +8,11 @@
 
 #include <functional>
 
-#include "dem/sample_packings.hpp"
 #include "runs/watched_block.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/solver/rank_executor.hpp"
+#include "support/packings.hpp"
 
 namespace {
 

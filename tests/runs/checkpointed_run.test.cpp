@@ -7,19 +7,24 @@
 #include <optional>
 #include <set>
 
-#include "io/scratch_folder.hpp"
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/constitutive/dormant.hpp"
 #include "scarp/constitutive/recorded.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/observers.hpp"
-#include "solver/sample_block.hpp"
+#include "support/block.hpp"
+#include "support/files.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
+using samples::contains;
+using samples::content;
+using samples::ScratchFolder;
+
 using scarp::CheckpointError;
-using Block = sample::Block<sample::Softening>;
+using Block = samples::Block<samples::Softening>;
 
 constexpr char const* scene = "size = 1\nseed = 7\n";
 
@@ -78,7 +83,7 @@ struct Notes {
 
 struct Outcome {
   scarp::RunReport report;
-  std::optional<sample::Committed<Block::Problem>> state;
+  std::optional<samples::Committed<Block::Problem>> state;
   Notes notes;
   std::string log;
   std::vector<double> budget;
@@ -142,15 +147,8 @@ void check_same(Outcome const& outcome, Outcome const& expected) {
 }
 
 std::string complaint_about(ScratchFolder const& folder, std::string text = scene) {
-  try {
-    static_cast<void>(resumed(folder, std::move(text)));
-  } catch (CheckpointError const& error) {
-    return error.what();
-  }
-  return "nothing";
+  return samples::message_of<CheckpointError>([&] { static_cast<void>(resumed(folder, std::move(text))); });
 }
-
-bool contains(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

@@ -5,9 +5,14 @@
 
 #include <map>
 
-#include "io/scratch_folder.hpp"
+#include "support/files.hpp"
+#include "support/refusals.hpp"
 
 namespace {
+
+using samples::contains;
+using samples::content;
+using samples::ScratchFolder;
 
 using scarp::CheckpointFiles;
 using scarp::FolderError;
@@ -48,17 +53,10 @@ std::map<std::string, std::string> everything(ScratchFolder const& folder) {
 template <class Action>
 std::string refusal(ScratchFolder const& folder, Action const& action) {
   auto const before = everything(folder);
-  std::string said = "nothing";
-  try {
-    action();
-  } catch (FolderError const& problem) {
-    said = problem.what();
-  }
+  std::string const said = samples::message_of<FolderError>(action);
   CHECK(everything(folder) == before);
   return said;
 }
-
-bool contains(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

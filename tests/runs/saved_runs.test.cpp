@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
-#include "io/scratch_folder.hpp"
 #include "runs/watched_block.hpp"
+#include "support/files.hpp"
+
+using samples::ScratchFolder;
 
 TEST_CASE(
     "what is saved comes back from checkpoints: every adaptor around every adaptor, and all that observers remember") {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,6 +22,7 @@
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "support/files.hpp"
 
 /// A block whose top is pulled until it is fluid, seen by all observers that remember something, on one process or several.
 namespace watched {
@@ -79,8 +78,7 @@ struct Outcome {
 };
 
 inline std::string without_times(std::filesystem::path const& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
+  std::string const text = samples::content(file);
   if (file.extension() == ".jsonl") return std::to_string(std::count(text.begin(), text.end(), '\n')) + " lines";
   if (file.filename() != "convergence.csv") return text;
   std::string kept;

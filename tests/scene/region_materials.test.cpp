@@ -3,12 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

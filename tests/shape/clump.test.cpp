@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "approx.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/shape/clump_templates.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

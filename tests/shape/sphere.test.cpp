@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/population.hpp"
 #include "scarp/shape/disc.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

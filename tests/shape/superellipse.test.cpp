@@ -5,10 +5,10 @@
 
 #include <numbers>
 
-#include "approx.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/grain_view.hpp"
 #include "scarp/shape/ellipse.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include "../../examples/earth_pressure/wall.hpp"
 #include "../../examples/strip_footing/footing.hpp"
 #include "../../examples/thick_cylinder/cylinder.hpp"
-#include "approx.hpp"
 #include "scarp/element/quad8.hpp"
+#include "support/approx.hpp"
 
 using scarp::Quad8;
 using scarp::ReducedIntegration;

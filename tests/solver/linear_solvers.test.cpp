@@ -5,7 +5,6 @@
 
 #include <Eigen/LU>
 
-#include "approx.hpp"
 #include "scarp/bvp/describe_dof.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -17,6 +16,7 @@
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/sparse_ldlt.hpp"
+#include "support/approx.hpp"
 #ifdef SCARP_HAS_SUITESPARSE
 #include "scarp/solver/cholmod.hpp"
 #include "scarp/solver/umfpack.hpp"

@@ -3,17 +3,17 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/bvp/loads.hpp"
-#include "solver/sample_block.hpp"
+#include "support/approx.hpp"
+#include "support/block.hpp"
 
 namespace {
 
-using sample::Softening;
+using samples::Softening;
 using scarp::Reason;
 using scarp::Status;
 using scarp::Verdict;
-using SoftBlock = sample::Block<Softening>;
+using SoftBlock = samples::Block<Softening>;
 
 static_assert(scarp::ObservesSteps<scarp::NoObserver, SoftBlock::Problem> &&
               !scarp::ObservesSteps<scarp::PlainStep, SoftBlock::Problem>);
@@ -43,7 +43,7 @@ double height_error(SoftBlock::Problem const& problem, double load) {
 TEST_CASE("a softening block is pulled past its peak in steps that the observer hears of one by one") {
   scarp::SerialExecutor serial;
   auto problem = SoftBlock::make({.reference_strain = 0.02}, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
   auto const run = stepping().run(solver, problem, 0.0, 0.03, witness);
   CHECK(run.verdict == Verdict{});
@@ -71,7 +71,7 @@ TEST_CASE("a softening block is pulled past its peak in steps that the observer 
 TEST_CASE("a step that fails is rolled back to the bit and tried again in smaller ones") {
   scarp::SerialExecutor serial;
   auto problem = SoftBlock::make({.largest_increment = 1.5e-3}, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   auto const run = stepping().run(scarp::QuasiNewton<>{}, problem, 0.0, 0.02, witness);
   CHECK(run.verdict == Verdict{});
   CHECK(run.load == 0.02);
@@ -91,7 +91,7 @@ TEST_CASE("a material that ends somewhere ends the run there, with its reason an
   scarp::SerialExecutor serial;
   constexpr double limit = 0.01;
   auto problem = SoftBlock::make({.largest_strain = limit}, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   auto const run = stepping().run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 0.1, witness);
   CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
   CHECK(run.last_failure == Reason::cell_collapsed);
@@ -110,7 +110,7 @@ TEST_CASE("a stress that is not a number is reported with its point and never co
   scarp::SerialExecutor serial;
   constexpr int silent = 7;
   auto problem = SoftBlock::make({.largest_strain = 5e-3, .silent_point = silent}, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   auto const run = stepping().run(scarp::QuasiNewton<>{}, problem, 0.0, 0.1, witness);
   CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
   CHECK(run.last_failure == Reason::not_finite);
@@ -137,7 +137,7 @@ TEST_CASE("a stress that is not a number is seen even where no free node feels i
   scarp::SerialExecutor serial;
   SoftBlock::Problem problem(grid, {Softening{.largest_strain = -1.0, .silent_point = 0}, sites}, constraints, load,
                              serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   auto const run = stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, witness);
   CHECK(run.verdict == Verdict{Status::failed, Reason::not_finite});
   CHECK(run.worst_point == 0);
@@ -147,8 +147,8 @@ TEST_CASE("a stress that is not a number is seen even where no free node feels i
 TEST_CASE("iterations that are used up are a failure and nothing is committed") {
   scarp::SerialExecutor serial;
   auto problem = SoftBlock::make({.reference_strain = 0.02}, serial);
-  auto witness = sample::watch(problem);
-  sample::Committed<SoftBlock::Problem> const before(problem);
+  auto witness = samples::watch(problem);
+  samples::Committed<SoftBlock::Problem> const before(problem);
   scarp::QuasiNewton<> const solver{.tolerance = 1e-30, .most_iterations = 3};
   auto const run = stepping().run(solver, problem, 0.0, 0.01, witness);
   CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
@@ -156,13 +156,13 @@ TEST_CASE("iterations that are used up are a failure and nothing is committed") 
   CHECK(run.steps == 0);
   CHECK(run.load == 0.0);
   for (auto const& report : witness.reports) CHECK(report.iterations() == 3);
-  CHECK(sample::Committed<SoftBlock::Problem>(problem) == before);
+  CHECK(samples::Committed<SoftBlock::Problem>(problem) == before);
 }
 
 TEST_CASE("an observer stops a run between two attempts") {
   scarp::SerialExecutor serial;
   auto problem = SoftBlock::make({.reference_strain = 0.02}, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   witness.stop_after = 3;
   auto const run = stepping().run(scarp::QuasiNewton<>{}, problem, 0.0, 0.02, witness);
   CHECK(run.verdict == Verdict{Status::not_converged, Reason::interrupted});
@@ -183,14 +183,14 @@ TEST_CASE("settling that an observer stops counts as never made") {
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
   scarp::SerialExecutor serial;
   SoftBlock::Problem problem(grid, {Softening{.reference_strain = 0.002}, sites}, constraints, weight, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   witness.stop_after = 0;
   auto const stopped = stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, witness);
   CHECK(stopped.verdict == Verdict{Status::not_converged, Reason::interrupted});
   CHECK(stopped.refused == 0);
   CHECK(stopped.last_failure == Reason::none);
   CHECK(witness.reports.empty());
-  CHECK(sample::Committed<SoftBlock::Problem>(problem) == witness.committed);
+  CHECK(samples::Committed<SoftBlock::Problem>(problem) == witness.committed);
   witness.stop_after = 1000;
   CHECK(stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, witness).verdict == Verdict{});
 }
@@ -198,7 +198,7 @@ TEST_CASE("settling that an observer stops counts as never made") {
 TEST_CASE("the prediction's largest gradient limits every step before it is tried") {
   scarp::SerialExecutor serial;
   auto problem = SoftBlock::make({}, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   auto steps = stepping();
   steps.largest = 1.0;
   steps.first = 1.0;
@@ -211,7 +211,7 @@ TEST_CASE("the prediction's largest gradient limits every step before it is trie
 }
 
 TEST_CASE("a prediction that turns elements inside out is cut before it is tried") {
-  using MovingBlock = sample::Block<Softening, scarp::UpdatedLagrangian>;
+  using MovingBlock = samples::Block<Softening, scarp::UpdatedLagrangian>;
   struct FirstAttempt {
     scarp::StepReport seen{};
     bool ended = false;
@@ -256,7 +256,7 @@ TEST_CASE("a run refuses bounds that are no numbers") {
   };
   CHECK_THROWS_WITH_AS(run(stepping(), 0.0, nan), doctest::Contains("load factor"), scarp::InputError);
   CHECK_THROWS_AS(run(stepping(), nan, 1.0), scarp::InputError);
-  CHECK_THROWS_AS(run(stepping(), 0.0, sample::infinity), scarp::InputError);
+  CHECK_THROWS_AS(run(stepping(), 0.0, samples::infinity), scarp::InputError);
   CHECK_THROWS_WITH_AS(run(stepping(), 1.0, 0.5), doctest::Contains("it can only grow"), scarp::InputError);
   CHECK_THROWS_AS(run({.first = nan}, 0.0, 1.0), scarp::InputError);
   CHECK_THROWS_AS(run({.first = 0.0}, 0.0, 1.0), scarp::InputError);

@@ -5,14 +5,14 @@
 
 #include "scarp/io/state_bits.hpp"
 #include "scarp/solver/consistent_tangent.hpp"
-#include "solver/sample_block.hpp"
+#include "support/block.hpp"
 
 namespace {
 
 using Secant = scarp::QuasiNewton<>;
 using Consistent = scarp::QuasiNewton<scarp::ConsistentTangent>;
 using Either = scarp::OneOf<Secant, Consistent>;
-using Block = sample::Block<sample::Softening, scarp::UpdatedLagrangian>;
+using Block = samples::Block<samples::Softening, scarp::UpdatedLagrangian>;
 
 template <class Solver>
 std::vector<scarp::Vector<2>> pulled(Solver const& solver, int& iterations) {

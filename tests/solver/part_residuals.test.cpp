@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "scarp/bvp/loads.hpp"
-#include "solver/sample_block.hpp"
+#include "support/block.hpp"
 
 namespace {
 
@@ -70,7 +70,7 @@ double value_of(std::vector<scarp::PartResidual> const& parts, std::string const
 
 TEST_CASE("nine hundredths of a light block that nothing carries are no equilibrium, however heavy the ground") {
   scarp::SerialExecutor serial;
-  auto problem = ground_with_block(sample::elastic_soil(), serial);
+  auto problem = ground_with_block(samples::elastic_soil(), serial);
   problem.aim(1.0);
   auto const unbalanced = unsupported(problem, 0.09);
   auto const parts = problem.residuals(unbalanced);
@@ -85,7 +85,7 @@ TEST_CASE("nine hundredths of a light block that nothing carries are no equilibr
 
 TEST_CASE("forces that turn a block without pushing it count as well") {
   scarp::SerialExecutor serial;
-  auto problem = ground_with_block(sample::elastic_soil(), serial);
+  auto problem = ground_with_block(samples::elastic_soil(), serial);
   problem.aim(1.0);
   auto const base = base_of_block(problem);
   REQUIRE(base.size() == 5);
@@ -100,7 +100,7 @@ TEST_CASE("forces that turn a block without pushing it count as well") {
 
 TEST_CASE("a block that is not placed yet has nothing to be measured against") {
   scarp::SerialExecutor serial;
-  auto problem = ground_with_block(sample::elastic_soil(), serial);
+  auto problem = ground_with_block(samples::elastic_soil(), serial);
   problem.aim(0.0);
   auto const parts = problem.residuals(unsupported(problem, 0.09));
   CHECK(value_of(parts, "footing") == 0.0);
@@ -108,7 +108,7 @@ TEST_CASE("a block that is not placed yet has nothing to be measured against") {
 
 TEST_CASE("a mesh of one region has one residual") {
   scarp::SerialExecutor serial;
-  auto problem = sample::Block<scarp::LinearElastic<2>>::make(sample::elastic_soil(), serial);
+  auto problem = samples::Block<scarp::LinearElastic<2>>::make(samples::elastic_soil(), serial);
   Eigen::VectorXd const unbalanced = Eigen::VectorXd::LinSpaced(problem.dof_count(), -1.0, 2.0);
   auto const parts = problem.residuals(unbalanced);
   REQUIRE(parts.size() == 1);
@@ -119,10 +119,10 @@ TEST_CASE("a mesh of one region has one residual") {
 TEST_CASE("a step is iterated until the light block is carried, and tells the residual of every part") {
   scarp::SerialExecutor serial;
   // Tells a tangent twice too stiff in shear, so that predictions are wrong.
-  auto problem = ground_with_block(sample::Planning{}, serial);
+  auto problem = ground_with_block(samples::Planning{}, serial);
   scarp::QuasiNewton<> const solver{.tolerance = 1e-3};
   scarp::LoadStepping const stepping{.first = 1.0, .largest_gradient = 1.0};
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   REQUIRE(stepping.settle(solver, problem, 0.0, witness).verdict == scarp::Verdict{});
   REQUIRE(stepping.run(solver, problem, 0.0, 1.0, witness).verdict == scarp::Verdict{});
   auto const& placed = witness.reports.back();

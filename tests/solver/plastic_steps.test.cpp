@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "bvp/sample_problems.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
@@ -10,6 +9,7 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "support/approx.hpp"
 
 namespace {
 
@@ -29,7 +29,7 @@ using Problem =
 template <class Element, class Scheme, class Hold>
 Problem<Element, Scheme> distorted_body(int cells, scarp::SerialExecutor& executor, Hold const& hold,
                                         double young = 1e7) {
-  scarp::Discretisation<Element, scarp::SmallStrain, Scheme> grid(sample::distorted_block<Element>(cells));
+  scarp::Discretisation<Element, scarp::SmallStrain, Scheme> grid(samples::distorted_block<Element>(cells));
   scarp::Constraints constraints(grid.mesh());
   hold(grid.mesh(), constraints);
   std::vector<scarp::Site<Element::dim>> sites;
@@ -43,12 +43,12 @@ Problem<Element, Scheme> distorted_body(int cells, scarp::SerialExecutor& execut
 template <class Element, class Scheme>
 void check_plastic_patch() {
   constexpr int dim = Element::dim;
-  auto const gradient = sample::general_gradient<dim>(2e-3);
+  auto const gradient = samples::general_gradient<dim>(2e-3);
   scarp::SerialExecutor executor;
   auto problem = distorted_body<Element, Scheme>(
       dim == 2 ? 3 : 2, executor, [&](auto const& mesh, scarp::Constraints& constraints) {
-        Eigen::VectorXd const moves = sample::affine<dim>(mesh.nodes, gradient);
-        for (int const node : sample::outline(mesh)) {
+        Eigen::VectorXd const moves = samples::affine<dim>(mesh.nodes, gradient);
+        for (int const node : samples::outline(mesh)) {
           for (int axis = 0; axis < dim; ++axis) constraints.move(node, axis, moves(dim * node + axis));
         }
       });

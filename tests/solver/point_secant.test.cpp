@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "approx.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

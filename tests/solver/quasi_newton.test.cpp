@@ -9,7 +9,7 @@
 #include "scarp/bvp/loads.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
-#include "solver/sample_block.hpp"
+#include "support/block.hpp"
 
 namespace {
 
@@ -41,7 +41,7 @@ Eigen::VectorXd displacements(scarp::Mesh<scarp::Tri3> const& mesh, std::vector<
 TEST_CASE_TEMPLATE("a linear problem is solved by its prediction", Solver, scarp::QuasiNewton<>,
                    scarp::QuasiNewton<scarp::FrozenTangent>,
                    scarp::QuasiNewton<scarp::FrozenTangent, scarp::AndersonMixing>) {
-  using Block = sample::Block<sample::Softening>;
+  using Block = samples::Block<samples::Softening>;
   scarp::SerialExecutor serial;
   auto problem = Block::make({}, serial);
   Solver const solver{.tolerance = 1e-10};
@@ -52,16 +52,16 @@ TEST_CASE_TEMPLATE("a linear problem is solved by its prediction", Solver, scarp
   auto const& grid = problem.discretisation();
   std::vector<scarp::VoigtStress<2>> const none(static_cast<std::size_t>(grid.point_count()),
                                                 scarp::VoigtStress<2>::Zero());
-  std::vector<scarp::VoigtTangent<2>> const tangents(none.size(), sample::elastic_soil().tangent({}));
+  std::vector<scarp::VoigtTangent<2>> const tangents(none.size(), samples::elastic_soil().tangent({}));
   auto const stiffness = grid.stiffness(Eigen::VectorXd::Zero(grid.dof_count()), none, tangents);
   Eigen::VectorXd const moved = problem.constraints().displacement(0.01);
-  Eigen::VectorXd const direct = moved + sample::solve_free(stiffness, problem.constraints(), -(stiffness * moved));
+  Eigen::VectorXd const direct = moved + samples::solve_free(stiffness, problem.constraints(), -(stiffness * moved));
   CHECK((displacements(grid.mesh(), grid.positions()) - direct).norm() < 1e-12 * direct.norm());
 }
 
 TEST_CASE("linear elasticity at small strain needs one or two iterations") {
   scarp::SerialExecutor serial;
-  auto problem = sample::Block<scarp::LinearElastic<2>>::make(sample::elastic_soil(), serial);
+  auto problem = samples::Block<scarp::LinearElastic<2>>::make(samples::elastic_soil(), serial);
   // The provider's strain measure departs from the linear one by its square: 1e-4 relative at 1e-4, so one correction.
   auto const report = one_step(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 1e-4);
   CHECK(report.verdict == Verdict{});
@@ -69,11 +69,11 @@ TEST_CASE("linear elasticity at small strain needs one or two iterations") {
 }
 
 TEST_CASE("large strains converge to the same state with every tangent rule and mixing") {
-  using Block = sample::Block<scarp::LinearElastic<2>, scarp::UpdatedLagrangian>;
+  using Block = samples::Block<scarp::LinearElastic<2>, scarp::UpdatedLagrangian>;
   scarp::SerialExecutor serial;
-  auto first = Block::make(sample::elastic_soil(), serial);
-  auto second = Block::make(sample::elastic_soil(), serial);
-  auto third = Block::make(sample::elastic_soil(), serial);
+  auto first = Block::make(samples::elastic_soil(), serial);
+  auto second = Block::make(samples::elastic_soil(), serial);
+  auto third = Block::make(samples::elastic_soil(), serial);
   constexpr double tolerance = 1e-9;
   constexpr int enough = 100;
   using Frozen = scarp::QuasiNewton<scarp::FrozenTangent>;
@@ -107,15 +107,15 @@ TEST_CASE("a column settles under its own weight by the exact parabola") {
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, height));
   scarp::SerialExecutor serial;
-  sample::Softening const soil{};
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<sample::Softening>, scarp::SerialExecutor>;
+  samples::Softening const soil{};
+  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<samples::Softening>, scarp::SerialExecutor>;
   Problem problem(grid, {soil, sites}, constraints, weight, serial);
   scarp::NoObserver nobody;
   auto const run = scarp::LoadStepping{}.settle(scarp::QuasiNewton<>{.tolerance = 1e-10}, problem, 0.0, nobody);
   REQUIRE(run.verdict == Verdict{});
   CHECK(run.steps == 1);
   double const modulus =
-      sample::elastic_soil().elasticity.lame_lambda + 2.0 * sample::elastic_soil().elasticity.shear_modulus;
+      samples::elastic_soil().elasticity.lame_lambda + 2.0 * samples::elastic_soil().elasticity.shear_modulus;
   int checked = 0;
   for (int n = 0; n < 5 * 6; ++n) {  // grid nodes come first, centres of the cells later
     // Analytic: u = -gamma (H y - y^2/2) / M, exact at the grid nodes (see bvp/gravity_column.test.cpp).
@@ -131,9 +131,9 @@ TEST_CASE("a column settles under its own weight by the exact parabola") {
 
 TEST_CASE("settling that fails commits nothing and says why") {
   scarp::SerialExecutor serial;
-  using Block = sample::Block<sample::Softening>;
+  using Block = samples::Block<samples::Softening>;
   auto problem = Block::make({.largest_strain = -1.0}, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   auto const run = scarp::LoadStepping{}.settle(scarp::QuasiNewton<>{}, problem, 0.0, witness);
   CHECK(run.verdict == Verdict{Status::failed, Reason::cell_collapsed});
   CHECK(run.refused == 1);
@@ -143,9 +143,9 @@ TEST_CASE("settling that fails commits nothing and says why") {
 }
 
 TEST_CASE("every point's plan stays what it was at the start of the load step") {
-  using Block = sample::Block<sample::Planning>;
+  using Block = samples::Block<samples::Planning>;
   scarp::SerialExecutor serial;
-  sample::Planning const soil;
+  samples::Planning const soil;
   auto problem = Block::make(soil, serial);
   using Solver = scarp::QuasiNewton<scarp::FrozenTangent>;
   Solver const solver{.tolerance = 1e-6};
@@ -171,9 +171,9 @@ TEST_CASE("every point's plan stays what it was at the start of the load step") 
 }
 
 TEST_CASE("points short of their own accuracy work harder within the step, the others do not") {
-  using Block = sample::Block<sample::Planning>;
+  using Block = samples::Block<samples::Planning>;
   scarp::SerialExecutor serial;
-  sample::Planning const soil{.needed = 11'000};
+  samples::Planning const soil{.needed = 11'000};
   auto problem = Block::make(soil, serial);
   auto const report = one_step(scarp::QuasiNewton<scarp::FrozenTangent>{.tolerance = 1e-6}, problem, 1e-3);
   REQUIRE(report.verdict == Verdict{});
@@ -195,10 +195,10 @@ TEST_CASE("points short of their own accuracy work harder within the step, the o
 }
 
 TEST_CASE("points that never converge fail the step with their own reason") {
-  using Block = sample::Block<sample::Planning>;
+  using Block = samples::Block<samples::Planning>;
   scarp::SerialExecutor serial;
   auto problem = Block::make({.needed = 2'000'000'000}, serial);
-  auto witness = sample::watch(problem);
+  auto witness = samples::watch(problem);
   scarp::LoadStepping const stepping{.first = 1e-3, .smallest = 1e-4};
   scarp::QuasiNewton<> const solver{.most_iterations = 4, .most_refinements = 2};
   auto const run = stepping.run(solver, problem, 0.0, 1e-3, witness);
@@ -243,10 +243,10 @@ static_assert(scarp::Attachment<Wall, 2>);
 
 TEST_CASE("contact is followed within the linear system: material that is linear is asked once for a step") {
   scarp::SerialExecutor serial;
-  auto const bare = sample::Block<sample::Softening>::make({}, serial);
+  auto const bare = samples::Block<samples::Softening>::make({}, serial);
   auto const& grid = bare.discretisation();
   Wall const wall{.place = 1e-4, .stiffness = 1e9, .nodes = scarp::boundary_nodes(grid.mesh(), "left")};
-  scarp::EquilibriumProblem<sample::Block<sample::Softening>::Grid, scarp::ProviderField<sample::Softening>,
+  scarp::EquilibriumProblem<samples::Block<samples::Softening>::Grid, scarp::ProviderField<samples::Softening>,
                             scarp::SerialExecutor, Wall>
       problem(grid, bare.materials(), bare.constraints(), bare.loads(), serial, wall);
   scarp::NoObserver nobody;

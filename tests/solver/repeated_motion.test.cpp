@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "solver/sample_block.hpp"
+#include "support/approx.hpp"
+#include "support/block.hpp"
 
 namespace {
 
-using Block = sample::Block<sample::Softening>;
+using Block = samples::Block<samples::Softening>;
 using Solver = scarp::QuasiNewton<>;
 
 /// Nearly to the peak in equal steps.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "approx.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/interface.hpp"
 #include "scarp/bvp/standing_body.hpp"
@@ -15,6 +14,7 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

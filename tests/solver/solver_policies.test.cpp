@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "scarp/solver/bfgs_mixing.hpp"
 #include "scarp/solver/dynamic_relaxation.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
 #include "scarp/solver/line_search.hpp"
 #include "scarp/solver/work_balance.hpp"
-#include "solver/sample_block.hpp"
+#include "support/approx.hpp"
+#include "support/block.hpp"
 
 namespace {
 
-using sample::Softening;
+using samples::Softening;
 using scarp::Reason;
 using scarp::Status;
 using scarp::Verdict;
@@ -71,7 +71,7 @@ Reason reason_of(Illness illness) {
   return Reason::unbalanced;
 }
 
-using Block = sample::Block<Ground>;
+using Block = samples::Block<Ground>;
 
 Ground softening() { return {.law = {.reference_strain = 0.02}}; }
 
@@ -86,7 +86,7 @@ TEST_CASE("one poisoned point among good ones is found, named, never committed, 
     for (bool const curable : {true, false}) {
       Ground const soil{.illness = illness, .healthy_increment = curable ? 3e-4 : 0.0};
       auto problem = Block::make(soil, serial);
-      auto witness = sample::watch(problem);
+      auto witness = samples::watch(problem);
       auto const run = stepping().run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 0.012, witness);
       CHECK(run.refused > 0);
       CHECK(run.last_failure == reason_of(illness));

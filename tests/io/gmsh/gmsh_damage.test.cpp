@@ -4,11 +4,14 @@
 #include <random>
 
 #include "io/mesh_samples.hpp"
-#include "io/scratch_folder.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
 #include "scarp/io/gmsh/gmsh_writer.hpp"
+#include "support/files.hpp"
 
 namespace {
+
+using samples::content;
+using samples::ScratchFolder;
 
 using Element = scarp::Tri3;
 using scarp::GmshEncoding;

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "approx.hpp"
 #include "io/mesh_samples.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

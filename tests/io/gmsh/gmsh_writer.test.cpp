@@ -3,12 +3,15 @@
 
 #include <doctest/doctest.h>
 
-#include "approx.hpp"
 #include "io/mesh_samples.hpp"
-#include "io/scratch_folder.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
+#include "support/approx.hpp"
+#include "support/files.hpp"
 
 namespace {
+
+using samples::content;
+using samples::ScratchFolder;
 
 using scarp::GmshEncoding;
 using scarp::GmshFormat;

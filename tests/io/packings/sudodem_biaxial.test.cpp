@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "approx.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/servo.hpp"
 #include "scarp/io/packings/packing_reader.hpp"
 #include "scarp/shape/ellipse.hpp"
+#include "support/approx.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What takes long to compile, once for all tests.
-#include "factorisations.hpp"
+#include "support/factorisations.hpp"
 
 #include <Eigen/Eigenvalues>
 

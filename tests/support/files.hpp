@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 
+namespace samples {
+
 /// An empty folder of one test, removed with everything in it at the test's end.
 class ScratchFolder {
  public:
@@ -42,3 +44,5 @@ inline std::string content(std::filesystem::path const& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
+
+}  // namespace samples

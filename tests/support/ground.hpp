@@ -10,7 +10,7 @@
 #include "scarp/fault/level_ground.hpp"
 
 /// The free-field scene at a size that runs in a blink.
-namespace sample {
+namespace samples {
 
 using ElasticSoil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
 using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
@@ -50,4 +50,4 @@ inline scarp::FreeFieldFault<Sand> const& sandy_ground() {
   return made;
 }
 
-}  // namespace sample
+}  // namespace samples

@@ -14,7 +14,7 @@
 #include "scarp/solver/quasi_newton.hpp"
 
 /// A block that is pulled or pressed, and materials with every bad habit that a solver must survive.
-namespace sample {
+namespace samples {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -165,4 +165,4 @@ Witness<Problem> watch(Problem const& problem) {
   return {Committed<Problem>(problem)};
 }
 
-}  // namespace sample
+}  // namespace samples
