@@ -45,6 +45,7 @@ install_missing() {
 configure() {
   local preset="$1" compiler="$2" launcher=()
   shift 2
-  if command -v ccache > /dev/null; then launcher=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+  if command -v ninja > /dev/null; then launcher+=(-G Ninja); fi
+  if command -v ccache > /dev/null; then launcher+=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   (cd "$repository" && cmake --preset "$preset" -D CMAKE_CXX_COMPILER="$(command -v "$compiler")" "${launcher[@]}" "$@") >&2
 }

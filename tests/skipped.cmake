@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSL-1.0
+# cmake -D LOGS=<folder of ctest's logs> -P skipped.cmake: after a run of ctest, why it skipped tests; ctest itself does not say.
+set(log ${LOGS}/LastTest.log.tmp)
+if(NOT EXISTS ${log} OR NOT EXISTS ${LOGS}/LastTestsDisabled.log)
+  return()
+endif()
+file(READ ${log} text)
+file(STRINGS ${LOGS}/LastTestsDisabled.log names)
+foreach(name ${names})
+  string(REGEX REPLACE "^[0-9]+:" "" name "${name}")
+  string(FIND "${text}" " Test: ${name}\n" begin)
+  if(begin EQUAL -1)
+    continue()  # of an earlier run
+  endif()
+  string(SUBSTRING "${text}" ${begin} -1 rest)
+  string(FIND "${rest}" "<end of output>" end)
+  string(SUBSTRING "${rest}" 0 ${end} rest)
+  if(rest MATCHES "([^\n]*skipped[^\n]*)\n$")
+    message("${name}: ${CMAKE_MATCH_1}")
+  endif()
+endforeach()
