@@ -17,7 +17,7 @@ namespace {
 using fault_rupture::Choice;
 
 /// Beside the study's scene: a length, so that the answer is not the mesh's, many packings, so that it is not one packing's
-/// (docs/objectivity.md), and half of the DEM steps, which give the same places (docs/profile.md).
+/// (docs/notes/objectivity.md), and half of the DEM steps, which give the same places (docs/notes/profile.md).
 void make_objective(Choice& choice) {
   choice.length = 8.0;
   choice.packings = 16;
@@ -51,7 +51,7 @@ void declare_materials(CLI::App& app, Choice& choice) {
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--preload", choice.preload,
-                 "what sand once carried over its overburden, at least 1; raises K0 (docs/preparations.md)")
+                 "what sand once carried over its overburden, at least 1; raises K0 (docs/notes/preparations.md)")
       ->check(number_from(1.0, true, 10.0));
   app.add_option("--grain-aspect", choice.grain_aspect, "width over length of the grains, ellipses of the same lengths")
       ->check(number_from(0.1, true, 1.0));

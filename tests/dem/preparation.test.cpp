@@ -184,7 +184,7 @@ TEST_CASE("ground that has carried more keeps a higher earth pressure at rest, c
   CHECK(stress(2)(1, 1) == samples::Approx(-1e5).epsilon(2e-3));  // as above
   CHECK(stress(2)(0, 0) < 1.1 * stress(0)(0, 0));
   // Elastic unloading takes a tenth of the vertical stress at most from the lateral one, sliding a little more
-  // (docs/preparations.md).
+  // (docs/notes/preparations.md).
   CHECK(stress(2)(0, 0) == samples::Approx(stress(1)(0, 0)).epsilon(0.2));
   CHECK(column[2].packing.void_ratio() > column[1].packing.void_ratio());
   CHECK(column[2].packing.void_ratio() < column[0].packing.void_ratio());

@@ -11,7 +11,7 @@ namespace scarp {
 /// The stress is Cauchy's of the strained cell, so that terms of the order of the stress itself are in the tangent.
 /// The most exact tangent for its strain and by far the most expensive: some hundred to thousand DEM steps a settling.
 struct PerturbationTangent {
-  double strain = 1e-5;   ///< engineering, of each mode; where contacts slide there is no plateau, see docs/tangents.md
+  double strain = 1e-5;   ///< engineering, of each mode; no plateau where contacts slide, see docs/notes/tangents.md
   int strain_steps = 20;  ///< time steps that apply it
   double unbalanced_tolerance =
       1e-6;                 ///< of settled packings: times the stress it must stay well below stiffness x strain

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The pages point to what exists: links, pictures, paths, commands, options and names of the code in README.md and docs stand; every figure and
+table of docs is named by a page; no page holds generated sections; all pages together are short enough to be read."""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+WORDS = 45_000  # of all pages: a person reads them in four hours
+BYTES = 5_000_000  # of docs
+LARGEST_TABLE = 20  # rows; larger ones are files in docs/data
+SOURCES = ["include", "examples", "tests", "benchmarks", "docs/packaging", ".ci"]
+# Written by a run or by other programs, or placeholders.
+NOT_OURS = re.compile(r"^(output|build|companion_|figures/ensemble|packings/|DIR/|PREFIX|PATH|\./packages/)|[*<]|^/|\$")
+ENDS = (".hpp", ".cpp", ".py", ".md", ".csv", ".png", ".geo", ".msh", ".cmake", ".in", ".txt")
+
+folders = ["docs", "benchmarks", "tests", "examples", ".github"]
+pages = sorted({path for path in [*ROOT.glob("*.md"), *(p for f in folders for p in (ROOT / f).rglob("*.md"))]
+                if "output" not in path.relative_to(ROOT).parts})
+sources = [path for folder in SOURCES for path in (ROOT / folder).rglob("*") if path.is_file() and "output" not in path.parts]
+code = "\n".join(path.read_text(errors="ignore") for path in [*sources, ROOT / "CMakeLists.txt"] if path.suffix != ".md")
+names = set(re.findall(r"\w+", code))
+faults = []
+named = set()  # files that some page links
+
+
+def exists(text, page):
+    """Whether a path of a page is there: from the repository, the page, the headers or the tables."""
+    places = [ROOT, page.parent, ROOT / "include", ROOT / "include" / "scarp", ROOT / "docs" / "data"]
+    return any((place / text).exists() for place in places)
+
+
+def program_folder(kind, name):
+    """Where the sources of `./examples/run NAME` or `./benchmarks/run NAME` are."""
+    here = ROOT / kind
+    candidates = [*here.glob(f"[0-9]*_{name}"), here / name, here / "answers" / f"{name}.cpp", here / f"{name}.cpp"]
+    return next((path for path in candidates if path.exists()), None)
+
+
+def check_command(line, where):
+    for kind, rest in re.findall(r"\./(examples|benchmarks)/run((?: [^\s#;|`]+)*)", line):
+        words = [word for word in rest.split() if not re.fullmatch(r"\d+", word)]
+        while words and words[0] in ("--ranks",):
+            words.pop(0)
+        if not words or words[0] in ("NAME", "X", "..."):
+            continue
+        folder = program_folder(kind, words[0])
+        if folder is None:
+            faults.append(f"{where}: ./{kind}/run {words[0]} is not there")
+    for script in re.findall(r"\./((?:tests|benchmarks)(?:/\w+)+)", line):
+        if not (ROOT / script).exists():
+            faults.append(f"{where}: ./{script} is not there")
+    if "./examples/run" in line or "./benchmarks/" in line or "./tests/" in line:
+        for option in re.findall(r"(?<![\w-])--([a-z][a-z0-9-]+)", line):
+            if f"--{option}" not in code and f'"{option}"' not in code and option != "help" and not option.startswith("benchmark"):
+                faults.append(f"{where}: the option --{option} is declared nowhere")
+
+
+def check_span(span, page, where):
+    path = span.split(" ")[0].rstrip("/")
+    if path.endswith(ENDS) and "/" in path and not NOT_OURS.search(path) and not exists(path.removeprefix("./"), page):
+        faults.append(f"{where}: there is no {path}")
+    elif re.fullmatch(r"(docs|tests|examples|benchmarks|include)(/[\w.-]+)+", path) and not exists(path, page):
+        faults.append(f"{where}: there is no {path}")
+    if re.fullmatch(r"[A-Z][a-z]+[A-Za-z0-9]*[A-Z]\w*(<[^`]*>)?", span):  # a type
+        for name in re.findall(r"[A-Z]\w+", span):
+            if name not in names and not name.startswith(("My", "Wrong")):
+                faults.append(f"{where}: the code knows no {name}")
+
+
+words = 0
+for page in pages:
+    text = page.read_text()
+    short = page.relative_to(ROOT).as_posix()
+    words += len(text.split())
+    fenced = False
+    rows = 0
+    for number, line in enumerate(text.splitlines(), 1):
+        where = f"{short}:{number}"
+        if line.startswith("```"):
+            fenced = not fenced
+            continue
+        check_command(line, where)
+        rows = rows + 1 if line.startswith("|") else 0
+        if rows == LARGEST_TABLE + 3:
+            faults.append(f"{where}: a table of more than {LARGEST_TABLE} rows (move it to docs/data)")
+        if fenced:
+            continue
+        if re.match(r"<!-- .* -->$", line):
+            faults.append(f"{where}: a mark of a generated section (write docs/data instead)")
+        if "-dirty" in line:
+            faults.append(f"{where}: names a commit that nobody can check out")
+        for span in re.findall(r"`([^`]+)`", line):
+            check_span(span, page, where)
+            for pattern in re.findall(r"[\w*]+\.csv", span):
+                named.update((ROOT / "docs" / "data").glob(pattern))
+        for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`]*`", "", line)):
+            if target.startswith(("http://", "https://", "#", "mailto:")):
+                continue
+            file = (page.parent / target.split("#")[0]).resolve()
+            if not file.exists():
+                faults.append(f"{where}: the link to {target} leads nowhere")
+            named.add(file)
+
+if words > WORDS:
+    faults.append(f"the pages have {words} words, more than {WORDS}")
+size = sum(path.stat().st_size for path in (ROOT / "docs").rglob("*") if path.is_file())
+if size > BYTES:
+    faults.append(f"docs takes {size} bytes, more than {BYTES}")
+for file in sorted([*(ROOT / "docs" / "figures").iterdir(), *(ROOT / "docs" / "data").iterdir()]):
+    if file not in named:
+        faults.append(f"no page names {file.relative_to(ROOT)}")
+for file in sorted((ROOT / "docs" / "data").glob("*.csv")):
+    first = file.read_text().splitlines()[0]
+    if not re.match(r"# \S", first) or "-dirty" in first:
+        faults.append(f"{file.relative_to(ROOT)}: the first line must be '# command, commit, machine'")
+if len(pages) < 20 or len(names) < 1000:
+    faults.append(f"only {len(pages)} pages and {len(names)} names found: this test looks in the wrong place")
+print(f"{len(pages)} pages, {words} words, docs {size / 1e6:.1f} MB, {len(faults)} faults")
+sys.exit("\n".join(faults) or None)
