@@ -11,7 +11,7 @@ import subprocess
 root = pathlib.Path(__file__).resolve().parent.parent
 compiler = os.environ.get("CXX", "c++")
 
-# What a program may do without, by names that only it has; a program that has it must show one of them (benchmarks/absence/run),
+# What a program may do without, by names that only it has; a program that has it must show one of them,
 # or a name here is out of date.
 features = {
     "nanoflann": re.compile(r"nanoflann"),

@@ -3,22 +3,14 @@
 // places, near pairs and contacts for all, so that what differs between two of them is the price of a feature. benchmarks/absence/run
 // counts the instructions of measured_steps and measured_list.
 //   price_of_a_step disc|ellipse smooth|frictional nothing|balance|energy
-//   price_of_a_step states     bytes of a point's state, by material
-//   price_of_a_step lists      near pairs of packings prepared with more and less friction, for laws with friction and without
 #include <fmt/format.h>
 
 #include <string_view>
 
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/geostatic_stress.hpp"
-#include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/disc_grading.hpp"
-#include "scarp/dem/ellipse_grading.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/shape/ellipse.hpp"
 
@@ -37,32 +29,18 @@ Law law_of() {
   }
 }
 
-/// Ellipses are the study's.
-template <class Shape>
-auto grading() {
-  if constexpr (std::is_same_v<Shape, scarp::Disc>) {
-    return scarp::DiscGrading{.smallest = 4e-3, .largest = 6e-3};
-  } else {
-    return scarp::EllipseGrading{.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75};
-  }
-}
-
-/// A hundred grains under 100 kPa. \throws InputError where they find no balance
-template <class Shape>
-auto prepared(double preparation_friction, double friction) {
-  auto const sizes = grading<Shape>();
-  using Cloud = scarp::Cloud<std::remove_const_t<decltype(sizes)>>;
-  Cloud const cloud{.grading = sizes, .grains = 100, .density = 2650.0, .thickness = 0.2};
+/// A hundred grains under 100 kPa in a balance that needs no friction, so that it is one for every law.
+/// \throws InputError where they find none
+auto balanced_discs() {
+  scarp::Cloud<scarp::DiscGrading> const cloud{
+      .grading = {.smallest = 4e-3, .largest = 6e-3}, .grains = 100, .density = 2650.0, .thickness = 0.2};
   auto law = rough;
-  law.friction = friction;
-  scarp::IsotropicPreparation const preparation{.pressure = 1e5, .preparation_friction = preparation_friction};
-  auto made = preparation.prepare(cloud.template make<scarp::Packing<Shape, scarp::LinearFrictional>>(), law);
+  law.friction = 0.0;
+  scarp::IsotropicPreparation const preparation{.pressure = 1e5, .preparation_friction = 0.0};
+  auto made = preparation.prepare(cloud.make<scarp::Packing<scarp::Disc, scarp::LinearFrictional>>(), law);
   if (!made.verdict.acceptable()) scarp::refuse("the grains found no balance: change the seed");
   return made.packing;
 }
-
-/// In a balance that needs no friction, so that it is one for every law.
-auto balanced_discs() { return prepared<scarp::Disc>(0.0, 0.0); }
 
 /// The same places of grains of another shape and law; ellipses are round.
 template <class Grains, class Discs>
@@ -142,68 +120,11 @@ int measure(std::string_view law, std::string_view watched) {
   return 2;
 }
 
-/// The list that these grains have for a law.
-template <class Law, class Grains>
-auto list_for(Grains const& grains) {
-  scarp::Packing<typename Grains::Shape, Law> same;
-  same.population = grains.population;
-  same.cell = grains.cell;
-  same.position = grains.position;
-  same.orientation = grains.orientation;
-  same.rest();
-  if (!scarp::TimeStepper<decltype(same)>{}.refresh(same, law_of<Law>()).acceptable())
-    scarp::refuse("no list was made: look at the packing");
-  return std::pair{same.pairs.first, same.pairs.second};
-}
-
-template <class Shape>
-void tell_list(char const* shape, double friction) {
-  auto const grains = prepared<Shape>(friction, rough.friction);
-  auto const with = list_for<scarp::LinearFrictional>(grains);
-  bool const same = with == list_for<scarp::Frictionless>(grains);
-  fmt::print("{{\"shape\": \"{}\", \"friction\": {}, \"void_ratio\": {:.3f}, \"near_pairs\": {}, \"same\": {}}}\n",
-             shape, friction, grains.void_ratio(), with.first.size(), same);
-}
-
-int lists() {
-  for (double const friction : {0.0, 0.1, 0.3, 0.55}) {
-    tell_list<scarp::Disc>("disc", friction);
-    tell_list<scarp::Ellipse>("ellipse", friction);
-  }
-  return 0;
-}
-
-template <class State>
-void tell_state(char const* material, State const& state) {
-  std::size_t whole = sizeof(State);
-  if constexpr (requires { state.packing; }) whole += scarp::state_bytes(state.packing) - sizeof(state.packing);
-  fmt::print("{{\"material\": \"{}\", \"sizeof\": {}, \"bytes\": {}}}\n", material, sizeof(State), whole);
-}
-
-template <class Grains>
-void tell_packing(char const* material) {
-  scarp::DemRve<Grains, scarp::SamePacking<Grains>> sand;
-  sand.law = law_of<typename Grains::Law>();
-  sand.source.packing = as<Grains>(balanced_discs());
-  tell_state(material, sand.initial_state({}));
-}
-
-int states() {
-  tell_state("linear elastic", scarp::LinearElastic<2>::State{});
-  tell_state("Mohr-Coulomb", scarp::MohrCoulomb<2>::State{});
-  tell_packing<scarp::Packing<scarp::Disc, scarp::Frictionless>>("frictionless discs");
-  tell_packing<scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>>("frictional ellipses");
-  return 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::string_view(argv[1]) == "states") return states();
-  if (argc == 2 && std::string_view(argv[1]) == "lists") return lists();
   if (argc == 4 && std::string_view(argv[1]) == "disc") return measure<scarp::Disc>(argv[2], argv[3]);
   if (argc == 4 && std::string_view(argv[1]) == "ellipse") return measure<scarp::Ellipse>(argv[2], argv[3]);
-  fmt::print(stderr,
-             "usage: price_of_a_step states, lists, or disc|ellipse smooth|frictional nothing|balance|energy\n");
+  fmt::print(stderr, "usage: price_of_a_step disc|ellipse smooth|frictional nothing|balance|energy\n");
   return 2;
 }

@@ -11,7 +11,7 @@ import statistics
 import subprocess
 import sys
 
-from scene_runs import example, program, run_once
+from common import example, fault_rupture, run_once
 
 GRAINS = 400
 SEEDS = 10
@@ -25,7 +25,7 @@ POISSON = 0.25  # of the scene's ground without packings
 def run(output):
     """The tests, and the scene's ground at rest, unless they have been.
     output: folder of all runs of the benchmark, as below"""
-    run_once([program(), "--grains", GRAINS, "--throw-over-depth", 1e-5, "--frames", 1, "--threads", 1], output / "calibration" / "at_rest")
+    run_once([fault_rupture(), "--grains", GRAINS, "--throw-over-depth", 1e-5, "--frames", 1, "--threads", 1], output / "calibration" / "at_rest")
     folder = output / "calibration" / "biaxial"
     if not (folder / "summary.json").exists():
         command = [example("rve_biaxial"), "--grains", GRAINS, "--seeds", SEEDS, "--pressure", PRESSURE, "--preparation-friction", PREPARATION_FRICTION,
@@ -118,3 +118,12 @@ def calibrated(output):
     return options, {"peak-friction": [one["phi_max"] for one in peaks], "peak-dilation": [one["psi_max"] for one in peaks],
                      "residual-friction": residuals, "young-modulus": moduli, "void ratio": [rows[0]["void_ratio"] for rows in all_rows],
                      "volume": [volume_gained(rows) for rows in all_rows]}
+
+
+def rows(output):
+    """Each parameter by calibration, by the volume gained, and of the packings: mean and standard deviation over the seeds."""
+    options, sources = calibrated(output)
+    of_volume = by_volume(output)
+    spread = {name: {"packings, mean": statistics.fmean(values), "packings, deviation": statistics.stdev(values)} for name, values in sources.items()}
+    return [{"parameter": name, "calibrated": options.get(name), "dilation by the volume gained": of_volume.get(name), **spread.get(name, {})}
+            for name in dict.fromkeys([*options, *sources])]

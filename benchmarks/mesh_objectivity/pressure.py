@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
 """What becomes of the pressure in the band: the last field of a run against the overburden."""
-import dataclasses
 import pathlib
 import sys
 
@@ -16,23 +15,17 @@ IN_BAND = 0.1  # deviatoric strain
 LEVELS = [(LEAST_DEPTH, 10.0), (10.0, 17.0), (17.0, DEPTH)]  # depths [m]
 
 
-@dataclasses.dataclass
-class Pressure:
-    starved: int  # elements
-    deep: int
-    shares: list  # mean pressure in the band over that at rest, by level; NaN where there is no band
-
-
 def in_band(folder, k0):
-    """Of the last state in a run's folder; k0: horizontal over vertical stress at rest."""
+    """Columns of the last state in a run's folder: how many deep elements have lost their pressure, mean pressure in the band over that at
+    rest by depth; none where there is no band. k0: horizontal over vertical stress at rest"""
     grid = scarp_figures.read_vtu(sorted((pathlib.Path(folder) / "fields").glob("step_*.vtu"))[-1])
     at_rest = grid.points - grid.at_nodes["displacement"][:, :2]
-    middle = at_rest[grid.cells].mean(axis=1)
-    depth = DEPTH - middle[:, 1]
+    depth = DEPTH - at_rest[grid.cells].mean(axis=1)[:, 1]
     stress = grid.at_cells["stress"]
     share = -(stress[:, 0] + stress[:, 1]) / 2.0 / ((1.0 + k0) / 2.0 * (SURCHARGE + UNIT_WEIGHT * depth))
     deep = depth > LEAST_DEPTH
     band = grid.at_cells["deviatoric_strain"] > IN_BAND
-    levels = [band & (depth >= low) & (depth < high) for low, high in LEVELS]
-    return Pressure(int(np.sum(deep & (share < STARVED))), int(np.sum(deep)),
-                    [float(share[level].mean()) if level.any() else float("nan") for level in levels])
+    levels = {(low, high): band & (depth >= low) & (depth < high) for low, high in LEVELS}
+    return {"deep elements": int(np.sum(deep)), "without pressure": int(np.sum(deep & (share < STARVED))),
+            **{f"pressure in the band over that at rest, {low:g} to {high:g} m": float(share[level].mean()) if level.any() else None
+               for (low, high), level in levels.items()}}

@@ -10,9 +10,8 @@ import sys
 
 here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
-sys.path[:0] = [str(here.parent), str(here.parent / "compile")]
-from generated_sections import rewrite, with_section
-from provenance import head_of
+sys.path.insert(0, str(here.parent))
+from common import origin, quick, write_table  # noqa: F401: both sides of each comparison take these from here
 
 
 def in_shell(command):
@@ -27,7 +26,6 @@ except ImportError:
 
 # Our side is built for this machine, the same with wider moves, and for AVX2.
 LEVELS = {"native": "native", "x86-64-v3": "x86-64-v3"}
-PAGE = root / "docs" / "peers.md"
 # What both must have in common after the steps of the check, for which grains are stirred so that contacts slide and open.
 CHECK_STEPS, CHECK_SPEED = 60, 1.0
 TOLERANCES = {"displacement": 0.03, "contacts": 5e-3, "stress": 2e-3}
@@ -66,7 +64,7 @@ def parser_of(description, sizes):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--grains", type=int, nargs="+", default=sizes, metavar="N", help=f"default {sizes}")
     parser.add_argument("--rounds", type=int, default=25, metavar="N", help="batches of each program, in turns (default 25)")
-    parser.set_defaults(sizes=sizes)
+    parser.add_argument("--quick", action="store_true", help="one size, three batches, to output/quick")
     return parser
 
 
@@ -76,7 +74,8 @@ def arguments(parser):
         parser.error(f"--grains {' '.join(map(str, given.grains))}: take numbers from 50 to 100000")
     if given.rounds < 1:
         parser.error(f"--rounds {given.rounds}: take one at least")
-    given.usual = given.grains == given.sizes and given.rounds == parser.get_default("rounds")
+    if quick():
+        given.grains, given.rounds = given.grains[:1], 3
     return given
 
 
@@ -178,12 +177,8 @@ def compare(state, ours, peer):
         if not found[what] <= tolerance:
             raise Different(f"{state.grains} grains after {CHECK_STEPS} steps: {what} of {peer.title} differs from ours by {found[what]:.2g} "
                             f"(tolerance {tolerance}): not the same physics, so times were not compared")
-    return (f"| {state.grains} | {math.sqrt((moved ** 2).sum(1).mean()):.1e} m | {found['displacement']:.1e} | {our_contacts:.0f} | {contacts:.0f} | "
-            f"{our_stress / 1e3:.3f} | {stress / 1e3:.3f} | {ours.sliding:.0%} |")
-
-
-CHECK_HEAD = ["| grains | moved (rms) | difference of the way (rms) | contacts: ours | peer's | mean stress [kPa]: ours | peer's | sliding |",
-              "|---:|---:|---:|---:|---:|---:|---:|---:|"]
+    return {"rms displacement [m]": math.sqrt((moved ** 2).sum(1).mean()), "difference of it": found["displacement"], "contacts": our_contacts,
+            "peer's contacts": contacts, "mean stress [kPa]": our_stress / 1e3, "peer's mean stress [kPa]": stress / 1e3, "sliding share": ours.sliding}
 
 
 def in_turns(programs, rounds):
@@ -202,34 +197,19 @@ def in_turns(programs, rounds):
     return seconds, count
 
 
-def times_table_rows(state, programs, seconds):
-    rows, peer = [], programs[-1]
-    _, contacts, _ = programs[0].grains()
+def rows_of_times(state, programs, seconds, agreement, settings):
+    """A row for each program; agreement: columns of `compare`."""
+    peer = programs[-1]
+    rows = []
     for program in programs:
         found = seconds[program.title]
         per_grain = [1e9 * value / state.grains for value in found]
-        per_pair = [1e9 * value / program.near_pairs for value in found]
-        ratio = ""
-        if program is not peer:
-            median = statistics.median(seconds[peer.title]) / statistics.median(found)
-            ratio = f"{median:.2f}; {min(seconds[peer.title]) / min(found):.2f}"
-        rows.append(f"| {state.grains} | {program.title} | {program.near_pairs} | {contacts:.0f} | {statistics.median(per_grain):.1f} | {min(per_grain):.1f} | "
-                    f"{statistics.median(per_pair):.1f} | {min(per_pair):.1f} | {ratio} |")
+        row = {"grains": state.grains, "program": program.title, "near pairs": program.near_pairs, "ns per grain and step, median": statistics.median(per_grain),
+               "least": min(per_grain), "ns per near pair and step, median": statistics.median(found) * 1e9 / program.near_pairs}
+        if program is peer:
+            row["settings"] = settings
+        else:
+            row["peer over ours, medians"] = statistics.median(seconds[peer.title]) / statistics.median(found)
+            row["peer over ours, least"] = min(seconds[peer.title]) / min(found)
+        rows.append({**row, **agreement})
     return rows
-
-
-TIMES_HEAD = ["| grains | program | near pairs | contacts | ns per grain-step: median | least | ns per near pair: median | least | "
-              "peer / ours: medians; least |", "|---:|---|---:|---:|---:|---:|---:|---:|---:|"]
-
-
-def write_page(sections, command, versions, usual):
-    """Only runs of the default sizes may change the page."""
-    head = head_of(command, ["g++"]) + " " + versions
-    for table in sections.values():
-        print(f"\n{table}")
-    if not usual:
-        return
-    page = PAGE.read_text()
-    for name, table in sections.items():
-        page = with_section(page, name, f"{head}\n\n{table}")
-    rewrite(PAGE, page)

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 // Where does the time of the free-field fault scene go? Points by depth, strain and what sets their number of DEM steps, iterations by
-// cause, and everything outside of the points; Markdown on stdout.
+// cause, and everything outside of the points.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <string>
 
 #include "../../examples/shared/study/typed_scenes.hpp"
+#include "../shared/data_file.hpp"
 #include "profiled.hpp"
+#include "scarp/io/csv.hpp"
 #include "scarp/measure/cpu_time.hpp"
-#include "scarp/measure/processor.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
@@ -51,7 +51,8 @@ struct Iterations : scarp::NeverStops {
 
 double seconds_of(Tally const& tally) { return 1e-9 * static_cast<double>(tally.nanoseconds.load()); }
 
-std::string share(double part, double whole) { return fmt::format("{:.1f} %", 100.0 * part / whole); }
+/// Part of the run, measure with its unit, value.
+using Table = scarp::CsvTable;
 
 /// Wall time [s] of a call, the mean of several.
 template <class Call>
@@ -64,100 +65,59 @@ double timed(Call const& call) {
 
 /// What one iteration does beside the points' answers, each timed alone in the last state.
 template <class Problem>
-std::string parts_of_an_iteration(Problem& problem) {
+void add_parts_of_an_iteration(Problem& problem, Table& table) {
   using Stiffness = typename Problem::GroundStiffness;
   Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
   auto const tangents = problem.committed_tangents();
   scarp::FreeSystem const system(problem.constraints());
   Stiffness stiffness;
   scarp::detail::GroundEquations<Stiffness, scarp::SparseLu> equations;
-  double const assembly = timed([&] { problem.ground_stiffness(still, tangents, stiffness); });
-  double const factors = timed([&] { equations.factorize(system, stiffness); });
+  auto const add = [&](char const* what, auto const& call) {
+    table.add("one iteration, last state", fmt::format("{}, wall time [ms]", what), 1e3 * timed(call));
+  };
+  add("assembly", [&] { problem.ground_stiffness(still, tangents, stiffness); });
+  add("factors of the local part", [&] { equations.factorize(system, stiffness); });
   Eigen::VectorXd const force = equations.product(Eigen::VectorXd::Random(system.free_count()));
-  double const solution = timed([&] { equations.solve(force); });
+  add("GMRES", [&] { equations.solve(force); });
   auto gradients = problem.own_gradients();
-  double const means = timed([&] { problem.materials().mean().means(gradients, problem.executor()); });
-  double const forces = timed([&] { problem.evaluate_committed(); });
-  double const tangent = timed([&] { problem.committed_tangents(); });
-  return fmt::format(
-      "| assembly | factors of the local part | GMRES | means of all gradients | sum of forces | all points' tangents "
-      "|\n"
-      "| --- | --- | --- | --- | --- | --- |\n| {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.2f} | {:.1f} |\n",
-      1e3 * assembly, 1e3 * factors, 1e3 * solution, 1e3 * means, 1e3 * forces, 1e3 * tangent);
+  add("means of all gradients", [&] { problem.materials().mean().means(gradients, problem.executor()); });
+  add("sum of forces", [&] { problem.evaluate_committed(); });
+  add("tangents of all points", [&] { problem.committed_tangents(); });
 }
 
-std::string by_place(Tallies const& tallies, double all) {
-  std::string text =
-      "| depth [m] | strain below 0.5 %: answers, DEM steps each, share | 0.5 to 5 % | beyond 5 % | share |\n"
-      "| --- | --- | --- | --- | --- |\n";
-  for (int k = 0; k < Tallies::depths; ++k) {
-    double sum = 0.0;
-    text +=
-        fmt::format("| {:g} to {:g} |", tallies.depth * k / Tallies::depths, tallies.depth * (k + 1) / Tallies::depths);
-    for (auto const& row : tallies.by_place) {
-      auto const& tally = row[static_cast<std::size_t>(k)];
-      double const calls = static_cast<double>(tally.calls.load());
-      text += calls == 0.0
-                  ? " none |"
-                  : fmt::format(" {:.0f}, {:.0f}, {} |", calls, static_cast<double>(tally.dem_steps.load()) / calls,
-                                share(seconds_of(tally), all));
-      sum += seconds_of(tally);
+void add_tally(Table& table, std::string const& part, Tally const& tally, double all) {
+  double const calls = static_cast<double>(tally.calls.load());
+  table.add(part, "responses", calls);
+  table.add(part, "DEM steps each", static_cast<double>(tally.dem_steps.load()) / std::max(calls, 1.0));
+  table.add(part, "share of the responses' CPU time", seconds_of(tally) / all);
+}
+
+void add_tallies(Tallies const& tallies, double all, Table& table) {
+  constexpr std::array strains{"below 0.5 %", "0.5 to 5 %", "beyond 5 %"};
+  for (std::size_t row = 0; row < strains.size(); ++row) {
+    for (int k = 0; k < Tallies::depths; ++k) {
+      add_tally(table,
+                fmt::format("depth {:g} to {:g} m, strain {}", tallies.depth * k / Tallies::depths,
+                            tallies.depth * (k + 1) / Tallies::depths, strains[row]),
+                tallies.by_place[row][static_cast<std::size_t>(k)], all);
     }
-    text += fmt::format(" {} |\n", share(sum, all));
   }
-  return text;
+  for (std::size_t k = 0; k < tallies.by_reason.size(); ++k)
+    add_tally(table, fmt::format("DEM steps set by {}", profile::reason_names[k]), tallies.by_reason[k], all);
 }
 
-std::string by_reason(Tallies const& tallies, double all, double steps) {
-  std::string text =
-      "| number of DEM steps set by | answers | DEM steps each | share of the DEM steps | of the time |\n"
-      "| --- | --- | --- | --- | --- |\n";
-  for (std::size_t k = 0; k < tallies.by_reason.size(); ++k) {
-    auto const& tally = tallies.by_reason[k];
-    double const own = static_cast<double>(tally.dem_steps.load());
-    double const calls = static_cast<double>(tally.calls.load());
-    text += fmt::format("| {} | {:.0f} | {:.0f} | {} | {} |\n", profile::reason_names[k], calls,
-                        own / std::max(calls, 1.0), share(own, steps), share(seconds_of(tally), all));
-  }
-  return text;
-}
-
-struct Options {
+void profile_scene(bool quick) {
   fault_rupture::Choice choice;
-  double tolerance = 1e-3;
-};
-
-Options read(int argc, char** argv) {
-  Options options;
-  auto& choice = options.choice;
   choice.length = 8.0;
-  choice.packings = 16;
+  choice.packings = quick ? 2 : 16;
   choice.mirrored_packings = true;
   choice.strain_per_step = 2e-5;
   choice.unbalanced_tolerance = 0.1;
-  choice.threads = 1;
-  CLI::App app("Where does the time of the free-field fault scene go? Markdown on stdout.");
-  app.option_defaults()->always_capture_default();
-  app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(CLI::Range(0.5, 25.0));
-  app.add_option("--triangles", choice.triangles, "wanted number of elements instead of --size")
-      ->check(CLI::Range(100, 1'000'000))
-      ->excludes("--size");
-  app.add_option("--length", choice.length, "intrinsic length [m]")->check(CLI::Range(0.1, 100.0));
-  app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(9, 100'000));
-  app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(CLI::Range(1e-5, 0.5));
-  app.add_option("--tolerance", options.tolerance, "force residual over reactions")->check(CLI::Range(1e-9, 1.0));
-  app.add_option("--seed", choice.seed, "of the packings");
-  app.add_option("--threads", choice.threads, "0 takes all processors")->check(CLI::Range(0, 1024));
-  try {
-    app.parse(argc, argv);
-  } catch (CLI::ParseError const& problem) {
-    std::exit(app.exit(problem) == 0 ? 0 : 2);
+  if (quick) {
+    choice.triangles = 220;
+    choice.grains = 60;
+    choice.throw_over_depth = 0.002;
   }
-  return options;
-}
-
-void profile_scene(Options const& options) {
-  auto const& choice = options.choice;
   scarp::CpuTime const preparing;
   auto const study = fault_rupture::make<fault_rupture::SandFreeField>(choice);
   double const preparation = preparing.seconds();
@@ -169,12 +129,12 @@ void profile_scene(Options const& options) {
   scene.fault = study.fault;
   scene.throw_to = study.throw_to;
   scene.stepping = study.stepping;
-  scene.solver.tolerance = options.tolerance;
+  scene.solver.tolerance = 1e-3;
   scene.solver.most_iterations = choice.most_iterations;
   auto const tallies = sand.provider.tallies;
   tallies->depth = study.ground.layer.depth;
 
-  scarp::ThreadExecutor executor(choice.threads);
+  scarp::ThreadExecutor executor(1);
   auto problem = scene.problem(executor);
   Iterations iterations;
   iterations.depth = tallies->depth;
@@ -186,46 +146,50 @@ void profile_scene(Options const& options) {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
 
-  double answers = 0.0;
-  for (auto const& tally : tallies->by_reason) answers += seconds_of(tally);
+  double responses = 0.0;
+  for (auto const& tally : tallies->by_reason) responses += seconds_of(tally);
   double const tangents = seconds_of(tallies->tangents);
   double const steps = static_cast<double>(report.inner_steps);
   auto const& mesh = problem.discretisation().mesh();
-  auto const profile = scarp::surface_profile(mesh, rest.of(mesh), problem.discretisation().positions());
   auto const survey = scarp::rupture_survey(mesh, rest.of(mesh), problem.discretisation().positions(),
                                             offset_at(scene.fault, report.load));
-
-  fmt::print("{} triangles of {} grains, length {:g} m, h/H {:.4f}, residual {:g}, {} threads, {}; {}\n\n",
-             mesh.elements.size(), choice.grains, choice.length, report.load / tallies->depth, options.tolerance,
-             executor.threads(), scarp::processor(), report.verdict.acceptable() ? "ok" : name(report.verdict.reason));
-  fmt::print(
-      "| preparation, CPU s | run, CPU s | run, wall s | DEM steps, million | us per DEM step, all of the run | memory "
-      "[MB] | x50 [m] |\n"
-      "| --- | --- | --- | --- | --- | --- | --- |\n| {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.1f} | {:.0f} | {:.2f} "
-      "|\n\n",
-      preparation, cpu, report.seconds, 1e-6 * steps, 1e6 * cpu / steps,
-      1e-3 * 1.024 * static_cast<double>(used.ru_maxrss), survey.surface.surface_x50);
-  fmt::print("| packings' answers | their tangents | all else |\n| --- | --- | --- |\n| {} | {} | {} |\n\n",
-             share(answers, cpu), share(tangents, cpu), share(cpu - answers - tangents, cpu));
-  fmt::print("{}\n{}\n", by_place(*tallies, answers), by_reason(*tallies, answers, steps));
-  fmt::print(
-      "| accepted steps | refused attempts | first iterations | further ones | of refused attempts | most of one step "
-      "| answers that are fluid | not converged |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- |\n| {} | {} | {} | {} | {} | {} | {} | {} |\n\n",
-      report.steps, report.refused, iterations.first, iterations.further, iterations.refused, iterations.most,
-      tallies->by_status[static_cast<std::size_t>(scarp::Status::fluid)].calls.load(),
-      tallies->by_status[static_cast<std::size_t>(scarp::Status::not_converged)].calls.load());
-  fmt::print("Milliseconds of wall time, each alone in the last state:\n\n{}", parts_of_an_iteration(problem));
+  Table table({"part", "measure", "value"});
+  auto const add = [&](char const* what, double value) { table.add("run", what, value); };
+  add("CPU time [s]", cpu);
+  add("CPU time of the preparation [s]", preparation);
+  add("DEM steps [million]", 1e-6 * steps);
+  add("CPU time per DEM step [us]", 1e6 * cpu / steps);
+  add("share of the packings' responses", responses / cpu);
+  add("share of their tangents", tangents / cpu);
+  add("share of all else", 1.0 - (responses + tangents) / cpu);
+  add("accepted steps", report.steps);
+  add("refused attempts", report.refused);
+  add("first iterations", static_cast<double>(iterations.first));
+  add("further iterations", static_cast<double>(iterations.further));
+  add("x50 [m]", survey.surface.surface_x50);
+  add("triangles", static_cast<double>(mesh.elements.size()));
+  add("h/H", report.load / tallies->depth);
+  add("wall time [s]", report.seconds);
+  add("memory [MB]", 1e-3 * 1.024 * static_cast<double>(used.ru_maxrss));
+  add("iterations of refused attempts", static_cast<double>(iterations.refused));
+  add("most iterations of one step", iterations.most);
+  for (auto const status : {scarp::Status::fluid, scarp::Status::not_converged}) {
+    table.add("run", fmt::format("responses {}", name(status)),
+              static_cast<double>(tallies->by_status[static_cast<std::size_t>(status)].calls.load()));
+  }
+  table.add("run", "status", report.verdict.acceptable() ? "ok" : name(report.verdict.reason));
+  add_tallies(*tallies, responses, table);
+  add_parts_of_an_iteration(problem, table);
+  benchmarks::write_data("profile", table.text());
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  auto const options = read(argc, argv);
-  try {
-    profile_scene(options);
-  } catch (std::exception const& problem) {
-    fmt::print(stderr, "profile: {}\n", problem.what());
-    return 1;
-  }
+/// --quick: 220 triangles with 60 grains each
+int main(int argc, char** argv) try {
+  profile_scene(benchmarks::is_quick(argc, argv));
+  return 0;
+} catch (std::exception const& problem) {
+  fmt::print(stderr, "profile: {}\n", problem.what());
+  return 1;
 }

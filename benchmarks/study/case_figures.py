@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Figures 3 to 6 of the study by our runs, beside docs/study/cases.md."""
+"""Figures 3 and 4 of the study by our runs."""
 import numpy as np
-import scarp_figures as figures
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import PowerNorm
 from PIL import Image
 from scarp_figures import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, plt
 
-COLOURS = {"free": BLUE, "light": GREEN, "heavy": VERMILION}
+COLOURS = {"light": GREEN, "heavy": VERMILION}
 DEPTH = 25.0           # [m]
 FOOTING_THROW = 1.99 / DEPTH  # of the study's fig. 4
 THROWS = [0.028, 0.057, 0.085]
@@ -90,32 +89,7 @@ def footings(sets, level):
     return drawn
 
 
-def over_strain(sets, quantities):
-    """A row for each of (name, label, factor), columns A and B: means of the packings around each point, and one deviation among them."""
-    one = sets["8 m"]
-    drawn, rows = plt.subplots(len(quantities), 2, figsize=(7.6, 2.7 * len(quantities)), sharex="col", squeeze=False)
-    for column, point in zip(rows.T, ("A", "B")):
-        for axes, (name, label, factor) in zip(column, quantities):
-            for case, colour in COLOURS.items():
-                if (case, point) not in one.histories:
-                    continue
-                series = one.histories[case, point]
-                strain, values = 100.0 * series["eps_q"].mean(axis=1), factor * series[name]
-                axes.plot(strain, values.mean(axis=1), color=colour, label=case)
-                axes.fill_between(strain, values.mean(axis=1) - values.std(axis=1), values.mean(axis=1) + values.std(axis=1), color=colour, alpha=0.12, linewidth=0)
-            axes.set_ylabel(label)
-        column[0].set_title(f"{point}, x = {one.points[point]:.1f} m" if point in one.points else point, loc="left")
-        column[-1].set_xlabel("deviatoric strain [%]")
-    rows[0, 0].legend()
-    return drawn
-
-
 def write(folder, sets, level):
-    one = sets["8 m"]
-    if "free" not in one.runs:
-        raise figures.InputError("the free field has not been run to its end: benchmarks/study/run free")
     saved(free_field(sets, level), folder / "cases_free.png")
-    if len(one.runs) > 1:
+    if len(sets["8 m"].runs) > 1:
         saved(footings(sets, level), folder / "cases_footings.png")
-    saved(over_strain(sets, [("q", "q [kPa]", 1e-3), ("eps_v", "volumetric strain [%]", 100.0)]), folder / "cases_stress.png")
-    saved(over_strain(sets, [("contact_fabric", "contact fabric F_c", 1.0), ("particle_fabric", "particle fabric F_p", 1.0)]), folder / "cases_fabric.png")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
-"""cases.py: the three cases beside the study, from the runs in output/study_*: figures and the generated sections of docs/study/cases.md.
-Run by `benchmarks/study/run cases`; where a run is missing the page keeps what it says."""
+"""cases.py: the three cases beside the study, from the runs in output/study_*: docs/data/study_cases.csv, study_runs.csv and two figures.
+Run by `benchmarks/study/run cases`; where a run is missing the data file keeps its value."""
 import dataclasses
 import json
 import math
@@ -13,13 +13,13 @@ sys.path[:0] = [str(REPOSITORY / "benchmarks"), str(REPOSITORY / "examples" / "s
 import numpy as np
 import case_figures
 import ground_points
-from generated_sections import number, rewrite, rows_on, spread, table, with_section
+from common import data_folder, measures, origin, read_table, write_table
 
 OUTPUT = REPOSITORY / "output"
-PAGE = REPOSITORY / "docs" / "study" / "cases.md"
+FIGURES = REPOSITORY / "docs" / "study"
 CASES = ["free", "heavy", "light"]
 SEEDS = [1, 2, 3]
-# Height of the points A and B above bedrock [m], 4 m below the surface: docs/study/cases.md, *Where A and B are*.
+# Height of the points A and B above bedrock [m], 4 m below the surface.
 LEVEL = 21.0
 SETS = {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_medium_{case}_5.66" for case in CASES},
         "4 m": {case: f"study_{case}_4" for case in CASES}}
@@ -143,32 +143,30 @@ def rows():
                lambda one, case=case: one.at(case, "B", lambda series: series["q"][-1] / series["q"].max()))
 
 
-def kept(page, section, lines):
-    """Lines of a table by their first cells; a cell that is None stays what the page says."""
-    said = {first: cells for first, *cells in rows_on(page, section)}
-    return [[first, *(before if new is None else new for new, before in zip(cells, said.get(first, ["-"] * len(cells)), strict=True))]
-            for first, *cells in lines]
+def kept(lines, before):
+    """Lines of a table by their first cells; a cell that is None stays as the data file has it."""
+    said = {row["measure"]: row for row in before}
+    return [{column: said.get(line["measure"], {}).get(column) if value is None else value for column, value in line.items()} for line in lines]
 
 
-def column(sets, names, cases, written):
-    """written(measure) for a column of the table; None of a measure where one of these sets has not run all of its cases."""
-    complete = all(set(cases) <= set(sets[name].runs) for name in names)
-    return lambda measure, digits: written([measure(sets[name]) for name in names], digits) if complete else None
+def column(sets, names, cases, measure, digits):
+    """Mean, and of several sets the deviation, of a measure; None where one of these sets has not run all of its cases."""
+    if not all(set(cases) <= set(sets[name].runs) for name in names):
+        return None
+    known = [value for value in (measure(sets[name]) for name in names) if not math.isnan(value)]
+    if not known:
+        return "-"
+    return f"{np.mean(known):.{digits}f}" + (f" +- {np.std(known, ddof=1):.{max(digits, 1)}f}" if len(known) > 1 else "")
 
 
-def alone(values, digits):
-    return number(values[0], digits)
-
-
-def of_seeds(values, digits):
-    return spread(values, digits, max(digits, 1))
+SEED_SETS = [f"seed {seed}" for seed in SEEDS]
 
 
 def numbers(sets):
-    """Lines of the table."""
-    columns = [column(sets, ["8 m"], CASES, alone), column(sets, ["4 m"], CASES, alone),
-               column(sets, [f"seed {seed}" for seed in SEEDS], CASES, of_seeds), column(sets, ["5.66 m"], CASES, alone)]
-    return [[what, said or "-", *(cell(measure, digits) for cell in columns)] for what, said, digits, measure in rows()]
+    """Lines of the comparison with the study."""
+    columns = {"8 m": ["8 m"], "4 m": ["4 m"], "8 m, 1904 triangles: three seeds": SEED_SETS, "5.66 m, 1904 triangles": ["5.66 m"]}
+    return [{"measure": what, "study": said, **{title: column(sets, names, CASES, measure, digits) for title, names in columns.items()}}
+            for what, said, digits, measure in rows()]
 
 
 def base_rows(case):
@@ -182,55 +180,25 @@ def base_rows(case):
 
 
 def bases(sticking, frictional):
-    """Lines of the table of both bases."""
-    seeds = [f"seed {seed}" for seed in SEEDS]
-    columns = [column(sets, names, ["heavy", "light"], written)
-               for names, written in ((["8 m"], alone), (seeds, of_seeds)) for sets in (sticking, frictional)]
-    return [[f"{case}: {what}", *(cell(measure, digits) for cell in columns)] for case in ("heavy", "light") for what, digits, measure in base_rows(case)]
-
-
-def cost_row(name, summary):
-    footing = "tilt" in summary
-    parts = summary["error_budget"]["parts"].items()
-    outside = [part for part, said in parts if not said["within"]]
-    return [name, str(summary["elements"]), f"{summary['steps']}, {summary['refused_steps']}", str(summary["iterations"]), f"{1e-6 * summary['dem_steps']:.1f}",
-            f"{summary['max_accepted_residual']:.1e}", f"{summary['support_error']:.1e}" if footing else "-",
-            f"{math.degrees(summary['tilt']):.2f}" if footing else "-",
-            f"{1e-3 * summary['contact_pressure_min']:.0f}-{1e-3 * summary['contact_pressure_max']:.0f}" if footing else "-",
-            f"{summary['cpu_seconds']:.0f}", f"{summary['wall_seconds']:.0f}", f"{summary['threads']}", f"{summary['peak_memory_bytes'] / 2**30:.2f}",
-            "inside" if not outside else ", ".join(outside)]
-
-
-def costs(page, sets, frictional):
-    """Lines of the table: those of the page, and of the runs that are there."""
-    lines = {first: cells for first, *cells in rows_on(page, "costs")}
-    for title, group in (("{case}, {name}", sets), ("{case}, frictional, {name}", frictional)):
-        for name, one in group.items():
-            for case, run in one.runs.items():
-                first, *cells = cost_row(title.format(case=case, name=name), run.summary)
-                lines[first] = cells
-    return [[first, *cells] for first, cells in lines.items()]
-
-
-HEADS = {
-    "numbers": ["", "study", "8 m", "4 m", "8 m, 1904 triangles: three seeds", "5.66 m, 1904 triangles"],
-    "bases": ["", "sticking, 7592 triangles", "frictional, 7504", "sticking, 1952: three seeds", "frictional, 1904: three seeds"],
-    "costs": ["run", "triangles", "steps, refused", "iterations", "million DEM steps", "largest residual", "imbalance over weight", "tilt [degrees]",
-              "contact pressure [kPa]", "CPU s", "wall s", "threads", "GiB", "error budget"],
-}
+    """Lines of both kinds of bases."""
+    columns = {"8 m": (sticking, ["8 m"]), "8 m, frictional": (frictional, ["8 m"]), "8 m, 1904 triangles: three seeds": (sticking, SEED_SETS),
+               "8 m, frictional, 1904 triangles: three seeds": (frictional, SEED_SETS)}
+    return [{"measure": f"base, {case}: {what}", **{title: column(sets, names, ["heavy", "light"], measure, digits)
+                                                    for title, (sets, names) in columns.items()}}
+            for case in ("heavy", "light") for what, digits, measure in base_rows(case)]
 
 
 def main():
     sets, frictional = ({name: CaseSet(names) for name, names in named.items()} for named in (SETS, FRICTIONAL))
-    page = PAGE.read_text()
-    for section, lines in (("numbers", kept(page, "numbers", numbers(sets))), ("bases", kept(page, "bases", bases(sets, frictional))),
-                           ("costs", costs(page, sets, frictional))):
-        page = with_section(page, section, table(HEADS[section], lines))
-    if set(CASES) <= set(sets["8 m"].runs):
-        case_figures.write(PAGE.parent, sets, LEVEL)
-    else:
-        print("figures stay as they are: they need output/study_free, study_heavy and study_light")
-    rewrite(PAGE, page)
+    said = origin("./benchmarks/study/run cases")
+    write_table("study_cases", kept([*numbers(sets), *bases(sets, frictional)], read_table(data_folder() / "study_cases.csv")), said)
+    runs = [{"run": title.format(case=case, name=name), **measures(run.summary)}
+            for title, group in (("{case}, {name}", sets), ("{case}, frictional, {name}", frictional))
+            for name, one in group.items() for case, run in one.runs.items()]
+    if runs:
+        write_table("study_runs", runs, said, key=("run",))
+    if "free" in sets["8 m"].runs:
+        case_figures.write(FIGURES, sets, LEVEL)
 
 
 if __name__ == "__main__":

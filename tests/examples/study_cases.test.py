@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""What the study's page reads out of frames: where a rupture crosses a level, and which packings stand for a point. Skipped, exit 77,
+"""What the comparison with the study reads out of frames: where a rupture crosses a level, and which packings stand for a point. Skipped, exit 77,
 without NumPy and Matplotlib."""
 import pathlib
 import sys
@@ -43,11 +43,12 @@ before = ground(lambda places: 3.0 * (places[:, 0] > 10.0))
 both = ground(lambda places: dipping(places) + 3.0 * (places[:, 0] > 10.0))
 expect(abs(steepest_place(both, before, 5.0) + 2.5) < 0.1, "what settled before does not count")
 
-page = "<!-- a -->\n| what | study | here |\n| --- | --- | --- |\n| x | 1 | 2 |\n| old | 1 | 3 |\n<!-- end of a -->"
-expect(cases.kept(page, "a", [["new", "-", None], ["x", "-", None]]) == [["new", "-", "-"], ["x", "-", "2"]],
-       "a table's cells without a run stay, and its rows are the program's")
+before = [{"measure": "x", "study": "1", "8 m": "2"}, {"measure": "old", "study": "1", "8 m": "3"}]
+expect(cases.kept([{"measure": "new", "study": "-", "8 m": None}, {"measure": "x", "study": "-", "8 m": None}], before)
+       == [{"measure": "new", "study": "-", "8 m": None}, {"measure": "x", "study": "-", "8 m": "2"}],
+       "a value without a run stays as the data file has it, and the rows are the program's")
 empty = {name: cases.CaseSet({case: "no such run" for case in cases.CASES}) for name in cases.SETS}
-expect(all(cells[2:] == [None] * 4 for cells in cases.numbers(empty)), "without runs nothing is told")
+expect(all(list(line.values())[2:] == [None] * 4 for line in cases.numbers(empty)), "without runs nothing is told")
 
 near = around([rest], np.array([3.0, 5.0]))
 centres = rest.places[rest.cells[near]].mean(axis=1)
