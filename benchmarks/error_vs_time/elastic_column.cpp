@@ -8,9 +8,9 @@
 #include "scarp/bvp/loads.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
-#include "scarp/measure/sweep.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "subjects.hpp"
+#include "sweep.hpp"
 
 namespace error_vs_time {
 
@@ -51,7 +51,7 @@ struct ColumnSettings {
   int cells = 8;  ///< over the width, twice as many over the height
 };
 
-/// Bends the grid lines by up to a twentieth of the width, so that the mesh is not made for the answer.
+/// Bends the grid lines by up to a twentieth of the width, so that the mesh does not fit the solution.
 scarp::Vector<2> bent(scarp::Vector<2> const& place) {
   double const bump = 0.05 * Column::width * std::sin(std::numbers::pi * place.x() / Column::width) *
                       std::sin(std::numbers::pi * place.y() / Column::height);
@@ -59,7 +59,7 @@ scarp::Vector<2> bent(scarp::Vector<2> const& place) {
 }
 
 template <class Element>
-scarp::Measured settle(ColumnSettings const& settings) {
+Measured settle(ColumnSettings const& settings) {
   Column const column;
   auto const mesh =
       scarp::BoxMesh<Element>{
@@ -89,27 +89,27 @@ scarp::Measured settle(ColumnSettings const& settings) {
   Eigen::VectorXd const forces = grid.stiffness(still, unstressed, tangents) * found - loads;
   double wall = 0.0;
   for (int const node : boundary_nodes(mesh, "left")) wall += forces(2 * node);
-  scarp::Measured measured;
+  Measured measured;
   // The distance from the exact field stands across it: its norm over the field's is the relative error.
-  measured.answer("displacement", Eigen::Vector2d(size.value, error.value));
-  measured.answer("strain", Eigen::Vector2d(size.gradient, error.gradient));
-  measured.answer("wall force", wall);
+  measured.add("displacement", Eigen::Vector2d(size.value, error.value));
+  measured.add("strain", Eigen::Vector2d(size.gradient, error.gradient));
+  measured.add("wall force", wall);
   return measured;
 }
 /// The norms of the exact field, which every mesh integrates a little differently, from a fine one.
-scarp::Measured exact_answer() {
+Measured exact_response() {
   constexpr int fine = 64;
   auto measured = settle<scarp::Tri3>({.cells = fine});
-  for (auto& [name, values] : measured.answers) {
+  for (auto& [name, values] : measured.responses) {
     if (values.size() == 2) values(1) = 0.0;
     if (values.size() == 1) values(0) = Column{}.wall_force();
   }
   return measured;
 }
 
-scarp::SweepTable elastic_column(Options const& options) {
+SweepTable elastic_column(Options const& options) {
   int const levels = options.quick ? 3 : 5;
-  scarp::Sweep sweep("elastic column", ColumnSettings{}, [](ColumnSettings const& settings) {
+  Sweep sweep("elastic column", ColumnSettings{}, [](ColumnSettings const& settings) {
     switch (settings.element) {
       case Kind::tri3: return settle<scarp::Tri3>(settings);
       case Kind::tri6: return settle<scarp::Tri6>(settings);
@@ -118,7 +118,7 @@ scarp::SweepTable elastic_column(Options const& options) {
     }
     return settle<scarp::Quad8>(settings);
   });
-  sweep.exact(exact_answer());
+  sweep.exact(exact_response());
   std::vector<double> sizes;
   for (int k = 0; k < levels; ++k) sizes.push_back(1.0 / std::exp2(k + 1));
   std::pair<char const*, Kind> const kinds[] = {
@@ -135,11 +135,9 @@ scarp::SweepTable elastic_column(Options const& options) {
   return sweep.run(options.repetitions_or(3));
 }
 
-bool const registered =
-    register_subject({.name = "elastic_column",
-                      .question = "which element and mesh give the exact answer of an elastic column?",
-                      .run = elastic_column,
-                      .wanted_errors = {0.05, 0.01, 1e-3, 1e-4}});
+bool const registered = register_subject({.name = "elastic_column",
+                                          .question = "which element and mesh reproduce an elastic column?",
+                                          .run = elastic_column});
 
 }  // namespace
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-// What error does which setting leave, and what does it cost? Packings, boundary-value problems and providers.
+// Which error does a setting leave, and what does it cost? Packings, boundary-value problems, the fault scene, a user-defined scene.
 #include <algorithm>
-#include <charconv>
 #include <exception>
 #include <string_view>
 
-#include "report.hpp"
+#include "../shared/data_file.hpp"
+#include "subjects.hpp"
 
 namespace {
 
@@ -13,24 +13,17 @@ using error_vs_time::Options;
 using error_vs_time::Subject;
 
 constexpr std::string_view usage =
-    "usage: error_vs_time [SUBJECT...] [--out FOLDER] [--repetitions N] [--quick]   (without SUBJECT: all)\n";
+    "usage: error_vs_time [SUBJECT...] [--repetitions N] [--quick]   (without SUBJECT: all)\n";
 
 /// \throws InputError for what is no option and no subject
 std::vector<Subject> read(int count, char const* const* arguments, Options& options) {
   std::vector<Subject> chosen;
   for (int k = 1; k < count; ++k) {
     std::string_view const argument = arguments[k];
-    bool const has_value = k + 1 < count;
     if (argument == "--quick") {
       options.quick = true;
-    } else if (argument == "--out" && has_value) {
-      options.out = arguments[++k];
-    } else if (argument == "--repetitions" && has_value) {
-      std::string_view const text = arguments[++k];
-      auto const [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), options.repetitions);
-      if (trouble != std::errc{} || end != text.data() + text.size() || options.repetitions < 1) {
-        scarp::refuse("--repetitions '{}' is no number of runs (one at least): give 3", text);
-      }
+    } else if (argument == "--repetitions" && k + 1 < count) {
+      options.repetitions = scarp::require_at_least("--repetitions", std::atoi(arguments[++k]), 1);
     } else {
       auto const& all = error_vs_time::subjects();
       auto const found = std::find_if(all.begin(), all.end(), [&](auto const& each) { return each.name == argument; });
@@ -40,6 +33,30 @@ std::vector<Subject> read(int count, char const* const* arguments, Options& opti
     }
   }
   return chosen.empty() ? error_vs_time::subjects() : chosen;
+}
+
+/// The front of each response, a line each, at most twelve.
+std::string fronts(error_vs_time::SweepTable const& table) {
+  std::string text;
+  std::size_t lines = 0;
+  for (auto const& response : table.responses) {
+    if (lines++ == 12) break;
+    text += fmt::format("{}: base {:.2g} %; front", response, 100.0 * table.rows.front().errors[lines - 1]);
+    for (auto const& row : table.front(response)) {
+      text += fmt::format("; {} {} ({:.2g} %, cost {:.2g})", row.knob, row.setting, 100.0 * row.errors[lines - 1],
+                          row.cost);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+void report(Options const& options, Subject const& subject) {
+  auto const table = subject.run(options);
+  auto const more = fmt::format(
+      "{} repetitions; base setting {:.3g} s, reference {:.3g} times that; costs differ by {:.2g} % by chance",
+      table.repetitions, table.rows.front().seconds, table.reference_cost, 100.0 * table.cost_noise);
+  benchmarks::write_data("error_vs_time_" + subject.name, table.csv(), more, fronts(table));
 }
 
 }  // namespace
@@ -54,9 +71,7 @@ int main(int argc, char** argv) {
   }
   try {
     Options options;
-    auto const chosen = read(argc, argv, options);
-    std::filesystem::create_directories(options.out);
-    for (auto const& subject : chosen) report(subject, options, subject.run(options));
+    for (auto const& subject : read(argc, argv, options)) report(options, subject);
   } catch (std::exception const& problem) {
     fmt::print(stderr, "error_vs_time: {}\n", problem.what());
     return 1;

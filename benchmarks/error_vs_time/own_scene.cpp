@@ -3,8 +3,8 @@
 // constant volume in load steps, as a point of a boundary-value problem would ask for it.
 #include "rve_packings.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/measure/sweep.hpp"
 #include "subjects.hpp"
+#include "sweep.hpp"
 
 namespace error_vs_time {
 namespace {
@@ -14,19 +14,18 @@ struct OnePacking {
   Grains at(scarp::Site<2> const&) const { return consolidated(400, seed); }
 };
 
-// [the example of docs/error-against-time.md
 struct Settings {
   double load_step = 1e-3, strain_per_step = 1e-5, inertial_number = 5e-3;
   int least_steps = 20;
 };
 
-scarp::Measured shear(Settings const& settings, int repetition) {
+Measured shear(Settings const& settings, int repetition) {
   scarp::DemRve<Grains, OnePacking> const soil{.law = examples::study_law(),
                                                .source = {repetition + 1},
                                                .strain_per_step = settings.strain_per_step,
                                                .inertial_number = settings.inertial_number,
                                                .least_steps = settings.least_steps};
-  scarp::Measured measured;
+  Measured measured;
   scarp::Gradient<2> const increment{{0.0, settings.load_step}, {0.0, 0.0}};
   auto state = soil.initial_state({});
   auto trial = state;
@@ -35,12 +34,12 @@ scarp::Measured shear(Settings const& settings, int repetition) {
     measured.verdict = soil.respond(state, increment, trial).verdict;
     if (!measured.verdict.acceptable()) return measured;
   }
-  measured.answer("stress at 2 %", Eigen::VectorXd(soil.stress(state)));
+  measured.add("stress at 2 %", Eigen::VectorXd(soil.stress(state)));
   return measured;
 }
 
-scarp::SweepTable sweep_provider(Options const& options) {
-  scarp::Sweep sweep("rve_provider", Settings{}, shear);
+SweepTable sweep_provider(Options const& options) {
+  Sweep sweep("rve_provider", Settings{}, shear);
   sweep.reference({.load_step = 1e-4, .strain_per_step = options.quick ? 1e-6 : 1e-7});
   sweep.vary("load step", &Settings::load_step, {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4});
   sweep.vary("strain per step", &Settings::strain_per_step, {5e-5, 2e-5, 1e-5, 5e-6, 2e-6});
@@ -51,7 +50,6 @@ scarp::SweepTable sweep_provider(Options const& options) {
 
 bool const registered =
     register_subject({"rve_provider", "a packing as provider, strained in load steps", sweep_provider});
-// the example ends]
 
 }  // namespace
 }  // namespace error_vs_time

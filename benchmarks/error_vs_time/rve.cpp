@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// One packing along the paths of the laboratory, against its own quasi-static answer.
+// One packing along the paths of the laboratory, against its own quasi-static response.
 #include "rve_paths.hpp"
-#include "scarp/measure/sweep.hpp"
 #include "subjects.hpp"
+#include "sweep.hpp"
 
 namespace error_vs_time {
 namespace {
 
+using Measured;
 using scarp::LocalDamping;
-using scarp::Measured;
 
 struct DoublePrecision {};
 struct SinglePrecision {};
@@ -48,11 +48,11 @@ Measured run_with(HertzMindlinSprings, RveSettings const& settings, int repetiti
   return walk(relaxed(linear, law), law, damping_of(settings), settings, path);
 }
 
-scarp::SweepTable sweep_path(std::string const& name, Path const& path, Options const& options) {
+SweepTable sweep_path(std::string const& name, Path const& path, Options const& options) {
   bool const quick = options.quick;
   RveSettings const base{.grains = quick ? 100 : 400};
-  scarp::Sweep sweep(name, base,
-                     [&](RveSettings const& settings, int repetition) { return run_path(settings, repetition, path); });
+  Sweep sweep(name, base,
+              [&](RveSettings const& settings, int repetition) { return run_path(settings, repetition, path); });
   auto finest = base;
   finest.strain_per_step = quick ? 1e-6 : 1e-7;
   sweep.reference(finest);
@@ -74,28 +74,24 @@ scarp::SweepTable sweep_path(std::string const& name, Path const& path, Options 
   sweep.vary_over<LocalDamping, MassProportional>("damping kind", {"local 0.2", "mass-proportional 0.02"}, run);
   sweep.vary_over<DoublePrecision, SinglePrecision>("precision", {"double", "float"}, run);
   sweep.vary_over<LinearSprings, HertzMindlinSprings>("contact law", {"linear", "Hertz-Mindlin"}, run);
-  if (!quick) {
-    sweep.combine("strain per step", "damping");
-    if (path.volume_is_free) sweep.combine("strain per step", "servo response steps");
-  }
   return sweep.run(options.repetitions_or(quick ? 2 : 5));
 }
 
-scarp::SweepTable biaxial(Options const& options) {
+SweepTable biaxial(Options const& options) {
   Path const path{.loading = [](double rate) { return scarp::drained_compression<2>(rate, confinement); },
                   .strain = options.quick ? 0.01 : 0.03,
                   .samples = options.quick ? 10 : 30};
   return sweep_path("rve_biaxial", path, options);
 }
 
-scarp::SweepTable simple_shear(Options const& options) {
+SweepTable simple_shear(Options const& options) {
   Path const path{.loading = [](double rate) { return scarp::simple_shear_at_stress<2>(rate, confinement); },
                   .strain = options.quick ? 0.01 : 0.04,
                   .samples = options.quick ? 10 : 40};
   return sweep_path("rve_simple_shear", path, options);
 }
 
-scarp::SweepTable one_dimensional(Options const& options) {
+SweepTable one_dimensional(Options const& options) {
   Path const path{.loading = scarp::oedometer<2>, .strain = 0.01, .samples = 10, .volume_is_free = false};
   return sweep_path("rve_k0", path, options);
 }

@@ -8,8 +8,8 @@
 #include "rve_packings.hpp"
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/measure/cpu_time.hpp"
-#include "scarp/measure/measured.hpp"
+#include "scarp/measure/resources.hpp"
+#include "sweep_table.hpp"
 
 namespace error_vs_time {
 
@@ -62,13 +62,13 @@ class Samples {
     other_(sample) = -std::log(packing.cell.determinant() / first_area);
   }
 
-  void tell(scarp::Measured& measured) {
+  void tell(Measured& measured) {
     if (!path_.volume_is_free) {
       for (int k = 0; k < path_.samples; ++k) other_(k) = stress_(3 * k) / stress_(3 * k + 1);
     }
-    measured.answer("stress", stress_);
-    measured.answer(path_.volume_is_free ? "dilation" : "K0", other_);
-    measured.answer("fabric", fabric_);
+    measured.add("stress", stress_);
+    measured.add(path_.volume_is_free ? "dilation" : "K0", other_);
+    measured.add("fabric", fabric_);
   }
 
  private:
@@ -80,10 +80,10 @@ class Samples {
 
 /// The last steps of an interval between two samples stand still (settling); their rate makes up for it.
 template <class PackingType, class Damping>
-scarp::Measured walk(PackingType packing, typename PackingType::Law const& law, Damping const& damping,
-                     RveSettings const& settings, Path const& path) {
+Measured walk(PackingType packing, typename PackingType::Law const& law, Damping const& damping,
+              RveSettings const& settings, Path const& path) {
   scarp::CpuTime const clock;
-  scarp::Measured measured;
+  Measured measured;
   scarp::TimeStepper<PackingType, Damping> stepper;
   stepper.damping = damping;
   stepper.time_step_share = settings.time_step_share;

@@ -4,9 +4,9 @@
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
-#include "scarp/measure/sweep.hpp"
 #include "scarp/solver/frozen_tangent.hpp"
 #include "subjects.hpp"
+#include "sweep.hpp"
 
 namespace error_vs_time {
 
@@ -55,7 +55,7 @@ Eigen::VectorXd heave(Mesh const& mesh, std::vector<scarp::Vector<2>> const& pos
 }
 
 template <class Element, class Scheme, class Rule>
-scarp::Measured press_with(Footing const& footing, FootingSettings const& settings, Rule const& rule) {
+Measured press_with(Footing const& footing, FootingSettings const& settings, Rule const& rule) {
   using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
   double const pressure = footing.bearing_pressure();
   Soil const soil{.elasticity = scarp::IsotropicElasticity::from_young_poisson(1e5 * pressure, 0.3),
@@ -85,7 +85,7 @@ scarp::Measured press_with(Footing const& footing, FootingSettings const& settin
                                      .largest_gradient = 1e3,
                                      .few = settings.frozen ? 1000 : 10,
                                      .many = settings.frozen ? 1000 : 14};
-  scarp::Measured measured;
+  Measured measured;
   strip_footing::Plateau plateau{below, loads};
   scarp::NoObserver nobody;
   auto const run = settings.to_collapse ? stepping.run(solver, problem, 0.0, to, plateau)
@@ -97,21 +97,21 @@ scarp::Measured press_with(Footing const& footing, FootingSettings const& settin
     if (run.verdict.reason == scarp::Reason::interrupted) measured.verdict = {};
     if (measured.verdict.acceptable() && !(plateau.slope < 0.02))
       measured.verdict = {scarp::Status::not_converged, scarp::Reason::unreachable};
-    measured.answer("bearing factor", plateau.pressure / footing.cohesion);
+    measured.add("bearing factor", plateau.pressure / footing.cohesion);
     return measured;
   }
   double const now = -examples::support_force(problem, below, 1, loads) / Footing::half_width;
-  measured.answer("bearing pressure", now / footing.cohesion);
-  measured.answer("heave", heave(problem.discretisation().mesh(), problem.discretisation().positions()));
+  measured.add("bearing pressure", now / footing.cohesion);
+  measured.add("heave", heave(problem.discretisation().mesh(), problem.discretisation().positions()));
   return measured;
 }
 
 template <class Element, class Scheme>
-scarp::Measured press(Footing const& footing, FootingSettings const& settings) {
+Measured press(Footing const& footing, FootingSettings const& settings) {
   return press_with<Element, Scheme>(footing, settings, scarp::ConsistentTangent{.floor = 1e-8});
 }
 
-scarp::Measured press_any(Footing const& footing, FootingSettings const& settings) {
+Measured press_any(Footing const& footing, FootingSettings const& settings) {
   using scarp::FullIntegration;
   switch (settings.element) {
     case Kind::quad4: return press<scarp::Quad4, FullIntegration>(footing, settings);
@@ -125,13 +125,13 @@ scarp::Measured press_any(Footing const& footing, FootingSettings const& setting
 }
 
 /// Elements on finer and finer meshes; tolerances, load steps and tangents of the one that does not lock.
-scarp::SweepTable to_collapse(Options const& options, bool clay) {
+SweepTable to_collapse(Options const& options, bool clay) {
   Footing const ground = footing(clay);
   FootingSettings const base{.size = 0.04};
-  scarp::Sweep sweep(clay ? "strip footing on clay" : "strip footing, 20 degrees", base,
-                     [=](FootingSettings const& settings) { return press_any(ground, settings); });
-  scarp::Measured exact;
-  exact.answer("bearing factor", ground.cohesion_factor());
+  Sweep sweep(clay ? "strip footing on clay" : "strip footing, 20 degrees", base,
+              [=](FootingSettings const& settings) { return press_any(ground, settings); });
+  Measured exact;
+  exact.add("bearing factor", ground.cohesion_factor());
   sweep.exact(exact);
   std::pair<char const*, Kind> const kinds[] = {{"Quad8 reduced", Kind::quad8_reduced},
                                                 {"Tri6", Kind::tri6},
@@ -154,15 +154,15 @@ scarp::SweepTable to_collapse(Options const& options, bool clay) {
   return sweep.run(options.repetitions_or(1));
 }
 
-scarp::SweepTable clay_footing(Options const& options) { return to_collapse(options, true); }
-scarp::SweepTable frictional_footing(Options const& options) { return to_collapse(options, false); }
+SweepTable clay_footing(Options const& options) { return to_collapse(options, true); }
+SweepTable frictional_footing(Options const& options) { return to_collapse(options, false); }
 
 /// Load steps and meshes while yielding is contained.
-scarp::SweepTable before_collapse(Options const& options) {
+SweepTable before_collapse(Options const& options) {
   Footing const ground = footing(false);
   FootingSettings const base{.size = 0.04, .tolerance = 1e-7, .load_step = 0.125, .to_collapse = false};
-  scarp::Sweep sweep("strip footing before collapse", base,
-                     [=](FootingSettings const& settings) { return press_any(ground, settings); });
+  Sweep sweep("strip footing before collapse", base,
+              [=](FootingSettings const& settings) { return press_any(ground, settings); });
   auto best = base;
   best.size = 0.02;
   best.load_step = options.quick ? 1.0 / 64.0 : 1.0 / 256.0;

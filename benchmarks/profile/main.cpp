@@ -11,7 +11,7 @@
 #include "../shared/data_file.hpp"
 #include "profiled.hpp"
 #include "scarp/io/csv.hpp"
-#include "scarp/measure/cpu_time.hpp"
+#include "scarp/measure/resources.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"

@@ -14,7 +14,7 @@
 #include "scarp/element/hex8.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
-#include "scarp/measure/cpu_time.hpp"
+#include "scarp/measure/resources.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/solver/executor.hpp"
 

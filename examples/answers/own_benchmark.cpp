@@ -5,7 +5,7 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/core/select.hpp"
 #include "scarp/dem/time_stepping.hpp"
-#include "scarp/measure/cpu_time.hpp"
+#include "scarp/measure/resources.hpp"
 #include "scarp/shape/disc.hpp"
 
 #include "lattice.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "scarp/measure/memory.hpp"
+#include "scarp/measure/resources.hpp"
 
 namespace fault_rupture {
 

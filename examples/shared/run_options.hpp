@@ -10,7 +10,7 @@
 
 #include "command_line.hpp"
 #include "scarp/core/build_info.hpp"
-#include "scarp/measure/processor.hpp"
+#include "scarp/measure/resources.hpp"
 #include "scarp/run/run_folder.hpp"
 
 namespace examples {

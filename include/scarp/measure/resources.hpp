@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -15,6 +16,25 @@
 #endif
 
 namespace scarp {
+
+/// CPU time of the process since `start` [s], of all its threads together: other programs on the machine do not count.
+class CpuTime {
+ public:
+  double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+
+ private:
+  std::clock_t start_ = std::clock();
+};
+
+/// What the machine calls its processor; "unknown processor" where it does not say.
+inline std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    auto const colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown processor";
+}
 
 /// Memory that the process may still take, and what sets the limit.
 struct FreeMemory {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/measure/memory.hpp"
+#include "scarp/measure/resources.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>
