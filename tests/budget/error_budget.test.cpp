@@ -7,6 +7,7 @@
 
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -150,7 +151,7 @@ TEST_CASE("a run outside its budget says by which part, with NaN counted as outs
   points.strain(increment, budget);
   CHECK(scarp::budget_headline(budget.parts()) == "OUTSIDE ITS ERROR BUDGET: residual is 0.0001, bound 1e-05\n");
   CHECK(!scarp::BudgetPart{.value = std::nan(""), .bound = 1.0}.is_within());
-  CHECK_THROWS_AS(scarp::ErrorBudget(points, {}, {.followed = {50}}), scarp::InputError);
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.followed = {50}}), "point 50");
 }
 
 TEST_CASE("a quantile is not exceeded by its share of the samples, however few they are") {
@@ -192,7 +193,9 @@ TEST_CASE("a number that is none puts a run outside its budget for good") {
 
 TEST_CASE("sampling that cannot be done is refused") {
   Points points(Relaxing{}, 50);
-  for (auto const& sampling : {scarp::ErrorSampling{.most_samples = -1}, scarp::ErrorSampling{.points_per_followed = 0},
-                               scarp::ErrorSampling{.most_followed = -1}, scarp::ErrorSampling{.share = std::nan("")}})
-    CHECK_THROWS_AS(scarp::ErrorBudget(points, {}, sampling), scarp::InputError);
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.most_samples = -1}), "samples of a step is -1");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.points_per_followed = 0}), "points for a followed one is 0");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.most_followed = -1}), "followed points is -1");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.share = std::nan("")}), "share of work for samples is nan");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.loose_pressure = -1.0}), "loose pressure is -1");
 }

@@ -8,6 +8,7 @@
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -101,7 +102,7 @@ TEST_CASE("loads stay when the mesh moves") {
 
 TEST_CASE("a traction on an unknown boundary is refused") {
   scarp::Discretisation<scarp::Tri3> const disc(scarp::RectangleMesh{}.generate());
-  CHECK_THROWS_AS(scarp::traction(disc, "roof", {0.0, -1.0}), scarp::InputError);
+  CHECK_REFUSED(scarp::traction(disc, "roof", {0.0, -1.0}), "'roof'", "top");
 }
 
 TEST_CASE("a load history without loads takes the size of the first one") {
@@ -109,6 +110,6 @@ TEST_CASE("a load history without loads takes the size of the first one") {
   CHECK(loads.size() == 0);
   loads.add(Eigen::VectorXd::Ones(4), {});
   CHECK(loads.size() == 4);
-  CHECK_THROWS_AS(loads.add(Eigen::VectorXd::Ones(3), {}), scarp::InputError);
+  CHECK_REFUSED(loads.add(Eigen::VectorXd::Ones(3), {}), "3 entries", "4");
   CHECK(loads.at(2.0).sum() == 8.0);
 }

@@ -8,6 +8,7 @@
 #include "scarp/homogenise/balance.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -178,7 +179,7 @@ TEST_CASE("grains that lie in each other by more than the reduced radius fail as
 
 TEST_CASE("points take the packing of the nearest depth") {
   scarp::PackingsByDepth<Ellipses> column;
-  CHECK_THROWS_AS(column.at({}), scarp::InputError);
+  CHECK_REFUSED(column.at({}), "0 depths");
   for (double const depth : {0.0, 5.0, 20.0}) {
     column.depths.push_back(depth);
     column.packings.push_back(samples::consolidated<Ellipses>(60).packing);

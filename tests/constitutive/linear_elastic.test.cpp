@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -157,11 +158,11 @@ TEST_CASE("points start with the stress of their depth") {
 }
 
 TEST_CASE("parameters of an unstable material are refused") {
-  CHECK_THROWS_AS(Elastic::from_lame(1e6, 0.0), scarp::InputError);
-  CHECK_THROWS_AS(Elastic::from_lame(std::numeric_limits<double>::quiet_NaN(), 1e6), scarp::InputError);
-  CHECK_THROWS_AS(Elastic::from_lame(-1e6, 1e6), scarp::InputError);
+  CHECK_REFUSED(Elastic::from_lame(1e6, 0.0), "shear modulus is 0");
+  CHECK_REFUSED(Elastic::from_lame(std::numeric_limits<double>::quiet_NaN(), 1e6), "lambda is nan");
+  CHECK_REFUSED(Elastic::from_lame(-1e6, 1e6), "bulk modulus is -");
   CHECK_NOTHROW(Elastic::from_lame(-0.6e6, 1e6));
-  CHECK_THROWS_AS(Elastic::from_young_poisson(1e6, 0.5), scarp::InputError);
-  CHECK_THROWS_AS(Elastic::from_young_poisson(1e6, -1.0), scarp::InputError);
-  CHECK_THROWS_AS(Elastic::from_young_poisson(-1e6, 0.3), scarp::InputError);
+  CHECK_REFUSED(Elastic::from_young_poisson(1e6, 0.5), "Poisson's ratio is 0.5");
+  CHECK_REFUSED(Elastic::from_young_poisson(1e6, -1.0), "Poisson's ratio is -1");
+  CHECK_REFUSED(Elastic::from_young_poisson(-1e6, 0.3), "Young's modulus is -1");
 }

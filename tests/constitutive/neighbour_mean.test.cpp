@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "support/approx.hpp"
+
 TEST_CASE("weights are volumes times Wendland's function of the distance") {
   std::vector<scarp::Site<2>> where(4);
   for (std::size_t k = 0; k < where.size(); ++k) {
@@ -15,8 +17,8 @@ TEST_CASE("weights are volumes times Wendland's function of the distance") {
   std::array const weights{1.0, 2.0 * 81.0 / 128.0, 3.0 * 3.0 / 16.0};
   REQUIRE(mean.of(0).size() == weights.size());
   for (std::size_t k = 0; k < weights.size(); ++k) {
-    CHECK(mean.of(0)[k].weight == doctest::Approx(weights[k] / (weights[0] + weights[1] + weights[2])).epsilon(1e-14));
+    CHECK(mean.of(0)[k].weight == samples::Approx(weights[k] / (weights[0] + weights[1] + weights[2])).epsilon(1e-14));
   }
   CHECK(mean.mean(0, std::span<double const>(std::array{128.0, 0.0, 0.0, 7.0})) ==
-        doctest::Approx(128.0 / (1.0 + 81.0 / 64.0 + 9.0 / 16.0)).epsilon(1e-14));
+        samples::Approx(128.0 / (1.0 + 81.0 / 64.0 + 9.0 / 16.0)).epsilon(1e-14));
 }

@@ -11,7 +11,9 @@
 #include "scarp/solver/thread_executor.hpp"
 #include "scarp/solver/wide_equations.hpp"
 #include "scarp/solver/work_balance.hpp"
+#include "support/approx.hpp"
 #include "support/block.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -70,7 +72,7 @@ TEST_CASE("means keep what is even, stay within a region, and are none for a poi
   std::vector<double> const even(where.size(), 7.0);
   for (int point = 0; point < mean.point_count(); ++point) {
     auto const k = static_cast<std::size_t>(point);
-    CHECK(mean.mean(point, std::span<double const>(even)) == doctest::Approx(7.0).epsilon(1e-14));
+    CHECK(mean.mean(point, std::span<double const>(even)) == samples::Approx(7.0).epsilon(1e-14));
     CHECK((mean.of(point).size() == 1) == (point == 3));
     int last = -1;
     for (auto const& share : mean.of(point)) {
@@ -84,7 +86,7 @@ TEST_CASE("means keep what is even, stay within a region, and are none for a poi
   }
   CHECK(mean.of(3)[0].weight == 1.0);
   lengths[5] = -1.0;
-  CHECK_THROWS_AS((scarp::NeighbourMean<2>(where, volumes(grid), lengths)), scarp::InputError);
+  CHECK_REFUSED((scarp::NeighbourMean<2>(where, volumes(grid), lengths)), "length", "is -1");
 }
 
 TEST_CASE("a length of zero, or one that reaches no neighbour, gives the local answer bit for bit") {

@@ -7,6 +7,7 @@
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/servo.hpp"
 #include "support/packings.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -74,7 +75,7 @@ TEST_CASE("a gap that is bonded adds bonds") {
   auto const wide = scarp::bonded(grains, samples::study_law(), cement(1.0), 5e-4);
   REQUIRE(wide.verdict.acceptable());
   CHECK(wide.bonds > touching.bonds + 10);
-  CHECK_THROWS_AS(scarp::bonded(grains, samples::study_law(), cement(1.0), -1.0), scarp::InputError);
+  CHECK_REFUSED(scarp::bonded(grains, samples::study_law(), cement(1.0), -1.0), "gap", "is -1");
 }
 
 TEST_CASE("grains that meet without any overlap are bonded where gaps are, else not") {

@@ -10,6 +10,7 @@
 #include "scarp/fault/normal_fault.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -61,9 +62,6 @@ TEST_CASE("in the plane a tapered fault is the fault itself") {
 TEST_CASE("slip that ends before it is full is refused") {
   double const nan = std::numeric_limits<double>::quiet_NaN();
   for (double const end : {10.0, 5.0, nan, std::numeric_limits<double>::infinity()})
-    CHECK_THROWS_AS((Tapered{{}, 10.0, end}.share_along(3.0)), scarp::InputError);
-  CHECK_THROWS_WITH_AS(
-      (Tapered{{}, 10.0, 5.0}.share_along(3.0)),
-      "the slip is full up to y = 10 m and ends at 5 m (it dies out along the strike): put the end beyond",
-      scarp::InputError);
+    CHECK_REFUSED((Tapered{{}, 10.0, end}.share_along(3.0)), "y = 10", fmt::format("{}", end));
+  CHECK_REFUSED((Tapered{{}, 10.0, 5.0}.share_along(3.0)), "y = 10 m", "5 m");
 }

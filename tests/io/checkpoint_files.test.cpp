@@ -53,7 +53,9 @@ TEST_CASE("a folder with checkpoints is refused to a run that starts afresh and 
   ScratchFolder const folder;
   CheckpointFiles files({.folder = folder / "saved"}, "soil: sand\n");
   save(files, 1);
-  CHECK_THROWS_AS(CheckpointFiles({.folder = folder / "saved"}, "soil: sand\n"), scarp::CheckpointError);
+  CHECK(samples::message_of<scarp::CheckpointError>([&] {
+          static_cast<void>(CheckpointFiles({.folder = folder / "saved"}, "soil: sand\n"));
+        }) == samples::Naming{"saved", "earlier run"});
   CHECK_THROWS_WITH_AS(CheckpointFiles({.folder = folder / "saved", .resume = true}, "soil: clay\n"),
                        doctest::Contains("'soil: sand' there, 'soil: clay' here"), scarp::CheckpointError);
 }

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <bit>
-#include <clocale>
 #include <cstdint>
 #include <limits>
 
@@ -15,6 +14,7 @@
 
 namespace {
 
+using samples::Naming;
 using samples::ScratchFolder;
 
 scarp::CsvColumns table(std::string_view text, scarp::CsvSeparator separator = scarp::CsvSeparator::comma) {
@@ -69,14 +69,6 @@ TEST_CASE("a table whose cells are parted by blanks may begin with a marked head
   CHECK(table("id x\n1 2\n", scarp::CsvSeparator::blanks).column("x") == std::vector<double>{2.0});
 }
 
-TEST_CASE("a decimal point stays one where the locale wants a comma") {
-  std::string const before = std::setlocale(LC_NUMERIC, nullptr);
-  bool const changed = std::setlocale(LC_NUMERIC, "de_DE.UTF-8") != nullptr;
-  CHECK(table("r\n0.5\n").column("r") == std::vector<double>{0.5});
-  std::setlocale(LC_NUMERIC, before.c_str());
-  if (!changed) MESSAGE("no German locale is installed: only the present one was tried");
-}
-
 TEST_CASE("a file that is missing, a folder or empty is refused by name") {
   ScratchFolder const folder;
   CHECK_THROWS_WITH_AS(scarp::read_csv(folder / "nowhere.csv"),
@@ -87,47 +79,39 @@ TEST_CASE("a file that is missing, a folder or empty is refused by name") {
 }
 
 TEST_CASE("a wrong header is refused") {
-  CHECK(complaint("x,y\n1,2\n") == "'grains.csv' has no column 'r' (line 1 names x, y): add it or rename one");
-  CHECK(complaint("x,r,x\n") == "line 1 of 'grains.csv' names two columns 'x' (they cannot be told apart): rename one");
+  CHECK(complaint("x,y\n1,2\n") == Naming{"'grains.csv'", "no column 'r'", "x, y"});
+  CHECK(complaint("x,r,x\n") == Naming{"line 1 of 'grains.csv'", "'x'"});
 }
 
 TEST_CASE("a line of another width is refused with its number") {
-  CHECK(complaint("x,r\n1,2\n3\n") ==
-        "line 3 of 'grains.csv' has 1 cells (the header names 2 columns): give one cell for each");
-  CHECK(complaint("x,r\n1,2,\n").find("has 3 cells") != std::string::npos);
+  CHECK(complaint("x,r\n1,2\n3\n") == Naming{"line 3 of 'grains.csv'", "1 cells", "2 columns"});
+  CHECK(complaint("x,r\n1,2,\n") == Naming{"has 3 cells"});
 }
 
 TEST_CASE("a cell that is no finite number is refused with line, column and value") {
-  CHECK(
-      complaint("x,r\n1,2\n3,4mm\n") ==
-      "line 3 of 'grains.csv' has '4mm' in column 'r' (it is no number): write a decimal number with a point, such as "
-      "2.5e-3");
+  CHECK(complaint("x,r\n1,2\n3,4mm\n") == Naming{"line 3 of 'grains.csv'", "'4mm' in column 'r'", "no number"});
   for (auto const* const wrong : {"", "-", "+-1", "0x10", "1,5", "1 2", "one"}) {
     CAPTURE(wrong);
-    CHECK(complaint(std::string("r\n\"") + wrong + "\"\n").find("it is no number") != std::string::npos);
+    CHECK(complaint(std::string("r\n\"") + wrong + "\"\n") == Naming{"it is no number"});
   }
   for (auto const* const wrong : {"nan", "inf", "-Infinity"}) {
     CAPTURE(wrong);
-    CHECK(complaint(std::string("r\n") + wrong + "\n").find("it is not finite") != std::string::npos);
+    CHECK(complaint(std::string("r\n") + wrong + "\n") == Naming{"it is not finite"});
   }
-  CHECK(complaint("r\n1e999\n").find("beyond what a number here can hold") != std::string::npos);
+  CHECK(complaint("r\n1e999\n") == Naming{"beyond what a number here can hold"});
   CHECK_THROWS_WITH_AS(table("id\n1.5\n").column<int>("id"), doctest::Contains("it is no whole number"),
                        scarp::InputError);
 }
 
 TEST_CASE("quotes that do not close, or close too early, are refused with their line") {
-  CHECK(complaint("r\n1\n\"2\n3\n").find("line 3 of 'grains.csv' opens quotes (they never close)") !=
-        std::string::npos);
-  CHECK(complaint("r\n\"1\"2\n").find("line 2 of 'grains.csv' has text behind closed quotes") != std::string::npos);
+  CHECK(complaint("r\n1\n\"2\n3\n") == Naming{"line 3 of 'grains.csv' opens quotes (they never close)"});
+  CHECK(complaint("r\n\"1\"2\n") == Naming{"line 2 of 'grains.csv' has text behind closed quotes"});
 }
 
 TEST_CASE("what a damaged file holds neither ends a complaint early nor steers the terminal") {
   std::string text = "x,r\n1,2";
   text += {'\0', '\x1b', '[', '2', 'J', '\n'};
-  CHECK(complaint(text) ==
-        "line 2 of 'grains.csv' has '2??[2J' in column 'r' (it is no number): write a decimal number with a point, "
-        "such as "
-        "2.5e-3");
+  CHECK(complaint(text) == Naming{"line 2 of 'grains.csv'", "'2??[2J' in column 'r'", "2.5e-3"});
 }
 
 TEST_CASE("bytes of any kind are read or refused") {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Independent readers, VTK and meshio, find in VTU and Gmsh files what tests/io/mesh_samples.cpp wrote there, and Gmsh
-files of meshio are read back. Environment: SCARP_TEST_PROGRAMS, the folder of mesh_samples (skipped, exit 77, without)."""
+files of meshio are read back. Environment: SCARP_TEST_PROGRAMS, the folder of mesh_samples (skipped, exit 77, without, and
+without these packages of Python)."""
 import csv
 import itertools
 import json
@@ -10,13 +11,17 @@ import subprocess
 import sys
 import tempfile
 
-import meshio
-import numpy
-from vtkmodules import vtkCommonDataModel as vtk
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import reference
-from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+try:
+    import meshio
+    import numpy
+    from vtkmodules import vtkCommonDataModel as vtk
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import reference
+    from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "examples"))

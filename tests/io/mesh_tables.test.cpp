@@ -6,6 +6,7 @@
 #include "scarp/element/tet4.hpp"
 #include "scarp/element/tri3.hpp"
 #include "support/files.hpp"
+#include "support/refusals.hpp"
 
 using samples::content;
 using samples::ScratchFolder;
@@ -40,11 +41,13 @@ TEST_CASE("the table of a mesh in space has three coordinates") {
 TEST_CASE("a mesh that is not valid and a folder that is not there are refused") {
   ScratchFolder const folder;
   scarp::Mesh<scarp::Tri3> mesh;
-  CHECK_THROWS_AS(scarp::write_mesh_tables(folder.path(), mesh), scarp::InputError);
+  CHECK_REFUSED(scarp::write_mesh_tables(folder.path(), mesh), "0 nodes");
   mesh.nodes = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
   mesh.elements = {{0, 1, 2}};
   mesh.element_region = {0};
   mesh.regions = {"sand"};
-  CHECK_THROWS_AS(scarp::write_mesh_tables(folder / "nowhere", mesh), scarp::FileError);
+  CHECK(samples::message_of<scarp::FileError>([&] {
+          static_cast<void>(scarp::write_mesh_tables(folder / "nowhere", mesh));
+        }) == samples::Naming{"nowhere"});
   CHECK(folder.file_count() == 0);
 }

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "support/approx.hpp"
+#include "support/refusals.hpp"
+
 namespace {
 
 using error_vs_time::Measured;
@@ -55,10 +58,10 @@ TEST_CASE("a sweep of the trapezoidal rule finds its second order and its exact 
   // Analytic: h^2 / 12 of the integral itself, up to a share h^2 / 60 (Euler and Maclaurin).
   for (int k = 1; k <= 4; ++k) {
     double const h = table.rows[static_cast<std::size_t>(k)].value;
-    CHECK(table.rows[static_cast<std::size_t>(k)].errors[0] == doctest::Approx(h * h / 12.0).epsilon(h * h / 50.0));
+    CHECK(table.rows[static_cast<std::size_t>(k)].errors[0] == samples::Approx(h * h / 12.0).epsilon(h * h / 50.0));
   }
   // the share h^2 / 60 at h = 1/4 and its like
-  CHECK(table.rows[1].orders[0] == doctest::Approx(2.0).epsilon(2e-3));
+  CHECK(table.rows[1].orders[0] == samples::Approx(2.0).epsilon(2e-3));
   CHECK(std::isnan(table.rows[0].orders[0]));
   CHECK(std::isnan(table.reference_cost));
   CHECK(std::isnan(table.scatter[0]));
@@ -81,12 +84,12 @@ TEST_CASE("costs are relative to the base setting before and after a run, and th
   auto const table = evaluation.table();
   // Analytic: 6 s over the mean of 1 and 3 s; over 3 s, behind which no other comes; 30 s over the median of 1 and 3 s.
   CHECK(table.rows[0].cost == 1.0);
-  CHECK(table.rows[1].cost == doctest::Approx(3.0).epsilon(1e-14));
-  CHECK(table.rows[2].cost == doctest::Approx(2.0).epsilon(1e-14));
+  CHECK(table.rows[1].cost == samples::Approx(3.0).epsilon(1e-14));
+  CHECK(table.rows[2].cost == samples::Approx(2.0).epsilon(1e-14));
   CHECK(table.rows[1].seconds == 6.0);
   CHECK(table.rows[1].inner_steps == 8.0);
-  CHECK(table.reference_cost == doctest::Approx(15.0).epsilon(1e-14));
-  CHECK(table.cost_noise == doctest::Approx(2.0).epsilon(1e-14));
+  CHECK(table.reference_cost == samples::Approx(15.0).epsilon(1e-14));
+  CHECK(table.cost_noise == samples::Approx(2.0).epsilon(1e-14));
 }
 
 TEST_CASE("errors that do not follow a power have no order") {
@@ -137,12 +140,12 @@ TEST_CASE("samples have references of their own, their scatter is told, and fail
   sweep.vary("size", [](Settings& settings, double value) { settings.size = value; }, {0.1, 0.5, 2.0});
   sweep.vary_sample("sides", [](Settings& settings, double) { settings.size = 0.0; }, {0.7 * 7.0});
   auto const table = sweep.run(3);
-  CHECK(table.rows[1].errors[0] == doctest::Approx(0.1));
+  CHECK(table.rows[1].errors[0] == samples::Approx(0.1));
   CHECK(table.rows[2].verdict.reason == scarp::Reason::not_finite);
   CHECK(table.rows[3].verdict.reason == scarp::Reason::unbalanced);
   CHECK(std::isnan(table.rows[3].errors[0]));
-  CHECK(table.scatter[0] == doctest::Approx(1.0 / 11.0));                          // of 10, 11, 12
-  CHECK(table.rows[4].errors[0] == doctest::Approx(std::sqrt(2.0 / 3.0) / 11.0));  // about the mean of the samples
+  CHECK(table.scatter[0] == samples::Approx(1.0 / 11.0));                          // of 10, 11, 12
+  CHECK(table.rows[4].errors[0] == samples::Approx(std::sqrt(2.0 / 3.0) / 11.0));  // about the mean of the samples
   CHECK(table.rows[4].setting == "4.9");
   for (auto const& row : table.front("load")) CHECK_FALSE(row.new_sample);
   CHECK(table.csv().find("size,2,2,") != std::string::npos);
@@ -159,7 +162,7 @@ TEST_CASE("an order is that of the runs that were answered") {
   sweep.exact(exact_integral());
   sweep.vary("size", &Settings::size, {0.25, 0.125, 0.0625, 0.03125});
   auto const table = sweep.run();
-  CHECK(table.rows[1].orders[0] == doctest::Approx(2.0).epsilon(2e-3));
+  CHECK(table.rows[1].orders[0] == samples::Approx(2.0).epsilon(2e-3));
   CHECK(std::isnan(table.rows[2].orders[0]));
 }
 
@@ -186,6 +189,11 @@ TEST_CASE("answers that cannot be compared are refused before any time is lost o
   zero.add("integral", 0.0);
   sweep.exact(zero);
   CHECK_THROWS_WITH_AS(sweep.run(), doctest::Contains("is zero"), scarp::InputError);
+  CHECK_REFUSED(sweep.run(0), "repetitions", "is 0");
+  Measured failed;
+  failed.verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced};
+  sweep.exact(failed);
+  CHECK_REFUSED(sweep.run(), "reference of sweep 'trapezoids'", "unbalanced");
   Measured longer;
   longer.add("integral", Eigen::VectorXd::Ones(2));
   sweep.exact(longer);

@@ -9,6 +9,7 @@
 #include "scarp/element/tri6.hpp"
 #include "scarp/mesh/jittered_grid.hpp"
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -104,7 +105,7 @@ TEST_CASE("how many elements a cell becomes") {
   CHECK(scarp::elements_per_cell<scarp::Quad4>(Pattern::crossed) == 1);
   CHECK(scarp::elements_per_cell<scarp::Tet4>(Pattern::crossed) == 6);
   CHECK(scarp::elements_per_cell<scarp::Hex8>(Pattern::quads) == 1);
-  CHECK_THROWS_AS(scarp::elements_per_cell<scarp::Tri6>(Pattern::quads), scarp::InputError);
-  CHECK_THROWS_AS(scarp::elements_per_cell<scarp::Quad4>(Pattern::right), scarp::InputError);
-  CHECK_THROWS_AS(scarp::elements_per_cell<scarp::Tet4>(Pattern::left), scarp::InputError);
+  CHECK_REFUSED(scarp::elements_per_cell<scarp::Tri6>(Pattern::quads), "'quads'");
+  CHECK_REFUSED(scarp::elements_per_cell<scarp::Quad4>(Pattern::right), "4 nodes");
+  CHECK_REFUSED(scarp::elements_per_cell<scarp::Tet4>(Pattern::left), "4 nodes in 3 dimensions");
 }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -70,8 +71,10 @@ TEST_CASE("the largest distortion keeps all triangles the right way round") {
 }
 
 TEST_CASE("wrong sizes are refused") {
-  CHECK_THROWS_AS((scarp::RectangleMesh{.width = 0.0}.generate()), scarp::InputError);
-  CHECK_THROWS_AS((scarp::RectangleMesh{.columns = 0}.generate()), scarp::InputError);
-  CHECK_THROWS_AS((scarp::RectangleMesh{.distortion = 0.3}.generate()), scarp::InputError);
-  CHECK_THROWS_AS((scarp::RectangleMesh{.distortion = std::nan("")}.generate()), scarp::InputError);
+  CHECK_REFUSED((scarp::RectangleMesh{.width = 0.0}.generate()), "width", "is 0");
+  CHECK_REFUSED((scarp::RectangleMesh{.height = -1.0}.generate()), "height", "is -1");
+  CHECK_REFUSED((scarp::RectangleMesh{.columns = 0}.generate()), "0 columns");
+  CHECK_REFUSED((scarp::RectangleMesh{.rows = 10001}.generate()), "10001 rows");
+  CHECK_REFUSED((scarp::RectangleMesh{.distortion = 0.3}.generate()), "distortion is 0.3");
+  CHECK_REFUSED((scarp::RectangleMesh{.distortion = std::nan("")}.generate()), "distortion is nan");
 }

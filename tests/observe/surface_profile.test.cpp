@@ -10,6 +10,7 @@
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -104,9 +105,9 @@ TEST_CASE("settlement is linear between the points and constant beyond them") {
 
 TEST_CASE("positions of another mesh and unknown boundaries are refused") {
   auto const mesh = scarp::BoxMesh<scarp::Tri3>{}.generate();
-  CHECK_THROWS_AS(scarp::surface_profile(mesh, {}, mesh.nodes, {"top"}), scarp::InputError);
-  CHECK_THROWS_AS(scarp::surface_profile(mesh, mesh.nodes, {}, {"top"}), scarp::InputError);
-  CHECK_THROWS_AS(scarp::surface_profile(mesh, mesh.nodes, mesh.nodes), scarp::InputError);  // no "surface"
+  CHECK_REFUSED(scarp::surface_profile(mesh, {}, mesh.nodes, {"top"}), "0 are given");
+  CHECK_REFUSED(scarp::surface_profile(mesh, mesh.nodes, {}, {"top"}), "0 are given");
+  CHECK_REFUSED(scarp::surface_profile(mesh, mesh.nodes, mesh.nodes), "'surface'", "top");  // no "surface"
 }
 
 TEST_CASE("without positions at rest settlement counts from the mesh") {

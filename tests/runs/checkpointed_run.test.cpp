@@ -279,6 +279,13 @@ TEST_CASE("a checkpoint is refused by a scene of another size and by one whose t
   CHECK_FALSE(std::filesystem::exists(folder / "log.csv"));
 }
 
+TEST_CASE("a checkpoint that holds more than the scene remembers is refused") {
+  ScratchFolder const folder;
+  static_cast<void>(pull(folder, {{.folder = folder / "states", .every_seconds = 1e9}, scene}, {.stop_after = 6}));
+  CHECK(samples::message_of<CheckpointError>([&] { pull(folder, resumed(folder), {}, false); }) ==
+        samples::Naming{"holds more than the scene"});
+}
+
 TEST_CASE("adaptors keep what is their own beside what they hold") {
   using Elastic = scarp::LinearElastic<2>;
   using Adapted = scarp::Dormant<scarp::Recorded<scarp::VariedParameters<Elastic>>>;

@@ -75,7 +75,7 @@ TEST_CASE("a record is read as it was written, also by a program that knows othe
   CHECK(later.identity == "x");
   CHECK(later.state == "running");
   for (char const* text : {"", "{}", "{\"identity\": \"x\"}", "{\"identity", "\"\\u00"})
-    CHECK_THROWS_AS(scarp::RunRecord::from(text), scarp::InputError);
+    CHECK_REFUSED(scarp::RunRecord::from(text), "record");
 }
 
 TEST_CASE("a run finds a new folder or an empty one, keeps it for itself, and says in the record how it ended") {

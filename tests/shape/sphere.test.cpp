@@ -8,6 +8,7 @@
 #include "scarp/dem/population.hpp"
 #include "scarp/shape/disc.hpp"
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -113,6 +114,6 @@ TEST_CASE("a pack of sphere pairs gives what each pair gives alone") {
 }
 
 TEST_CASE("grains in space have no thickness out of a plane") {
-  CHECK_THROWS_AS(scarp::Population<scarp::Sphere>({{1e-3}}, 2650.0, 0.2), scarp::InputError);
+  CHECK_REFUSED(scarp::Population<scarp::Sphere>({{1e-3}}, 2650.0, 0.2), "thickness", "0.2");
   CHECK_NOTHROW(scarp::Population<scarp::Sphere>({{1e-3}}, 2650.0, 1.0));
 }

@@ -6,6 +6,7 @@
 #include "scarp/bvp/loads.hpp"
 #include "support/approx.hpp"
 #include "support/block.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -255,13 +256,13 @@ TEST_CASE("a run refuses bounds that are no numbers") {
     return steps.run(solver, problem, from, to, nobody);
   };
   CHECK_THROWS_WITH_AS(run(stepping(), 0.0, nan), doctest::Contains("load factor"), scarp::InputError);
-  CHECK_THROWS_AS(run(stepping(), nan, 1.0), scarp::InputError);
-  CHECK_THROWS_AS(run(stepping(), 0.0, samples::infinity), scarp::InputError);
+  CHECK_REFUSED(run(stepping(), nan, 1.0), "load factor", "nan");
+  CHECK_REFUSED(run(stepping(), 0.0, samples::infinity), "load factor", "inf");
   CHECK_THROWS_WITH_AS(run(stepping(), 1.0, 0.5), doctest::Contains("it can only grow"), scarp::InputError);
-  CHECK_THROWS_AS(run({.first = nan}, 0.0, 1.0), scarp::InputError);
-  CHECK_THROWS_AS(run({.first = 0.0}, 0.0, 1.0), scarp::InputError);
-  CHECK_THROWS_AS(run({.smallest = -1.0}, 0.0, 1.0), scarp::InputError);
-  CHECK_THROWS_AS(run({.largest_gradient = nan}, 0.0, 1.0), scarp::InputError);
+  CHECK_REFUSED(run({.first = nan}, 0.0, 1.0), "load step", "nan");
+  CHECK_REFUSED(run({.first = 0.0}, 0.0, 1.0), "load step", "is 0");
+  CHECK_REFUSED(run({.smallest = -1.0}, 0.0, 1.0), "smallest", "-1");
+  CHECK_REFUSED(run({.largest_gradient = nan}, 0.0, 1.0), "gradient", "nan");
   // Nothing to do is no error.
   CHECK(run(stepping(), 1.0, 1.0).verdict == Verdict{});
   CHECK(run(stepping(), 1.0, 1.0).steps == 0);

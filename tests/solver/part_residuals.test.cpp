@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "scarp/bvp/loads.hpp"
+#include "support/approx.hpp"
 #include "support/block.hpp"
 
 namespace {
@@ -76,10 +77,10 @@ TEST_CASE("nine hundredths of a light block that nothing carries are no equilibr
   auto const parts = problem.residuals(unbalanced);
   REQUIRE(parts.size() == 2);  // the ground has reactions of its own
   // Analytic: 9 % of the weight on five nodes over all of it on five, 400 / 320 400 of each other.
-  CHECK(value_of(parts, "all") == doctest::Approx(0.09 * 400.0 / 320364.0));
+  CHECK(value_of(parts, "all") == samples::Approx(0.09 * 400.0 / 320364.0));
   CHECK(value_of(parts, "all") < 1e-3);
   // Analytic: nodes that the block has of its own bear two thirds of it (one row of crossed triangles).
-  CHECK(value_of(parts, "footing") == doctest::Approx(0.09 * 1.5));
+  CHECK(value_of(parts, "footing") == samples::Approx(0.09 * 1.5));
   CHECK(problem.residual(unbalanced) == value_of(parts, "footing"));
 }
 
@@ -95,7 +96,7 @@ TEST_CASE("forces that turn a block without pushing it count as well") {
   // Analytic: couple 1 N x 4 m over the radius of the 14 nodes of a row of crossed triangles, two lines of five nodes 0.5 m
   // off the middle and four centres: squares of x sum up to 25, those of y to 2.5.
   double const radius = std::sqrt(27.5 / 14.0);
-  CHECK(value_of(problem.residuals(unbalanced), "footing") == doctest::Approx(4.0 / radius / (footing_weight / 1.5)));
+  CHECK(value_of(problem.residuals(unbalanced), "footing") == samples::Approx(4.0 / radius / (footing_weight / 1.5)));
 }
 
 TEST_CASE("a block that is not placed yet has nothing to be measured against") {

@@ -242,9 +242,9 @@ TEST_CASE("numbers in single precision are those of the file, rounded") {
 }
 
 TEST_CASE("grains that cannot be are refused with their line") {
-  CHECK(complaint_about("x,y,r\n") == "'grains.csv' lists no grain (a packing needs one at least): add lines");
+  CHECK(complaint_about("x,y,r\n") == samples::Naming{"'grains.csv' lists no grain"});
   CHECK(complaint_about("id,x,y,r\n7,1,1,0.5\n8,3,3,0.5\n7,5,5,0.5\n") ==
-        "line 4 of 'grains.csv' has '7' in column 'id' (line 2 has the same): give each grain its own id");
+        samples::Naming{"line 4 of 'grains.csv'", "'7' in column 'id'", "line 2"});
   CHECK(contains(complaint_about("x,y,r\n1,1,0.5\n3,3,0\n"),
                  "line 3 of 'grains.csv' has '0' in column 'r' (a size is above zero)"));
   CHECK(contains(complaint_about<Ellipses>("x,y,a,b,angle\n1,1,0.5,-0.2,0\n"), "'-0.2' in column 'b'"));
@@ -319,8 +319,8 @@ TEST_CASE("contacts are refused for a packing that already has its pairs, and th
   std::string const text = "id1,id2,cell_i,cell_j,ftx,fty\n20,10,-1,1,0,7\n";
   scarp::CsvColumns const good(text, "contacts.csv");
   auto const before = named.packing;
-  CHECK_THROWS_AS(scarp::read_contacts(named, scarp::CsvColumns(text + "20,20,0,0,0,0\n", "contacts.csv"), law()),
-                  scarp::InputError);
+  CHECK_REFUSED(scarp::read_contacts(named, scarp::CsvColumns(text + "20,20,0,0,0,0\n", "contacts.csv"), law()),
+                "line 3 of 'contacts.csv'");
   CHECK(named.packing == before);
   scarp::read_contacts(named, good, law());
   CHECK_THROWS_WITH_AS(scarp::read_contacts(named, good, law()), doctest::Contains("right after the grains"),
