@@ -148,7 +148,7 @@ def check_refusals(folder):
 
 
 if not (PROGRAMS / "biaxial_specimen").exists():
-    print("no examples built: skipped")
+    print("skipped: no examples are built")
     sys.exit(77)
 with tempfile.TemporaryDirectory() as scratch:
     scratch = pathlib.Path(scratch)

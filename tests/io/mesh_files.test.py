@@ -244,7 +244,7 @@ def check_complaints(folder):
 
 
 if not PROGRAM.exists():
-    print(f"no program {PROGRAM}")
+    print(f"skipped: no program {PROGRAM}")
     sys.exit(77)
 with tempfile.TemporaryDirectory() as scratch:
     scratch = pathlib.Path(scratch)

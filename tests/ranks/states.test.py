@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""States of every adaptor around every adaptor have the same bits on one and two MPI ranks, in one go and from checkpoints, and observers
+"""[slow] States of every adaptor around every adaptor have the same bits on one and two MPI ranks, in one go and from checkpoints, and observers
 on the first rank see the same. Environment: SCARP_TEST_PROGRAMS, the folder of states_on_ranks (skipped, exit 77, without it or mpirun)."""
 import os
 import pathlib
@@ -11,7 +11,7 @@ import tempfile
 
 PROGRAM = pathlib.Path(os.environ.get("SCARP_TEST_PROGRAMS", "nowhere")) / "states_on_ranks"
 if not PROGRAM.exists() or shutil.which("mpirun") is None:
-    print("no MPI here: skipped")
+    print("skipped: no MPI here")
     sys.exit(77)
 
 # Open MPI otherwise refuses more ranks than cores, and the root user of a container.
