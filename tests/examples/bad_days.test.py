@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""A full disk and a clock that jumps: a run says why it ends, harms nothing that was there, and goes on to the bits of a run that
+"""[slow] A full disk and a clock that jumps: a run says why it ends, harms nothing that was there, and goes on to the bits of a run that
 nobody disturbed. Kills are in checkpoint.test.py, two runs at once in runs.test.py. Environment: SCARP_EXAMPLES, the folder of the
 built programs (skipped, exit 77, without); SCARP_SEED, of the sizes at which the disk is full."""
 import json

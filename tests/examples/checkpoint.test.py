@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""A fault scene that is killed at random moments goes on from its checkpoints, with any number of threads, and ends with the bits
+"""[slow] A fault scene that is killed at random moments goes on from its checkpoints, with any number of threads, and ends with the bits
 of a run that nobody disturbed. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without);
 SCARP_KILLS, how often each scene is killed (3); SCARP_SEED, of the moments; SCARP_SCENES=all, every soil with every
 structure."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Companions of a run: fault_rupture with --budget-companions estimates what the mesh and the load steps are worth, keeps that by
+"""[slow] Companions of a run: fault_rupture with --budget-companions estimates what the mesh and the load steps are worth, keeps that by
 scene, and a later run of the same scene tells it. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit
 77, without)."""
 import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Several packings in one process: fault_rupture --seeds runs each as it would run alone, tells mean and scatter, goes on after a stop,
+"""[slow] Several packings in one process: fault_rupture --seeds runs each as it would run alone, tells mean and scatter, goes on after a stop,
 and says which member did not come to its end. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
 import json

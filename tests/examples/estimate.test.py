@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""fault_rupture --estimate says what a run will take, and does nothing else. Environment: SCARP_EXAMPLES, the folder of the built
+"""[slow] fault_rupture --estimate says what a run will take, and does nothing else. Environment: SCARP_EXAMPLES, the folder of the built
 programs (skipped, exit 77, without)."""
 import json
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Probes of fault_rupture tell the strain that their packing has, with a length too: its volume grows by what its void ratio says.
+"""[slow] Probes of fault_rupture tell the strain that their packing has, with a length too: its volume grows by what its void ratio says.
 Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Random valid options of every example that has many: it runs for about a second and ends well, says why it does not go on, or is
+"""[slow] Random valid options of every example that has many: it runs for about a second and ends well, says why it does not go on, or is
 killed; never a crash, a report of a sanitizer, a file that is cut off or a summary that does not parse. Environment: SCARP_EXAMPLES,
 the folder of the built programs (skipped, exit 77, without); SCARP_DRAWS, runs of each program (2); SCARP_SEED, of the draws;
 SCARP_ONLY, one program."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""The page of a run is whole: it holds the numbers, the budget, the settings and all figures, names nothing outside of itself, shows
+"""[slow] The page of a run is whole: it holds the numbers, the budget, the settings and all figures, names nothing outside of itself, shows
 nothing that a file could smuggle in, says when a run has stopped, and a browser opens it from disk. Environment: SCARP_EXAMPLES, the
 folder of the built programs (skipped, exit 77, without, and without matplotlib or a browser)."""
 import html.parser

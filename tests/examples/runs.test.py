@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Runs of the examples do not harm each other: an output folder belongs to one run, a refusal touches nothing, and results say what
+"""[slow] Runs of the examples do not harm each other: an output folder belongs to one run, a refusal touches nothing, and results say what
 made them. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import json
 import os
