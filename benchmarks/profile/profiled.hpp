@@ -9,8 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "scarp/constitutive/blank_state.hpp"
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/largest_principal.hpp"

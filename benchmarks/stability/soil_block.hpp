@@ -8,7 +8,7 @@
 #include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/constitutive/strength.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"

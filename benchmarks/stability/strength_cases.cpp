@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/constitutive/strength.hpp"
 #include "scarp/core/random.hpp"
 #include "stability/groups.hpp"
 #include "stability/measures.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "../shared/study/chosen_ground.hpp"
-#include "scarp/budget/companion_part.hpp"
+#include "scarp/budget/budget_part.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/read_file.hpp"
 

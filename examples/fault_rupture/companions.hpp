@@ -8,7 +8,6 @@
 
 #include "../shared/study/choice.hpp"
 #include "scarp/budget/budget_part.hpp"
-#include "scarp/budget/error_bounds.hpp"
 #include "scarp/run/run_record.hpp"
 
 namespace fault_rupture {

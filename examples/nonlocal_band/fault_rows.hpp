@@ -5,7 +5,7 @@
 #include "fault.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
-#include "scarp/observe/outcrop.hpp"
+#include "scarp/observe/rupture_measures.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
 
 namespace nonlocal_band {

@@ -8,7 +8,7 @@
 #include "../shared/plane_strain.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/nonlocal_materials.hpp"
-#include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/constitutive/strength.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/solver/thread_executor.hpp"

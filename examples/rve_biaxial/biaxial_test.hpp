@@ -10,7 +10,6 @@
 #include "scarp/dem/loading_paths.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
-#include "scarp/homogenise/coordination.hpp"
 #include "scarp/homogenise/fabric.hpp"
 
 namespace rve_biaxial {

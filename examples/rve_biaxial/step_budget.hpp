@@ -8,7 +8,7 @@
 
 #include "../shared/budget_report.hpp"
 #include "biaxial_test.hpp"
-#include "scarp/budget/error_bounds.hpp"
+#include "scarp/budget/budget_part.hpp"
 #include "scarp/core/worse_of.hpp"
 
 namespace rve_biaxial {

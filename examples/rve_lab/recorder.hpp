@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/homogenise/coordination.hpp"
+#include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/energy_ledger.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/homogenise/kinetic_stress.hpp"
 #include "scarp/homogenise/non_affine.hpp"
 #include "specimen.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "recorder.hpp"
 #include "scarp/budget/budget_part.hpp"
-#include "scarp/budget/error_bounds.hpp"
 #include "scarp/core/worse_of.hpp"
 
 namespace rve_lab {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "scarp/budget/budget_part.hpp"
-#include "scarp/budget/error_bounds.hpp"
 #include "scarp/core/error.hpp"
 
 namespace examples {

@@ -87,10 +87,7 @@ TEST_CASE_TEMPLATE("a hidden provider answers as it would in the open", Provider
   CHECK(bits(hidden.committed(0)) == bits(seen.committed(0)));
   CHECK(scarp::RveQuantities{}(hidden.provider(), hidden.committed(0)) ==
         scarp::RveQuantities{}(seen.provider(), seen.committed(0)));
-  auto const of = [](auto const& field) {
-    return scarp::packing_balance(field.provider(), field.replaced(0), field.committed(0), shear(2e-4),
-                                  field.planned(0));
-  };
+  auto const of = [](auto const& field) { return scarp::packing_balance(field.provider(), field.committed(0)); };
   CHECK(of(hidden).has_packing == std::is_same_v<Provider, Sand>);
   CHECK(of(hidden).inertial_number == of(seen).inertial_number);
   auto doubled = [](auto const& field) {

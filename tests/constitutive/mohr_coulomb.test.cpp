@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/constitutive/strength.hpp"
 #include "scarp/core/random.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"

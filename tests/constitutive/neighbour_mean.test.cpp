@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/constitutive/detail/neighbour_mean.hpp"
+#include "scarp/constitutive/neighbour_mean.hpp"
 
 #include <doctest/doctest.h>
 

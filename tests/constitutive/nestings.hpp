@@ -5,10 +5,8 @@
 #include <utility>
 
 #include "scarp/constitutive/any_provider.hpp"
-#include "scarp/constitutive/dormant.hpp"
-#include "scarp/constitutive/isotropic_elasticity.hpp"
 #include "scarp/constitutive/lazy.hpp"
-#include "scarp/constitutive/recorded.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 
@@ -83,26 +81,12 @@ struct Varied {
                                              }};
   }
 };
-struct Sleeping {
-  static constexpr char const* name = "Dormant";
-  template <class Provider>
-  static auto around(Provider provider) {
-    return scarp::Dormant<Provider>{std::move(provider)};
-  }
-};
 struct Predicted {
   static constexpr char const* name = "Lazy";
   template <class Provider>
   static auto around(Provider provider) {
     return scarp::Lazy<Provider>{
         .provider = std::move(provider), .tolerance = 0.3, .largest_strain = 3e-4, .learning_strain = 1e-9};
-  }
-};
-struct Remembered {
-  static constexpr char const* name = "Recorded";
-  template <class Provider>
-  static auto around(Provider provider) {
-    return scarp::Recorded<Provider>{std::move(provider), scarp::PointNumbers{{0, 3, 4}}};
   }
 };
 struct Hidden {
@@ -116,7 +100,7 @@ struct Hidden {
 /// visit(adaptor) for each.
 template <class Visit>
 void for_each_adaptor(Visit const& visit) {
-  visit(Floored{}), visit(Varied{}), visit(Sleeping{}), visit(Predicted{}), visit(Remembered{}), visit(Hidden{});
+  visit(Floored{}), visit(Varied{}), visit(Predicted{}), visit(Hidden{});
 }
 
 /// visit(name, provider) for each adaptor around each, another one of its own kind too.
@@ -127,13 +111,6 @@ void for_each(Visit const& visit) {
       visit(std::string(outer.name) + " around " + inner.name, outer.around(inner.around(Loosening{})));
     });
   });
-}
-
-/// Wakes all that sleeps in a state, as far as its type is seen.
-template <class State>
-void wake(State& state) {
-  if constexpr (requires { state.awake; }) state.awake = true;
-  if constexpr (requires { state.own; }) wake(state.own);
 }
 
 }  // namespace nestings

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/constitutive/nonlocal.hpp"
+#include "scarp/constitutive/nonlocal_materials.hpp"
 
 #include <doctest/doctest.h>
 
 #include <random>
 
-#include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/io/state_bits.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/thread_executor.hpp"

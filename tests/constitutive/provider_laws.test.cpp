@@ -3,12 +3,10 @@
 
 #include "scarp/constitutive/any_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/dormant.hpp"
 #include "scarp/constitutive/lazy.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
-#include "scarp/constitutive/recorded.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "support/packings.hpp"
@@ -63,27 +61,9 @@ struct AdaptedElastic : Sample<scarp::LinearElastic<2>> {
 };
 
 template <>
-struct Sample<scarp::Recorded<scarp::LinearElastic<2>>> : AdaptedElastic {
-  static scarp::Recorded<Inner> provider() { return {inner(), {}}; }
-  static bool same(auto const& a, auto const& b) {
-    return a.own.stress == b.own.stress && a.history.size() == b.history.size();
-  }
-};
-
-template <>
 struct Sample<scarp::VariedParameters<scarp::LinearElastic<2>>> : AdaptedElastic {
   static scarp::VariedParameters<Inner> provider() {
     return {{}, [](Inner const&, scarp::Site<2> const&) { return inner(); }};
-  }
-};
-
-template <>
-struct Sample<scarp::Dormant<scarp::LinearElastic<2>>> : AdaptedElastic {
-  static scarp::Dormant<Inner> provider() { return {inner()}; }
-  static auto state(scarp::Dormant<Inner> const& provider) {
-    auto state = AdaptedElastic::state(provider);
-    state.awake = true;
-    return state;
   }
 };
 
@@ -144,10 +124,10 @@ using ElasticInPlane = scarp::LinearElastic<2>;
 using ElasticInSpace = scarp::LinearElastic<3>;
 using RveOfDiscs = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>;
 using RveOfEllipses = scarp::DemRve<samples::Ellipses, scarp::SamePacking<samples::Ellipses>>;
-#define EVERY_PROVIDER                                                                                          \
-  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses,      \
-      scarp::Recorded<ElasticInPlane>, scarp::VariedParameters<ElasticInPlane>, scarp::Dormant<ElasticInPlane>, \
-      scarp::Lazy<ElasticInPlane>, scarp::StiffnessFloor<ElasticInPlane>, scarp::AnyProvider<2>
+#define EVERY_PROVIDER                                                                                             \
+  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses,         \
+      scarp::VariedParameters<ElasticInPlane>, scarp::Lazy<ElasticInPlane>, scarp::StiffnessFloor<ElasticInPlane>, \
+      scarp::AnyProvider<2>
 
 TEST_CASE_TEMPLATE("every provider: committed state is never touched", Provider, EVERY_PROVIDER) {
   provider_laws::committed_state_is_never_touched<Provider>();

@@ -6,7 +6,7 @@
 
 #include "fault/mirror.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/softening_strength.hpp"
+#include "scarp/constitutive/strength.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
 #include "scarp/solver/consistent_tangent.hpp"

@@ -13,7 +13,7 @@
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
-#include "scarp/homogenise/coordination.hpp"
+#include "scarp/homogenise/fabric.hpp"
 #include "scarp/homogenise/non_affine.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "support/approx.hpp"

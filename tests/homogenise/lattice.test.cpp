@@ -3,7 +3,6 @@
 
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
-#include "scarp/homogenise/coordination.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"

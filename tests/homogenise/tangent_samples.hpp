@@ -6,10 +6,13 @@
 #include <Eigen/Eigenvalues>
 #include <map>
 
+#include "scarp/homogenise/contact_tangent.hpp"
+#include "scarp/homogenise/sliding_contacts.hpp"
 #include "support/packings.hpp"
 
 namespace samples {
 
+using scarp::Tensor;
 using scarp::VoigtTangent;
 
 template <class PackingType>
@@ -47,6 +50,25 @@ PackingType const& settled_after_shear() {
   }();
   return packing;
 }
+
+/// Tangent [Pa] under uniform strain in which contacts at their shear limit slide, \f$ \frac1V \sum S_{ik} l_j l_l \f$.
+struct UniformStrain {
+  scarp::SlidingContacts sliding{};
+
+  template <class PackingType>
+  VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
+    constexpr int dim = PackingType::dim;
+    scarp::FullTangent<dim> sum = scarp::FullTangent<dim>::Zero();
+    scarp::for_each_contact(packing, law, [&](scarp::Contact<dim> const& contact) {
+      Tensor<dim> const spring = sliding.spring(contact, law);
+      for (int j = 0; j < dim; ++j) {
+        for (int l = 0; l < dim; ++l)
+          sum.template block<dim, dim>(dim * j, dim * l) += contact.branch(j) * contact.branch(l) * spring;
+      }
+    });
+    return scarp::to_voigt_tangent<dim>(sum / packing.volume());
+  }
+};
 
 inline double least_eigenvalue(VoigtTangent<2> const& tangent) {
   return Eigen::SelfAdjointEigenSolver<VoigtTangent<2>>((tangent + tangent.transpose()) / 2.0).eigenvalues()(0);

@@ -47,7 +47,6 @@ int main(int argc, char** argv) {
     auto const folder = std::filesystem::path(argv[1]) / std::to_string(number++);
     auto const whole = watched::pull(provider, executor, folder / "whole", wanted);
     auto const parts = watched::pull_in_parts(provider, executor, folder / "parts", wanted);
-    if (whole.woken > 0) fmt::print(stderr, "rank {} woke {} points\n", executor.rank(), whole.woken);
     if (executor.rank() != 0) return;
     bool const same = parts.states == whole.states && parts.files == whole.files && parts.budget == whole.budget &&
                       !whole.states.empty();

@@ -8,9 +8,6 @@
 #include <set>
 
 #include "scarp/budget/error_budget.hpp"
-#include "scarp/constitutive/dormant.hpp"
-#include "scarp/constitutive/recorded.hpp"
-#include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/observers.hpp"
 #include "support/block.hpp"
@@ -284,39 +281,4 @@ TEST_CASE("a checkpoint that holds more than the scene remembers is refused") {
   static_cast<void>(pull(folder, {{.folder = folder / "states", .every_seconds = 1e9}, scene}, {.stop_after = 6}));
   CHECK(samples::message_of<CheckpointError>([&] { pull(folder, resumed(folder), {}, false); }) ==
         samples::Naming{"holds more than the scene"});
-}
-
-TEST_CASE("adaptors keep what is their own beside what they hold") {
-  using Elastic = scarp::LinearElastic<2>;
-  using Adapted = scarp::Dormant<scarp::Recorded<scarp::VariedParameters<Elastic>>>;
-  Adapted provider;
-  provider.provider.provider.vary = [](Elastic const&, scarp::Site<2> const& site) {
-    return Elastic::from_young_poisson(1e6 * (1 + site.index), 0.3);
-  };
-  auto state = provider.initial_state({.index = 3});
-  state.awake = true;
-  scarp::Gradient<2> stretch = scarp::Gradient<2>::Zero();
-  stretch(0, 0) = 1e-3;
-  for (int k = 0; k < 3; ++k) {
-    auto const before = state;
-    REQUIRE(provider.respond(before, stretch, state).verdict.acceptable());
-  }
-  scarp::StateWriter writer;
-  writer("state", state);
-  auto loaded = provider.initial_state({.index = 3});
-  scarp::StateReader reader(writer.bits());
-  reader("state", loaded);
-  CHECK(reader.at_end());
-  CHECK(loaded.awake);
-  CHECK(provider.stress(loaded) == provider.stress(state));
-  CHECK(provider.tangent(loaded) == provider.tangent(state));
-  auto const rows = loaded.own.history.rows();
-  auto const expected = state.own.history.rows();
-  REQUIRE(rows.size() == 4);
-  REQUIRE(expected.size() == 4);
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    CHECK(rows[k].stress == expected[k].stress);
-    CHECK(rows[k].gradient == expected[k].gradient);
-    CHECK(rows[k].verdict == expected[k].verdict);
-  }
 }

@@ -71,7 +71,6 @@ struct Pull {
 /// What the first process has seen in the end.
 struct Outcome {
   scarp::RunReport report{};
-  int woken = 0;         ///< of this process's points
   std::string states{};  ///< bits of all points
   std::vector<double> budget{};
   std::map<std::string, std::string> files{};  ///< contents, without wall times
@@ -99,7 +98,6 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
   double const to = wanted.to;
   auto problem = block(provider, executor);
   Outcome outcome;
-  outcome.woken = scarp::activate(problem, [](auto const& site) { return site.position.y() < 0.5; });
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   scarp::ErrorBudget budget(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 3});
   std::filesystem::create_directories(folder / "fields");
@@ -155,15 +153,11 @@ Outcome pull_in_parts(Provider const& provider, Executor& executor, std::filesys
   return {};
 }
 
-/// visit(name, provider, pull) for every nesting that can be told to wake.
+/// visit(name, provider, pull) for every nesting.
 template <class Visit>
 void for_each_case(Visit const& visit) {
-  nestings::for_each([&](std::string const& name, auto const& provider) {
-    if (name.find("Dormant") == std::string::npos) visit(name, scarp::AnyProvider<2>(provider), Pull{});
-  });
-  using nestings::Loosening;
-  visit("Dormant around VariedParameters, in the open",
-        nestings::Sleeping::around(nestings::Varied::around(Loosening{})), Pull{});
+  nestings::for_each(
+      [&](std::string const& name, auto const& provider) { visit(name, scarp::AnyProvider<2>(provider), Pull{}); });
 }
 
 }  // namespace watched

@@ -99,15 +99,6 @@ TEST_CASE("visiting a point shows its provider's own state") {
   CHECK(visits == grid.point_count());
 }
 
-TEST_CASE("committed states may be changed, each as its own provider's") {
-  auto const grid = ground_with_footing();
-  TwoRegions materials(grid, depth, hana::make_tuple(soil(), footing()));
-  materials.for_each_committed([](auto& state) { state.stress.setConstant(1.0); });
-  for (int point = 0; point < grid.point_count(); ++point) {
-    CHECK(materials.committed_stress(point) == scarp::VoigtStress<2>::Ones());
-  }
-}
-
 TEST_CASE("regions that do not fit the mesh are refused by name") {
   auto const grid = ground_with_footing();
   auto raft = footing();

@@ -5,7 +5,11 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
 
 namespace scarp {
 
@@ -43,5 +47,49 @@ inline std::string budget_table(BudgetParts const& parts) {
   }
   return text;
 }
+
+/// Part of an error budget that a run cannot see itself: how far its answer is from that of a companion, the same scene with one
+/// choice made otherwise - a mesh of other directions, smaller load steps.
+/// own, companion: the same measure of both runs; size: what an error is relative to, in the measure's unit
+/// \throws InputError for a size that is not finite and positive
+inline BudgetPart companion_part(std::string name, double own, double companion, double size, double bound,
+                                 std::string meaning) {
+  require_positive("size that a companion's difference is relative to", size);
+  return {std::move(name), std::abs(companion - own) / size, bound, std::move(meaning)};
+}
+
+/// Beyond which numbers a run says that it is outside its error budget. All are relative; docs/error-budget.md gives the reasons.
+struct ErrorBounds {
+  double residual = 1e-2;         ///< largest of an accepted step, over the reactions
+  double work_gap = 5e-2;         ///< external against internal work of the run
+  double linear_residual = 1e-8;  ///< largest of a linear system
+  double iterated_linear_residual =
+      1e-2;                       ///< the same where it is iterated, and only as far as the next iteration needs
+  double condition = 1e12;        ///< largest of a step's stiffness
+  double unbalanced_mean = 2e-2;  ///< over all packings and steps
+  double unbalanced_largest = 5e-2;
+  double kinetic_share = 1e-2;    ///< largest, of a packing's pressure
+  double inertial_number = 1e-2;  ///< largest of an answer
+  double held_stress = 1e-2;      ///< of a single packing: missing from what a servo holds, root mean square
+  double doubling_median = 5e-3;  ///< of the samples: stress with twice the work against the accepted one
+  double doubling_95 = 5e-2;      ///< of nineteen samples in twenty
+  double accumulated = 0.1;       ///< root of the mean square over the followed points, of their whole paths
+  double mesh = 4e-2;             ///< against a companion on another mesh
+  double load_step = 2e-2;        ///< against a companion with smaller load steps
+
+  SCARP_MEMBERS(residual, work_gap, linear_residual, iterated_linear_residual, condition, unbalanced_mean,
+                unbalanced_largest, kinetic_share, inertial_number, held_stress, doubling_median, doubling_95,
+                accumulated, mesh, load_step)
+};
+
+/// Where an error budget looks.
+struct ErrorSampling {
+  double share = 0.04;           ///< of the run's work that all checks may take; followed points come first
+  int most_samples = 2;          ///< of one step
+  int points_per_followed = 40;  ///< one of so many points is followed through the run,
+  int most_followed = 24;        ///< at most so many,
+  std::vector<int> followed{};   ///< and these
+  double loose_pressure = 0.0;   ///< [Pa]; stresses below that of this pressure count as large as it
+};
 
 }  // namespace scarp

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "scarp/core/error.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/core/voigt.hpp"
 
@@ -95,5 +96,49 @@ struct PlanOf<Model> {
 /// The plan type of a provider; `NoPlan` for one that needs none.
 template <class Model>
 using PlanOf = typename detail::PlanOf<Model>::type;
+
+namespace detail {
+
+/// What of a provider is missing, in words.
+template <class Model, bool grounded = HasState<Model>&& HasDimension<Model>>
+struct MissingOfProvider {
+  static_assert(HasDimension<Model>, "scarp: a provider needs `static constexpr int dim`, 2 or 3");
+  static_assert(HasState<Model>, "scarp: a provider needs a type `State` that can be copied");
+  static constexpr bool nothing = false;
+};
+template <class Model>
+struct MissingOfProvider<Model, true> {
+  static_assert(MakesInitialState<Model>, "scarp: a provider needs `State initial_state(Site<dim> const&) const`");
+  static_assert(Responds<Model>,
+                "scarp: a provider needs `Response<dim> respond(State const& committed, Gradient<dim> const& "
+                "increment, State& trial) const`");
+  static_assert(TellsStress<Model>, "scarp: a provider needs `VoigtStress<dim> stress(State const&) const` [Pa]");
+  static_assert(GivesTangent<Model>, "scarp: a provider needs `VoigtTangent<dim> tangent(State const&) const` [Pa]");
+  static constexpr bool nothing = false;
+};
+
+}  // namespace detail
+
+/// A `ConstitutiveProvider`; of one that is none the compiler says in words what is missing.
+template <class Model>
+concept CheckedProvider = ConstitutiveProvider<Model> || detail::MissingOfProvider<Model>::nothing;
+
+/// A state that a saved one can be read into, with all that is not saved because it follows from the provider and the site. Providers
+/// whose states keep such things tell by `State blank_state(Site<dim> const&) const`, and so do adaptors, for what they hold.
+/// \throws InputError for states that cannot be made so
+template <ConstitutiveProvider Provider>
+typename Provider::State blank_state(Provider const& provider, Site<Provider::dim> const& site) {
+  if constexpr (requires { provider.blank_state(site); }) {
+    return provider.blank_state(site);
+  } else if constexpr (std::default_initializable<typename Provider::State>) {
+    static_cast<void>(provider), static_cast<void>(site);
+    return {};
+  } else {
+    static_cast<void>(provider), static_cast<void>(site);
+    refuse(
+        "a state cannot be sent to another process (it has no default constructor, and its provider makes no blank "
+        "one): give it one");
+  }
+}
 
 }  // namespace scarp

@@ -10,8 +10,8 @@
 #include "scarp/core/largest_principal.hpp"
 #include "scarp/core/logarithm.hpp"
 #include "scarp/dem/drive.hpp"
+#include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
-#include "scarp/homogenise/kinetic_stress.hpp"
 
 namespace scarp {
 
@@ -36,42 +36,11 @@ concept TellsPackingTangent = requires(Tangent const& tangent, PackingType const
   { tangent(packing, law) } -> std::convertible_to<VoigtTangent<PackingType::dim>>;
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Source, class PackingType>
-struct MissingOfPackingSource {
-  static_assert(
-      PackingSource<Source, PackingType>,
-      "scarp: a source of packings needs `Packing at(Site<dim> const&) const`, of the packing that the DemRve names");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Source, class PackingType>
-concept CheckedPackingSource =
-    PackingSource<Source, PackingType> || detail::MissingOfPackingSource<Source, PackingType>::nothing;
-
-namespace detail {
-/// What is missing, in words.
-template <class Tangent, class PackingType>
-struct MissingOfPackingTangent {
-  static_assert(TellsPackingTangent<Tangent, PackingType>,
-                "scarp: a tangent of packings needs `VoigtTangent<dim> operator()(packing, law) const` [Pa]");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Tangent, class PackingType>
-concept CheckedPackingTangent =
-    TellsPackingTangent<Tangent, PackingType> || detail::MissingOfPackingTangent<Tangent, PackingType>::nothing;
-
 /// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
 /// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the answer is Love and Weber's stress at its end.
 /// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
-template <class PackingType, CheckedPackingSource<PackingType> Source,
-          CheckedPackingTangent<PackingType> Tangent = ElasticContactTangent, CheckedDamping Damping = LocalDamping>
+template <class PackingType, PackingSource<PackingType> Source,
+          TellsPackingTangent<PackingType> Tangent = ElasticContactTangent, CheckedDamping Damping = LocalDamping>
 struct DemRve {
   static constexpr int dim = PackingType::dim;
   using Law = typename PackingType::Law;
@@ -82,9 +51,10 @@ struct DemRve {
     VoigtStress<dim> stress = VoigtStress<dim>::Zero();  ///< [Pa], tension positive
     double unbalanced_ratio = 0.0;                       ///< mean net force of a grain over mean contact force
     double kinetic_share = 0.0;                          ///< of moving grains in the pressure
+    double inertial_number = 0.0;                        ///< of the last response
     Verdict verdict{};
 
-    SCARP_MEMBERS(packing, stress, unbalanced_ratio, kinetic_share, verdict)
+    SCARP_MEMBERS(packing, stress, unbalanced_ratio, kinetic_share, inertial_number, verdict)
   };
 
   Law law{};
@@ -156,6 +126,7 @@ struct DemRve {
     stepper.damping = damping;
     stepper.time_step_share = time_step_share;
     trial = committed;
+    trial.inertial_number = inertial_number_of(committed, increment, steps);
     Tensor<dim> const strain_step = logarithm_of_increment<dim>(increment) / steps;
     trial.verdict = {};
     if (!strain_step.allFinite()) trial.verdict = {Status::failed, Reason::not_finite};

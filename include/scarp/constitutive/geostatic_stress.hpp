@@ -14,21 +14,6 @@ concept InitialStressField = requires(Field const& field, double depth) {
   { field.at(depth) } -> std::same_as<VoigtStress<Dim>>;
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Field, int Dim>
-struct MissingOfInitialStress {
-  static_assert(InitialStressField<Field, Dim>,
-                "scarp: an initial stress needs `VoigtStress<dim> at(double depth) const` [Pa], tension positive, of "
-                "the dimension of its material");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Field, int Dim>
-concept CheckedInitialStress = InitialStressField<Field, Dim> || detail::MissingOfInitialStress<Field, Dim>::nothing;
-
 /// Level ground at rest: vertical \f$ \sigma_v = -(q + \gamma z) \f$, horizontal \f$ \sigma_h = K_0 \sigma_v \f$, no shear.
 /// The vertical is the last axis; compression is negative.
 template <int Dim>

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "scarp/constitutive/blank_state.hpp"
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/rotated_increment.hpp"

@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scarp/constitutive/blank_state.hpp"
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
@@ -170,14 +169,6 @@ class SCARP_EXPORT ProviderField {
 
   /// The trial states become the committed ones.
   void commit() { committed_.swap(trial_); }
-
-  /// visit(state) may change a committed state of this process's points, between load steps.
-  template <class Visit>
-  void for_each_committed(Visit&& visit) {
-    for (std::size_t k = 0; k < committed_.size(); ++k) {
-      if (here_[k]) visit(committed_[k]);
-    }
-  }
 
   /// Another committed state for a point, between load steps.
   void put(int point, State state) {

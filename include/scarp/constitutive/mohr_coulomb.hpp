@@ -4,7 +4,7 @@
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/detail/mohr_coulomb_return.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
-#include "scarp/constitutive/isotropic_elasticity.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/principal.hpp"
@@ -16,8 +16,8 @@ namespace scarp {
 /// tension is cut off); strength constant or a function of the plastic shear strain. In two dimensions plane strain with the stress out of the
 /// plane as part of the state. An increment's answer is an implicit Euler step from the committed stress, turned by the
 /// increment's rotation.
-template <int Dim, class InitialStress = StressFree<Dim>, CheckedStrengthLaw StrengthType = ConstantStrength>
-  requires CheckedInitialStress<InitialStress, Dim>
+template <int Dim, class InitialStress = StressFree<Dim>, StrengthLaw StrengthType = ConstantStrength>
+  requires InitialStressField<InitialStress, Dim>
 struct MohrCoulomb {
   static constexpr int dim = Dim;
 

@@ -3,7 +3,7 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/dem/time_stepping.hpp"
-#include "scarp/homogenise/tangent_answer.hpp"
+#include "scarp/homogenise/contact_tangent.hpp"
 
 namespace scarp {
 

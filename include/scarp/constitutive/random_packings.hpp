@@ -28,20 +28,6 @@ concept PreparesFromSeed = requires(Recipe const& recipe, std::uint64_t seed) {
   { recipe(seed).verdict } -> std::convertible_to<Verdict>;
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Recipe>
-struct MissingOfRecipe {
-  static_assert(PreparesFromSeed<Recipe>,
-                "scarp: a recipe of packings needs `Prepared<Packing> operator()(std::uint64_t seed) const`");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Recipe>
-concept CheckedRecipe = PreparesFromSeed<Recipe> || detail::MissingOfRecipe<Recipe>::nothing;
-
 /// A cloud under isotropic pressure; the seed takes the place of the cloud's.
 template <class PackingType, class Grading>
 struct IsotropicRecipe {
@@ -90,7 +76,7 @@ struct RandomChoice {
 /// auto const pool = RandomPackings{recipe, seed}.pool(32, executor);  // a RandomChoice
 /// \endcode
 /// prepares a few packings once, at the same time where the executor can, and every point draws one.
-template <CheckedRecipe Recipe>
+template <PreparesFromSeed Recipe>
 struct RandomPackings {
   using Packing = decltype(std::declval<Recipe const&>()(std::uint64_t{}).packing);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 
 namespace scarp {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/constitutive/blank_state.hpp"
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/described.hpp"
 

@@ -54,29 +54,6 @@ concept StrengthLaw = std::copyable<Law> && requires(Law const& law, double plas
   { Law::changes } -> std::convertible_to<bool>;
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Law>
-struct MissingOfStrengthLaw {
-  static_assert(std::copyable<Law>, "scarp: a strength law can be copied");
-  static_assert(
-      requires(Law const& law) {
-        { law.at(0.0) } -> std::same_as<Strength>;
-      },
-      "scarp: a strength law needs `Strength at(double plastic_shear) const`");
-  static_assert(
-      requires {
-        { Law::changes } -> std::convertible_to<bool>;
-      },
-      "scarp: a strength law needs `static constexpr bool changes`: whether plastic shear alters it");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Law>
-concept CheckedStrengthLaw = StrengthLaw<Law> || detail::MissingOfStrengthLaw<Law>::nothing;
-
 /// Strength that plastic strain does not change.
 struct ConstantStrength {
   static constexpr bool changes = false;
@@ -95,5 +72,35 @@ void require_sound(Law const& law) {
   require_sound(law.at(0.0));
   if constexpr (Law::changes) require_sound(law.at(std::numeric_limits<double>::infinity()));
 }
+
+/// Strength that falls from peak to residual, linear in the plastic shear strain (angles in radians, cohesion and tension in
+/// pascals each for itself). Where one of the two cuts no tension off, the other's cut-off holds in between. Without an
+/// internal length the dissipation of a band depends on the mesh.
+struct SofteningStrength {
+  static constexpr bool changes = true;
+
+  Strength peak{};
+  Strength residual{};
+  double strain_to_residual = 0.1;  ///< plastic shear strain at which the residual strength is reached
+
+  Strength at(double plastic_shear) const {
+    double const done = std::clamp(plastic_shear / strain_to_residual, 0.0, 1.0);
+    auto const between = [&](double from, double to) {
+      if (from == to || done == 0.0 || std::isinf(to)) return done < 1.0 ? from : to;
+      return done == 1.0 || std::isinf(from) ? to : from + done * (to - from);
+    };
+    return {between(peak.cohesion, residual.cohesion), between(peak.friction, residual.friction),
+            between(peak.dilation, residual.dilation), between(peak.cut_off(), residual.cut_off())};
+  }
+};
+
+/// \throws InputError for a peak or residual strength that cannot be, or a fall over no strain
+inline void require_sound(SofteningStrength const& strength) {
+  require_positive("plastic shear strain from peak to residual strength", strength.strain_to_residual);
+  require_sound(strength.peak);
+  require_sound(strength.residual);
+}
+
+static_assert(StrengthLaw<SofteningStrength>);
 
 }  // namespace scarp

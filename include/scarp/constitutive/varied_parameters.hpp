@@ -4,8 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "scarp/constitutive/blank_state.hpp"
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 
@@ -23,7 +22,14 @@ namespace scarp {
 template <CheckedProvider Provider>
 struct VariedParameters {
   static constexpr int dim = Provider::dim;
-  using Plan = PlanOf<Provider>;
+
+  /// Of the point's own provider, which also refines it.
+  struct Plan {
+    std::shared_ptr<Provider const> provider;
+    PlanOf<Provider> own{};
+
+    explicit operator long() const requires PlansWork<Provider> { return static_cast<long>(own); }
+  };
 
   struct State {
     std::shared_ptr<Provider const> provider;
@@ -53,18 +59,21 @@ struct VariedParameters {
   VoigtTangent<dim> tangent(State const& state) const { return state.provider->tangent(state.own); }
 
   Plan plan(State const& committed, Gradient<dim> const& increment) const requires PlansWork<Provider> {
-    return committed.provider->plan(committed.own, increment);
+    return {committed.provider, committed.provider->plan(committed.own, increment)};
   }
 
-  /// As the common provider does: a plan knows no point.
-  Plan refined(Plan const& plan) const requires PlansWork<Provider> { return common.refined(plan); }
+  Plan refined(Plan const& plan) const requires PlansWork<Provider> {
+    return plan.provider ? Plan{plan.provider, plan.provider->refined(plan.own)} : plan;
+  }
 
-  /// \param plan the provider's, or none
-  template <class... PlanType>
-  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial,
-                        PlanType const&... plan) const {
+  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial) const {
     trial.provider = committed.provider;
-    return committed.provider->respond(committed.own, increment, trial.own, plan...);
+    return committed.provider->respond(committed.own, increment, trial.own);
+  }
+  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial,
+                        Plan const& plan) const requires PlansWork<Provider> {
+    trial.provider = committed.provider;
+    return committed.provider->respond(committed.own, increment, trial.own, plan.own);
   }
 
  private:

@@ -6,7 +6,7 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/fault/detail/step_at_tip.hpp"
-#include "scarp/observe/fault_offset.hpp"
+#include "scarp/observe/rupture_measures.hpp"
 
 namespace scarp {
 

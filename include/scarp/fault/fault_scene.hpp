@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scarp/bvp/usual_integration.hpp"
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/detail/carried_weight.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/fault/fault_scene.hpp"
 
 namespace scarp {

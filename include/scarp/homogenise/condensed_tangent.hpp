@@ -3,15 +3,32 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
+
 #include <cmath>
 #include <vector>
 
 #include "scarp/core/index.hpp"
-#include "scarp/homogenise/detail/initial_stress.hpp"
-#include "scarp/homogenise/detail/sliding_contacts.hpp"
-#include "scarp/homogenise/tangent_answer.hpp"
+#include "scarp/core/voigt.hpp"
+#include "scarp/homogenise/contact_tangent.hpp"
+#include "scarp/homogenise/sliding_contacts.hpp"
 
 namespace scarp {
+
+/// What a present stress adds to the change of Cauchy's stress with strain, because branches and volume change while
+/// the forces stay: \f$ d\sigma = \sigma\varepsilon - \sigma\,tr\,\varepsilon \f$ (symmetric part). [Pa], not symmetric
+template <int Dim>
+VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
+  VoigtTangent<Dim> tangent;
+  constexpr auto indices = voigt_indices<Dim>();
+  for (int k = 0; k < voigt_size<Dim>; ++k) {
+    auto const [i, j] = indices[detail::index(k)];
+    Tensor<Dim> strain = Tensor<Dim>::Zero();
+    strain(i, j) += 0.5;
+    strain(j, i) += 0.5;
+    tangent.col(k) = to_voigt_stress<Dim, double>(stress * strain - stress * strain.trace());
+  }
+  return tangent;
+}
 
 /// Uniform strain relaxed by the packing's own stiffness: centres and spins follow until no grain feels a force,
 /// \f$ C = \frac1V (\sum M^T S M - A_l^T K^{-1} A),\; K = \sum B^T S B,\; A = \sum B^T S M,\; A_l = \sum B^T S^T M \f$

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "scarp/dem/contacts.hpp"
 
@@ -44,6 +45,36 @@ inline Tensor<2> fabric_deviator(Fabric<2> const& fabric) { return 4.0 * (fabric
 /// Intensity of anisotropy in the plane, \f$ F = \sqrt{F_{ij} F_{ij} / 2} \f$.
 inline double fabric_anisotropy(Fabric<2> const& fabric) {
   return std::sqrt(fabric_deviator(fabric).squaredNorm() / 2.0);
+}
+
+/// Mean numbers of contacts of a grain.
+struct Coordination {
+  double all = 0.0;  ///< \f$ 2 N_c / N_p \f$, grains without contact included
+  double mechanical =
+      0.0;  ///< without rattlers, grains with one contact or none: \f$ (2 N_c - N_1) / (N_p - N_0 - N_1) \f$
+  double rattlers = 0.0;  ///< share of the grains
+};
+
+/// The mechanical number is Thornton's (2000).
+template <class PackingType>
+Coordination coordination(PackingType const& packing, typename PackingType::Law const& law) {
+  std::vector<int> partners(packing.grain_count(), 0);
+  for_each_contact(packing, law, [&](auto const& contact) {
+    ++partners[contact.first];
+    ++partners[contact.second];
+  });
+  double sum = 0.0;
+  double single = 0.0;
+  double rattling = 0.0;
+  for (int const count : partners) {
+    sum += count;
+    if (count == 1) single += 1.0;
+    if (count <= 1) rattling += 1.0;
+  }
+  double const grains = static_cast<double>(partners.size());
+  double const bearing = grains - rattling;
+  return {
+      .all = sum / grains, .mechanical = bearing > 0.0 ? (sum - single) / bearing : 0.0, .rattlers = rattling / grains};
 }
 
 }  // namespace scarp

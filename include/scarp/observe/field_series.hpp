@@ -1,18 +1,124 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/geo.hpp"
+#include "scarp/core/status.hpp"
+#include "scarp/element/map.hpp"
 #include "scarp/io/pvd.hpp"
 #include "scarp/io/vtu.hpp"
-#include "scarp/observe/detail/element_fields.hpp"
 #include "scarp/observe/observers.hpp"
+#include "scarp/run/visit_point.hpp"
 
 namespace scarp {
+
+/// Gradient of the committed with respect to the initial position at a point; what its material sees may differ, see
+/// MeanDilatation.
+template <class DiscretisationType>
+Tensor<DiscretisationType::dim> total_deformation(DiscretisationType const& discretisation, int point) {
+  using Element = typename std::remove_cvref_t<decltype(discretisation.mesh())>::ElementType;
+  constexpr int dim = DiscretisationType::dim;
+  constexpr int per_element = DiscretisationType::points_per_element;
+  auto const& nodes = discretisation.mesh().elements[static_cast<std::size_t>(point / per_element)];
+  auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, discretisation.mesh().nodes),
+                                            DiscretisationType::local_point(point));
+  return corners<Element, dim>(nodes, discretisation.positions()).transpose().lazyProduct(shape.gradients);
+}
+
+/// The same as the material of a point sees it: where increments are averaged, the mean around the point.
+template <class Problem>
+auto seen_deformation(Problem const& problem, int point) {
+  auto const& grid = problem.discretisation();
+  auto const& materials = problem.materials();
+  if constexpr (AveragesGradients<std::remove_cvref_t<decltype(materials)>>) {
+    using Grid = std::remove_cvref_t<decltype(grid)>;
+    Tensor<Grid::dim> mean = Tensor<Grid::dim>::Zero();
+    for (auto const& share : materials.mean().of(point)) mean += share.weight * total_deformation(grid, share.point);
+    return mean;
+  } else {
+    return total_deformation(grid, point);
+  }
+}
+
+namespace detail {
+
+/// A mean in the making.
+struct Mean {
+  double sum = 0.0;
+  double weight = 0.0;
+  void add(double share, double value) {
+    sum += share * value;
+    weight += share;
+  }
+};
+
+/// One number for each element; stress as many as Voigt's order has.
+struct ElementFields {
+  std::vector<double> stress;  ///< [Pa], tension positive
+  std::vector<double> volumetric;
+  std::vector<double> deviatoric;
+  std::vector<int> status;                                ///< the worst
+  std::map<std::string, std::vector<double>> quantities;  ///< NaN where no point has the quantity
+};
+
+/// Means over the elements' points of what is committed, weighted by the points' present volumes.
+template <class Problem, class PointQuantities>
+ElementFields element_fields(Problem const& problem, PointQuantities const& quantities) {
+  auto const& grid = problem.discretisation();
+  using Grid = std::remove_cvref_t<decltype(grid)>;
+  std::size_t const elements = grid.mesh().elements.size();
+  ElementFields fields;
+  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  for (std::size_t e = 0; e < elements; ++e) {
+    VoigtStress<Grid::dim> stress = VoigtStress<Grid::dim>::Zero();
+    geo::PlaneStrain strain{};
+    std::map<std::string, Mean> means;  // of the points that have the quantity
+    Status worst = Status::ok;
+    double whole = 0.0;
+    for (int k = 0; k < Grid::points_per_element; ++k) {
+      int const point = Grid::points_per_element * static_cast<int>(e) + k;
+      double const volume = volumes[static_cast<std::size_t>(point)];
+      whole += volume;
+      auto const here = [&] {
+        auto const deformation = total_deformation(grid, point);
+        if constexpr (Grid::dim == 2) {
+          return geo::plane_strain(deformation);
+        } else {
+          return geo::space_strain(deformation);
+        }
+      }();
+      strain.volumetric += volume * here.volumetric;
+      strain.deviatoric += volume * here.deviatoric;
+      worst = std::max(worst, problem.responses()[static_cast<std::size_t>(point)].verdict.status);
+      visit_point(problem, point, [&](auto const& provider, auto const& state) {
+        stress += volume * provider.stress(state);
+        for (auto const& [name, value] : quantities(provider, state)) means[std::string(name)].add(volume, value);
+      });
+    }
+    stress /= whole;
+    fields.stress.insert(fields.stress.end(), stress.begin(), stress.end());
+    fields.volumetric.push_back(strain.volumetric / whole);
+    fields.deviatoric.push_back(strain.deviatoric / whole);
+    fields.status.push_back(static_cast<int>(worst));
+    for (auto const& [name, mean] : means) {
+      auto& column = fields.quantities[name];
+      column.resize(elements, std::numeric_limits<double>::quiet_NaN());
+      column[e] = mean.sum / mean.weight;
+    }
+  }
+  return fields;
+}
+
+}  // namespace detail
 
 /// Writes the fields of a scene as a VTU series: displacement at the nodes; at the elements (the mean of
 /// their points, weighted by volume; the worst status)

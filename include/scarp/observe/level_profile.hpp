@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scarp/mesh/mesh.hpp"
-#include "scarp/observe/detail/joined_places.hpp"
+#include "scarp/observe/surface_profile.hpp"
 
 namespace scarp {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/constitutive/packing_in.hpp"
+#include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
 #include "scarp/observe/observers.hpp"

@@ -2,10 +2,58 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
-#include "scarp/observe/outcrop.hpp"
+#include "scarp/observe/surface_profile.hpp"
 
 namespace scarp {
+
+/// A dip-slip fault below the ground, its foot wall on the left, and how far its walls have settled. With the share of
+/// the offset in place of settlement normal and reverse faults, and those that move both walls, are alike.
+struct FaultOffset {
+  double tip = 0.0;      ///< where the fault meets the bottom of the ground, along the first axis [m]
+  double foot = 0.0;     ///< settlement of the foot wall, positive down [m]
+  double hanging = 0.0;  ///< settlement of the hanging wall, negative where it rises [m]
+
+  /// (settlement - foot) / (hanging - foot): 0 with the foot wall, 1 with the hanging wall; NaN without an offset
+  double share(double settlement) const {
+    return hanging == foot ? std::numeric_limits<double>::quiet_NaN() : (settlement - foot) / (hanging - foot);
+  }
+};
+
+/// Where a fault comes out at the surface, by the steepest part of the profile between two joined points: the whole
+/// offset runs along that one line. `rupture_measures` gives places that do not hang on a single facet.
+struct Outcrop {
+  double outcrop_x;   ///< where the steepest part's line meets the surface of the foot wall [m]
+  double steepest_x;  ///< middle of the steepest part [m]
+  double width;       ///< distance over which that line runs through the full offset [m]
+};
+
+/// In places at rest. NaN where nothing goes the hanging wall's way, and for walls without an offset.
+inline Outcrop outcrop(std::vector<SurfacePoint> const& profile, FaultOffset const& fault) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Outcrop found{none, none, none};
+  double steepest = 0.0;
+  for (std::size_t k = 1; k < profile.size(); ++k) {
+    auto const& a = profile[k - 1];
+    auto const& b = profile[k];
+    double const apart = b.x_initial - a.x_initial;
+    if (!b.joined || !(apart > 0.0)) continue;
+    double const from = fault.share(a.settlement);
+    double const to = fault.share(b.settlement);
+    double const slope = (to - from) / apart;
+    if (!(slope > steepest)) continue;
+    steepest = slope;
+    double const middle = (a.x_initial + b.x_initial) / 2.0;
+    found = {middle - (from + to) / 2.0 / slope, middle, 1.0 / slope};
+  }
+  return found;
+}
+
+/// Of a fault whose foot wall stays and whose hanging wall goes down by fault_throw [m], up where that is negative.
+inline Outcrop outcrop(std::vector<SurfacePoint> const& profile, double fault_throw) {
+  return outcrop(profile, FaultOffset{.hanging = fault_throw});
+}
 
 /// First place, coming from the foot wall's side, where a profile passes a share of the fault's offset, linear between
 /// points [m] at rest. NaN where it passes in a gap, has passed before the profile begins, or does not pass.

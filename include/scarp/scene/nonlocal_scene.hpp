@@ -3,7 +3,6 @@
 
 #include <boost/hana/transform.hpp>
 
-#include "scarp/constitutive/nonlocal.hpp"
 #include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/scene/scene.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scarp/bvp/discretisation.hpp"
-#include "scarp/constitutive/checked_provider.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
@@ -110,12 +110,6 @@ class SCARP_EXPORT RegionMaterials {
   }
   void commit() {
     boost::hana::for_each(fields_, [](auto& field) { field.commit(); });
-  }
-
-  /// visit(state) may change a committed state of whatever type, between load steps.
-  template <class Visit>
-  void for_each_committed(Visit&& visit) {
-    boost::hana::for_each(fields_, [&](auto& field) { field.for_each_committed(visit); });
   }
 
   template <class Self, class Visit>

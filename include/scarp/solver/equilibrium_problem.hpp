@@ -205,12 +205,6 @@ class SCARP_EXPORT EquilibriumProblem final
     points_.materials().commit();
   }
 
-  /// visit(state) may change the points' committed states; between runs only, since a solver's session remembers tangents.
-  template <class Visit>
-  void for_each_committed(Visit&& visit) {
-    points_.materials().for_each_committed(visit);
-  }
-
   /// visit(field, local point) with the field that a point belongs to, which may get or forget its state; between load steps.
   template <class Visit>
   void visit_field(int point, Visit&& visit) {

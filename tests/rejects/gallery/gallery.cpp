@@ -214,26 +214,25 @@ struct Wrong {};
 QuasiNewton<PointSecant, PlainStep, SparseLu, Wrong> solver;
 }  // namespace case_23
 
-// first: an initial stress needs
+// within: InitialStressField
 namespace case_24 {
 struct Wrong {};
 LinearElastic<2, Wrong> soil;
 }  // namespace case_24
 
-// first: a strength law needs `Strength at(
-// also: changes
+// within: StrengthLaw
 namespace case_25 {
 struct Wrong {};
 MohrCoulomb<2, StressFree<2>, Wrong> soil;
 }  // namespace case_25
 
-// first: a source of packings needs
+// within: PackingSource
 namespace case_26 {
 struct Wrong {};
 DemRve<Discs, Wrong> rve;
 }  // namespace case_26
 
-// first: a tangent of packings needs
+// within: TellsPackingTangent
 namespace case_27 {
 struct Wrong {};
 DemRve<Discs, SamePacking<Discs>, Wrong> rve;
@@ -253,7 +252,7 @@ struct Wrong {
 TimeStepper<Discs, Wrong> stepper;
 }  // namespace case_29
 
-// first: a recipe of packings needs
+// within: PreparesFromSeed
 namespace case_30 {
 struct Wrong {};
 RandomPackings<Wrong> packings;

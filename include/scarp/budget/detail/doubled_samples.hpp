@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "scarp/budget/budget_part.hpp"
 #include "scarp/budget/detail/point_checks.hpp"
-#include "scarp/budget/error_sampling.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scarp/budget/budget_part.hpp"
 #include "scarp/budget/detail/point_checks.hpp"
-#include "scarp/budget/error_sampling.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/worse_of.hpp"

@@ -2,22 +2,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scarp/constitutive/material_field.hpp"
-#include "scarp/constitutive/packing_balance.hpp"
+#include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/constitutive/step_doubling.hpp"
+#include "scarp/core/described.hpp"
+#include "scarp/core/index.hpp"
+#include "scarp/core/worse_of.hpp"
 #include "scarp/io/state_bits.hpp"
 
 /// What an error budget asks of a point whose answer has just been committed.
 namespace scarp {
-
-/// increment: that was answered
-template <class Provider>
-PackingBalance point_balance(ProviderField<Provider> const& field, int local,
-                             Gradient<Provider::dim> const& increment) {
-  return packing_balance(field.provider(), field.replaced(local), field.committed(local), increment,
-                         field.planned(local));
-}
 
 /// The committed answer's increment from the state that it began with, with twice the work.
 template <class Provider>
@@ -51,5 +47,34 @@ DoubledAnswer<Provider::dim> followed_answer(ProviderField<Provider> const& fiel
   }
   return answer;
 }
+
+/// How well all packings of a problem were balanced, and how fast they were strained, over its accepted steps.
+struct PackingSurvey {
+  double looked_at = 0.0;  ///< packings of all steps
+  double unbalanced_sum = 0.0;
+  double unbalanced = 0.0;  ///< largest, as the next two
+  double kinetic_share = 0.0;
+  double inertial_number = 0.0;
+
+  double mean_unbalanced() const { return looked_at > 0.0 ? unbalanced_sum / looked_at : 0.0; }
+
+  /// After an accepted step.
+  template <class Problem>
+  void look(Problem const& problem, std::vector<int> const& points) {
+    for (int const point : points) {
+      problem.materials().visit(point, [&](auto const& field, int local) {
+        PackingBalance const found = packing_balance(field.provider(), field.committed(local));
+        if (!found.has_packing) return;
+        looked_at += 1.0;
+        unbalanced_sum += found.unbalanced_ratio;
+        unbalanced = worse_of(unbalanced, found.unbalanced_ratio);
+        kinetic_share = worse_of(kinetic_share, found.kinetic_share);
+        inertial_number = worse_of(inertial_number, found.inertial_number);
+      });
+    }
+  }
+
+  SCARP_MEMBERS(looked_at, unbalanced_sum, unbalanced, kinetic_share, inertial_number)
+};
 
 }  // namespace scarp

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "scarp/constitutive/strength.hpp"
@@ -38,17 +39,17 @@ struct PrincipalReturn {
 /// which the apex is reached whatever psi is. (de Souza Neto, Peric and Owen, Computational Methods for Plasticity, ch. 8.)
 class MohrCoulombReturn {
  public:
-  MohrCoulombReturn(Strength const& strength, double lame_lambda, double shear_modulus) {
-    stiffness_.setConstant(lame_lambda);
-    stiffness_.diagonal().array() += 2.0 * shear_modulus;
+  MohrCoulombReturn(Strength const& strength, double lame_lambda, double shear_modulus)
+      : lame_lambda_(lame_lambda), twice_shear_(2.0 * shear_modulus), bulk_ratio_(lame_lambda / twice_shear_) {
+    cut_off_ = strength.cut_off();
     double const friction = std::sin(strength.friction);
     double const dilation = std::sin(strength.dilation);
     double const limit = 2.0 * strength.cohesion * std::cos(strength.friction);
     for (auto const& [larger, smaller] : {std::pair{0, 2}, std::pair{0, 1}, std::pair{1, 2}}) {
       add(between(larger, smaller, friction), between(larger, smaller, dilation), limit);
     }
-    if (double const tension = strength.cut_off(); std::isfinite(tension)) {
-      for (int i = 0; i < 3; ++i) add(Vector<3>::Unit(i), Vector<3>::Unit(i), tension);
+    if (std::isfinite(cut_off_)) {
+      for (int i = 0; i < 3; ++i) add(Vector<3>::Unit(i), Vector<3>::Unit(i), cut_off_);
     }
   }
 
@@ -57,23 +58,20 @@ class MohrCoulombReturn {
     // A cut-off beyond the trial stress does not count: c cot(phi) of hardly any friction would make the slack as large as c.
     double const size = std::max(trial.cwiseAbs().maxCoeff(), plane(0).limit);
     double const slack = 1e-12 * size;
-    if (admissible(trial, 0.0)) return {trial, Vector<3>::Zero(), stiffness_, 0, true};
-    for (int a = 0; a < count_; ++a) {
-      if (auto const found = attempt<1>({a}, trial, slack); found.found) return found;
-    }
-    for (int a = 0; a < count_; ++a) {
-      for (int b = a + 1; b < count_; ++b) {
-        if (auto const found = attempt<2>({a, b}, trial, slack); found.found) return found;
-      }
-    }
-    for (int a = 0; a < count_; ++a) {
-      for (int b = a + 1; b < count_; ++b) {
-        for (int c = b + 1; c < count_; ++c) {
-          if (auto const found = attempt<3>({a, b, c}, trial, slack); found.found) return found;
-        }
-      }
-    }
-    return {};
+    if (excess(trial) <= 0.0) return {trial, Vector<3>::Zero(), elastic_stiffness(), 0, true};
+    auto found = with_one_plane(trial, slack);
+    if (!found.found) found = with_two_planes(trial, slack);
+    if (!found.found) found = with_three_planes(trial, slack);
+    // All planes meet at the apex, also where fewer of them lead there: no strain changes the stress.
+    if (found.found && found.stress.minCoeff() >= cut_off_ - slack) found.tangent.setZero();
+    return found;
+  }
+
+  /// By how much a stress, largest first, exceeds the strength [Pa]; not above zero within it.
+  double excess(Vector<3> const& stress) const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (int k = 0; k < count_; ++k) most = std::max(most, plane(k).normal.dot(stress) - plane(k).limit);
+    return most;
   }
 
  private:
@@ -90,47 +88,84 @@ class MohrCoulombReturn {
 
   YieldPlane const& plane(int k) const { return planes_[detail::index(k)]; }
 
-  bool admissible(Vector<3> const& stress, double slack) const {
-    for (int k = 0; k < count_; ++k) {
-      if (!(plane(k).normal.dot(stress) <= plane(k).limit + slack)) return false;
+  Tensor<3> elastic_stiffness() const {
+    Tensor<3> stiffness = Tensor<3>::Constant(lame_lambda_);
+    stiffness.diagonal().array() += twice_shear_;
+    return stiffness;
+  }
+
+  PrincipalReturn with_one_plane(Vector<3> const& trial, double slack) const {
+    for (int a = 0; a < count_; ++a) {
+      if (auto const found = attempt<1>({a}, trial, slack); found.found) return found;
     }
-    return true;
+    return {};
+  }
+  PrincipalReturn with_two_planes(Vector<3> const& trial, double slack) const {
+    for (int a = 0; a < count_; ++a) {
+      for (int b = a + 1; b < count_; ++b) {
+        if (auto const found = attempt<2>({a, b}, trial, slack); found.found) return found;
+      }
+    }
+    return {};
+  }
+  PrincipalReturn with_three_planes(Vector<3> const& trial, double slack) const {
+    for (int a = 0; a < count_; ++a) {
+      for (int b = a + 1; b < count_; ++b) {
+        for (int c = b + 1; c < count_; ++c) {
+          if (auto const found = attempt<3>({a, b, c}, trial, slack); found.found) return found;
+        }
+      }
+    }
+    return {};
   }
 
   /// With exactly these planes active. Outside of the class, so that a library can keep it.
   template <int Count>
   PrincipalReturn attempt(std::array<int, Count> const& active, Vector<3> const& trial, double slack) const;
 
-  Tensor<3> stiffness_;  // between principal strains and stresses
+  double lame_lambda_;    // [Pa]
+  double twice_shear_;    // [Pa]
+  double bulk_ratio_;     // of the two
+  double cut_off_ = 0.0;  // [Pa]
   std::array<YieldPlane, 6> planes_;
   int count_ = 0;
 };
 
+/// Multipliers \f$ \mu = 2G\lambda \f$ and the mean stress \f$ p = \kappa\,1\cdot R\mu,\; \kappa = \lambda_L/2G \f$, that plastic flow
+/// R takes away, are unknowns of one system: however large kappa is near incompressibility, nothing large is subtracted,
+/// \f$ N^T R\mu + N^T 1\,p = f^{tr},\; \kappa\,1^T R\mu - p = 0 \f$, the second row divided by 1 + |kappa|.
 template <int Count>
 SCARP_EXPORT PrincipalReturn MohrCoulombReturn::attempt(std::array<int, Count> const& active, Vector<3> const& trial,
                                                         double slack) const {
   Eigen::Matrix<double, 3, Count> normals;
-  Eigen::Matrix<double, 3, Count> flows;
-  Eigen::Matrix<double, Count, 1> excess;
+  Eigen::Matrix<double, 3, Count + 1> flows;  // the last one a unit of mean stress
+  Eigen::Matrix<double, Count + 1, 1> over;
   for (int k = 0; k < Count; ++k) {
     auto const& chosen = plane(active[detail::index(k)]);
     normals.col(k) = chosen.normal;
     flows.col(k) = chosen.flow;
-    excess(k) = chosen.normal.dot(trial) - chosen.limit;
+    over(k) = chosen.normal.dot(trial) - chosen.limit;
   }
-  using Square = Eigen::Matrix<double, Count, Count>;
-  Square const coupling = normals.transpose() * stiffness_ * flows;
+  flows.col(Count).setOnes();
+  over(Count) = 0.0;
+  double const part = bulk_ratio_ / (1.0 + std::abs(bulk_ratio_));
+  Eigen::Matrix<double, Count + 1, 3> rows;
+  rows.template topRows<Count>() = normals.transpose();
+  rows.row(Count).setConstant(part);
+  Eigen::Matrix<double, Count + 1, Count + 1> system = rows * flows;
+  system(Count, Count) = -1.0 / (1.0 + std::abs(bulk_ratio_));
   // Planes whose flows oppose one plastic strain only, such as all three of a frictionless prism, are no corner.
-  double const size = coupling.diagonal().prod();
-  if (!(std::abs(coupling.determinant()) > 1e-10 * std::abs(size))) return {};
-  Square const inverse = coupling.inverse();
-  Eigen::Matrix<double, Count, 1> const multipliers = inverse * excess;
-  if (!((multipliers.array() * stiffness_(0, 0)).minCoeff() >= -slack)) return {};
+  if (!(std::abs(system.determinant()) > 1e-10 * system.rowwise().norm().prod())) return {};
+  auto const inverse = system.inverse().eval();
+  Eigen::Matrix<double, Count + 1, 1> solution = inverse * over;
+  solution += inverse * (over - system * solution);  // planes of much friction are nearly parallel
+  if (!(solution.template head<Count>().minCoeff() >= -slack)) return {};
   PrincipalReturn result;
-  result.plastic_strain = flows * multipliers;
-  result.stress = trial - stiffness_ * result.plastic_strain;
-  if (!admissible(result.stress, slack)) return {};
-  result.tangent = stiffness_ - stiffness_ * flows * inverse * normals.transpose() * stiffness_;
+  result.plastic_strain = flows.template leftCols<Count>() * solution.template head<Count>() / twice_shear_;
+  result.stress = trial - flows * solution;
+  if (!(excess(result.stress) <= slack)) return {};
+  // Of a strain the unknowns are the multipliers and the change of the mean stress itself, with the other sign.
+  result.tangent = twice_shear_ * (Tensor<3>::Identity() - flows * inverse * rows);
   result.planes = Count;
   result.found = true;
   return result;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/homogenise/sliding_aware_tangent.hpp"
+#include "scarp/homogenise/sliding_contacts.hpp"
 
 #include <doctest/doctest.h>
 
 #include "homogenise/tangent_samples.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
-#include "scarp/homogenise/balance.hpp"
+#include "scarp/homogenise/contact_tangent.hpp"
 
 namespace {
 
 using samples::Discs;
 using samples::Ellipses;
 using samples::SmoothDiscs;
-using scarp::SlidingAwareTangent;
+using samples::UniformStrain;
 using scarp::SlidingContacts;
 using scarp::Tensor;
 using scarp::VoigtTangent;
@@ -29,16 +29,16 @@ TEST_CASE_TEMPLATE("where nothing slides the tangent is eq. 6", PackingType, Dis
   auto packing = samples::sheared<PackingType>();
   for (std::size_t p = 0; p < packing.pairs.count(); ++p) packing.pairs.shear(p, 0) = 0.0;
   // Analytic: the same sum in the same order, round-off only.
-  CHECK((SlidingAwareTangent{}(packing, law) - affine(packing, law)).norm() < 1e-12 * affine(packing, law).norm());
+  CHECK((UniformStrain{}(packing, law) - affine(packing, law)).norm() < 1e-12 * affine(packing, law).norm());
 }
 
 TEST_CASE_TEMPLATE("the share of sliding contacts goes linearly from none of their shear stiffness to eq. 6",
                    PackingType, Discs, Ellipses) {
   auto const law = samples::study_law();
   auto const& packing = samples::sheared<PackingType>();
-  VoigtTangent<2> const all = SlidingAwareTangent{.sliding = {.shear_share = 1.0}}(packing, law);
-  VoigtTangent<2> const half = SlidingAwareTangent{.sliding = {.shear_share = 0.5}}(packing, law);
-  VoigtTangent<2> const none = SlidingAwareTangent{}(packing, law);
+  VoigtTangent<2> const all = UniformStrain{.sliding = {.shear_share = 1.0}}(packing, law);
+  VoigtTangent<2> const half = UniformStrain{.sliding = {.shear_share = 0.5}}(packing, law);
+  VoigtTangent<2> const none = UniformStrain{}(packing, law);
   CHECK((all - affine(packing, law)).norm() < 1e-12 * all.norm());     // analytic, round-off
   CHECK((half - (all + none) / 2.0).norm() < 1e-12 * all.norm());      // analytic, round-off
   CHECK((all - none).norm() > 1e-3 * all.norm());                      // something slides, or the case says nothing
@@ -63,9 +63,9 @@ TEST_CASE("one sliding contact along x has the closed-form tangent") {
     // sign mu k_n l^2/2V: a sliding contact pushed together is pushed sideways too. Overlap 1e-5 of 0.1 m: 1e-10.
     VoigtTangent<2> expected = VoigtTangent<2>::Zero();
     expected(0, 0) = law.normal_stiffness * unit;
-    CHECK((SlidingAwareTangent{}(packing, law) - expected).norm() < 1e-9 * expected.norm());
+    CHECK((UniformStrain{}(packing, law) - expected).norm() < 1e-9 * expected.norm());
     expected(2, 0) = sign * law.friction * law.normal_stiffness * unit / 2.0;
-    SlidingAwareTangent const coupled{.sliding = {.coupled = true}};
+    UniformStrain const coupled{.sliding = {.coupled = true}};
     CHECK((coupled(packing, law) - expected).norm() < 1e-9 * expected.norm());
     packing.pairs.shear(0, 0) = sign * 0.9 * limit;
     expected(2, 0) = 0.0;
@@ -81,7 +81,7 @@ TEST_CASE("a contact without friction gives no shear stiffness although its law 
   auto const bare = samples::listed(samples::triangular_lattice<SmoothDiscs>(4, 5e-3, 9.999e-3), smooth);
   VoigtTangent<2> const expected = affine(bare, smooth);
   for (bool const coupled : {false, true}) {
-    SlidingAwareTangent const tangent{.sliding = {.coupled = coupled}};
+    UniformStrain const tangent{.sliding = {.coupled = coupled}};
     CHECK((tangent(packing, slippery) - expected).norm() < 1e-12 * expected.norm());  // round-off
     CHECK((tangent(bare, smooth) - expected).norm() < 1e-12 * expected.norm());
   }
@@ -123,6 +123,6 @@ TEST_CASE("in space a sliding contact stays stiff across its direction of slidin
 TEST_CASE_TEMPLATE("the tangent of sliding contacts turns with the packing and leaves it alone", PackingType, Discs,
                    Ellipses) {
   auto const& packing = samples::sheared<PackingType>();
-  samples::check_quarter_turn(SlidingAwareTangent{.sliding = {.coupled = true}}, packing, samples::study_law(), 1e-10);
-  samples::check_purity(SlidingAwareTangent{.sliding = {.coupled = true}}, packing, samples::study_law());
+  samples::check_quarter_turn(UniformStrain{.sliding = {.coupled = true}}, packing, samples::study_law(), 1e-10);
+  samples::check_purity(UniformStrain{.sliding = {.coupled = true}}, packing, samples::study_law());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/observe/detail/element_fields.hpp"
+#include "scarp/observe/field_series.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/budget/companion_part.hpp"
+#include "scarp/budget/budget_part.hpp"
 
 #include <doctest/doctest.h>
 
