@@ -3,8 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/QR>
-
 namespace {
 
 using scarp::Principal;
@@ -13,9 +11,11 @@ using scarp::Vector;
 
 /// Symmetric, of the given principal values in general directions.
 Tensor<3> symmetric(Vector<3> const& values) {
-  Eigen::HouseholderQR<Tensor<3>> const turned(
-      (Tensor<3>() << 1.0, 0.2, -0.4, 0.3, 2.0, 0.7, -0.9, 0.5, 1.5).finished());
-  Tensor<3> const turn = turned.householderQ();
+  // Two reflections are a rotation.
+  Vector<3> const first = Vector<3>(1.0, 0.3, -0.9).normalized();
+  Vector<3> const second = Vector<3>(0.2, 2.0, 0.5).normalized();
+  Tensor<3> const turn = (Tensor<3>::Identity() - 2.0 * first * first.transpose()) *
+                         (Tensor<3>::Identity() - 2.0 * second * second.transpose());
   return turn * values.asDiagonal() * turn.transpose();
 }
 

@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <map>
 
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/sliding_contacts.hpp"
+#include "support/factorisations.hpp"
 #include "support/packings.hpp"
 
 namespace samples {
@@ -71,7 +71,7 @@ struct UniformStrain {
 };
 
 inline double least_eigenvalue(VoigtTangent<2> const& tangent) {
-  return Eigen::SelfAdjointEigenSolver<VoigtTangent<2>>((tangent + tangent.transpose()) / 2.0).eigenvalues()(0);
+  return eigenvalues((tangent + tangent.transpose()) / 2.0)(0);
 }
 
 /// Analytic: a quarter turn exchanges x and y and changes the sign of shear, C' = P C P.
