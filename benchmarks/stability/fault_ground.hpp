@@ -6,7 +6,7 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 
 namespace stability {
 

@@ -10,7 +10,7 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
-#include "scarp/solver/conditioning.hpp"
+#include "scarp/solver/linear_solver.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"

@@ -5,8 +5,8 @@
 
 #include <limits>
 
-#include "scarp/bvp/describe_dof.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/bvp/constraints.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "stability/groups.hpp"

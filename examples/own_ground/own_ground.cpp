@@ -9,7 +9,7 @@
 #include "scarp/fault/reverse_fault.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 /// Soil whose stiffness grows with the mean pressure, E = E_r (p/p_r)^n (Janbu 1963), elastic within each load step.

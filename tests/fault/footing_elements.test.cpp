@@ -5,7 +5,7 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/sticking_footing.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {

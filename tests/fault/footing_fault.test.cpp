@@ -8,7 +8,7 @@
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/sticking_footing.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/reverse_fault.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {

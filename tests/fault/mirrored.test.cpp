@@ -9,7 +9,7 @@
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/scene/region_materials.hpp"
+#include "scarp/scene/scene.hpp"
 
 #include <doctest/doctest.h>
 

@@ -17,7 +17,7 @@ using scarp::Verdict;
 using SoftBlock = samples::Block<Softening>;
 
 static_assert(scarp::ObservesSteps<scarp::NoObserver, SoftBlock::Problem> &&
-              !scarp::ObservesSteps<scarp::PlainStep, SoftBlock::Problem>);
+              !scarp::ObservesSteps<scarp::SerialExecutor, SoftBlock::Problem>);
 
 scarp::LoadStepping stepping() { return {.first = 1e-3, .smallest = 1e-6, .largest = 4e-3, .largest_gradient = 0.1}; }
 

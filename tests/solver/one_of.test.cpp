@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "scarp/io/state_bits.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "support/block.hpp"
 
 namespace {

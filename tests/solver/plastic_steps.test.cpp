@@ -5,10 +5,10 @@
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/element/quad8.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {

@@ -102,6 +102,20 @@ struct Planning {
   }
 };
 
+/// A tangent rule of a user's: the provider's tangent at the start of a step, unchanged while it iterates (modified Newton).
+struct Frozen {
+  template <int Dim>
+  scarp::VoigtTangent<Dim> start(scarp::VoigtTangent<Dim> const& provider, scarp::VoigtTangent<Dim> const&) const {
+    return provider;
+  }
+  template <int Dim>
+  scarp::VoigtTangent<Dim> update(scarp::VoigtTangent<Dim> const& tangent, scarp::VoigtTangent<Dim> const&,
+                                  scarp::EngineeringStrain<Dim> const&, scarp::VoigtStress<Dim> const&) const {
+    return tangent;
+  }
+};
+
+static_assert(scarp::TangentRule<Frozen, 2> && scarp::TangentRule<Frozen, 3>);
 static_assert(scarp::ConstitutiveProvider<Softening> && !scarp::PlansWork<Softening> && scarp::PlansWork<Planning>);
 
 /// Block of 1 m x 1 m, fixed at the bottom; its top moves up by the load factor [m], or is free.

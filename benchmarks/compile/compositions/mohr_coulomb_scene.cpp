@@ -2,7 +2,7 @@
 // The free field with Mohr-Coulomb ground.
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;

@@ -11,7 +11,7 @@
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/shape/ellipse.hpp"
-#include "scarp/solver/consistent_tangent.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 
 namespace fault_rupture {

@@ -32,41 +32,7 @@ concept Attachment = requires(Part& part, Part const& constant, std::vector<Vect
 /// Nothing: the elements alone.
 struct NoAttachment {};
 
-namespace detail {
-
 template <class Part, int Dim>
-concept AddsForces = requires(Part& part, std::vector<Vector<Dim>> const& nodes, Eigen::VectorXd const& increment,
-                              Eigen::VectorXd& forces) {
-  { part.add_forces(nodes, increment, forces) } -> std::same_as<Verdict>;
-};
-template <class Part>
-concept AddsStiffness = requires(Part const& part, std::vector<Eigen::Triplet<double>>& entries) {
-  part.add_stiffness(entries);
-};
-template <class Part, int Dim>
-concept CommitsMotion = requires(Part& part, std::vector<Vector<Dim>> const& nodes, Eigen::VectorXd const& increment) {
-  part.commit(nodes, increment);
-};
-
-/// What is missing, in words.
-template <class Part, int Dim>
-struct MissingOfAttachment {
-  static_assert(
-      requires(Part const& part) {
-        { part.extra_dofs() } -> std::same_as<int>;
-      },
-      "scarp: an attachment needs `int extra_dofs() const`: degrees of freedom of its own");
-  static_assert(AddsForces<Part, Dim>, "scarp: an attachment needs `Verdict add_forces(nodes, increment, forces)` [N]");
-  static_assert(AddsStiffness<Part>,
-                "scarp: an attachment needs `void add_stiffness(std::vector<Eigen::Triplet<double>>&) const` [N/m]");
-  static_assert(CommitsMotion<Part, Dim>, "scarp: an attachment needs `void commit(nodes, increment)`");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Part, int Dim>
-concept CheckedAttachment =
-    std::is_same_v<Part, NoAttachment> || Attachment<Part, Dim> || detail::MissingOfAttachment<Part, Dim>::nothing;
+concept AttachmentOrNone = std::is_same_v<Part, NoAttachment> || Attachment<Part, Dim>;
 
 }  // namespace scarp

@@ -20,8 +20,7 @@ namespace scarp {
 /// Degree of freedom = dim * node + axis; point = (number of an element's material points) * element + its own number,
 /// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
 /// gives the same bits. Members that cost much to compile are defined outside, so that a library can keep them.
-template <CheckedElement Element, CheckedKinematics Motion = UpdatedLagrangian,
-          CheckedIntegration<Element> Scheme = FullIntegration>
+template <CheckedElement Element, Kinematics Motion = UpdatedLagrangian, Integration<Element> Scheme = FullIntegration>
 class SCARP_EXPORT Discretisation {
  public:
   using ElementType = Element;
@@ -173,7 +172,7 @@ class SCARP_EXPORT Discretisation {
   Sparsity sparsity_;
 };
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, double thickness)
     : mesh_((validate(mesh), std::move(mesh))), thickness_(thickness), positions_(mesh_.nodes), sparsity_(mesh_) {
   require_positive("thickness", thickness);
@@ -182,7 +181,7 @@ Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, doub
   }
 }
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 Site<Element::dim> Discretisation<Element, Motion, Scheme>::site(int point, double surface_level) const {
   int const element = point / points_per_element;
   auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions_);
@@ -190,7 +189,7 @@ Site<Element::dim> Discretisation<Element, Motion, Scheme>::site(int point, doub
   return {point, mesh_.element_region[detail::index(element)], position, surface_level - position(dim - 1)};
 }
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::VectorXd const& increment,
                                                                       std::span<Gradient<dim>> out) const {
   require_length("displacement increment", increment.size(), dof_count());
@@ -208,7 +207,7 @@ std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::Vec
   return inverted;
 }
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 void Discretisation<Element, Motion, Scheme>::internal_force(Eigen::VectorXd const& increment,
                                                              std::span<VoigtStress<dim> const> stresses,
                                                              Eigen::VectorXd& out) const {
@@ -224,7 +223,7 @@ void Discretisation<Element, Motion, Scheme>::internal_force(Eigen::VectorXd con
   });
 }
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 void Discretisation<Element, Motion, Scheme>::stiffness(Eigen::VectorXd const& increment,
                                                         std::span<VoigtStress<dim> const> stresses,
                                                         std::span<VoigtTangent<dim> const> tangents,
@@ -244,7 +243,7 @@ void Discretisation<Element, Motion, Scheme>::stiffness(Eigen::VectorXd const& i
   });
 }
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::stiffness(
     Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
     std::span<VoigtTangent<dim> const> tangents) const {
@@ -253,7 +252,7 @@ Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::stiffness(
   return matrix;
 }
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::strain_operator(
     Eigen::VectorXd const& increment) const {
   require_length("displacement increment", increment.size(), dof_count());
@@ -280,7 +279,7 @@ Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::strain_oper
   return strains;
 }
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::VectorXd const& increment) const {
   require_length("displacement increment", increment.size(), dof_count());
   std::vector<double> volumes(detail::index(point_count()));
@@ -292,7 +291,7 @@ std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::Vect
   return volumes;
 }
 
-template <CheckedElement Element, CheckedKinematics Motion, CheckedIntegration<Element> Scheme>
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 void Discretisation<Element, Motion, Scheme>::commit(Eigen::VectorXd const& increment) {
   require_length("displacement increment", increment.size(), dof_count());
   if (!increment.allFinite()) {

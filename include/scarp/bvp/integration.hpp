@@ -56,25 +56,4 @@ concept GivesForces = PlacesPoints<Policy, Element> &&
 template <class Policy, class Element>
 concept Integration = GivesGradients<Policy, Element> && GivesForces<Policy, Element>;
 
-namespace detail {
-/// What is missing, in words.
-template <class Policy, class Element>
-struct MissingOfIntegration {
-  static_assert(PlacesPoints<Policy, Element>,
-                "scarp: this integration does not fit the element: it needs `points<Element>()`, an array of at least "
-                "one QuadraturePoint");
-  static_assert(
-      !PlacesPoints<Policy, Element> || GivesGradients<Policy, Element>,
-      "scarp: an integration needs `gradients<Motion>(shapes, moves)`: the displacement gradient of each point");
-  static_assert(!PlacesPoints<Policy, Element> || GivesForces<Policy, Element>,
-                "scarp: an integration needs `forces(shapes, stresses)` [N] and `stiffness<Motion>(shapes, stresses, "
-                "tangents)` [N/m]");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Policy, class Element>
-concept CheckedIntegration = Integration<Policy, Element> || detail::MissingOfIntegration<Policy, Element>::nothing;
-
 }  // namespace scarp

@@ -4,9 +4,8 @@
 #include <span>
 
 #include "scarp/bvp/attachment.hpp"
-#include "scarp/bvp/detail/lever.hpp"
 #include "scarp/bvp/facet_chain.hpp"
-#include "scarp/bvp/interface_point.hpp"
+#include "scarp/bvp/rigid_body.hpp"
 #include "scarp/contact/checked_contact_law.hpp"
 #include "scarp/core/described.hpp"
 
@@ -28,49 +27,21 @@ concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k,
   {body.commit(nodes, increment)};
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Body>
-struct MissingOfStandingBody {
-  static_assert(
-      requires(Body const& body, std::size_t k) {
-        { body.extra_dofs() } -> std::same_as<int>;
-        { body.point_count() } -> std::same_as<std::size_t>;
-        { body.area(k) } -> std::same_as<double>;
-      },
-      "scarp: a body on a mesh needs `int extra_dofs() const`, `std::size_t point_count() const` and `double area(k) "
-      "const` [m2]");
-  static_assert(
-      requires(Body const& body, std::size_t k, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) {
-        { body.place(k, nodes) } -> std::same_as<Vector<2>>;
-        { body.place(k, nodes, increment) } -> std::same_as<Vector<2>>;
-      },
-      "scarp: a body on a mesh needs `Vector<2> place(k, nodes) const` and `place(k, nodes, increment) const` [m]");
-  static_assert(
-      requires(Body const& body, std::size_t k, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) {
-        { body.along(k, nodes, increment) } -> std::same_as<Vector<2>>;
-        body.levers_at(k, nodes, increment);
-      },
-      "scarp: a body on a mesh needs `Vector<2> along(k, nodes, increment) const` and `levers_at(k, nodes, increment) "
-      "const`");
-  static_assert(
-      requires(Body & body, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) {
-        body.commit(nodes, increment);
-      },
-      "scarp: a body on a mesh needs `void commit(nodes, increment)`");
-  static constexpr bool nothing = false;
+/// What an interface says of one of its points.
+struct InterfacePoint {
+  Vector<2> place = Vector<2>::Zero();   ///< of the standing body [m]
+  double area = 0.0;                     ///< [m2]
+  Vector<2> stress = Vector<2>::Zero();  ///< of the ground on the standing body [Pa]
+  double pressure = 0.0;                 ///< [Pa], positive pushes apart
+  double shear = 0.0;                    ///< [Pa], on the standing body, along its base, ground on the left
+  double gap = 0.0;                      ///< [m], negative: overlap
 };
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Body>
-concept CheckedStandingBody = StandsOnMesh<Body> || detail::MissingOfStandingBody<Body>::nothing;
 
 /// Contact between the outline of a mesh and a body that stands on it, in the plane: a contact law, in stresses over displacements
 /// [Pa/m] where grains have forces, at fixed points of the standing body against the facet opposite to them. Areas and directions
 /// are the body's: the force of a uniform pressure is exact, and a point that slides over a kink of the ground changes its force
 /// continuously.
-template <CheckedContactLaw Law, CheckedStandingBody Body>
+template <CheckedContactLaw Law, StandsOnMesh Body>
 class Interface {
   static_assert(!Law::needs.moment && !Law::needs.radius && !Law::needs.motion,
                 "an interface has neither rolling nor radii nor dashpots: take a law of springs and sliders");

@@ -33,24 +33,6 @@ concept GivesFluxChange = requires(Gradient<2> const& further, VoigtStress<2> co
 template <class Policy>
 concept Kinematics = TellsConfiguration<Policy> && FiltersGradient<Policy> && GivesFluxChange<Policy>;
 
-namespace detail {
-/// What is missing, in words.
-template <class Policy>
-struct MissingOfKinematics {
-  static_assert(TellsConfiguration<Policy>, "scarp: kinematics need `static constexpr bool follows_motion`");
-  static_assert(FiltersGradient<Policy>,
-                "scarp: kinematics need `template <int Dim> static Gradient<Dim> seen(Gradient<Dim> const&)`");
-  static_assert(GivesFluxChange<Policy>,
-                "scarp: kinematics need `template <int Dim> static Tensor<Dim> flux_change(Gradient<Dim> const& "
-                "further, VoigtStress<Dim> const&, VoigtTangent<Dim> const&)`");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Policy>
-concept CheckedKinematics = Kinematics<Policy> || detail::MissingOfKinematics<Policy>::nothing;
-
 /// Large displacements and rotations. The increment's gradient refers to the configuration at the start of the step;
 /// \f$ f_a = \int_v \sigma \nabla N_a\,dv \f$ is integrated over the one at its end.
 struct UpdatedLagrangian {

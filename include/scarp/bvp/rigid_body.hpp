@@ -3,11 +3,17 @@
 
 #include <array>
 
-#include "scarp/bvp/detail/lever.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/tensor.hpp"
 
 namespace scarp {
+
+/// How a degree of freedom moves a place: derivative of the position with respect to it.
+struct Lever {
+  int dof = -1;
+  Vector<2> direction = Vector<2>::Zero();
+};
 
 /// A rigid body in the plane with three degrees of freedom beside those of a mesh: the displacement of its reference point
 /// along x and y [m] and its rotation times `arm`, counter-clockwise [m], so that all three are lengths and their forces newtons.

@@ -63,14 +63,6 @@ concept AveragesGradients = MaterialField<Field> &&
   { constant.split(std::vector<VoigtTangent<Field::dim>>{}) } -> std::same_as<SplitTangents<Field::dim>>;
 };
 
-/// A field whose points can also go on from their trial states, along the path of an iteration.
-template <class Field>
-concept AdvancesTrials = MaterialField<Field> &&
-    requires(Field& field, int point, Gradient<Field::dim> const& further) {
-  {field.plan_advance(point, further)};
-  { field.advance(point, further) } -> std::same_as<Response<Field::dim>>;
-};
-
 /// Committed and trial states of one provider at a set of points.
 template <CheckedProvider Provider>
 class SCARP_EXPORT ProviderField {
@@ -133,23 +125,6 @@ class SCARP_EXPORT ProviderField {
       return provider_.respond(committed_[k], increment, trial_[k], plans_[k]);
     } else {
       return provider_.respond(committed_[k], increment, trial_[k]);
-    }
-  }
-
-  /// Fixes the work of going on from the trial state by a further gradient, which refers to the trial configuration.
-  void plan_advance(int point, Gradient<dim> const& further) {
-    if constexpr (PlansWork<Provider>)
-      plans_[detail::index(point)] = provider_.plan(trial_[detail::index(point)], further);
-  }
-
-  /// Goes on from the trial state, which is replaced by that of the answer.
-  Response<dim> advance(int point, Gradient<dim> const& further) {
-    std::size_t const k = detail::index(point);
-    State const from = trial_[k];
-    if constexpr (PlansWork<Provider>) {
-      return provider_.respond(from, further, trial_[k], plans_[k]);
-    } else {
-      return provider_.respond(from, further, trial_[k]);
     }
   }
 

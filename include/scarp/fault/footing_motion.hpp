@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "scarp/bvp/interface_point.hpp"
+#include "scarp/bvp/interface.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/bvp/loads.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "scarp/bvp/describe_dof.hpp"
+#include "scarp/bvp/constraints.hpp"
 #include "scarp/observe/observers.hpp"
 
 namespace scarp {

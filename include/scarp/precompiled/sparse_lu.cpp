@@ -1,2 +1,3 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/solver/sparse_lu_definitions.hpp"
+#define SCARP_SPARSE_LU_DEFINITIONS
+#include "scarp/solver/sparse_lu.hpp"

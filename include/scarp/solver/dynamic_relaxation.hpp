@@ -13,15 +13,23 @@ namespace scarp {
 
 /// Explicit motion of the nodes to equilibrium. Lumped masses are scaled so that a time step of 1 is stable (half the row sums of
 /// |K| over 2, after Gershgorin); velocities fall to zero at every peak of the kinetic energy (kinetic damping; Cundall 1976,
-/// Barnes 1999). A load step begins at the linear prediction; after that every point advances once per motion from its
-/// running trial state, so that a motion costs the work of its own small strain. Iterations of the report are motions: load
-/// stepping that counts them wants `few` and `many` in the hundreds.
-template <CheckedLinearSolver Linear = SparseLu>
+/// Barnes 1999). A load step begins at the linear prediction; every motion then asks all points for the whole increment from
+/// their committed states. Iterations of the report are motions: load stepping that counts them wants `few` and `many` in the
+/// hundreds.
+template <LinearSolver Linear = SparseLu>
 struct DynamicRelaxation {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 1000;
   double hopeless = 10.0;  ///< residual beyond which a step is given up
   double mass = 1.5;       ///< relative to the least one that is stable for the tangents at the start of the step
+
+  /// \throws InputError for a setting outside of its range
+  void validate() const {
+    require_positive("tolerance of the force residual", tolerance);
+    require_at_least("most motions of a load step", most_iterations, 1);
+    require_at_least("residual beyond which a step is given up", hopeless, tolerance);
+    require_positive("mass relative to the least stable one", mass);
+  }
 
   /// The motion on one problem.
   template <class Problem>
@@ -31,7 +39,7 @@ struct DynamicRelaxation {
     static_assert(Problem::is_bare, "what is attached to the ground has no mass: take QuasiNewton");
 
     Session(DynamicRelaxation const& settings, Problem& problem)
-        : settings_(settings), problem_(problem), start_(problem, settings.tolerance) {}
+        : settings_(detail::validated(settings)), problem_(problem), start_(problem, settings.tolerance) {}
 
     /// Readies a step from the committed state at a load factor: masses, and the matrix of the prediction.
     Verdict begin(double load) {
@@ -56,7 +64,7 @@ struct DynamicRelaxation {
       report.largest_gradient = problem_.largest_gradient();
       Eigen::VectorXd velocity = Eigen::VectorXd::Zero(mass_.size());
       double energy = 0.0;
-      Evaluation evaluation = recorded(report, [&] { return problem_.evaluate(increment); });
+      Evaluation evaluation = recorded(report, increment);
       for (;;) {
         if (report.verdict.status == Status::failed) return;
         if (evaluation.residual <= settings_.tolerance && report.verdict.acceptable()) return;
@@ -72,7 +80,7 @@ struct DynamicRelaxation {
         if (past_peak) velocity = push / 2.0;
         energy = past_peak ? 0.0 : now;
         start_.linearised().system().scatter(start_.linearised().system().gather(increment) + velocity, increment);
-        evaluation = recorded(report, [&] { return problem_.advance(increment); });
+        evaluation = recorded(report, increment);
       }
     }
 
@@ -82,10 +90,9 @@ struct DynamicRelaxation {
     SCARP_MEMBERS_EXCEPT((settings_, problem_, start_, mass_))
 
    private:
-    template <class Evaluate>
-    static Evaluation recorded(StepReport& report, Evaluate&& evaluate) {
+    Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment) {
       auto const started = std::chrono::steady_clock::now();
-      Evaluation evaluation = evaluate();
+      Evaluation evaluation = problem_.evaluate(increment);
       double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
       report.history.push_back({evaluation.residual, 0.0, evaluation.inner_steps, seconds});
       report.verdict = evaluation.verdict;
@@ -94,7 +101,7 @@ struct DynamicRelaxation {
       return evaluation;
     }
 
-    DynamicRelaxation const& settings_;
+    DynamicRelaxation settings_;
     Problem& problem_;
     StepStart<Problem, Linear> start_;
     Eigen::VectorXd mass_;  ///< of the free degrees of freedom [kg], for a time step of 1 s

@@ -19,8 +19,8 @@ namespace scarp {
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
-template <class DiscretisationType, MaterialField Materials, CheckedExecutor Executor,
-          CheckedAttachment<DiscretisationType::dim> Attached = NoAttachment>
+template <class DiscretisationType, MaterialField Materials, ExecutesTasks Executor,
+          AttachmentOrNone<DiscretisationType::dim> Attached = NoAttachment>
 class SCARP_EXPORT EquilibriumProblem final
     : public detail::AttachmentPart<EquilibriumProblem<DiscretisationType, Materials, Executor, Attached>,
                                     DiscretisationType::dim, typename detail::GroundStiffness<Materials>::Type,
@@ -119,16 +119,17 @@ class SCARP_EXPORT EquilibriumProblem final
 
   /// Lets every point respond to an increment from its committed state and adds up the forces.
   Evaluation evaluate(Eigen::VectorXd const& increment) override {
-    return evaluated(increment, [&](Evaluation& evaluation) { points_.respond(evaluation); });
-  }
-
-  /// The same, each point going on from its trial state at the increment of the last evaluation: it follows the path of the
-  /// iteration and works for the change only.
-  Evaluation advance(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
-    std::vector<Gradient<dim>> const before = gradients();
-    return evaluated(increment, [&](Evaluation& evaluation) {
-      points_.template advance<DiscretisationType::follows_motion>(before, evaluation);
-    });
+    Evaluation evaluation;
+    if (!increment.allFinite()) {
+      evaluation.verdict = {Status::failed, Reason::not_finite};
+    } else if (auto const inverted = look(increment)) {
+      evaluation.verdict = {Status::failed, Reason::element_inverted};
+      evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
+    } else {
+      points_.respond(evaluation);
+      add_up(increment, evaluation);
+    }
+    return evaluation;
   }
 
   /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
@@ -136,14 +137,6 @@ class SCARP_EXPORT EquilibriumProblem final
   Evaluation refine(Eigen::VectorXd const& increment) override {
     Evaluation evaluation;
     points_.refine(evaluation);
-    add_up(increment, evaluation);
-    return evaluation;
-  }
-
-  /// Lets them work on from their trial states, without further strain.
-  Evaluation rest(Eigen::VectorXd const& increment) requires AdvancesTrials<Materials> {
-    Evaluation evaluation;
-    points_.rest(evaluation);
     add_up(increment, evaluation);
     return evaluation;
   }
@@ -239,21 +232,6 @@ class SCARP_EXPORT EquilibriumProblem final
     auto const inverted = discretisation_.gradients(of_nodes(increment), gradients);
     if (!inverted) points_.see(std::move(gradients));
     return inverted;
-  }
-
-  template <class Ask>
-  Evaluation evaluated(Eigen::VectorXd const& increment, Ask const& ask) {
-    Evaluation evaluation;
-    if (!increment.allFinite()) {
-      evaluation.verdict = {Status::failed, Reason::not_finite};
-    } else if (auto const inverted = look(increment)) {
-      evaluation.verdict = {Status::failed, Reason::element_inverted};
-      evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
-    } else {
-      ask(evaluation);
-      add_up(increment, evaluation);
-    }
-    return evaluation;
   }
 
   void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) {

@@ -12,21 +12,6 @@ concept ExecutesTasks = requires(Executor& executor, void (&task)(int)) {
   executor.for_each(0, task);
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Executor>
-struct MissingOfExecutor {
-  static_assert(
-      ExecutesTasks<Executor>,
-      "scarp: an executor needs `for_each(int count, task)`, which calls task(i) once for each i below count");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Executor>
-concept CheckedExecutor = ExecutesTasks<Executor> || detail::MissingOfExecutor<Executor>::nothing;
-
 /// One of several processes that run the same program, each of which owns some of the material points.
 /// owns(point): whether this process answers for a point; share(values): completes an array over all points of which
 /// every process has the entries of its own. All processes must call share alike.

@@ -7,7 +7,7 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
-#include "scarp/solver/detail/evaluation.hpp"
+#include "scarp/solver/step_report.hpp"
 
 namespace scarp {
 

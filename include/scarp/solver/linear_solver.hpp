@@ -4,7 +4,9 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
+#include <limits>
 #include <vector>
 
 #include "scarp/core/status.hpp"
@@ -22,34 +24,6 @@ concept LinearSolver = std::default_initializable<Solver> &&
   { constant.solve(right) } -> std::same_as<Eigen::VectorXd>;
   { constant.solve_transposed(right) } -> std::same_as<Eigen::VectorXd>;
 };
-
-namespace detail {
-/// What is missing, in words.
-template <class Solver>
-struct MissingOfLinearSolver {
-  static_assert(std::default_initializable<Solver>, "scarp: a linear solver is made without arguments");
-  static_assert(
-      requires(Solver & solver, SparseMatrix const& matrix) {
-        { solver.factorize(matrix) } -> std::same_as<Verdict>;
-      },
-      "scarp: a linear solver needs `Verdict factorize(SparseMatrix const&)`");
-  static_assert(
-      requires(Solver const& solver, Eigen::VectorXd const& right) {
-        { solver.solve(right) } -> std::same_as<Eigen::VectorXd>;
-      },
-      "scarp: a linear solver needs `Eigen::VectorXd solve(Eigen::VectorXd const&) const`");
-  static_assert(
-      requires(Solver const& solver, Eigen::VectorXd const& right) {
-        { solver.solve_transposed(right) } -> std::same_as<Eigen::VectorXd>;
-      },
-      "scarp: a linear solver needs `Eigen::VectorXd solve_transposed(Eigen::VectorXd const&) const`");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Solver>
-concept CheckedLinearSolver = LinearSolver<Solver> || detail::MissingOfLinearSolver<Solver>::nothing;
 
 namespace detail {
 
@@ -85,4 +59,58 @@ Verdict factorize_with(Factorisation& solver, PatternMemory& pattern, SparseMatr
 }
 
 }  // namespace detail
+
+/// Estimate of the condition number in the 1-norm, |A| |A^-1|, from a few solves: a lower bound, seldom below a third of the
+/// truth (Hager, SIAM J. Sci. Stat. Comput. 5, 1984; Higham, ACM TOMS 14, 1988). Infinite when a solve is not finite.
+template <LinearSolver Solver>
+double condition_estimate(SparseMatrix const& matrix, Solver const& solver) {
+  Eigen::Index const size = matrix.rows();
+  if (size == 0) return 1.0;
+  Eigen::VectorXd x = Eigen::VectorXd::Constant(size, 1.0 / static_cast<double>(size));
+  double inverse_norm = 0.0;
+  constexpr int most = 5;
+  for (int k = 0; k < most; ++k) {
+    Eigen::VectorXd const y = solver.solve(x);
+    if (!y.allFinite()) return std::numeric_limits<double>::infinity();
+    double const found = y.lpNorm<1>();
+    if (found <= inverse_norm) break;
+    inverse_norm = found;
+    Eigen::VectorXd const signs = y.unaryExpr([](double value) { return value < 0.0 ? -1.0 : 1.0; });
+    Eigen::VectorXd const z = solver.solve_transposed(signs);
+    if (!z.allFinite()) return std::numeric_limits<double>::infinity();
+    Eigen::Index steepest = 0;
+    if (z.cwiseAbs().maxCoeff(&steepest) <= z.dot(x)) break;
+    x = Eigen::VectorXd::Unit(size, steepest);
+  }
+  double norm = 0.0;
+  for (Eigen::Index column = 0; column < size; ++column) {
+    double sum = 0.0;
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) sum += std::abs(entry.value());
+    norm = std::max(norm, sum);
+  }
+  return norm * inverse_norm;
+}
+
+/// The unknown that a singular or nearly singular matrix holds least: the largest entry of the vector that it maps nearest to
+/// nothing, by inverse iteration with a small shift. -1 when that fails too.
+template <LinearSolver Solver>
+int weakest_unknown(SparseMatrix const& matrix) {
+  Eigen::Index const size = matrix.rows();
+  if (size == 0 || !matrix.coeffs().allFinite()) return -1;
+  double const shift = 1e-9 * matrix.coeffs().abs().maxCoeff();
+  SparseMatrix unit(size, size);
+  unit.setIdentity();
+  Solver solver;
+  if (!solver.factorize(matrix + shift * unit).acceptable()) return -1;
+  Eigen::VectorXd mode(size);
+  for (Eigen::Index k = 0; k < size; ++k) mode(k) = 1.0 + 0.3 * std::sin(1.7 * static_cast<double>(k));
+  for (int k = 0; k < 3; ++k) {
+    mode = solver.solve(mode / mode.norm());
+    if (!mode.allFinite()) return -1;
+  }
+  Eigen::Index weakest = 0;
+  mode.cwiseAbs().maxCoeff(&weakest);
+  return static_cast<int>(weakest);
+}
+
 }  // namespace scarp

@@ -112,11 +112,27 @@ struct LoadStepping {
   double shrinkage = 0.75;  ///< after more than `many` iterations
   int many = 10;
 
+  /// \throws InputError for a setting outside of its range
+  void validate() const {
+    require_positive("smallest load increment", smallest);
+    require_positive("first load increment", first);
+    require_at_least("first load increment", first, smallest);
+    require_at_least("largest load increment", largest, smallest);
+    require_positive("largest gradient of a load step", largest_gradient);
+    require_between("growth of the load increment", growth, 1.0, std::numeric_limits<double>::max());
+    require_positive("shrinkage of the load increment", shrinkage);
+    require_between("shrinkage of the load increment", shrinkage, 0.0, 1.0);
+    require_at_least("iterations up to which the load increment grows", few, 0);
+    require_at_least("iterations beyond which the load increment shrinks", many, few);
+  }
+
   /// One step without growth of the load: brings a prepared state into equilibrium, or says why not.
   template <class Solver, class Problem, class Observer>
     requires CheckedObserver<Observer, Problem> RunReport settle(Solver const& solver, Problem& problem, double load,
                                                                  Observer& observer)
   const {
+    validate();
+    require_finite("load factor", load);
     typename Solver::template Session<Problem> session(solver, problem);
     RunReport run;
     run.load = load;
@@ -132,7 +148,7 @@ struct LoadStepping {
     }
     run.verdict = step.verdict;
     if (step.interrupted()) return run;
-    step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    step.seconds = seconds_since(started);
     bool const accepted = step.verdict.acceptable();
     if (accepted) session.accept(displacement);
     count(run, step, accepted);
@@ -141,7 +157,7 @@ struct LoadStepping {
   }
 
   /// From load factor `from` to `to`, not below it. The problem's committed state must belong to `from`.
-  /// \throws InputError for increments that are not finite and positive, load factors that are not finite or fall
+  /// \throws InputError for settings outside of their range, load factors that are not finite or fall
   template <class Solver, class Problem, class Observer>
     requires CheckedObserver<Observer, Problem> RunReport run(Solver const& solver, Problem& problem, double from,
                                                               double to, Observer& observer)
@@ -155,9 +171,7 @@ struct LoadStepping {
     requires CheckedObserver<Observer, Problem> RunReport advance(Session& session, Problem& problem, double from,
                                                                   double to, Observer& observer)
   const {
-    require_positive("first load increment", first);
-    require_positive("smallest load increment", smallest);
-    require_positive("largest gradient of a load step", largest_gradient);
+    validate();
     require_finite("load factor at the start", from);
     require_finite("load factor at the end", to);
     if (to < from) refuse("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
@@ -186,11 +200,13 @@ struct LoadStepping {
     StepReport step;
     step.step = run.steps + 1;
     auto const started = std::chrono::steady_clock::now();
+    step.load = run.load;
     step.verdict = session.begin(run.load);
     session.describe(step);
     if (!step.verdict.acceptable()) {  // tangents or matrix, which no smaller increment mends
       run.verdict = step.verdict;
-      run.weak_dof = step.weak_dof;
+      step.seconds = seconds_since(started);
+      count(run, step, false);
       observer.attempted(problem, step);
       return;
     }
@@ -202,7 +218,7 @@ struct LoadStepping {
       run.verdict = step.verdict;
       return;
     }
-    step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    step.seconds = seconds_since(started);
     bool const accepted = step.verdict.acceptable();
     if (accepted) session.accept(displacement);
     count(run, step, accepted);
@@ -240,6 +256,10 @@ struct LoadStepping {
   /// Load factor that a step ends at; one that would leave less than the smallest increment goes to the end.
   double end_of(double load, double to, double increment) const {
     return to - load - increment < smallest ? to : load + increment;
+  }
+
+  static double seconds_since(std::chrono::steady_clock::time_point started) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
 
   static void count(RunReport& run, StepReport const& step, bool accepted) {

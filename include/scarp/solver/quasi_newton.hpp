@@ -2,19 +2,16 @@
 #pragma once
 
 #include "scarp/solver/detail/quasi_newton_session.hpp"
-#include "scarp/solver/plain_step.hpp"
-#include "scarp/solver/point_secant.hpp"
 #include "scarp/solver/sparse_lu.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #ifdef SCARP_PRECOMPILED
-#include "scarp/solver/consistent_tangent.hpp"
 #endif
 
 namespace scarp {
 
-/// Newton-type iteration for one load step. The path says from which states the points answer an iterate (their committed
-/// ones), the tangent rule what their tangents become on the way, the mixing what the correction becomes.
-template <CheckedTangentRule<2> Rule = PointSecant, CheckedMixing Mixing = PlainStep,
-          CheckedLinearSolver Linear = SparseLu, CheckedResponsePath Path = FromCommitted>
+/// Newton-type iteration for one load step: the tangent rule says what the points' tangents become on the way. Every iteration
+/// takes the points along the straight path from their committed states to the iterate.
+template <TangentRule<2> Rule = PointSecant, LinearSolver Linear = SparseLu>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual relative to the reactions
   int most_iterations = 30;
@@ -23,18 +20,22 @@ struct QuasiNewton {
   /// A step's first guess is the motion of the step before, scaled by the load; after a refused one it is linear.
   bool repeats_motion = true;
   Rule rule{};
-  Mixing mixing{};
+
+  /// \throws InputError for a setting outside of its range
+  void validate() const {
+    require_positive("tolerance of the force residual", tolerance);
+    require_at_least("most iterations of a load step", most_iterations, 1);
+    require_at_least("residual beyond which a step is given up", hopeless, tolerance);
+    require_at_least("most refinements of an iteration", most_refinements, 0);
+    detail::validated(rule);
+  }
 
   using RuleType = Rule;
-  using MixingType = Mixing;
   using LinearType = Linear;
-  using PathType = Path;
 
-  /// The iteration on one problem. Its type matters only to a path along which points go on from their trial states.
+  /// The iteration on one problem, seen as an `IncrementalProblem`.
   template <class Problem>
-  using Seen = std::conditional_t<advances_trials<Path>, Problem, typename Problem::Interface>;
-  template <class Problem>
-  using Session = QuasiNewtonSession<QuasiNewton, Seen<Problem>>;
+  using Session = QuasiNewtonSession<QuasiNewton, typename Problem::Interface>;
 };
 
 #ifdef SCARP_PRECOMPILED

@@ -23,8 +23,22 @@ class SCARP_EXPORT SparseLu {
 
 static_assert(LinearSolver<SparseLu>);
 
-}  // namespace scarp
-
 #ifndef SCARP_PRECOMPILED
-#include "scarp/solver/sparse_lu_definitions.hpp"
+#define SCARP_SPARSE_LU_DEFINITIONS inline
 #endif
+#ifdef SCARP_SPARSE_LU_DEFINITIONS  // empty in the library that keeps them
+SCARP_SPARSE_LU_DEFINITIONS Verdict SparseLu::factorize(SparseMatrix const& matrix) {
+  return detail::factorize_with(solver_, pattern_, matrix);
+}
+
+SCARP_SPARSE_LU_DEFINITIONS Eigen::VectorXd SparseLu::solve(Eigen::VectorXd const& right) const {
+  return solver_.solve(right);
+}
+
+SCARP_SPARSE_LU_DEFINITIONS Eigen::VectorXd SparseLu::solve_transposed(Eigen::VectorXd const& right) const {
+  return solver_.transpose().solve(right);
+}
+#endif
+#undef SCARP_SPARSE_LU_DEFINITIONS
+
+}  // namespace scarp

@@ -148,34 +148,6 @@ struct Wrong : Elastic {
 auto const region = Region{"soil", Wrong{}};
 }  // namespace case_14
 
-// first: kinematics need `static constexpr bool follows_motion`
-// also: seen(
-// also: flux_change(
-namespace case_15 {
-struct Wrong {};
-Discretisation<Quad4, Wrong>* grid;
-}  // namespace case_15
-
-// first: this integration does not fit the element
-namespace case_16 {
-Discretisation<Tri3, UpdatedLagrangian, ReducedIntegration>* grid;
-}  // namespace case_16
-
-// first: an attachment needs `int extra_dofs()
-// also: add_forces(
-// also: add_stiffness(
-// also: commit(
-namespace case_17 {
-struct Wrong {};
-EquilibriumProblem<Grid, ProviderField<Elastic>, SerialExecutor, Wrong>* problem;
-}  // namespace case_17
-
-// first: an executor needs `for_each(
-namespace case_18 {
-struct Wrong {};
-EquilibriumProblem<Grid, ProviderField<Elastic>, Wrong>* problem;
-}  // namespace case_18
-
 // first: an observer needs `void attempted(
 // also: wants_stop(
 namespace case_19 {
@@ -184,35 +156,6 @@ void watched(EquilibriumProblem<Grid, ProviderField<Elastic>, SerialExecutor>& p
   LoadStepping{}.settle(QuasiNewton<>{}, problem, 0.0, wrong);
 }
 }  // namespace case_19
-
-// first: a tangent rule needs `template <int Dim> VoigtTangent<Dim> start(
-// also: a tangent rule needs `update<Dim>
-namespace case_20 {
-struct Wrong {};
-QuasiNewton<Wrong> solver;
-}  // namespace case_20
-
-// first: a mixing rule needs `Eigen::VectorXd next(
-// also: forget()
-namespace case_21 {
-struct Wrong {};
-QuasiNewton<PointSecant, Wrong> solver;
-}  // namespace case_21
-
-// first: a linear solver needs `Verdict factorize(
-// also: solve(
-// also: solve_transposed(
-namespace case_22 {
-struct Wrong {};
-QuasiNewton<PointSecant, PlainStep, Wrong> solver;
-}  // namespace case_22
-
-// first: a response path needs `static Evaluation evaluate(
-// also: refine(
-namespace case_23 {
-struct Wrong {};
-QuasiNewton<PointSecant, PlainStep, SparseLu, Wrong> solver;
-}  // namespace case_23
 
 // within: InitialStressField
 namespace case_24 {
@@ -291,12 +234,6 @@ namespace case_34 {
 struct Wrong {};
 auto const mesh = FaultScene<Elastic, Wrong>{}.mesh();
 }  // namespace case_34
-
-// first: a body on a mesh needs `int extra_dofs()
-namespace case_35 {
-struct Wrong {};
-Interface<LinearFrictional, Wrong>* interface;
-}  // namespace case_35
 
 // within: many_pairs_at_once
 namespace case_36 {

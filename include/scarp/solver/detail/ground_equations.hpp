@@ -4,8 +4,8 @@
 #include <Eigen/SparseCore>
 
 #include "scarp/constitutive/material_field.hpp"
-#include "scarp/solver/conditioning.hpp"
 #include "scarp/solver/free_system.hpp"
+#include "scarp/solver/linear_solver.hpp"
 
 namespace scarp::detail {
 

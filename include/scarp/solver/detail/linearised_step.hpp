@@ -8,7 +8,6 @@
 #include "scarp/core/voigt.hpp"
 #include "scarp/solver/detail/ground_equations.hpp"
 #include "scarp/solver/detail/standing_balance.hpp"
-#include "scarp/solver/detail/work_search.hpp"
 
 namespace scarp {
 
@@ -23,6 +22,8 @@ class LinearisedStep {
   /// accuracy: residual below which the attachment's forces need no further correction
   LinearisedStep(Problem& problem, double accuracy)
       : problem_(problem), system_(problem.constraints()), accuracy_(accuracy), beside_(problem) {}
+  LinearisedStep(LinearisedStep const&) = delete;  // the equations refer to the system
+  LinearisedStep& operator=(LinearisedStep const&) = delete;
 
   /// Linearises about the increment [m] of the problem's last evaluation, whose unbalanced forces [N] are given.
   Verdict linearise(Eigen::VectorXd const& increment, Eigen::VectorXd const& unbalanced,
@@ -99,7 +100,10 @@ class LinearisedStep {
     }
   }
 
-  Verdict factorize(Stiffness const& all) { return equations_.factorize(system_, all); }
+  /// Without free degrees of freedom, as in a test of a law on one element, there are no equations.
+  Verdict factorize(Stiffness const& all) {
+    return system_.free_count() == 0 ? Verdict{} : equations_.factorize(system_, all);
+  }
 
   Eigen::VectorXd ground_imbalance(Eigen::VectorXd const& increment, Eigen::VectorXd const& more) const {
     return ground_forces_ + ground_ * (increment - centre_) - more;
@@ -107,6 +111,7 @@ class LinearisedStep {
 
   /// One linear solve.
   Verdict correct(Eigen::VectorXd& increment, Eigen::VectorXd const& unbalanced) {
+    if (system_.free_count() == 0) return {};
     Eigen::VectorXd const force = -system_.gather(unbalanced);
     Eigen::VectorXd const correction = equations_.solve(force);
     double const norm = force.norm();

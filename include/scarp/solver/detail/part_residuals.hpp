@@ -11,7 +11,7 @@
 #include "scarp/core/precompiled.hpp"
 #include "scarp/core/tensor.hpp"
 #include "scarp/mesh/mesh.hpp"
-#include "scarp/solver/part_residual.hpp"
+#include "scarp/solver/step_report.hpp"
 
 namespace scarp::detail {
 

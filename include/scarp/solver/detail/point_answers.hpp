@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <functional>
 #include <vector>
@@ -9,8 +8,8 @@
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/solver/detail/evaluation.hpp"
 #include "scarp/solver/executor.hpp"
+#include "scarp/solver/step_report.hpp"
 
 namespace scarp {
 
@@ -73,31 +72,10 @@ class SCARP_EXPORT PointAnswers {
   }
 
   /// All points respond from their committed states to what they see.
-  void respond(Evaluation& evaluation) { ask(owned_, from_committed(), evaluation); }
-
-  /// All points go on from their trial states by the change from what they saw before to what they see.
-  template <bool FollowsMotion>
-  void advance(Gradients const& before, Evaluation& evaluation) requires AdvancesTrials<Materials> {
-    ask(
-        owned_,
-        [&](int point) {
-          auto const k = detail::index(point);
-          Gradient<dim> further = gradients_[k] - before[k];
-          if constexpr (FollowsMotion) further *= (Gradient<dim>::Identity() + before[k]).inverse();
-          materials_.plan_advance(point, further);
-          return materials_.advance(point, further);
-        },
-        evaluation);
-  }
+  void respond(Evaluation& evaluation) { ask(owned_, evaluation); }
 
   /// Points whose last answer is not converged work harder, now and for the rest of the load step.
-  void refine(Evaluation& evaluation) { ask(refined(), from_committed(), evaluation); }
-
-  /// They work on from their trial states, without further strain.
-  void rest(Evaluation& evaluation) requires AdvancesTrials<Materials> {
-    ask(
-        refined(), [&](int point) { return materials_.advance(point, Gradient<dim>::Zero()); }, evaluation);
-  }
+  void refine(Evaluation& evaluation) { ask(refined(), evaluation); }
 
   /// The committed stresses take the place of answers.
   void take_committed() {
@@ -142,10 +120,6 @@ class SCARP_EXPORT PointAnswers {
 
   std::size_t count() const { return detail::index(materials_.point_count()); }
 
-  auto from_committed() {
-    return [this](int point) { return materials_.respond(point, gradients_[detail::index(point)]); };
-  }
-
   /// Completes an array over all points by what other processes know.
   template <class Value>
   void share(std::vector<Value>& values) const {
@@ -166,8 +140,7 @@ class SCARP_EXPORT PointAnswers {
   }
 
   /// selected: points of this process
-  template <class Answer>
-  void ask(std::vector<int> const& selected, Answer const& answer, Evaluation& evaluation) {
+  void ask(std::vector<int> const& selected, Evaluation& evaluation) {
     constexpr long not_asked = -1;
     std::vector<long> worked(count(), not_asked);
     // The longest answers first: one that begins last would keep the other threads waiting.
@@ -176,7 +149,7 @@ class SCARP_EXPORT PointAnswers {
     executor_.for_each(detail::count(order), [&](int task) {
       int const point = order[detail::index(task)];
       auto const k = detail::index(point);
-      responses_[k] = answer(point);
+      responses_[k] = materials_.respond(point, gradients_[k]);
       // Prescribed nodes would hide a NaN from the residual of the free ones.
       if (!responses_[k].stress.allFinite()) responses_[k].verdict = {Status::failed, Reason::not_finite};
       worked[k] = materials_.work(point);

@@ -7,14 +7,10 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/solver/detail/answer_change.hpp"
-#include "scarp/solver/detail/repeated_motion.hpp"
 #include "scarp/solver/detail/step_start.hpp"
 #include "scarp/solver/incremental_problem.hpp"
-#include "scarp/solver/mixing.hpp"
-#include "scarp/solver/response_path.hpp"
 #include "scarp/solver/step_report.hpp"
-#include "scarp/solver/tangent_rule.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 
 namespace scarp {
 
@@ -23,11 +19,10 @@ namespace scarp {
 template <class Settings, class Problem>
 class SCARP_EXPORT QuasiNewtonSession {
  public:
-  using Path = typename Settings::PathType;
   static constexpr int dim = Problem::dim;
 
   QuasiNewtonSession(Settings const& settings, Problem& problem)
-      : settings_(settings), mixing_(settings.mixing), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
+      : settings_(detail::validated(settings)), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
 
   /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
   Verdict begin(double load);
@@ -41,25 +36,22 @@ class SCARP_EXPORT QuasiNewtonSession {
   void accept(Eigen::VectorXd const& increment);
 
   /// What is remembered from step to step.
-  SCARP_MEMBERS_EXCEPT((settings_, mixing_, problem_, start_, mark_, tangent_seconds_, provider_, working_,
-                        last_gradients_, last_stresses_, growth_),
+  SCARP_MEMBERS_EXCEPT((settings_, problem_, start_, mark_, tangent_seconds_, provider_, working_, last_gradients_,
+                        last_stresses_, growth_),
                        first_, learned_, motion_)
 
  private:
   using Clock = std::chrono::steady_clock;
   using Rule = typename Settings::RuleType;
-  using Mixing = typename Settings::MixingType;
   using Linear = typename Settings::LinearType;
-  enum class Question { first, further, refined };
 
   void iterate(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop);
-  Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, Question question);
+  Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, bool refine);
   std::vector<VoigtTangent<Problem::dim>> timed_tangents(bool of_trial_states);
   void learn();
   void learn_from_answers();
 
-  Settings const& settings_;
-  Mixing mixing_;
+  Settings settings_;
   Problem& problem_;
   StepStart<Problem, Linear> start_;
   Clock::time_point mark_{};                       ///< end of the last answer of the points in this step
@@ -111,7 +103,6 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
   if (!report.verdict.acceptable()) return;
   report.largest_gradient = problem_.largest_gradient();
   mark_ = Clock::now();
-  mixing_.forget();
   last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
   last_stresses_ = problem_.committed_stresses();
   auto& linearised = start_.linearised();
@@ -121,12 +112,12 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
     report.history.emplace_back();
     report.history.back().linear_residual = linear_residual;
     report.history.back().material_seconds = report.history.back().seconds = std::exchange(tangent_seconds_, 0.0);
-    Evaluation evaluation = recorded(report, increment, report.iterations() == 1 ? Question::first : Question::further);
+    Evaluation evaluation = recorded(report, increment, false);
     // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
     for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
       if (report.stopped(stop)) return;
       learn();  // before the plan changes the answer, which would pass for stiffness
-      evaluation = recorded(report, increment, Question::refined);
+      evaluation = recorded(report, increment, true);
     }
     if (report.verdict.status == Status::failed) return;
     learn();
@@ -144,9 +135,8 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
       return;
     }
     linear_residual = linearised.linear_residual();
-    Eigen::VectorXd const correction = linearised.system().gather(next - increment);
-    Eigen::VectorXd const force = -linearised.system().gather(evaluation.unbalanced);
-    linearised.system().scatter(mixed(mixing_, linearised.system().gather(increment), correction, force), increment);
+    Eigen::VectorXd const correction = next - increment;
+    increment += correction;
   }
 }
 
@@ -161,11 +151,9 @@ void QuasiNewtonSession<Settings, Problem>::accept(Eigen::VectorXd const& increm
 /// Asks all points and adds what it took to the report.
 template <class Settings, class Problem>
 Evaluation QuasiNewtonSession<Settings, Problem>::recorded(StepReport& report, Eigen::VectorXd const& increment,
-                                                           Question question) {
+                                                           bool refine) {
   auto const started = Clock::now();
-  Evaluation evaluation = question == Question::refined
-                              ? Path::refine(problem_, increment)
-                              : Path::evaluate(problem_, increment, question == Question::first);
+  Evaluation evaluation = refine ? problem_.refine(increment) : problem_.evaluate(increment);
   auto& record = report.history.back();
   auto const ended = Clock::now();
   record.residual = evaluation.residual;

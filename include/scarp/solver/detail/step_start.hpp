@@ -3,11 +3,36 @@
 
 #include <vector>
 
-#include "scarp/solver/detail/evaluation.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/solver/detail/linearised_step.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
+
+namespace detail {
+/// How the free degrees of freedom moved in the last accepted load step, for each unit of the load factor.
+class RepeatedMotion {
+ public:
+  bool known() const { return !rate_.empty(); }
+  void forget() { rate_.clear(); }
+
+  /// motion [m]: of the free degrees of freedom in a step; growth: of the load factor, positive
+  void remember(Eigen::VectorXd const& motion, double growth) {
+    rate_.resize(static_cast<std::size_t>(motion.size()));
+    rate() = motion / growth;
+  }
+
+  /// The motion [m] when the load factor grows by as much.
+  Eigen::VectorXd over(double growth) { return growth * rate(); }
+
+  SCARP_MEMBERS(rate_)
+
+ private:
+  Eigen::Map<Eigen::VectorXd> rate() { return {rate_.data(), static_cast<Eigen::Index>(rate_.size())}; }
+
+  std::vector<double> rate_;  ///< [m]
+};
+}  // namespace detail
 
 /// What a load step begins with, however it is iterated afterwards: the system linearised about the committed state, what is
 /// known of it, and the first guess that follows from it.

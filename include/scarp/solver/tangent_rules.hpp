@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <concepts>
+#include <limits>
+
+#include "scarp/core/error.hpp"
+#include "scarp/core/rotated_increment.hpp"
+#include "scarp/core/voigt.hpp"
+
+namespace scarp {
+
+/// start(provider, learned): a point's tangent at the start of a step, from the provider's and the one that the step before ended with.
+template <class Rule, int Dim>
+concept StartsTangent = requires(Rule const& rule, VoigtTangent<Dim> const& tangent) {
+  { rule.template start<Dim>(tangent, tangent) } -> std::same_as<VoigtTangent<Dim>>;
+};
+
+/// update(tangent, provider, change of strain, change of stress): what an iteration's answer teaches.
+template <class Rule, int Dim>
+concept LearnsFromAnswers = requires(Rule const& rule, VoigtTangent<Dim> const& tangent,
+                                     EngineeringStrain<Dim> const& strain, VoigtStress<Dim> const& stress) {
+  { rule.template update<Dim>(tangent, tangent, strain, stress) } -> std::same_as<VoigtTangent<Dim>>;
+};
+
+/// at_trial(trial, first): the tangent from that of the provider's trial state; `first` is the one that the run began with.
+template <class Rule, int Dim>
+concept FollowsTrialTangent = requires(Rule const& rule, VoigtTangent<Dim> const& tangent) {
+  { rule.template at_trial<Dim>(tangent, tangent) } -> std::same_as<VoigtTangent<Dim>>;
+};
+
+/// Which tangent a point has while a step is iterated.
+template <class Rule, int Dim>
+concept TangentRule = StartsTangent<Rule, Dim> &&(LearnsFromAnswers<Rule, Dim> || FollowsTrialTangent<Rule, Dim>);
+
+/// Tangents that learn at every material point: each iteration's change of strain and stress corrects the point's tangent by
+/// Broyden's rank-one update, so that thousands of points gather curvature at once where a global quasi-Newton method gathers
+/// one direction. A step starts from a mix of the provider's tangent and what the last step has learned.
+/// The symmetric part is kept above a floor, without which softening makes the system indefinite.
+struct PointSecant {
+  double provider_share = 0.5;        ///< of the provider's tangent in the start of a step; the rest is learned
+  double floor = 0.02;                ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
+  double least_strain_change = 1e-7;  ///< a smaller change teaches nothing but noise
+
+  void validate() const {
+    require_between("share of the provider's tangent", provider_share, 0.0, 1.0);
+    require_between("floor of a learned tangent", floor, std::numeric_limits<double>::lowest(), 1.0);
+    require_not_negative("least change of strain that teaches", least_strain_change);
+  }
+
+  /// Start of a step from the provider's tangent and the one learned in the step before.
+  template <int Dim>
+  VoigtTangent<Dim> start(VoigtTangent<Dim> const& provider, VoigtTangent<Dim> const& learned) const {
+    return provider_share * provider + (1.0 - provider_share) * learned;
+  }
+
+  template <int Dim>
+  VoigtTangent<Dim> update(VoigtTangent<Dim> tangent, VoigtTangent<Dim> const& provider,
+                           EngineeringStrain<Dim> const& strain_change, VoigtStress<Dim> const& stress_change) const {
+    double const squared = strain_change.squaredNorm();
+    if (!(squared > least_strain_change * least_strain_change)) return tangent;
+    tangent += (stress_change - tangent * strain_change) * strain_change.transpose() / squared;
+    return raised<Dim>(tangent, floor * provider.trace() / voigt_size<Dim>);
+  }
+
+ private:
+  template <int Dim>
+  static VoigtTangent<Dim> raised(VoigtTangent<Dim> const& tangent, double least) {
+    Eigen::SelfAdjointEigenSolver<VoigtTangent<Dim>> const parts((tangent + tangent.transpose()) / 2.0);
+    VoigtTangent<Dim> lifted = tangent;
+    for (int k = 0; k < voigt_size<Dim>; ++k) {
+      double const missing = least - parts.eigenvalues()(k);
+      if (missing > 0.0) lifted += missing * parts.eigenvectors().col(k) * parts.eigenvectors().col(k).transpose();
+    }
+    return lifted;
+  }
+};
+
+static_assert(TangentRule<PointSecant, 2> && TangentRule<PointSecant, 3>);
+
+/// Newton's method: every iteration takes the provider's tangent at its trial state. Residuals fall quadratically where that is
+/// the derivative of the answer and the answer is smooth.
+struct ConsistentTangent {
+  double floor = 0.0;  ///< share of the first tangent that is mixed in, against singular systems at a limit load
+
+  void validate() const { require_between("share of the first tangent", floor, 0.0, 1.0); }
+
+  /// What the last accepted iteration ended with: the provider's tangent of the committed state with the floor in it.
+  template <int Dim>
+  VoigtTangent<Dim> start(VoigtTangent<Dim> const&, VoigtTangent<Dim> const& learned) const {
+    return learned;
+  }
+
+  template <int Dim>
+  VoigtTangent<Dim> at_trial(VoigtTangent<Dim> const& trial, VoigtTangent<Dim> const& first) const {
+    return (1.0 - floor) * trial + floor * first;
+  }
+};
+
+static_assert(TangentRule<ConsistentTangent, 2> && TangentRule<ConsistentTangent, 3>);
+
+/// What a tangent can learn from two answers of one point: a strain and the change of stress that it made.
+template <int Dim>
+struct AnswerChange {
+  EngineeringStrain<Dim> strain;
+  VoigtStress<Dim> stress;  ///< [Pa]
+};
+
+/// From the answer to one gradient to that to another, both from the same start, in the axes of the former: the rotation
+/// between them turns the stress that was there and is no stiffness. Nothing, where no rotation leads from one to the other.
+template <int Dim>
+AnswerChange<Dim> unturned_change(Gradient<Dim> const& from, Gradient<Dim> const& to, VoigtStress<Dim> const& before,
+                                  VoigtStress<Dim> const& after) {
+  Gradient<Dim> const identity = Gradient<Dim>::Identity();
+  RotatedIncrement<Dim> const moved((to - from) * (identity + from).inverse());
+  if (!moved.verdict.acceptable()) return {EngineeringStrain<Dim>::Zero(), VoigtStress<Dim>::Zero()};
+  Tensor<Dim> const unturned = moved.turn.transpose() * from_voigt_stress<Dim, double>(after) * moved.turn;
+  return {to_engineering_strain<Dim, double>(moved.strain), to_voigt_stress<Dim, double>(unturned) - before};
+}
+
+}  // namespace scarp
