@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Sources compiled with two versions of scarp stop a program at its start where their functions have been merged, by the
-linker or by the loader, and nowhere else. Whoever includes a room takes part. Environment: see compiled_symbols.py."""
+"""Sources compiled with two versions of scarp, for registers of different width or with another alignment of Eigen's objects
+stop a program at its start where their functions have been merged, by the linker or by the loader, and nowhere else.
+Whoever includes a room takes part. Environment: see compiled_symbols.py."""
 import pathlib
+import platform
 import re
 import subprocess
 import sys
@@ -9,7 +11,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from compiled_symbols import compiler, root
+from compiled_symbols import compiler, include_folders, root
 
 include = root / "include"
 PART = """
@@ -98,6 +100,40 @@ def faults(scratch):
             yield f"{title}: was not refused: {code}, {said}"
 
 
+def mixed(scratch):
+    """Sources of one program that were not compiled alike."""
+    aligned = '#include "scarp/core/tensor.hpp"\n'
+    (scratch.folder / "aligned_program.cpp").write_text(aligned + "int main() { return 0; }\n")
+    (scratch.folder / "aligned_part.cpp").write_text(aligned)
+    (scratch.folder / "aligned_library.cpp").write_text(
+        aligned + "int scarp::detail::version_of_library() { return version_number(); }\n"
+        "int scarp::detail::alignment_of_library() { return own_alignment(); }\n")
+
+    def part(source, alignment, *flags):
+        made = scratch.compile([scratch.folder / source], "-c", *include_folders(), f"-DEIGEN_MAX_ALIGN_BYTES={alignment}",
+                               *flags)
+        return made.rename(scratch.folder / f"object{scratch.made}.o")
+
+    cases = [("two alignments", [part("aligned_program.cpp", 16), part("aligned_part.cpp", 64)],
+              r"Eigen aligns by (16|64) bytes .* meets (16|64) "),
+             ("scarp::precompiled with another alignment",
+              [part("aligned_program.cpp", 16, *PRECOMPILED), part("aligned_library.cpp", 64, *PRECOMPILED, *HIDDEN)],
+              r"Eigen aligns by (16|64) bytes .* meets (16|64) ")]
+    if platform.machine() == "x86_64":
+        plain = scratch.object("program.cpp", scratch.own)
+        avx = scratch.object("part.cpp", scratch.own, "-march=x86-64-v3")
+        said = r"vector registers of (16|32) bytes meets one for (16|32) bytes"
+        library = scratch.library("part.cpp", scratch.own, "-march=x86-64-v3", *HIDDEN)
+        cases += [("two instruction sets", [plain, avx], said),
+                  ("two instruction sets, hidden symbols", [plain, library], None)]
+    for title, parts, refusal in cases:
+        code, said = run(scratch.compile(parts, f"-Wl,-rpath,{scratch.folder}"))
+        if refusal is None and (code, said) != (0, ""):
+            yield f"{title}: ended with {code}: {said}"
+        if refusal and (code == 0 or not re.search(refusal, said)):
+            yield f"{title}: was not refused: {code}, {said}"
+
+
 def reached(header, seen):
     if header not in seen:
         seen.add(header)
@@ -107,7 +143,8 @@ def reached(header, seen):
 
 
 with tempfile.TemporaryDirectory() as folder:
-    found = list(faults(Scratch(folder)))
+    scratch = Scratch(folder)
+    found = [*faults(scratch), *mixed(scratch)]
 for room in sorted(folder for folder in (include / "scarp").iterdir() if any(folder.glob("*.hpp"))):
     if not any("scarp/core/one_version.hpp" in reached(f"scarp/{room.name}/{header.name}", set())
                for header in room.glob("*.hpp")):

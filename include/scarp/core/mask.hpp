@@ -4,17 +4,12 @@
 #include <cstddef>
 #include <utility>
 
+#include "scarp/core/one_version.hpp"
+
 namespace scarp::lanes {
 
-/// Of one vector register of the instruction set that a source is compiled for. Where there are no such registers, or we do
-/// not know them, compilers take a vector of 16 bytes apart.
-#if defined(__AVX512F__)
-inline constexpr std::size_t register_bytes = 64;
-#elif defined(__AVX__)
-inline constexpr std::size_t register_bytes = 32;
-#else
-inline constexpr std::size_t register_bytes = 16;
-#endif
+/// Of one vector register of the instruction set that a source is compiled for.
+inline constexpr std::size_t register_bytes = static_cast<std::size_t>(scarp::detail::bytes_of_register());
 
 namespace detail {
 

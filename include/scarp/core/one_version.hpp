@@ -6,9 +6,10 @@
 
 #include "scarp/core/version.hpp"
 
-/// Two versions of scarp in one program must not share functions in silence: those of the same name but different body are
-/// merged by the linker, and by the loader between shared libraries, without a word. Every source that includes scarp asks
-/// at the start of the program whether that has happened to it. Names and meaning in this header stay the same for ever.
+/// Two versions of scarp in one program must not share functions in silence, nor must sources compiled for registers of
+/// different width, in whose types members stand elsewhere: functions of the same name but different body are merged by the
+/// linker, and by the loader between shared libraries, without a word. Every source that includes scarp asks at the start of
+/// the program whether that has happened to it. Names and meaning in this header stay the same for ever.
 namespace scarp::detail {
 
 /// Major and minor number as one; versions that differ in the last number alone have the same layouts and may meet.
@@ -25,11 +26,28 @@ consteval int version_number(std::string_view text = version) {
   return 1000 * parts[0] + parts[1];
 }
 
+/// Of one vector register of the instruction set that a source is compiled for. Where there are no such registers, or we do
+/// not know them, compilers take a vector of 16 bytes apart.
+consteval int bytes_of_register() {
+#if defined(__AVX512F__)
+  return 64;
+#elif defined(__AVX__)
+  return 32;
+#else
+  return 16;
+#endif
+}
+
 /// Of the headers that the functions in use come from, if several have been merged. Read at run time: no compiler may know
 /// the answer beforehand.
 [[gnu::noinline]] inline int version_of_functions() {
   int volatile number = version_number();
   return number;
+}
+
+[[gnu::noinline]] inline int register_of_functions() {
+  int volatile bytes = bytes_of_register();
+  return bytes;
 }
 
 #ifdef SCARP_PRECOMPILED
@@ -38,11 +56,20 @@ int version_of_library();
 #endif
 
 struct OneVersion {
-  explicit OneVersion(int own) {
+  OneVersion(int own, int own_register) {
     if (version_of_functions() != own) refuse(own, version_of_functions(), "functions of the same names");
 #ifdef SCARP_PRECOMPILED
     if (version_of_library() != own) refuse(own, version_of_library(), "scarp::precompiled");
 #endif
+    if (register_of_functions() != own_register) {
+      std::fprintf(
+          stderr,
+          "scarp: a source compiled for vector registers of %d bytes meets one for %d bytes: compile the whole "
+          "program with one -march, or hide the symbols of its libraries (-fvisibility=hidden "
+          "-fvisibility-inlines-hidden)\n",
+          own_register, register_of_functions());
+      std::abort();
+    }
   }
 
   [[noreturn]] static void refuse(int own, int other, char const* what) {
@@ -56,7 +83,7 @@ struct OneVersion {
 };
 
 namespace {
-[[maybe_unused]] OneVersion const one_version(version_number());
+[[maybe_unused]] OneVersion const one_version(version_number(), bytes_of_register());
 }
 
 }  // namespace scarp::detail

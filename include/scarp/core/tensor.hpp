@@ -7,6 +7,45 @@
 
 namespace scarp {
 
+namespace detail {
+
+/// Eigen's alignment of objects decides where members stand: it is to be the same in all sources of a program, which each of
+/// them asks at the program's start, as for the version (`core/one_version.hpp`).
+consteval int own_alignment() { return 1000 * EIGEN_MAX_ALIGN_BYTES + EIGEN_MAX_STATIC_ALIGN_BYTES; }
+
+[[gnu::noinline]] inline int alignment_of_functions() {
+  int volatile bytes = own_alignment();
+  return bytes;
+}
+
+#ifdef SCARP_PRECOMPILED
+int alignment_of_library();
+#endif
+
+struct OneAlignment {
+  explicit OneAlignment(int own) {
+    if (alignment_of_functions() != own) refuse(own, alignment_of_functions(), "functions of the same names");
+#ifdef SCARP_PRECOMPILED
+    if (alignment_of_library() != own) refuse(own, alignment_of_library(), "scarp::precompiled");
+#endif
+  }
+
+  [[noreturn]] static void refuse(int own, int other, char const* what) {
+    std::fprintf(
+        stderr,
+        "scarp: a source in which Eigen aligns by %d bytes (static objects by %d) meets %d (%d) (%s): compile the "
+        "whole program with one -march, EIGEN_MAX_ALIGN_BYTES and EIGEN_MAX_STATIC_ALIGN_BYTES\n",
+        own / 1000, own % 1000, other / 1000, other % 1000, what);
+    std::abort();
+  }
+};
+
+namespace {
+[[maybe_unused]] OneAlignment const one_alignment(own_alignment());
+}
+
+}  // namespace detail
+
 template <int Dim, class Scalar = double>
 using Vector = Eigen::Matrix<Scalar, Dim, 1>;
 

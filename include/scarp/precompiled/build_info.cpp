@@ -3,7 +3,10 @@
 
 #include "scarp/core/one_version.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/core/tensor.hpp"
 
 SCARP_EXPORT scarp::BuildInfo scarp::library_build() { return build_info(); }
 
 SCARP_EXPORT int scarp::detail::version_of_library() { return version_number(); }
+
+SCARP_EXPORT int scarp::detail::alignment_of_library() { return own_alignment(); }
