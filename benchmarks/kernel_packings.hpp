@@ -12,13 +12,13 @@
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/clump_grading.hpp"
-#include "scarp/dem/disc_grading.hpp"
-#include "scarp/dem/ellipse_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/superellipse.hpp"
+#include "scarp/shape/ellipse.hpp"
+#include "scarp/shape/sphere.hpp"
+#include "scarp/shape/disc.hpp"
 #include "scarp/dem/preparation.hpp"
-#include "scarp/dem/sphere_grading.hpp"
-#include "scarp/dem/superellipse_grading.hpp"
-#include "scarp/shape/clump_templates.hpp"
+#include "scarp/shape/clump.hpp"
 
 /// Packings that the benchmarks of the kernel look at.
 namespace scarp_benchmark {

@@ -8,7 +8,7 @@
 
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/core/tensor.hpp"
-#include "scarp/dem/local_damping.hpp"
+#include "scarp/dem/damping.hpp"
 #include "scarp/dem/packing.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"

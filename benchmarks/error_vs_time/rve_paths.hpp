@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "rve_packings.hpp"
-#include "scarp/dem/loading_paths.hpp"
+#include "scarp/dem/loading.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/measure/resources.hpp"
 #include "sweep_table.hpp"

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/core/listed.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/csv.hpp"
 

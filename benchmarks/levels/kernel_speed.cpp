@@ -7,8 +7,9 @@
 
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/disc_grading.hpp"
-#include "scarp/dem/ellipse_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/ellipse.hpp"
+#include "scarp/shape/disc.hpp"
 #include "scarp/dem/preparation.hpp"
 
 namespace {

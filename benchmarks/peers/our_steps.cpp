@@ -21,9 +21,10 @@
 #include "scarp/core/build_info.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/contacts.hpp"
-#include "scarp/dem/disc_grading.hpp"
-#include "scarp/dem/servo.hpp"
-#include "scarp/dem/sphere_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/sphere.hpp"
+#include "scarp/shape/disc.hpp"
+#include "scarp/dem/drive.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "scarp/dem/loading_paths.hpp"
+#include "scarp/dem/loading.hpp"
 #include "support/packings.hpp"
 
 namespace stability {

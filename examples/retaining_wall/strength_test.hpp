@@ -2,7 +2,7 @@
 #pragma once
 
 #include "run.hpp"
-#include "scarp/dem/loading_paths.hpp"
+#include "scarp/dem/loading.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 

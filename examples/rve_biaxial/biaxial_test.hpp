@@ -7,7 +7,7 @@
 
 #include "../shared/study/study_sand.hpp"
 #include "scarp/dem/halved_path.hpp"
-#include "scarp/dem/loading_paths.hpp"
+#include "scarp/dem/loading.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/fabric.hpp"

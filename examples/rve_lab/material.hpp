@@ -7,9 +7,10 @@
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/disc_grading.hpp"
-#include "scarp/dem/ellipse_grading.hpp"
-#include "scarp/dem/superellipse_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/superellipse.hpp"
+#include "scarp/shape/ellipse.hpp"
+#include "scarp/shape/disc.hpp"
 
 namespace rve_lab {
 

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/core/listed.hpp"
-#include "scarp/dem/loading_paths.hpp"
+#include "scarp/dem/loading.hpp"
 
 namespace rve_lab {
 

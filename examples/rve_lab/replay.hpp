@@ -6,7 +6,7 @@
 #include "../shared/packing_input.hpp"
 #include "material.hpp"
 #include "paths.hpp"
-#include "scarp/dem/servo.hpp"
+#include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/io/packings/contact_reader.hpp"

@@ -9,7 +9,8 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/preparation.hpp"
-#include "scarp/dem/sphere_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/sphere.hpp"
 
 namespace triaxial_column {
 

@@ -10,7 +10,7 @@
 #include "contact/every_law.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/homogenise/energy_ledger.hpp"
-#include "scarp/shape/clump_templates.hpp"
+#include "scarp/shape/clump.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/shape/sphere.hpp"

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "contact/every_law.hpp"
 #include "scarp/core/select.hpp"
 
@@ -44,7 +46,8 @@ struct Damped : scarp::Frictionless {
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach, scarp::ContactMemory<Dim, T>&) const {
     T const rate = approach.closing / (approach.time_step + scarp::constant<T>(1e-12));
-    return {.normal = scarp::constant<T>(normal_stiffness) * approach.overlap + scarp::constant<T>(damping) * rate};
+    T const closed = scarp::lanes::at_least(approach.overlap, scarp::constant<T>(0));
+    return {.normal = scarp::constant<T>(normal_stiffness) * closed + scarp::constant<T>(damping) * rate};
   }
   double dampingratio() const { return damping; }
 };
@@ -72,9 +75,9 @@ constexpr double radius = 5e-3;
 }  // namespace
 
 TEST_CASE("a law that tells a stiffness without the need for its motion is refused") {
-  CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsShear{}, radius), doctest::Contains(".shear = true"),
+  CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsShear{{1e6}}, radius), doctest::Contains(".shear = true"),
                        scarp::InputError);
-  CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsMoment{}, radius), doctest::Contains(".moment = true"),
+  CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsMoment{{1e6}}, radius), doctest::Contains(".moment = true"),
                        scarp::InputError);
 }
 
@@ -84,11 +87,44 @@ TEST_CASE("a law that pulls across a gap must tell how far") {
 }
 
 TEST_CASE("a law with a dashpot must tell its damping ratio, which shortens the time step") {
-  CHECK_THROWS_WITH_AS(scarp::require_consistent(Damped{}, radius), doctest::Contains("damping_ratio()"),
+  CHECK_THROWS_WITH_AS(scarp::require_consistent(Damped{{1e6}}, radius), doctest::Contains("damping_ratio()"),
                        scarp::InputError);
-  CHECK_NOTHROW(scarp::require_consistent(DampedSpeltRight{}, radius));
+  CHECK_NOTHROW(scarp::require_consistent(DampedSpeltRight{{{1e6}}}, radius));
 }
 
 TEST_CASE_TEMPLATE("every law of the library is consistent", Law, EVERY_CONTACT_LAW) {
   CHECK_NOTHROW(scarp::require_consistent(samples::Sample<Law>::law(), 1.0));
+}
+
+TEST_CASE("parameters of laws that mean no contact are refused by name") {
+  using scarp::HertzMindlin;
+  using scarp::HertzRestitution;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  auto const refused = [](auto const& law, char const* named) {
+    CAPTURE(named);
+    CHECK_THROWS_WITH_AS(scarp::require_consistent(law, 1.0), doctest::Contains(named), scarp::InputError);
+  };
+  refused(scarp::Frictionless{}, "normal stiffness of the contact law is 0");
+  refused(scarp::Frictionless{.normal_stiffness = inf}, "normal stiffness of the contact law is inf");
+  auto const linear = samples::Sample<scarp::LinearFrictional>::law();
+  auto negative = linear;
+  negative.tangential_stiffness = -1.0;
+  refused(negative, "tangential stiffness of the contact law is -1");
+  auto rough = linear;
+  rough.friction = nan;
+  refused(rough, "friction of the contact law is nan");
+  refused(HertzMindlin<>::of(-1e9, 0.2, 0.5), "reduced modulus of the contact law is -");
+  refused(HertzMindlin<>::of(1e9, 0.2, -0.5), "friction of the contact law is -0.5");
+  refused(HertzMindlin<HertzRestitution>::of(1e9, 0.2, 0.5, {.restitution = 0.0}),
+          "restitution of the contact law is 0");
+  refused(HertzMindlin<HertzRestitution>::of(1e9, 0.2, 0.5, {.restitution = 1.5}),
+          "restitution of the contact law is 1.5");
+  refused(HertzMindlin<HertzRestitution>::of(1e9, 0.2, 0.5, {.restitution = nan}),
+          "restitution of the contact law is nan");
+  refused(scarp::RollingResistance<scarp::LinearFrictional>{linear, -1.0, 0.1}, "rolling stiffness");
+  refused(scarp::RollingResistance<scarp::LinearFrictional>{linear, 1.0, nan}, "rolling friction");
+  refused(scarp::RollingResistance<scarp::LinearFrictional>{rough, 1.0, 0.1}, "friction of the contact law is nan");
+  refused(scarp::CohesiveBond<scarp::LinearFrictional>{rough, 1.0, 0.1}, "friction of the contact law is nan");
+  CHECK_NOTHROW(scarp::require_consistent(scarp::CohesiveBond<scarp::LinearFrictional>{linear, 1.0, inf}, 1.0));
 }

@@ -3,13 +3,13 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/core/pack.hpp"
-
 using scarp::BuildInfo;
+using scarp::detail::version_number;
 
-TEST_CASE("the build's lanes are those of the packs") {
-  CHECK(scarp::build_info().lanes == static_cast<int>(scarp::lanes::lane_count<double>));
-}
+static_assert(version_number("12.34.5") == 12034);
+static_assert(version_number("12.34.67") == version_number("12.34.5"), "the last number changes no layout");
+static_assert(version_number("0.2.0") == 2);
+static_assert(version_number("1.0") == 1000);
 
 TEST_CASE("a build is described in one line") {
   BuildInfo const info{.compiler = "g++",

@@ -10,11 +10,11 @@ using scarp::Columns;
 static_assert(std::is_empty_v<Columns<double, 0>>, "no columns must take no memory");
 static_assert(Columns<double, 2>::padding % 8 == 0, "the widest vector register of doubles must fit in the padding");
 
-TEST_CASE("columns are padded with the fill value to a multiple of eight") {
+TEST_CASE("columns are padded with the fill value to full registers") {
   Columns<double, 2> columns(9, 3.5);
   CHECK(columns.rows() == 9);
-  CHECK(columns.padded_rows() == 16);
-  CHECK(columns.column(1) - columns.column(0) == 16);
+  CHECK(columns.padded_rows() > 9);
+  CHECK(columns.padded_rows() % Columns<double, 2>::padding == 0);
   for (int k = 0; k < 2; ++k) {
     for (std::size_t r = 0; r < columns.padded_rows(); ++r) CHECK(columns.column(k)[r] == 3.5);
   }

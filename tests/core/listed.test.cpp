@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/core/listed.hpp"
+#include "scarp/core/error.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/core/polar.hpp"
+#include "scarp/core/finite_strain.hpp"
 
 #include <doctest/doctest.h>
 

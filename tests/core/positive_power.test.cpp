@@ -75,7 +75,3 @@ TEST_CASE_TEMPLATE("roots of numbers from 1 to 2 err by a few last digits", Pack
   CHECK(worst < 4.0 * static_cast<double>(std::numeric_limits<Scalar>::epsilon()));
   CHECK(worst > 0.0);
 }
-
-TEST_CASE("single numbers take the standard library's power") {
-  CHECK(lanes::positive_power(0.3, 2.7) == std::pow(0.3, 2.7));
-}

@@ -4,8 +4,8 @@
 #include <doctest/doctest.h>
 
 #include "scarp/contact/cohesive_bond.hpp"
-#include "scarp/dem/loading_paths.hpp"
-#include "scarp/dem/servo.hpp"
+#include "scarp/dem/drive.hpp"
+#include "scarp/dem/loading.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "scarp/dem/halved_path.hpp"
-#include "scarp/dem/loading_paths.hpp"
+#include "scarp/dem/loading.hpp"
 #include "support/packings.hpp"
 
 namespace {

@@ -4,9 +4,11 @@
 #include <doctest/doctest.h>
 
 #include "scarp/contact/rolling_resistance.hpp"
-#include "scarp/dem/sphere_grading.hpp"
+#include "scarp/dem/gradings.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "scarp/shape/disc.hpp"
+#include "scarp/shape/sphere.hpp"
 #include "support/packings.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scarp/contact/hertz_mindlin.hpp"
-#include "scarp/shape/clump_templates.hpp"
+#include "scarp/shape/clump.hpp"
 #include "scarp/shape/least_overlap.hpp"
 #include "support/packings.hpp"
 

@@ -5,7 +5,8 @@
 
 #include <limits>
 
-#include "scarp/dem/ellipse_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/ellipse.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "scarp/dem/drive.hpp"
-#include "scarp/dem/loading_paths.hpp"
+#include "scarp/dem/loading.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"

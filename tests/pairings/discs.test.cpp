@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "pairings/neighbour_oracle.hpp"
 #include "pairings/pairing_laws.hpp"
-#include "scarp/shape/clump_templates.hpp"
+#include "scarp/shape/clump.hpp"
 
 using PairingsOfDiscs = pairings::Of<scarp::Disc, scarp::Dumbbell>;
 static_assert(std::tuple_size_v<PairingsOfDiscs> == 2 * pairings::laws_per_shape);

@@ -9,7 +9,6 @@
 
 #include "scarp/core/pack.hpp"
 #include "scarp/core/random.hpp"
-#include "scarp/shape/clump_templates.hpp"
 #include "support/approx.hpp"
 
 namespace {

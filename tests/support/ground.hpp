@@ -4,8 +4,8 @@
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/disc_grading.hpp"
-#include "scarp/dem/ellipse_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/ellipse.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
 

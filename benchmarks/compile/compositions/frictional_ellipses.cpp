@@ -2,7 +2,7 @@
 // The study's ellipses, a hundred steps of one loose packing: no finite elements.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/ellipse_grading.hpp"
+#include "scarp/dem/gradings.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/shape/ellipse.hpp"
 

@@ -2,7 +2,7 @@
 // Discs without friction and observers, a hundred steps of one loose packing: no finite elements.
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/disc_grading.hpp"
+#include "scarp/dem/gradings.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/shape/disc.hpp"
 

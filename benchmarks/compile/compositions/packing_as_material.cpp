@@ -4,7 +4,8 @@
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/ellipse_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/ellipse.hpp"
 #include "scarp/dem/preparation.hpp"
 
 int main() {

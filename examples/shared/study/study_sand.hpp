@@ -5,7 +5,8 @@
 
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/ellipse_grading.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/ellipse.hpp"
 
 namespace examples {
 

@@ -7,8 +7,8 @@
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/contact/law_checks.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/finite_strain.hpp"
 #include "scarp/core/largest_principal.hpp"
-#include "scarp/core/logarithm.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
@@ -40,7 +40,7 @@ concept TellsPackingTangent = requires(Tangent const& tangent, PackingType const
 /// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the answer is Love and Weber's stress at its end.
 /// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
 template <class PackingType, PackingSource<PackingType> Source,
-          TellsPackingTangent<PackingType> Tangent = ElasticContactTangent, CheckedDamping Damping = LocalDamping>
+          TellsPackingTangent<PackingType> Tangent = ElasticContactTangent, DampsMotion Damping = LocalDamping>
 struct DemRve {
   static constexpr int dim = PackingType::dim;
   using Law = typename PackingType::Law;

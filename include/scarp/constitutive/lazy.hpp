@@ -6,7 +6,7 @@
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/rotated_increment.hpp"
+#include "scarp/core/finite_strain.hpp"
 
 namespace scarp {
 

@@ -5,7 +5,7 @@
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/rotated_increment.hpp"
+#include "scarp/core/finite_strain.hpp"
 #include "scarp/core/voigt.hpp"
 
 namespace scarp {

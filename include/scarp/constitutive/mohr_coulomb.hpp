@@ -8,7 +8,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/principal.hpp"
-#include "scarp/core/rotated_increment.hpp"
+#include "scarp/core/finite_strain.hpp"
 
 namespace scarp {
 

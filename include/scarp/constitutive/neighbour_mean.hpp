@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nanoflann.hpp>
 #include <span>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/radius_search.hpp"
 
 namespace scarp {
 
@@ -34,19 +34,18 @@ class NeighbourMean {
   NeighbourMean(std::span<Site<Dim> const> sites, std::span<double const> volumes, std::span<double const> lengths) {
     Cloud const cloud{sites};
     Tree const tree(Dim, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(12));
-    nanoflann::SearchParams unsorted;
-    unsorted.sorted = false;
-    std::vector<std::pair<std::uint32_t, double>> hits;
+    auto const unsorted = detail::unsorted_search();
+    std::vector<detail::RadiusSearchHit> hits;
     first_.push_back(0);
     for (std::size_t i = 0; i < sites.size(); ++i) {
       double const length = require_not_negative("length that increments are averaged over", lengths[i]);
       hits.clear();
-      if (length > 0.0) tree.radiusSearch(sites[i].position.data(), length * length, hits, unsorted);
+      if (length > 0.0) static_cast<void>(tree.radiusSearch(sites[i].position.data(), length * length, hits, unsorted));
       std::erase_if(hits, [&](auto const& hit) {
         return hit.first == i || sites[hit.first].region != sites[i].region || !(hit.second < length * length);
       });
       hits.emplace_back(static_cast<std::uint32_t>(i), 0.0);
-      std::sort(hits.begin(), hits.end());  // sums run in the order of the points
+      std::ranges::sort(hits, {}, &detail::RadiusSearchHit::first);  // sums run in the order of the points
       double sum = 0.0;
       for (auto const& [j, squared] : hits) {
         double const s = hits.size() == 1 ? 0.0 : std::sqrt(squared) / length;

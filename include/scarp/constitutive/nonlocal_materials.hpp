@@ -10,7 +10,7 @@
 #include "scarp/constitutive/neighbour_mean.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/polar.hpp"
+#include "scarp/core/finite_strain.hpp"
 
 namespace scarp {
 

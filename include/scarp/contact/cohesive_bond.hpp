@@ -39,6 +39,13 @@ struct CohesiveBond {
   double tensile_strength = 0.0;
   double shear_strength = 0.0;
 
+  /// A bond that no pull breaks would act across any gap, and no list of near pairs reaches as far; one that no shear breaks is well.
+  void validate() const {
+    detail::validated(law);
+    require_not_negative("tensile strength of the bonds", tensile_strength);
+    require_at_least("shear strength of the bonds", shear_strength, 0.0);
+  }
+
   /// Bonds a contact, free of stress at zero overlap.
   template <int Dim, class T>
   static void bond(ContactMemory<Dim, T>& memory) {

@@ -13,6 +13,9 @@ struct Frictionless {
 
   double normal_stiffness = 0.0;
 
+  /// \throws InputError, as all laws' own checks
+  void validate() const { require_positive("normal stiffness of the contact law", normal_stiffness); }
+
   template <int Dim, class T>
   ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
     return {.normal = lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0))};

@@ -6,12 +6,23 @@
 
 namespace scarp {
 
-/// Refuses a law whose members contradict each other, which compiles but gives wrong forces: a stiffness against a motion
-/// that `needs` does not name, a force across a gap without reach(), a dashpot without damping_ratio().
+/// Refuses a law whose parameters its own validate() refuses, or whose members contradict each other, which compiles but
+/// gives wrong forces: a stiffness against a motion that `needs` does not name, a force across a gap without reach(), a
+/// dashpot without damping_ratio(). A reach of more than the grain's diameter is refused too: pairs with others between them
+/// would act on each other, and the cell would have to be wider still.
 /// radius [m]: of a grain, for the size of overlap and gap that are tried, 1e-6 of it
 /// \throws InputError
 template <ContactLaw Law>
 void require_consistent(Law const& law, double radius) {
+  detail::validated(law);
+  double const reach = reach_of(law);
+  if (!(reach >= 0.0 && reach <= 2.0 * radius)) {
+    refuse(
+        "the contact law acts across gaps of up to {} m (grains of a diameter of {} m have others between them there): "
+        "give "
+        "less strength, or stiffer springs",
+        reach, 2.0 * radius);
+  }
   double const depth = 1e-6 * radius;
   ContactStiffness const stiffness = law.stiffness(depth, radius / 2.0);
   if (!Law::needs.shear && stiffness.tangential != 0.0) {
@@ -45,7 +56,7 @@ void require_consistent(Law const& law, double radius) {
           "damping that its dashpots reach");
     }
   }
-  if (reach_of(law) > 0.0) return;
+  if (reach > 0.0) return;
   ContactMemory<2, double> memory;
   if constexpr (Bonds<Law>) Law::bond(memory);
   Approach<2, double> const apart{.overlap = -depth, .slip = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};

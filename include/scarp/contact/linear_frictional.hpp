@@ -19,6 +19,12 @@ struct LinearFrictional {
   double tangential_stiffness = 0.0;
   double friction = 0.0;
 
+  void validate() const {
+    require_positive("normal stiffness of the contact law", normal_stiffness);
+    require_not_negative("tangential stiffness of the contact law", tangential_stiffness);
+    require_not_negative("friction of the contact law", friction);
+  }
+
   template <int Dim, class T>
   ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     T const normal = lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));

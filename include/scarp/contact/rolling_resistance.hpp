@@ -28,6 +28,12 @@ struct RollingResistance {
   double rolling_stiffness = 0.0;
   double rolling_friction = 0.0;
 
+  void validate() const {
+    detail::validated(law);
+    require_not_negative("rolling stiffness of the contact law", rolling_stiffness);
+    require_not_negative("rolling friction of the contact law", rolling_friction);
+  }
+
   template <int Dim, class T>
   ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     using std::abs;

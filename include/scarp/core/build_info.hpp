@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "scarp/core/mask.hpp"
+#include "scarp/core/one_version.hpp"
 #include "scarp/core/version.hpp"
 
 namespace scarp {
@@ -34,7 +34,7 @@ consteval BuildInfo build_info() {
 #endif
   while (info.compiler_version.ends_with(' ')) info.compiler_version.remove_suffix(1);
 
-  info.lanes = static_cast<int>(lanes::register_bytes / sizeof(double));
+  info.lanes = detail::bytes_of_register() / static_cast<int>(sizeof(double));
 
   // The levels of the System V ABI, as far as compilers say which of their instructions they use.
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512CD__) && defined(__AVX512DQ__) && \

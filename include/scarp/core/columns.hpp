@@ -3,12 +3,32 @@
 
 #include <array>
 #include <cstddef>
+#include <new>
 #include <span>
+#include <vector>
 
-#include "scarp/core/aligned_vector.hpp"
 #include "scarp/core/index.hpp"
 
 namespace scarp {
+
+/// Allocates whole cache lines, so that no vector register's load or store straddles two of them.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+
+  CacheLineAllocator() = default;
+  template <class Other>
+  CacheLineAllocator(CacheLineAllocator<Other> const&) {}
+
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), line)); }
+  void deallocate(T* values, std::size_t) { ::operator delete(values, line); }
+
+  friend bool operator==(CacheLineAllocator const&, CacheLineAllocator const&) { return true; }
+};
+
+template <class T>
+using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
 /// `Count` arrays of equal length in one block (structure of arrays). Each column is padded with the fill value to
 /// full vectors of 64 bytes so that vector loops need no tail. `Count` zero takes no memory.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -90,5 +89,19 @@ Settings const& validated(Settings const& settings) {
   return settings;
 }
 }  // namespace detail
+
+/// The elements of a range as text, each by the same format. A source that calls fmt::join instead compiles all of fmt's
+/// formatting anew.
+template <class Range>
+std::string listed(Range const& range, std::string_view between = ", ", std::string_view each = "{}") {
+  std::string text;
+  bool first = true;
+  for (auto const& element : range) {
+    if (!first) text += between;
+    first = false;
+    text += fmt::vformat(each, fmt::make_format_args(element));
+  }
+  return text;
+}
 
 }  // namespace scarp

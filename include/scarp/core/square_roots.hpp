@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "scarp/core/constant.hpp"
 #include "scarp/core/pack.hpp"
 
 #include "scarp/core/one_version.hpp"

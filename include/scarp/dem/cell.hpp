@@ -8,12 +8,6 @@
 
 namespace scarp {
 
-/// Area (2D) [m2] or volume (3D) [m3] of a periodic cell whose columns are the base vectors [m].
-template <int Dim>
-double cell_content(Tensor<Dim> const& cell) {
-  return cell.determinant();
-}
-
 /// Smallest distance between opposite faces of the cell [m].
 template <int Dim>
 double least_height(Tensor<Dim> const& cell) {

@@ -19,27 +19,11 @@ concept SamplesGrains = requires(Grading const& grading, Random& random) {
   { grading.sample(random) } -> std::same_as<SizeOf<typename Grading::Shape>>;
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Grading>
-struct MissingOfGrading {
-  static_assert(
-      requires { requires CheckedShape<typename Grading::Shape>; },
-      "scarp: a grading names the shape of its grains, `using Shape = ...`");
-  static_assert(SamplesGrains<Grading>, "scarp: a grading needs `SizeOf<Shape> sample(Random&) const` [m]");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Grading>
-concept CheckedGrading = SamplesGrains<Grading> || detail::MissingOfGrading<Grading>::nothing;
-
-/// A loose random cloud in a square or cubic cell, the start of every preparation: grains are placed one by one, largest
+/// Random sequential insertion: a loose cloud in a square or cubic cell, the start of every preparation: grains are placed one by one, largest
 /// first, at random without touching (bounding circles or spheres), plane grains with their axes evenly spread over all
 /// directions. Random sequential addition jams near a filled share of 0.547 for equal discs and 0.384 for equal spheres; the
 /// defaults stay well below.
-template <CheckedGrading Grading>
+template <SamplesGrains Grading>
 struct Cloud {
   using Shape = typename Grading::Shape;
 
@@ -50,14 +34,21 @@ struct Cloud {
   std::uint64_t seed = 1;
   double filled_share = Shape::dim == 2 ? 0.42 : 0.25;  ///< content of the bounding circles or spheres over the cell's
 
+  /// \throws InputError
+  void validate() const {
+    detail::validated(grading);
+    if (grains < 1)
+      refuse("a packing of {} grains was asked for (nothing can carry stress): give at least one grain", grains);
+    require_positive("share of the cell filled by the cloud", filled_share);
+    require_between("share of the cell filled by the cloud", filled_share, 0.0, 1.0);
+  }
+
   /// \throws InputError on counts, sizes or shares that cannot be packed
   template <class PackingType>
   PackingType make() const {
     constexpr int dim = Shape::dim;
     using Scalar = typename PackingType::Scalar;
-    if (grains < 1)
-      refuse("a packing of {} grains was asked for (nothing can carry stress): give at least one grain", grains);
-    require_positive("share of the cell filled by the cloud", filled_share);
+    validate();
     Random random(seed);
     std::vector<SizeOf<Shape>> sizes;
     for (int i = 0; i < grains; ++i) sizes.push_back(grading.sample(random));

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <concepts>
 
+#include "scarp/core/error.hpp"
 #include "scarp/core/pack.hpp"
+#include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
@@ -15,25 +18,32 @@ concept DampsMotion = requires(Damping const& damping, double const& one, lanes:
   { damping.next_velocity(several, several, several) } -> std::same_as<lanes::Pack<double>>;
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Damping>
-struct MissingOfDamping {
-  static_assert(
-      requires(Damping const& damping, double const& one) {
-        { damping.next_velocity(one, one, one) } -> std::same_as<double>;
-      },
-      "scarp: a damping needs `template <class T> T next_velocity(T const& velocity, T const& force, T const& "
-      "mobility) const`");
-  static_assert(
-      !requires(Damping const& damping, double const& one) { damping.next_velocity(one, one, one); } ||
-          DampsMotion<Damping>,
-      "scarp: a damping is asked for several grains at once: make next_velocity a template over the scalar T");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
+/// Cundall's local damping: the net force loses the share `factor` where it does work and gains it where it resists. Grains
+/// that touch nothing feel no force and would fly on for ever, so all fluctuation velocities also lose the small share
+/// `drag` in every step.
+struct LocalDamping {
+  double factor = 0.2;
+  double drag = 1e-3;
 
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Damping>
-concept CheckedDamping = DampsMotion<Damping> || detail::MissingOfDamping<Damping>::nothing;
+  /// \throws InputError for shares outside of 0 to 1
+  void validate() const {
+    require_between("factor of the local damping", factor, 0.0, 1.0);
+    require_between("drag of the local damping", drag, 0.0, 1.0);
+  }
+
+  /// Velocity after a step with a net force, or spin after one with a net torque; mobility = time step / inertia.
+  template <class T>
+  T next_velocity(T const& velocity, T const& force, T const& mobility) const {
+    using std::abs;
+    using std::copysign;
+    T const damped = force - constant<T>(factor) * copysign(abs(force), velocity);
+    return constant<T>(1.0 - drag) * velocity + damped * mobility;
+  }
+};
+
+static_assert(DampsMotion<LocalDamping>);
+
+template <>
+inline constexpr bool is_precompiled<LocalDamping> = detail::has_library;
+
 }  // namespace scarp

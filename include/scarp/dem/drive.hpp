@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "scarp/dem/loading.hpp"
@@ -9,7 +10,7 @@
 
 namespace scarp {
 
-/// How a cell answers to a missing stress: it strains in proportion, and where a strain is prescribed beside it also at a
+/// Gains of the servo control, how a cell answers to a missing stress: it strains in proportion, and where a strain is prescribed beside it also at a
 /// steady rate that is learned on the way, so that the held stress does not lag behind.
 struct StressFeedback {
   double fastest = 1e-4;         ///< largest strain per step of a held stress
@@ -17,6 +18,13 @@ struct StressFeedback {
   /// Response steps after which the steady rate has learned; 16 damps the loop critically where the packing has a quarter of
   /// its springs' modulus.
   double learning_steps = 16.0;
+
+  /// \throws InputError
+  void validate() const {
+    require_positive("largest strain per step of a held stress", fastest);
+    require_positive("response steps of a held stress", response_steps);
+    require_positive("learning steps of a held stress", learning_steps);
+  }
 
   /// Cell strain in one step; `modulus` [Pa] is a stiffness scale of the packing, `steady` holds the learned rates, one for
   /// each control. A packing with too few contacts to be stiff and hardly any pressure is compressed at the fastest rate.
@@ -54,6 +62,7 @@ double depth_of_contacts(PackingType const& packing) {
 /// A law's springs at an overlap of a thousandth of the radius; which one matters only where the stiffness depends on it.
 template <class PackingType>
 ContactStiffness slight_springs(PackingType const& packing, typename PackingType::Law const& law) {
+  if (!packing.population) refuse("a packing without grains was to be moved (it has no population): make or load one");
   double const radius = packing.population->largest_radius();
   return law.stiffness(1e-3 * radius, radius / 2.0);
 }
@@ -87,8 +96,8 @@ class Drive {
   Drive(PackingType& packing, Law const& law, Loading<dim> const& loading, StressFeedback const& feedback = {})
       : packing_(packing),
         law_(law),
-        loading_(loading),
-        feedback_(feedback),
+        loading_(detail::validated(loading)),
+        feedback_(detail::validated(feedback)),
         springs_(spring_modulus(packing, law)),
         dashpots_(dashpot_modulus(packing, law)),
         // Frictional grains are isostatic at dim + 1 contacts per grain, each shared by two.
@@ -111,7 +120,7 @@ class Drive {
     return {};
   }
 
-  void load(Loading<dim> const& loading) { loading_ = loading; }
+  void load(Loading<dim> const& loading) { loading_ = detail::validated(loading); }
   Loading<dim> const& loading() const { return loading_; }
 
   /// The packing as it was before the last move, and the cell's displacement gradient during that move.
@@ -132,6 +141,45 @@ class Drive {
   std::vector<double> steady_;
   StepObservation<dim> seen_;
   Tensor<dim> strain_step_ = Tensor<dim>::Zero();
+};
+
+/// Servo control: drives a packing until its held stresses are met and its forces balance.
+struct Servo {
+  StressFeedback feedback{};
+  double stress_tolerance = 1e-4;  ///< relative to the largest target, to 0.001 of the springs' modulus for none
+  double unbalanced_tolerance = 1e-4;
+  long most_steps = 400'000;
+  int check_every = 20;  ///< steps between tests of the stopping rule
+
+  /// \throws InputError
+  void validate() const {
+    feedback.validate();
+    require_positive("stress tolerance of the servo", stress_tolerance);
+    require_positive("unbalanced tolerance of the servo", unbalanced_tolerance);
+    require_at_least("step limit of the servo", most_steps, 1L);
+    require_at_least("number of steps between checks of the servo", check_every, 1);
+  }
+
+  /// \return not_converged / unreachable or unbalanced after `most_steps`, or at once for a target no packing can carry
+  template <class Stepper, class PackingType>
+  Verdict reach(Stepper& stepper, PackingType& packing, typename PackingType::Law const& law,
+                Loading<PackingType::dim> const& loading) const {
+    validate();
+    if (!loading.reachable(Bonds<typename PackingType::Law>)) return {Status::not_converged, Reason::unreachable};
+    constexpr double slight = 1e-3;  // of the springs, where no stress at all is asked
+    double const asked = loading.stress_scale();
+    double const tolerance = stress_tolerance * (asked > 0.0 ? asked : slight * spring_modulus(packing, law));
+    Drive<PackingType> drive(packing, law, loading, feedback);
+    for (long step = 1; step <= most_steps; ++step) {
+      if (Verdict const verdict = drive.step(stepper); !verdict.acceptable()) return verdict;
+      if (step % check_every != 0) continue;
+      if (loading.worst_missing(drive.seen().stress) <= tolerance &&
+          drive.seen().unbalanced_ratio <= unbalanced_tolerance)
+        return {};
+    }
+    return {Status::not_converged,
+            drive.seen().unbalanced_ratio > unbalanced_tolerance ? Reason::unbalanced : Reason::unreachable};
+  }
 };
 
 }  // namespace scarp

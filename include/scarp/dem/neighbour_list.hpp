@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "scarp/core/index.hpp"
+#include "scarp/core/radius_search.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/dem/detail/periodic_images.hpp"
 #include "scarp/dem/grain_view.hpp"
@@ -130,22 +130,21 @@ std::optional<std::vector<NearPair<Shape::dim>>> find_near_pairs(Population<Shap
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, GrainsAndImages<dim>>,
                                                    GrainsAndImages<dim>, dim, std::uint32_t>;
   Tree const tree(dim, all, nanoflann::KDTreeSingleIndexAdaptorParams(12));
-  nanoflann::SearchParams unsorted;
-  unsorted.sorted = false;
+  auto const unsorted = unsorted_search();
 
   std::vector<NearPair<dim>> found;
-  std::vector<std::pair<std::uint32_t, double>> hits;
+  std::vector<RadiusSearchHit> hits;
   for (std::size_t i = 0; i < grains; ++i) {
     double const own_radius = Shape::bounding_radius(population.size(i));
     double const radius = own_radius + population.largest_radius() + reach;
     hits.clear();
-    tree.radiusSearch(all.points[i].place.data(), radius * radius, hits, unsorted);
+    static_cast<void>(tree.radiusSearch(all.points[i].place.data(), radius * radius, hits, unsorted));
     std::erase_if(hits, [&](auto const& hit) {
       auto const j = detail::index(all.points[hit.first].owner);
       double const touching = own_radius + Shape::bounding_radius(population.size(j)) + reach;
       return hit.first <= i || hit.second > touching * touching;
     });
-    std::sort(hits.begin(), hits.end());
+    std::ranges::sort(hits, {}, &RadiusSearchHit::first);
     for (int part = 0; part < parts; ++part) {
       std::size_t const row = i * parts + detail::index(part);
       for (auto const& [point, squared] : hits) {
@@ -254,7 +253,7 @@ bool cell_is_wide_enough(PackingType const& packing, double reach) {
   return least_height<dim>(reduced) > 2.0 * packing.population->largest_radius() + reach;
 }
 
-/// Makes the list of pairs whose gap is below `skin` + `law_reach` [m] (nanoflann k-d tree over grains and ghosts), carrying
+/// Makes the Verlet list: the pairs whose gap is below `skin` + `law_reach` [m] (nanoflann k-d tree over grains and ghosts), carrying
 /// over normals and memories of pairs that stay. The list is good until gaps have shrunk by the skin; `law_reach` is the gap
 /// across which the contact law acts. Reduces the cell and wraps positions. Deterministic; a packing whose list fails stays as it was.
 /// \return failed / cell_collapsed for a cell too thin for its grains, failed / not_finite for positions that are no

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "scarp/contact/checked_contact_law.hpp"
+#include "scarp/contact/contact_law.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/tensor.hpp"
 #include "scarp/dem/detail/sound_packing.hpp"

@@ -13,7 +13,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/shape/checked_shape.hpp"
+#include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {
 

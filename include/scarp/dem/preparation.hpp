@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scarp/contact/law_checks.hpp"
-#include "scarp/dem/servo.hpp"
+#include "scarp/dem/drive.hpp"
 
 namespace scarp {
 
@@ -30,11 +30,18 @@ struct IsotropicPreparation {
   Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
   Servo relaxation{};
 
-  /// \throws InputError for a pressure that is not positive, a negative friction or a law that contradicts itself
-  template <class PackingType>
-  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law) const {
+  /// \throws InputError
+  void validate() const {
     require_positive("pressure of the preparation", pressure);
     require_not_negative("preparation friction", preparation_friction);
+    consolidation.validate();
+    relaxation.validate();
+  }
+
+  /// \throws InputError for parameters that validate() refuses or a law that contradicts itself
+  template <class PackingType>
+  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law) const {
+    validate();
     require_consistent(law, cloud.population->largest_radius());
     constexpr int dim = PackingType::dim;
     VoigtStress<dim> target = VoigtStress<dim>::Zero();

@@ -4,29 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/contact/law_checks.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/dem/critical_step.hpp"
+#include "scarp/dem/damping.hpp"
 #include "scarp/dem/detail/pair_loop.hpp"
-#include "scarp/dem/local_damping.hpp"
 #include "scarp/dem/neighbour_list.hpp"
 
 namespace scarp {
-
-/// What a step can tell of the packing it moved.
-template <int Dim>
-struct StepObservation {
-  Tensor<Dim> stress = Tensor<Dim>::Zero();  ///< Love and Weber [Pa], tension positive
-  double contacts = 0.0;
-  double unbalanced_ratio = 0.0;  ///< mean net force of a grain over mean contact force
-  double deepest_overlap = 0.0;   ///< over the reduced radius of its contact
-
-  // Only with Observe::energy, all in [J].
-  double stored_energy = 0.0;   ///< in the contacts
-  double contact_loss = 0.0;    ///< in sliders and dashpots since the step before
-  double damping_loss = 0.0;    ///< in damping, during the move
-  double kinetic_energy = 0.0;  ///< of fluctuations, mean of before and after the move
-};
 
 namespace detail {
 
@@ -53,7 +39,7 @@ inline constexpr bool kernel_is_precompiled =
 
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient. Holds the scratch memory, so one
 /// stepper serves many packings in turn but only one thread.
-template <class PackingOf, CheckedDamping Damping = LocalDamping>
+template <class PackingOf, DampsMotion Damping = LocalDamping>
 class TimeStepper {
  public:
   using PackingType = PackingOf;
@@ -70,9 +56,17 @@ class TimeStepper {
 
   double time_step_share = usual_time_step_share;  ///< of the lower bound of the critical step
 
+  /// \throws InputError for parameters that no step can be made with; every call asks
+  void validate() const {
+    detail::validated(damping);
+    require_positive("skin over the largest radius", skin_ratio);
+    require_positive("share of the critical time step", time_step_share);
+  }
+
   /// Makes the pair list where there is none, it has become too old or it was made for another law or other masses, and the
   /// critical step with it.
   /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary ones
+  /// \throws InputError for a law that `require_consistent` refuses, when the list is made for it
   Verdict refresh(PackingType& packing, Law const& law) const {
     if constexpr (in_library) {
       return Library::refresh(*this, packing, law);
@@ -118,6 +112,7 @@ class TimeStepper {
   static constexpr bool in_library = detail::kernel_is_precompiled<PackingType, Damping>;
 
   Verdict refresh_here(PackingType& packing, Law const& law) const {
+    validate();
     if constexpr (Frictional<Law>) {
       double const friction = Law(law).friction_coefficient();
       if (!(std::isfinite(friction) && friction >= 0.0)) return {Status::failed, Reason::not_finite};
@@ -130,7 +125,11 @@ class TimeStepper {
   }
 
   [[gnu::noinline, gnu::cold]] Verdict renew(PackingType& packing, Law const& law) const {
+    if (!packing.population)
+      refuse("a packing without grains was to be moved (it has no population): make or load one");
     double const skin = skin_ratio * packing.population->largest_radius();
+    if (!packing.pairs.basis.agrees_with(list_basis(packing, law, packing.pairs.skin)))
+      require_consistent(law, packing.population->largest_radius());
     Verdict const verdict = rebuild_pairs(packing, skin, reach_of(law));
     if (!verdict.acceptable()) return verdict;
     packing.pairs.critical_step = critical_step(packing, law);

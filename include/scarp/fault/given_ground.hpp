@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "scarp/core/listed.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/fault/detail/ground_outline.hpp"
 #include "scarp/fault/detail/surface_corners.hpp"
 #include "scarp/fault/ground_levels.hpp"

@@ -13,7 +13,6 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/listed.hpp"
 #include "scarp/io/detail/appended_file.hpp"
 #include "scarp/io/read_file.hpp"
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "scarp/core/index.hpp"
-#include "scarp/core/listed.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/io/detail/csv_lines.hpp"
 #include "scarp/io/read_file.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "scarp/core/listed.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/mesh/detail/place_index.hpp"
 #include "scarp/mesh/mid_side_nodes.hpp"
 #include "scarp/mesh/outer_facets.hpp"

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "scarp/core/constant.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/pack.hpp"
 #include "scarp/shape/detail/disc_union.hpp"
 #include "scarp/shape/disc.hpp"
 
@@ -88,5 +89,31 @@ struct Clump {
     return unit;
   }
 };
+
+/// Two discs whose centres lie 1.5 radii apart; the scale of all templates here is the radius of a disc.
+struct DumbbellTemplate {
+  static constexpr std::array<ClumpMember, 2> members{{{-0.75, 0.0, 1.0}, {0.75, 0.0, 1.0}}};
+};
+
+/// Three discs on the corners of a triangle of side 1.5.
+struct TrefoilTemplate {
+  static constexpr double height = 0.75 * std::numbers::sqrt3;
+  static constexpr std::array<ClumpMember, 3> members{
+      {{-0.75, -height / 3.0, 1.0}, {0.75, -height / 3.0, 1.0}, {0.0, 2.0 * height / 3.0, 1.0}}};
+};
+
+/// Four discs on the corners of a square of side 1.4: small enough to leave no hole.
+struct QuatrefoilTemplate {
+  static constexpr std::array<ClumpMember, 4> members{
+      {{-0.7, -0.7, 1.0}, {0.7, -0.7, 1.0}, {0.7, 0.7, 1.0}, {-0.7, 0.7, 1.0}}};
+};
+
+using Dumbbell = Clump<DumbbellTemplate>;
+using Trefoil = Clump<TrefoilTemplate>;
+using Quatrefoil = Clump<QuatrefoilTemplate>;
+
+static_assert(ParticleShape<Dumbbell>);
+static_assert(ParticleShape<Trefoil>);
+static_assert(ParticleShape<Quatrefoil>);
 
 }  // namespace scarp

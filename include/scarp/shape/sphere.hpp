@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scarp/core/precompiled.hpp"
-#include "scarp/shape/detail/round_grain.hpp"
+#include "scarp/shape/round_grain.hpp"
 
 namespace scarp {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scarp/core/constant.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/pack.hpp"
 #include "scarp/shape/detail/superellipse_touch.hpp"
 
 namespace scarp {

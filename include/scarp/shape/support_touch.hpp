@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scarp/core/constant.hpp"
+#include "scarp/core/pack.hpp"
 #include "scarp/core/select.hpp"
 #include "scarp/shape/particle_shape.hpp"
 

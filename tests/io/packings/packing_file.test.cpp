@@ -10,7 +10,6 @@
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/io/packings/packing_reader.hpp"
 #include "scarp/shape/clump.hpp"
-#include "scarp/shape/clump_templates.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/shape/sphere.hpp"

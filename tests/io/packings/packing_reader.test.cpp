@@ -9,7 +9,6 @@
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/io/packings/contact_reader.hpp"
 #include "scarp/shape/clump.hpp"
-#include "scarp/shape/clump_templates.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/shape/sphere.hpp"

@@ -181,13 +181,13 @@ struct Wrong {};
 DemRve<Discs, SamePacking<Discs>, Wrong> rve;
 }  // namespace case_27
 
-// first: a damping needs
+// within: DampsMotion
 namespace case_28 {
 struct Wrong {};
 DemRve<Discs, SamePacking<Discs>, ElasticContactTangent, Wrong> rve;
 }  // namespace case_28
 
-// first: a damping is asked for several grains at once
+// within: DampsMotion
 namespace case_29 {
 struct Wrong {
   double next_velocity(double velocity, double force, double mobility) const { return velocity + force * mobility; }
@@ -200,14 +200,6 @@ namespace case_30 {
 struct Wrong {};
 RandomPackings<Wrong> packings;
 }  // namespace case_30
-
-// first: a grading needs
-namespace case_31 {
-struct Wrong {
-  using Shape = Disc;
-};
-Cloud<Wrong> cloud;
-}  // namespace case_31
 
 // first: a ground names its element
 // also: mesh(

@@ -9,7 +9,7 @@
 #include "scarp/constitutive/random_packings.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/disc_grading.hpp"
+#include "scarp/dem/gradings.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/mesh/box_mesh.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scarp/core/aligned_vector.hpp"
+#include "scarp/core/columns.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/quads.hpp"
 #include "scarp/dem/packing.hpp"

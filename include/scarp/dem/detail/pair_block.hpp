@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "scarp/dem/detail/contact_sums.hpp"
 #include "scarp/dem/detail/pair_lanes.hpp"
+#include "scarp/dem/observation.hpp"
 
 namespace scarp::detail {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/core/listed.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/mesh/outer_facets.hpp"
 
 namespace scarp::detail {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scarp/core/listed.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/mesh/mid_side_nodes.hpp"
 
 namespace scarp::detail {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scarp/core/constant.hpp"
+#include "scarp/core/pack.hpp"
 #include "scarp/core/positive_power.hpp"
 #include "scarp/core/select.hpp"
 #include "scarp/shape/support_touch.hpp"

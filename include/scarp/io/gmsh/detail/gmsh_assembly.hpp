@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/core/listed.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/io/gmsh/detail/gmsh_boundaries.hpp"
 
 namespace scarp::detail {

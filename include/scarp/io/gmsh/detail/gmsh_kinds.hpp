@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/core/listed.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/io/gmsh/detail/gmsh_content.hpp"
 
 namespace scarp::detail {

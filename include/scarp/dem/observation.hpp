@@ -27,6 +27,21 @@ struct ContactSums {
   Tensor<Dim> stress(double volume) const { return -moment / volume; }
 };
 
+/// What a step can tell of the packing it moved.
+template <int Dim>
+struct StepObservation {
+  Tensor<Dim> stress = Tensor<Dim>::Zero();  ///< Love and Weber [Pa], tension positive
+  double contacts = 0.0;
+  double unbalanced_ratio = 0.0;  ///< mean net force of a grain over mean contact force
+  double deepest_overlap = 0.0;   ///< over the reduced radius of its contact
+
+  // Only with Observe::energy, all in [J].
+  double stored_energy = 0.0;   ///< in the contacts
+  double contact_loss = 0.0;    ///< in sliders and dashpots since the step before
+  double damping_loss = 0.0;    ///< in damping, during the move
+  double kinetic_energy = 0.0;  ///< of fluctuations, mean of before and after the move
+};
+
 namespace detail {
 
 template <class Lanes>

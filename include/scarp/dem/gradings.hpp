@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/core/error.hpp"
+#include "scarp/core/random.hpp"
+#include "scarp/shape/particle_shape.hpp"
+
+namespace scarp {
+
+// A program includes the shapes that it names.
+struct Disc;
+struct Sphere;
+struct Ellipse;
+struct Superellipse;
+template <class Template>
+struct Clump;
+
+namespace detail {
+inline void validate_bounds(double smallest, double largest) {
+  require_positive("smallest size of the grading", smallest);
+  require_at_least("largest size of the grading", require_positive("largest size of the grading", largest), smallest);
+}
+}  // namespace detail
+
+/// Radii of round grains, or scales of clumps, uniform between two bounds [m].
+template <class ShapePolicy>
+struct RadiusGrading {
+  using Shape = ShapePolicy;
+
+  double smallest = 0.0;
+  double largest = 0.0;
+
+  /// \throws InputError, as those of all gradings
+  void validate() const { detail::validate_bounds(smallest, largest); }
+
+  SizeOf<Shape> sample(Random& random) const { return {random.uniform(smallest, largest)}; }
+};
+
+using DiscGrading = RadiusGrading<Disc>;
+using SphereGrading = RadiusGrading<Sphere>;
+template <class Template>
+using ClumpGrading = RadiusGrading<Clump<Template>>;
+
+/// Semi-major axes uniform between two bounds [m]; semi-minor = aspect x semi-major.
+template <class ShapePolicy>
+struct AxesGrading {
+  using Shape = ShapePolicy;
+
+  double smallest = 0.0;
+  double largest = 0.0;
+  double aspect = 1.0;
+
+  void validate() const {
+    detail::validate_bounds(smallest, largest);
+    require_positive("aspect ratio of the grading", aspect);
+  }
+
+  SizeOf<Shape> sample(Random& random) const {
+    double const major = random.uniform(smallest, largest);
+    return {major, aspect * major};
+  }
+};
+
+using EllipseGrading = AxesGrading<Ellipse>;
+
+/// Axes as of ellipses, and one exponent for all grains.
+template <class ShapePolicy>
+struct ExponentGrading {
+  using Shape = ShapePolicy;
+
+  double smallest = 0.0;
+  double largest = 0.0;
+  double aspect = 1.0;
+  double exponent = 1.0;
+
+  void validate() const {
+    detail::validate_bounds(smallest, largest);
+    require_positive("aspect ratio of the grading", aspect);
+    require_positive("exponent of the grading", exponent);
+  }
+
+  SizeOf<Shape> sample(Random& random) const {
+    double const major = random.uniform(smallest, largest);
+    return {major, aspect * major, exponent};
+  }
+};
+
+using SuperellipseGrading = ExponentGrading<Superellipse>;
+
+}  // namespace scarp

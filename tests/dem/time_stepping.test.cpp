@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/dem/time_stepping.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/homogenise/energy_ledger.hpp"
+#include "support/packings.hpp"
+
+#include "support/approx.hpp"
+
+namespace {
+
+using samples::Discs;
+using scarp::Tensor;
+using scarp::Vector;
+
+template <class PackingType>
+scarp::TimeStepper<PackingType> undamped() {
+  scarp::TimeStepper<PackingType> stepper;
+  stepper.damping = {.factor = 0.0, .drag = 0.0};
+  return stepper;
+}
+
+scarp::LinearFrictional stiffer(double factor) {
+  auto law = samples::study_law();
+  law.normal_stiffness *= factor;
+  law.tangential_stiffness *= factor;
+  return law;
+}
+
+/// A packing after a shear strain of 4e-3, and the energy that no term of the balance accounts for, over all that was turned over.
+struct Sheared {
+  Discs packing;
+  double gap = 0.0;
+};
+
+Sheared sheared(Discs packing, scarp::LinearFrictional const& law) {
+  scarp::TimeStepper<Discs> stepper;
+  stepper.time_step_share /=
+      4.0;  // springs that stiffen all at once throw the grains: the balance's error falls with its square
+  Tensor<2> strain = Tensor<2>::Zero();
+  strain(0, 1) = 1e-5;
+  scarp::EnergyLedger<2> ledger;
+  for (int step = 0; step < 400; ++step) {
+    scarp::StepObservation<2> seen;
+    double const volume = packing.volume();
+    REQUIRE(stepper.step<scarp::Observe::energy>(packing, law, strain, &seen).acceptable());
+    ledger.enter(seen, volume, strain);
+  }
+  double const turned_over = std::abs(ledger.stored) + ledger.contact_loss + ledger.damping_loss;
+  return {packing, std::abs(ledger.gap()) / turned_over};
+}
+
+/// A law whose springs stiffen with depth, from two numbers.
+struct Hardening {
+  static constexpr scarp::ContactNeeds needs{};
+
+  double normal_stiffness = 0.0;
+  double growth = 0.0;  ///< [1/m]
+
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach, scarp::ContactMemory<Dim, T>&) const {
+    T const overlap = scarp::lanes::at_least(approach.overlap, scarp::constant<T>(0));
+    return {.normal = scarp::constant<T>(normal_stiffness) * overlap *
+                      (scarp::constant<T>(1) + scarp::constant<T>(growth / 2.0) * overlap)};
+  }
+  scarp::ContactStiffness stiffness(double overlap, double) const {
+    return {.normal = normal_stiffness * (1.0 + growth * overlap)};
+  }
+};
+static_assert(scarp::ContactLaw<Hardening>);
+
+template <class Law>
+scarp::Packing<scarp::Disc, Law> lattice() {
+  return samples::triangular_lattice<scarp::Packing<scarp::Disc, Law>>(4, 5e-3, 1e-2 * (1.0 - 1e-3));
+}
+
+/// Whether the step that a packing was given with one law is renewed when it goes on with another.
+template <class Law>
+bool is_renewed(Law const& before, Law const& after) {
+  auto packing = lattice<Law>();
+  scarp::TimeStepper<scarp::Packing<scarp::Disc, Law>> stepper;
+  REQUIRE(stepper.refresh(packing, before).acceptable());
+  double const of_before = packing.pairs.critical_step;
+  REQUIRE(stepper.refresh(packing, after).acceptable());
+  auto afresh = lattice<Law>();
+  REQUIRE(stepper.refresh(afresh, after).acceptable());
+  CHECK(packing.pairs.critical_step == samples::Approx(afresh.pairs.critical_step).epsilon(1e-12));
+  return packing.pairs.critical_step != of_before;
+}
+
+}  // namespace
+
+TEST_CASE("a packing goes on with a stiffer law as one that was listed with that law") {
+  auto const& made = samples::consolidated<Discs>(64);
+  REQUIRE(made.verdict.acceptable());
+  for (double const factor : {10.0, 100.0}) {
+    CAPTURE(factor);
+    auto const law = stiffer(factor);
+    auto listed_afresh = made.packing;
+    listed_afresh.pairs.drift = std::numeric_limits<double>::infinity();
+    auto const one = sheared(made.packing, law);
+    auto const other = sheared(listed_afresh, law);
+    CHECK(one.packing == other.packing);
+    // The bound of the study for the energy that steps make or lose.
+    CHECK(one.gap < 1e-3);
+  }
+}
+
+TEST_CASE("the critical step follows every number of a law that it depends on, and the masses") {
+  using Hertz = scarp::HertzMindlin<scarp::HertzRestitution>;
+  CHECK(is_renewed(samples::study_law(), stiffer(0.5)));
+  CHECK(is_renewed(Hardening{1e6, 0.0}, Hardening{1e6, 1e4}));
+  CHECK(is_renewed(Hertz::of(1e9, 0.3, 0.5, {.restitution = 0.9}), Hertz::of(1e9, 0.3, 0.5, {.restitution = 0.2})));
+  // Preparations exchange the friction: nothing depends on it.
+  auto smooth = samples::study_law();
+  smooth.friction = 0.1;
+  CHECK_FALSE(is_renewed(samples::study_law(), smooth));
+
+  auto packing = lattice<scarp::LinearFrictional>();
+  scarp::TimeStepper<Discs> stepper;
+  REQUIRE(stepper.refresh(packing, samples::study_law()).acceptable());
+  double const before = packing.pairs.critical_step;
+  packing.population = std::make_shared<scarp::Population<scarp::Disc> const>(
+      std::vector<std::array<double, 1>>(packing.grain_count(), {5e-3}), 4.0 * samples::density, samples::thickness);
+  REQUIRE(stepper.refresh(packing, samples::study_law()).acceptable());
+  CHECK(packing.pairs.critical_step == samples::Approx(2.0 * before).epsilon(1e-12));
+}
+
+TEST_CASE("a law that acts further than the one before finds the pairs within its reach") {
+  using Bond = scarp::CohesiveBond<scarp::LinearFrictional>;
+  auto packing = samples::triangular_lattice<scarp::Packing<scarp::Disc, Bond>>(4, 5e-3, 1.15e-2);
+  scarp::TimeStepper<scarp::Packing<scarp::Disc, Bond>> stepper;
+  REQUIRE(stepper.refresh(packing, {samples::study_law(), 0.0, 0.0}).acceptable());
+  CHECK(packing.pairs.count() == 0);
+  REQUIRE(stepper.refresh(packing, {samples::study_law(), 6e6 * 2e-3, 0.0}).acceptable());
+  CHECK(packing.pairs.count() == 3 * packing.grain_count());  // each grain has six neighbours 1.5 mm away
+}
+
+TEST_CASE("pairs that are not listed cannot come into a law's reach before the list is renewed") {
+  using Bond = scarp::CohesiveBond<scarp::LinearFrictional>;
+  using Grains = scarp::Packing<scarp::Disc, Bond>;
+  constexpr double radius = 5e-3;
+  constexpr double law_reach = 4.5e-3;
+  Bond const law{samples::study_law(), 6e6 * law_reach, 0.0};
+  // Two grains side by side, just too far apart to be listed.
+  constexpr double skin = 0.1 * radius;
+  constexpr double distance = 2.0 * radius + law_reach + skin;
+  auto packing = samples::place<Grains>(0.2 * Tensor<2>::Identity(), {{radius}, {radius}},
+                                        {{0.05, 0.1}, {0.05 + 1.0001 * distance, 0.1}});
+  auto stepper = undamped<Grains>();
+  REQUIRE(stepper.refresh(packing, law).acceptable());
+  REQUIRE(packing.pairs.count() == 0);
+  Tensor<2> closer = Tensor<2>::Zero();
+  closer(0, 0) = -1e-4;
+  for (int step = 0; packing.pairs.count() == 0; ++step) {
+    REQUIRE(step < 1000);
+    REQUIRE(packing.position(1, 0) - packing.position(0, 0) > 2.0 * radius + law_reach);
+    REQUIRE(stepper.step(packing, law, closer).acceptable());
+  }
+}
+
+namespace {
+
+/// A disc whose touches are found up to an overlap, and not beyond.
+struct Reluctant : scarp::Disc {
+  static constexpr bool remembers_normal = true;
+  template <class T>
+  static scarp::Touch<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
+                                  scarp::Point<2, T> const& branch, scarp::Point<2, T> const& normal) {
+    auto touch = scarp::Disc::touch<T>(first, second, branch, normal);
+    T const none = scarp::constant<T>(0);
+    T const never = scarp::constant<T>(std::numeric_limits<double>::infinity());
+    touch.unsettled = scarp::lanes::select(touch.overlap > scarp::constant<T>(1e-3), never, none);
+    if (scarp::lanes::any_of(touch.unsettled > none)) touch.normal[0] = scarp::constant<T>(0.5);
+    return touch;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a packing whose list of pairs fails stays as it was") {
+  using Grains = scarp::Packing<Reluctant, scarp::LinearFrictional>;
+  constexpr double radius = 5e-3;
+  // A cell that is to be reduced, with a grain outside.
+  Tensor<2> cell;
+  cell << 0.05, 0.06, 0.0, 0.05;
+  auto packing = samples::place<Grains>(cell, {{radius}, {radius}}, {{0.01, 0.02}, {0.035, 0.07}});
+  REQUIRE(scarp::rebuild_pairs(packing, 1e-3).acceptable());
+  REQUIRE(packing.cell != cell);
+  packing.cell = cell;
+  packing.position.set_row(0, {0.01, 0.02});
+  packing.position.set_row(1, {0.018, 0.02});  // 2 mm deep
+  auto const before = packing;
+  CHECK(scarp::rebuild_pairs(packing, 1e-3) == scarp::Verdict{scarp::Status::failed, scarp::Reason::unsettled_touch});
+  CHECK(packing == before);
+}
