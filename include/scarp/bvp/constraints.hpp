@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "scarp/bvp/time_function.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/listed.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {

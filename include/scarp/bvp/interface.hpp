@@ -6,7 +6,7 @@
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/facet_chain.hpp"
 #include "scarp/bvp/rigid_body.hpp"
-#include "scarp/contact/checked_contact_law.hpp"
+#include "scarp/contact/contact_law.hpp"
 #include "scarp/core/described.hpp"
 
 namespace scarp {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "scarp/core/error.hpp"
-#include "scarp/core/rotated_increment.hpp"
+#include "scarp/core/finite_strain.hpp"
 #include "scarp/core/voigt.hpp"
 
 namespace scarp {
