@@ -60,10 +60,8 @@ struct FaultGround : scarp::FreeFieldFault<FaultSoil, FaultNewton> {
 struct FaultAnswer {
   scarp::RunReport run;
   std::vector<scarp::Vector<2>> surface;  ///< displacement of the surface's nodes over the depth
-  std::vector<double> places;             ///< x of the surface's nodes from the kink, before, over the depth
   double imbalance = 0.0;                 ///< of vertical reactions and loads, over these or the norm of reactions
   double tension = 0.0;                   ///< largest principal stress [Pa]
-  double residual = 0.0;                  ///< before the fault has moved
 };
 
 template <class Problem>
@@ -76,12 +74,10 @@ FaultAnswer answer(FaultGround const& ground, Problem& problem) {
   scarp::NoObserver nobody;
   FaultAnswer found;
   auto const settled = scene.settle(problem, nobody);
-  found.residual = settled.largest_residual;
   found.run = settled.verdict.acceptable() ? scarp::joined(settled, scene.rupture(problem, nobody)) : settled;
   auto const& grid = problem.discretisation();
   for (int const node : boundary_nodes(grid.mesh(), "surface")) {
     auto const k = static_cast<std::size_t>(node);
-    found.places.push_back((grid.mesh().nodes[k].x() - ground.fault.tip) / ground.layer().depth);
     found.surface.push_back((grid.positions()[k] - grid.mesh().nodes[k]) / ground.layer().depth);
   }
   Eigen::VectorXd forces;
@@ -103,20 +99,6 @@ FaultAnswer answer(FaultGround const& ground, Problem& problem) {
     found.tension = scarp::worse_of(found.tension, mean + std::hypot((stress(0) - stress(1)) / 2.0, stress(2)));
   }
   return found;
-}
-
-/// Where the surface has settled by half the throw, from the kink and over the depth; NaN if nowhere.
-inline double half_way(FaultAnswer const& found, double throw_over_depth) {
-  std::vector<std::pair<double, double>> profile;
-  for (std::size_t k = 0; k < found.places.size(); ++k)
-    profile.emplace_back(found.places[k], -found.surface[k].y() / throw_over_depth);
-  std::sort(profile.begin(), profile.end());
-  for (std::size_t k = 1; k < profile.size(); ++k) {
-    auto const& [x, settled] = profile[k - 1];
-    auto const& [next, more] = profile[k];
-    if (settled < 0.5 && more >= 0.5) return x + (0.5 - settled) / (more - settled) * (next - x);
-  }
-  return std::nan("");
 }
 
 inline FaultAnswer answer(FaultGround const& ground) {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-// Footings: stiff and rigid ones on soft ground, hard and soft interfaces, chatter, uplift, standing on an edge,
+// Footings: hard and soft interfaces, chatter, uplift, standing on an edge,
 // toppling.
 #include <fmt/format.h>
 
 #include "scarp/fault/frictional_footing.hpp"
-#include "scarp/fault/sticking_footing.hpp"
 #include "stability/fault_ground.hpp"
-#include "stability/groups.hpp"
-#include "stability/measures.hpp"
+#include "stability/stability_case.hpp"
 
 namespace stability {
 
@@ -73,10 +71,10 @@ Stand stand(Scene const& scene, scarp::LoadStepping const& last) {
 
 std::string words(Stand const& found) {
   return fmt::format(
-      "{} (last refusal {}) at load {:.4g}, {} attempts, {} refused; tilt {:.3g}, lifted {:.2f}, condition "
-      "{:.1e}, linear residual {:.1e}",
+      "{} (last refusal {}) at load {:.4g}, {} attempts, {} refused; tilt {:.3g}, lifted {:.2f}  linear residual "
+      "{:.1e}",
       name(found.run.verdict.reason), name(found.run.last_failure), found.run.load, found.watch.attempts,
-      found.run.refused, found.motion.tilt, found.lifted, found.watch.condition, found.watch.linear_residual);
+      found.run.refused, found.motion.tilt, found.lifted, found.watch.linear_residual);
 }
 
 /// Vertical imbalance of the footing, and sideways, over its weight.
@@ -84,32 +82,6 @@ double imbalance(Stand const& found, double weight) {
   double sideways = 0.0;
   for (auto const& point : found.motion.base) sideways += point.stress.x() * point.area;
   return std::max(std::abs(support(found.motion) / weight - 1.0), std::abs(sideways) / weight);
-}
-
-/// Round-off of the block's strains times its stiffness, over forces in the soil.
-double tolerance_at(double contrast) { return std::max(1e-10, 1e-12 * contrast); }
-
-/// Tilt after a throw of 2 % of the depth below a block that is stiffer than the soil by a factor, against one that
-/// is stiffer still.
-Outcome contrast(double factor) {
-  auto const tilted = [](double times) {
-    scarp::StickingFooting footing;
-    footing.block = scarp::LinearElastic<2>::from_young_poisson(times * 25e6, 0.25);
-    auto scene = scene_with(footing, false);
-    scene.throw_to = 0.02 * scene.ground.layer.depth;
-    scene.solver.tolerance = tolerance_at(times);
-    return stand(scene, scene.stepping);
-  };
-  auto const found = tilted(factor);
-  auto const rigid = tilted(std::max(10.0 * factor, 1e6));
-  double const apart = relative(found.motion.tilt, rigid.motion.tilt);
-  // What a block of 10 m x 1 m bends falls with the contrast. Runs in which steps were refused take finer ones on a
-  // path that depends on them: up to 1.4 % of the tilt was measured between runs with and without.
-  auto outcome = at_most(30.0 / factor + 2e-2, apart,
-                         "difference of the tilt from that at ten times this, at least 1e6", words(found));
-  outcome.as_expected &= found.run.verdict.acceptable() && rigid.run.verdict.acceptable() &&
-                         std::abs(found.motion.tilt) > 1e-4 && found.watch.linear_residual < 1e-8;
-  return outcome;
 }
 
 /// A footing on friction over the fault.
@@ -191,10 +163,6 @@ Cases footing_cases() {
   auto const add = [&](std::string name, std::string expected, auto run) {
     cases.push_back({"footings", std::move(name), std::move(expected), std::move(run)});
   };
-  for (double const factor : {1e3, 1e4, 1e5, 1e6}) {
-    add(fmt::format("block stiffer than the soil by {:g}", factor), "tilt goes to that of a rigid one",
-        [=](Size) { return contrast(factor); });
-  }
   std::string const reaches = "reaches the throw, in balance to 1e-8 of the weight";
   std::string const named = "in balance as far as it comes, if it can be placed; end or step_too_small";
   auto const deep = [](Size size) { return size == Size::quick ? 0.01 : 0.05; };

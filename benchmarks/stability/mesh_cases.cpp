@@ -2,8 +2,6 @@
 // Elements that lock or not, slivers, and elements that turn inside out.
 #include <fmt/format.h>
 
-#include <map>
-
 #include "../../examples/cook_membrane/membrane.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/quad4.hpp"
@@ -15,8 +13,7 @@
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/sparse_lu.hpp"
-#include "stability/groups.hpp"
-#include "stability/measures.hpp"
+#include "stability/stability_case.hpp"
 
 namespace stability {
 
@@ -39,81 +36,26 @@ Outcome cook(double poisson, bool should_lock, Size size) {
           locks ? "locks" : "does not lock"};
 }
 
-/// Puts the middle node of every crossed cell where its diagonals meet.
-void straighten_diagonals(scarp::Mesh<scarp::Tri3>& mesh) {
-  for (std::size_t first = 0; first < mesh.elements.size(); first += 4) {
-    std::map<int, int> uses;
-    for (std::size_t k = first; k < first + 4; ++k) {
-      for (int const node : mesh.elements[k]) ++uses[node];
-    }
-    int middle = -1;
-    for (auto const& [node, times] : uses) middle = times == 4 ? node : middle;
-    // Opposite corners never share a triangle; a corner and a neighbour always do.
-    std::vector<int> corners;
-    for (auto const& [node, times] : uses) {
-      if (times == 2) corners.push_back(node);
-    }
-    int opposite = 1;
-    for (int candidate = 1; candidate < 4; ++candidate) {
-      bool together = false;
-      for (std::size_t k = first; k < first + 4; ++k) {
-        auto const& nodes = mesh.elements[k];
-        together |= std::count(nodes.begin(), nodes.end(), corners[0]) &&
-                    std::count(nodes.begin(), nodes.end(), corners[static_cast<std::size_t>(candidate)]);
-      }
-      if (!together) opposite = candidate;
-    }
-    auto const place = [&](int k) -> Vector<2> {
-      return mesh.nodes[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])];
-    };
-    int const left = opposite == 1 ? 2 : 1;
-    int const right = opposite == 3 ? 2 : 3;
-    Vector<2> const along = place(opposite) - place(0);
-    Vector<2> const across = place(right) - place(left);
-    auto const cross = [](Vector<2> const& a, Vector<2> const& b) { return a.x() * b.y() - a.y() * b.x(); };
-    mesh.nodes[static_cast<std::size_t>(middle)] =
-        place(0) + cross(place(left) - place(0), across) / cross(along, across) * along;
-  }
-}
-
-/// The same with crossed triangles, and how far the pressures of a cell's four differ. In the fault scene's rectangles
-/// the diagonals are straight; a mapped mesh bends them.
-Outcome crossed(double poisson, bool straight, bool should_lock, Size size) {
-  // Bent diagonals straighten as the cells of a smooth map get smaller.
-  int const cells = size == Size::quick || !straight ? 8 : 32;
-  auto mesh = scarp::RectangleMesh{.columns = cells, .rows = cells}.generate();
-  int corner = 0;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    if (mesh.nodes[n] == Vector<2>(1.0, 1.0)) corner = static_cast<int>(n);
-    mesh.nodes[n] = cook_membrane::taper(mesh.nodes[n]);
-  }
-  if (straight) straighten_diagonals(mesh);
-  cook_membrane::Panel const panel{.poisson = poisson};
-  auto const solid = Soil::from_young_poisson(panel.young, poisson);
-  scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> const grid(mesh);
-  scarp::Constraints constraints(mesh);
-  for (int const node : boundary_nodes(mesh, "left")) constraints.fix(node);
-  Eigen::VectorXd const moved =
-      examples::elastic_solve(grid, solid, constraints, Eigen::VectorXd::Zero(grid.dof_count()),
-                              traction(grid, "right", Vector<2>(0.0, panel.force / 16.0)));
-  std::vector<scarp::Gradient<2>> gradients(static_cast<std::size_t>(grid.point_count()));
-  grid.gradients(moved, gradients);
-  // Four triangles of a cell follow each other: what alternates among them is the checkerboard.
-  double alternating = 0.0;
-  double all = 0.0;
-  double const lambda = solid.elasticity.lame_lambda;
-  for (std::size_t k = 0; k + 3 < gradients.size(); k += 4) {
-    double mean = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) mean += lambda * gradients[k + i].trace() / 4.0;
-    for (std::size_t i = 0; i < 4; ++i) alternating += std::pow(lambda * gradients[k + i].trace() - mean, 2) / 4.0;
-    all += mean * mean;
-  }
-  double const reference = cook_membrane::solve<scarp::Quad8, scarp::ReducedIntegration>(2 * cells, panel).deflection;
-  double const share = moved(2 * corner + 1) / reference;
-  bool const locks = share < 0.7;
-  return {std::isfinite(share) && locks == should_lock && share < 1.05, share, "deflection over the reference",
-          fmt::format("{}; pressure within the cells: {:.2g} of their means (root mean squares)",
-                      locks ? "locks" : "does not lock", std::sqrt(alternating / all))};
+/// Deflection of a cantilever of crossed triangles, as the fault scene's ground has, over that of reduced Quad8 on as
+/// many cells: two of the four volume changes of a rectangle depend on the others, so that it does not lock.
+Outcome crossed(double poisson) {
+  auto const deflection = [&]<class Element, class Scheme>(scarp::Mesh<Element> const& mesh, Scheme const&) {
+    scarp::Discretisation<Element, scarp::SmallStrain, Scheme> const grid(mesh);
+    scarp::Constraints constraints(mesh);
+    for (int const node : boundary_nodes(mesh, "left")) constraints.fix(node);
+    Eigen::VectorXd const moved =
+        examples::elastic_solve(grid, Soil::from_young_poisson(1.0, poisson), constraints,
+                                Eigen::VectorXd::Zero(grid.dof_count()), traction(grid, "right", Vector<2>(0.0, 1e-3)));
+    double sum = 0.0;
+    for (int const node : boundary_nodes(mesh, "right")) sum += moved(2 * node + 1);
+    return sum / static_cast<double>(boundary_nodes(mesh, "right").size());
+  };
+  double const triangles =
+      deflection(scarp::RectangleMesh{.width = 4.0, .columns = 32, .rows = 8}.generate(), scarp::FullIntegration{});
+  double const reference = deflection(scarp::BoxMesh<scarp::Quad8>{.lengths = {4.0, 1.0}, .cells = {32, 8}}.generate(),
+                                      scarp::ReducedIntegration{});
+  double const share = triangles / reference;
+  return {share > 0.7 && share < 1.05, share, "deflection over the reference"};
 }
 
 /// Interior nodes of a patch whose outline moves affinely, solved for on elements as bad as they get.
@@ -220,35 +162,6 @@ Outcome pressed_flat(double first) {
                       refusals.inverted, refusals.named)};
 }
 
-Outcome impossible_meshes() {
-  int missed = 0;
-  auto const wants = [&](char const* words, auto const& change) {
-    auto mesh = scarp::RectangleMesh{.columns = 2, .rows = 2}.generate();
-    change(mesh);
-    missed += refuses([&] { scarp::Discretisation<scarp::Tri3> const grid(mesh); }, words) ? 0 : 1;
-  };
-  wants("it is empty", [](auto& mesh) { mesh = {}; });
-  wants("it is empty", [](auto& mesh) { mesh.elements.clear(); });
-  wants("the wrong way round", [](auto& mesh) { std::swap(mesh.elements[3][0], mesh.elements[3][1]); });
-  wants("flat", [](auto& mesh) { mesh.elements[0][1] = mesh.elements[0][0]; });
-  wants("flat", [](auto& mesh) {
-    for (auto& node : mesh.nodes) node.y() *= 1e-11;
-  });
-  wants("not a finite position", [](auto& mesh) { mesh.nodes[2].x() = std::nan(""); });
-  wants("not a finite position", [](auto& mesh) { mesh.nodes[2].x() = infinity; });
-  wants("check the numbering", [](auto& mesh) { mesh.elements[1][2] = 1000; });
-  wants("belongs to no element", [](auto& mesh) { mesh.nodes.emplace_back(5.0, 5.0); });
-  wants("region number", [](auto& mesh) { mesh.element_region[0] = 7; });
-  wants("no element has this side", [](auto& mesh) {
-    mesh.boundaries["top"][0] = {0, 1};
-    mesh.boundaries["top"][0][1] = 8;
-  });
-  missed += refuses([] { static_cast<void>(boundary(scarp::RectangleMesh{}.generate(), "roof")); }, "roof") ? 0 : 1;
-  missed +=
-      refuses([] { static_cast<void>(region_number(scarp::RectangleMesh{}.generate(), "rock")); }, "rock") ? 0 : 1;
-  return at_most(0.0, missed, "wrong meshes that were taken");
-}
-
 }  // namespace
 
 Cases mesh_cases() {
@@ -267,12 +180,7 @@ Cases mesh_cases() {
     }
     add(fmt::format("Cook's panel, Quad4 B-bar, nu = {}", poisson), "does not lock",
         [=](Size size) { return cook<scarp::Quad4, scarp::BBar>(poisson, false, size); });
-    add(fmt::format("Cook's panel, crossed Tri3, nu = {}", poisson), "does not lock",
-        [=](Size size) { return crossed(poisson, true, false, size); });
-    if (poisson > 0.49995) {
-      add(fmt::format("Cook's panel, 8 x 8 cells of crossed Tri3 with bent diagonals, nu = {}", poisson), "locks",
-          [=](Size size) { return crossed(poisson, false, true, size); });
-    }
+    add(fmt::format("beam of crossed Tri3, nu = {}", poisson), "does not lock", [=](Size) { return crossed(poisson); });
   }
   for (double const degrees : {5.0, 1.0}) {
     add(fmt::format("patch of Tri3 with angles of {:g} degrees", degrees), "exact to round-off",
@@ -287,7 +195,6 @@ Cases mesh_cases() {
   std::string const stops = "step_too_small, the element named, the last state whole";
   add("pressed flat and beyond, first step 1.2", stops, [](Size) { return pressed_flat(1.2); });
   add("pressed flat and beyond, first step 0.1", stops, [](Size) { return pressed_flat(0.1); });
-  add("empty, inverted, flat, NaN, unknown names", "refused", [](Size) { return impossible_meshes(); });
   return cases;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// A packing as constitutive law where it is loose, pulled, barely confined, sheared far, driven in leaps or shaken,
-// and in other units.
+// A packing as constitutive law where it is loose, pulled, barely confined, sheared far, driven in leaps
+// or shaken.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,9 +8,6 @@
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/core/worse_of.hpp"
-#include "scarp/homogenise/energy_ledger.hpp"
-#include "stability/groups.hpp"
-#include "stability/measures.hpp"
 #include "stability/shearing.hpp"
 #include "support/packings.hpp"
 
@@ -26,7 +23,7 @@ using scarp::Verdict;
 using scarp::VoigtStress;
 using Rve = scarp::DemRve<Ellipses, scarp::SamePacking<Ellipses>>;
 
-constexpr char const* group = "Packings as constitutive law";
+constexpr char const* group = "packings as constitutive law";
 
 std::string words(Verdict const& verdict) {
   return verdict.acceptable() ? fmt::format("{}", name(verdict.status))
@@ -83,13 +80,6 @@ Gradient<2> simple_shear(double strain) {
   Gradient<2> gradient = Gradient<2>::Zero();
   gradient(0, 1) = strain;
   return gradient;
-}
-
-Outcome duplicates(Size) {
-  Rve const provider = rve(samples::place<Ellipses>(0.05 * Tensor<2>::Identity(), {3, {5e-3, 4e-3}},
-                                                    {{0.01, 0.01}, {0.01, 0.01}, {0.03, 0.03}}, {0.1, 0.1, 0.1}));
-  Verdict const verdict = provider.initial_state({}).verdict;
-  return {.as_expected = verdict.status == Status::failed, .measure = "nothing", .remark = words(verdict)};
 }
 
 Outcome loose_and_back(Size size) {
@@ -236,85 +226,6 @@ Outcome cycles(Size size) {
           .remark = fmt::format("{:.2g} after 100, {} unbalanced answers", drift_of_first, path.unbalanced)};
 }
 
-/// Larger cycles that do slide: where the work goes must add up.
-Outcome ledger_of_cycles(Size size) {
-  auto packing = samples::consolidated<Ellipses>(size == Size::quick ? 40 : 200).packing;
-  auto const law = samples::study_law();
-  scarp::TimeStepper<Ellipses> stepper;
-  scarp::EnergyLedger<2> ledger;
-  double work = 0.0;
-  for (int cycle = 0; cycle < (size == Size::quick ? 10 : 1000); ++cycle) {
-    for (int step = 0; step < 2000; ++step) {
-      double const sign = step < 500 || step >= 1500 ? 1.0 : -1.0;
-      Tensor<2> const strain = simple_shear(sign * 1e-5);
-      double const volume = packing.volume();
-      scarp::StepObservation<2> seen;
-      if (Verdict const verdict = stepper.step<scarp::Observe::energy>(packing, law, strain, &seen);
-          !verdict.acceptable()) {
-        return {.measure = "nothing", .remark = words(verdict)};
-      }
-      ledger.enter(seen, volume, strain);
-      work += std::abs(seen.stress.cwiseProduct(strain).sum()) * volume;
-    }
-  }
-  double const gap = std::abs(ledger.gap()) / work;
-  return {.as_expected = gap < 1e-4 && ledger.contact_loss > 0.0,
-          .worst = gap,
-          .measure = "gap of the energy ledger over the sum of all work's sizes",
-          .remark = fmt::format("loss in contacts {:.2g} of it", ledger.contact_loss / work)};
-}
-
-/// Preparation and shear where lengths, forces and times are counted in other units. Powers of two leave all digits
-/// alone.
-struct Dimensionless {
-  double pressure = 0.0;  ///< over that of the preparation
-  double ratio = 0.0;
-  double void_ratio = 0.0;
-  int plan = 0;  ///< DEM steps of a response that is limited by its inertial number
-};
-
-Dimensionless in_units(double length, double force, double time, int grains) {
-  double const stress = force / (length * length);
-  scarp::LinearFrictional law = samples::study_law();
-  law.normal_stiffness *= force / length;
-  law.tangential_stiffness *= force / length;
-  auto const cloud = scarp::Cloud<scarp::EllipseGrading>{
-      .grading = {.smallest = 4e-3 * length, .largest = 6e-3 * length, .aspect = 0.75},
-      .grains = grains,
-      .density = samples::density * force * time * time / (length * length * length * length),
-      .thickness = samples::thickness * length,
-      .seed = 9};
-  double const pressure = samples::pressure * stress;
-  auto const [packing, verdict] =
-      scarp::IsotropicPreparation{.pressure = pressure}.prepare(cloud.make<Ellipses>(), law);
-  Rve provider = rve(packing);
-  provider.law = law;
-  Dimensionless end;
-  Path path(provider);
-  auto careful = provider;
-  careful.inertial_number = 1e-6;
-  end.plan = careful.plan(path.state, simple_shear(1e-4));
-  if (!verdict.acceptable() || !path.go(simple_shear(1e-3))) return end;
-  end.pressure = mean_pressure(path.state.stress) / pressure;
-  end.ratio = deviator(path.state.stress) / mean_pressure(path.state.stress);
-  end.void_ratio = path.state.packing.void_ratio();
-  return end;
-}
-
-Outcome units(double length, double force, double time) {
-  auto const here = in_units(1.0, 1.0, 1.0, 30);
-  auto const there = in_units(length, force, time, 30);
-  Outcome outcome{.measure = "largest relative difference of pressure, stress ratio and void ratio"};
-  Worst worst;
-  worst.see(relative(there.pressure, here.pressure));
-  worst.see(relative(there.ratio, here.ratio));
-  worst.see(relative(there.void_ratio, here.void_ratio));
-  outcome.worst = worst.value;
-  outcome.remark = fmt::format("{} and {} DEM steps", here.plan, there.plan);
-  outcome.as_expected = outcome.worst <= 1e-9 && here.pressure > 0.0 && here.plan == there.plan;
-  return outcome;
-}
-
 }  // namespace
 
 Cases rve_cases() {
@@ -322,7 +233,6 @@ Cases rve_cases() {
   auto const add = [&](std::string name, std::string expected, std::function<Outcome(Size)> run) {
     all.push_back({.group = group, .name = std::move(name), .expected = std::move(expected), .run = std::move(run)});
   };
-  add("two grains in one place", "failed, by name", duplicates);
   add("loosened until nothing touches, then compressed", "exactly zero and fluid; then a pressure again",
       loose_and_back);
   add("pulled along one axis by 4 %", "no tension", pulled);
@@ -342,13 +252,6 @@ Cases rve_cases() {
         [strain](Size size) { return leap(strain, 0.1, size); });
   }
   add("1000 tiny cycles", "stress within 1e-3 of the pressure", cycles);
-  add("cycles of 5e-3", "the energy ledger closes to 1e-4", ledger_of_cycles);
-  double const large = std::ldexp(1.0, 40);  // 1.1e12
-  for (double const factor : {1.0 / large, large}) {
-    add(fmt::format("lengths times {:.1e}", factor), "the same to 1e-9", [=](Size) { return units(factor, 1.0, 1.0); });
-    add(fmt::format("forces times {:.1e}", factor), "the same to 1e-9", [=](Size) { return units(1.0, factor, 1.0); });
-    add(fmt::format("times times {:.1e}", factor), "the same to 1e-9", [=](Size) { return units(1.0, 1.0, factor); });
-  }
   return all;
 }
 

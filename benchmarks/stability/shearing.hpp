@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scarp/dem/loading.hpp"
+#include "stability/stability_case.hpp"
 #include "support/packings.hpp"
 
 namespace stability {

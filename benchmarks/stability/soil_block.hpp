@@ -17,37 +17,14 @@ namespace stability {
 
 using SofteningSoil = scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength>;
 
-/// Ground of which one point may answer NaN and call it well.
-struct Ground {
-  static constexpr int dim = 2;
-  struct State {
-    int point = 0;
-    SofteningSoil::State own;
-  };
-
-  SofteningSoil soil{};
-  int poisoned = -1;
-  double from_strain = 0.0;  ///< plastic shear from which it does
-
-  State initial_state(scarp::Site<2> const& site) const { return {site.index, soil.initial_state(site)}; }
-  scarp::VoigtStress<2> stress(State const& state) const { return soil.stress(state.own); }
-  scarp::VoigtTangent<2> tangent(State const& state) const { return soil.tangent(state.own); }
-  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
-    trial.point = committed.point;
-    auto response = soil.respond(committed.own, increment, trial.own);
-    if (trial.point == poisoned && trial.own.plastic_shear > from_strain) response.stress.setConstant(std::nan(""));
-    return response;
-  }
-};
-
-inline Ground ground(double residual_cohesion = 20e3) {
+inline SofteningSoil ground(double residual_cohesion = 20e3) {
   constexpr double degree = std::numbers::pi / 180.0;
   scarp::Strength const peak{.cohesion = 20e3, .friction = 30.0 * degree, .dilation = 0.0};
   scarp::Strength residual = peak;
   residual.cohesion = residual_cohesion;
-  return {.soil = {.elasticity = scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25),
-                   .strength = {.peak = peak, .residual = residual, .strain_to_residual = 0.05},
-                   .initial = {}}};
+  return {.elasticity = scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25),
+          .strength = {.peak = peak, .residual = residual, .strain_to_residual = 0.05},
+          .initial = {}};
 }
 
 /// Block of 1 m x 2 m of crossed triangles on a rough base. The load factor presses a rough top down [m], or is a
@@ -56,9 +33,9 @@ struct Block {
   enum class Top { pressed, loaded };
 
   using Grid = scarp::Discretisation<scarp::Tri3>;
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Ground>, scarp::SerialExecutor>;
+  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<SofteningSoil>, scarp::SerialExecutor>;
 
-  Ground material = ground();
+  SofteningSoil material = ground();
   Top top = Top::pressed;
   bool base_held = true;
   int columns = 3;
