@@ -11,7 +11,7 @@
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "run.hpp"
-#include "scarp/io/gmsh/gmsh_element_type.hpp"
+#include "scarp/io/gmsh/gmsh_reader.hpp"
 
 namespace {
 
@@ -98,10 +98,13 @@ void declare_results(CLI::App& app, Choice& choice, examples::Output& output) {
       ->capture_default_str();
 }
 
-int run_mesh(Choice const& choice) {
+int run_mesh(Choice choice) {
   examples::refuse_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
   if (choice.mesh.empty()) return run<scarp::Tri3>(choice);
-  switch (scarp::gmsh_element_type(choice.mesh)) {
+  scarp::GmshFile const file(choice.mesh);
+  examples::tell(file.notes());
+  choice.mesh_file = &file;
+  switch (file.element_type()) {
     case scarp::Tri6::gmsh_type: return run<scarp::Tri6>(choice);
     case scarp::Quad4::gmsh_type: return run<scarp::Quad4>(choice);
     case scarp::Quad8::gmsh_type: return run<scarp::Quad8>(choice);

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace scarp {
+class GmshFile;
+}
+
 namespace biaxial_specimen {
 
 /// Where the packings of the points come from: files, one packing for all points, or preparations of the study's
@@ -28,7 +32,8 @@ struct Grains {
 };
 
 struct Choice {
-  std::string mesh{};  ///< a file of Gmsh; empty: crossed triangles of an own rectangle
+  std::string mesh{};                          ///< a file of Gmsh; empty: crossed triangles of an own rectangle
+  scarp::GmshFile const* mesh_file = nullptr;  ///< its content
   double width = 0.05;
   double height = 0.1;
   int columns = 5;

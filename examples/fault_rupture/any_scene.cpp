@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "any_scene.hpp"
+#include "../shared/tell.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -60,10 +61,10 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
                         choice.soil == Soil::dem ? "choose a larger --size, fewer --triangles or fewer --grains"
                                                  : "choose a larger --size or fewer --triangles");
   if (speaks) {
-    fmt::print(stderr, "preparing {}, about {} of memory\n", what, scarp::memory_text(bytes));
+    examples::say(stderr, "preparing {}, about {} of memory\n", what, scarp::memory_text(bytes));
     constexpr int few = 50;
     if (choice.soil == Soil::dem && choice.grains < few) {
-      fmt::print(
+      examples::say(
           stderr,
           "warning: a packing of {} grains is an accident and no sample of the sand: compare --seed, or take 100 "
           "grains and more\n",

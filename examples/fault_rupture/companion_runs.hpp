@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
 #include "companions.hpp"
 #include "run_scene.hpp"
 #include "scarp/io/read_file.hpp"
@@ -36,8 +37,8 @@ struct CompanionRuns {
       try {
         ask(companion, steps, file);
       } catch (std::exception const& problem) {
-        fmt::print(stderr, "warning: the companion for {} has failed, so that this part is not known: {}\n",
-                   companion.part, problem.what());
+        examples::say(stderr, "warning: the companion for {} has failed, so that this part is not known: {}\n",
+                      companion.part, problem.what());
       }
     }
   }
@@ -63,7 +64,7 @@ struct CompanionRuns {
 
   /// \return its summary \throws scarp::InputError where it has stopped early
   nlohmann::json answer_of(Companion const& companion) const {
-    fmt::print(stderr, "companion for {}: {}\n", companion.part, command_options(companion));
+    examples::say(stderr, "companion for {}: {}\n", companion.part, command_options(companion));
     scarp::CheckpointFiles nowhere;
     auto const own = folder / fmt::format("companion_{}", companion.part);
     scarp::RunFolder writes({.folder = own, .overwrite = true}, record_of(companion, own));

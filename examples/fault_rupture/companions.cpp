@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "../shared/study/chosen_ground.hpp"
+#include "../shared/write_json.hpp"
 #include "scarp/budget/budget_part.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/read_file.hpp"
@@ -116,7 +117,7 @@ void CompanionFile::add(std::string const& part, CompanionAnswer answer) {
                                   {"command", answer.command},
                                   {"date", answer.date},
                                   {"commit", answer.commit}};
-  scarp::write_file(path_, all.dump(2) + "\n");
+  examples::write_json(path_, all);
   answers_[part] = std::move(answer);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
 #include "ensemble.hpp"
 #include "own_folders.hpp"
 #include "run_scene.hpp"
@@ -67,6 +68,12 @@ struct EnsembleRuns {
         result.code = std::visit([&](auto const& one) { return fault_rupture::run(choice, one, start); }, *scene);
       } catch (std::exception const& problem) {
         result.problem = problem.what();
+        if (auto* const folder = own.on_first_rank(); folder != nullptr && folder->record().state == "running") {
+          try {
+            folder->end("failed");
+          } catch (std::exception const&) {  // the first problem says more
+          }
+        }
       }
     }
 
@@ -109,10 +116,10 @@ struct EnsembleRuns {
   int finish(scarp::RunFolder& folder, std::vector<EnsembleMember> const& members) const {
     auto const summary = ensemble_summary(members);
     auto const text = ensemble_table(summary);
-    scarp::write_file(folder.path() / "ensemble.json", summary.dump(2) + "\n");
+    examples::write_json(folder.path() / "ensemble.json", summary);
     scarp::write_file(folder.path() / "ensemble.txt", text);
     write_mean_surface(folder.path() / "surface_mean.csv", members);
-    fmt::print("{}", text);
+    examples::say(stdout, "{}", text);
     auto const stopped = std::ranges::find_if(members, [](auto const& member) { return member.code != 0; });
     folder.end(stopped == members.end() ? "finished" : "stopped early");
     return stopped == members.end() ? 0 : stopped->code;

@@ -5,6 +5,7 @@
 
 #include "../shared/command_line.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
 #include "companion_runs.hpp"
 #include "ensemble_runs.hpp"
@@ -193,8 +194,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, true, 1e9));
   examples::declare_output(app, output, "folder for all results");
   resume->excludes("--overwrite");
-  app.set_config("--config", "", "file with lines `option = value`");
-  app.allow_config_extras(CLI::config_extras_mode::error);
+  examples::declare_config(app);
 }
 
 double largest_gradient(fault_rupture::AnyScene const& scene) {
@@ -206,8 +206,9 @@ double largest_gradient(fault_rupture::AnyScene const& scene) {
 void print_estimate(Choice const& choice, std::size_t runs) {
   int const ranks = fault_rupture::ranks();
   scarp::ThreadExecutor const threads(fault_rupture::threads_of_a_process(choice.threads));
-  fmt::print("{}", fault_rupture::estimate(choice, fault_rupture::size_of_scene(choice), ranks, threads.threads()));
-  if (runs > 0) fmt::print("--seeds: {} times as much of all\n", runs);
+  examples::say(stdout, "{}",
+                fault_rupture::estimate(choice, fault_rupture::size_of_scene(choice), ranks, threads.threads()));
+  if (runs > 0) examples::say(stdout, "--seeds: {} times as much of all\n", runs);
 }
 
 }  // namespace
@@ -241,10 +242,10 @@ int main(int argc, char** argv) {
     return code == 0 ? 0 : 2;
   }
   if (element != fault_rupture::element_name) {
-    fmt::print(stderr,
-               "fault_rupture: --element {} (this program was compiled for {}): build and run the one for it by "
-               "./examples/run fault_rupture --element {}\n",
-               element, fault_rupture::element_name, element);
+    examples::say(stderr,
+                  "fault_rupture: --element {} (this program was compiled for {}): build and run the one for it by "
+                  "./examples/run fault_rupture --element {}\n",
+                  element, fault_rupture::element_name, element);
     fault_rupture::give_up(2);
   }
   try {
@@ -262,8 +263,10 @@ int main(int argc, char** argv) {
                                   examples::record_of("fault_rupture", app));
     std::filesystem::path const known =
         choice.companions.empty() ? fault_rupture::usual_companion_file() : std::filesystem::path(choice.companions);
-    fault_rupture::CompanionFile companions(known, fault_rupture::scene_lines(choice, app));
+    static_cast<void>(fault_rupture::CompanionFile(known, ""));  // a wrong file is refused before the ground is made
     auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
+    fault_rupture::CompanionFile companions(
+        known, std::visit([&](auto const& chosen) { return fault_rupture::scene_lines(choice, app, chosen); }, scene));
     auto const ask = [&](scarp::RunReport const& report) {
       if (choice.budget_companions) {
         fault_rupture::CompanionRuns const runs{app, output.folder, started};

@@ -50,7 +50,11 @@ inline ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
 }
 
 /// Of all that the answer depends on: not what is written on the way.
-inline std::string scene_lines(Choice choice, CLI::App const& app) {
+/// scene: whose tolerance and limit of the load steps stand where the choice leaves them to the soil
+template <class Scene>
+std::string scene_lines(Choice choice, CLI::App const& app, Scene const& scene) {
+  choice.tolerance = scene.tolerance;
+  choice.largest_gradient = scene.stepping.largest_gradient;
   Choice const usual;
   choice.frames = usual.frames;
   choice.probe_a_x = usual.probe_a_x;
@@ -65,24 +69,22 @@ inline scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App co
   auto lines = choice_lines(choice, app);
   // The error budget follows points of the first rank.
   if (int const count = ranks(); count > 1) lines("ranks", count);
-  return {{.folder = choice.checkpoint, .resume = choice.resume, .every_seconds = choice.checkpoint_every}, lines.text};
-}
-
-inline bool is_same_folder(std::filesystem::path const& one, std::filesystem::path const& other) {
-  std::error_code trouble;
-  return std::filesystem::weakly_canonical(one, trouble) == std::filesystem::weakly_canonical(other, trouble);
+  return {{.folder = choice.checkpoint,
+           .resume = choice.resume,
+           .every_seconds = choice.checkpoint_every,
+           .locks = rank() == 0},
+          lines.text};
 }
 
 /// What one run has to itself on disk, as long as this lives.
 struct OwnFolders {
-  scarp::FolderLock checkpoints{};
   scarp::CheckpointFiles files;
   std::optional<scarp::RunFolder> results{};  ///< on the first rank
 
   /// \throws scarp::InputError for folders that are in use, hold what must be kept or do not fit together
   OwnFolders(Choice const& choice, CLI::App const& app, std::filesystem::path const& folder, bool overwrite,
              scarp::RunRecord record)
-      : checkpoints(lock_of(choice, folder)), files(checkpoint_files(choice, app)) {
+      : files(checkpoint_files(choice, app)) {
     if (rank() != 0) return;
     results.emplace(
         scarp::RunFolderSettings{
@@ -91,12 +93,6 @@ struct OwnFolders {
   }
 
   scarp::RunFolder* on_first_rank() { return results ? &*results : nullptr; }
-
- private:
-  static scarp::FolderLock lock_of(Choice const& choice, std::filesystem::path const& folder) {
-    bool const locks = rank() == 0 && !choice.checkpoint.empty() && !is_same_folder(choice.checkpoint, folder);
-    return locks ? scarp::FolderLock(choice.checkpoint) : scarp::FolderLock();
-  }
 };
 
 }  // namespace fault_rupture

@@ -9,6 +9,7 @@
 
 #include "../shared/budget_report.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
 #include "companions.hpp"
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/observe/convergence_log.hpp"
@@ -132,14 +133,14 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   fs::path const folder = begun.folder != nullptr ? begun.folder->path() : "";
   std::optional<Takeover> takeover;
   if (is_first_rank(executor)) {
-    if (files.resumes()) fmt::print(stderr, "{}going on from '{}'\n", begun.name, files.newest().string());
-    fmt::print(stderr, "{}{} {} elements, {} threads, ground made after {:.1f} s\n", begun.name,
-               problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
+    if (files.resumes()) examples::say(stderr, "{}going on from '{}'\n", begun.name, files.newest().string());
+    examples::say(stderr, "{}{} {} elements, {} threads, ground made after {:.1f} s\n", begun.name,
+                  problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
     if (choice.length > 0.0 && problem.materials().mean().is_local()) {
-      fmt::print(stderr,
-                 "warning: a --length of {} m reaches no neighbour of any point, so that the soil has none: take a "
-                 "longer one or a smaller --size\n",
-                 choice.length);
+      examples::say(stderr,
+                    "warning: a --length of {} m reaches no neighbour of any point, so that the soil has none: take a "
+                    "longer one or a smaller --size\n",
+                    choice.length);
     }
     takeover.emplace(*begun.folder, files.resumes(), [&] {
       if (scene.write_packing) scene.write_packing(folder);
@@ -171,8 +172,9 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
         scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
   });
 
-  AtRest rest;
-  scarp::CheckpointedRun stages(files, observers, rest);
+  RunNotes notes{.used = examples::RunUsage(begun.moment)};
+  AtRest& rest = notes.rest;
+  scarp::CheckpointedRun stages(files, observers, notes);
   stages.stage([&] {
     auto const settled = scene.settle(problem, stages);
     on_first_rank(problem, [&] { rest = at_rest(problem, scene); });
@@ -185,17 +187,23 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   });
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& report = stages.report();
-  if (!report.verdict.acceptable()) observers.ended(problem, report.load);
+  bool const sound = !stages.stopped();  // all could be written
+  if (!report.verdict.acceptable() && sound) observers.ended(problem, report.load);
   on_first_rank(problem, [&] {
     takeover->take();  // also when nothing was left to do
-    auto json = summary(choice, scene, problem, rest, report, elapsed());
+    if (!sound) {
+      // Its state first: there may be room for no more.
+      begun.folder->end(stages.trouble());
+      examples::say(stderr, "{}{}\n", begun.name, stages.trouble());
+    }
+    auto json = summary(choice, scene, problem, rest, report, notes.used);
     json["run"] = examples::json_of(begun.folder->record());
     auto const written = [&](CompanionAnswers const& companions) {
       auto parts = budget.parts();
       for (auto& part : companion_parts(companions, json["surface_x50"], depth, examples::error_bounds(choice.budget)))
         parts.push_back(std::move(part));
       json["error_budget"] = examples::json_of(parts);
-      scarp::write_file(folder / "summary.json", json.dump(2) + "\n");
+      examples::write_json(folder / "summary.json", json);
       std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);
       if (begun.companions) text += companion_lines(companions);
       if (!report.verdict.acceptable()) {
@@ -208,10 +216,12 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       return text;
     };
     std::string text = written({});  // the run's own results first: companions take long
+    if (!sound) return;
     if (begun.companions && report.verdict.acceptable()) text = written(begun.companions(report));
     begun.folder->end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
-    if (begun.companions) fmt::print("{}", text);
+    if (begun.companions) examples::say(stdout, "{}", text);
   });
+  if (!sound) return 1;
   if (report.verdict.acceptable()) return 0;
   constexpr int interrupted = 130;  // as a shell reports Ctrl-C
   return report.verdict.reason == scarp::Reason::interrupted ? interrupted : 3;

@@ -33,6 +33,14 @@ struct AtRest {
   SCARP_MEMBERS(k0, k0_min, k0_max, void_ratio, void_ratio_min, void_ratio_max, vertical_error, ground)
 };
 
+/// What a run that goes on remembers of the processes before it.
+struct RunNotes {
+  AtRest rest{};
+  examples::RunUsage used;
+
+  SCARP_MEMBERS(rest, used)
+};
+
 template <class Problem, class SceneType>
 AtRest at_rest(Problem const& problem, SceneType const& scene) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -111,13 +119,12 @@ inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const
 
 template <class Problem, class SceneType>
 nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Problem const& problem, AtRest const& rest,
-                               scarp::RunReport const& run, double wall_seconds) {
+                               scarp::RunReport const& run, examples::RunUsage const& used) {
   auto const& grid = problem.discretisation();
   auto const& ground = rest.ground.of(grid.mesh());
   auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
   auto const offset = scarp::offset_at(scene.fault, std::max(run.load, 0.0));
   auto const survey = scarp::rupture_survey(grid.mesh(), ground, grid.positions(), offset);
-  auto const used = examples::usage();
   constexpr double from_side = 5.0;  // [m], where the far field is read: the sides themselves are prescribed
   nlohmann::ordered_json json;
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
@@ -155,9 +162,9 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["share_of_time_outside_rves"] = 1.0 - json["share_of_time_in_rves"].get<double>();
   json["threads"] = threads_of(problem.executor());
   if (ranks() > 1) json["ranks"] = ranks();
-  json["cpu_seconds"] = used.cpu_seconds;
-  json["wall_seconds"] = wall_seconds;
-  json["peak_memory_bytes"] = used.peak_memory_bytes;
+  json["cpu_seconds"] = used.cpu_seconds();
+  json["wall_seconds"] = used.wall_seconds();
+  json["peak_memory_bytes"] = used.peak_memory_bytes();
   return json;
 }
 

@@ -5,6 +5,7 @@
 
 #include "../shared/process_usage.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
@@ -37,8 +38,8 @@ inline nlohmann::ordered_json json_of(Section const& section) {
 /// Places and widths along the strike [m], and what the run took.
 template <class Problem>
 nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, Problem const& problem,
-                               std::vector<Section> const& all, scarp::RunReport const& run) {
-  auto const used = examples::usage();
+                               std::vector<Section> const& all, scarp::RunReport const& run,
+                               examples::RunUsage const& used) {
   auto const& grid = problem.discretisation();
   nlohmann::ordered_json json;
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
@@ -59,8 +60,8 @@ nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, Problem
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_points"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
-  json["cpu_seconds"] = used.cpu_seconds;
-  json["peak_memory_bytes"] = used.peak_memory_bytes;
+  json["cpu_seconds"] = used.cpu_seconds();
+  json["peak_memory_bytes"] = used.peak_memory_bytes();
   return json;
 }
 
@@ -73,13 +74,14 @@ inline void write_surface(std::vector<Section> const& all, std::filesystem::path
 }
 
 inline void print_table(std::vector<Section> const& all) {
-  fmt::print("{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "y [m]", "throw", "x05 [m]", "x50 [m]", "x95 [m]", "width",
-             "settlement");
+  examples::say(stdout, "{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "y [m]", "throw", "x05 [m]", "x50 [m]",
+                "x95 [m]", "width", "settlement");
   for (auto const& section : all) {
     auto const json = json_of(section);
     auto const& at = section.measures;
-    fmt::print("{:8.2f} {:8.3f} {:8.2f} {:8.2f} {:8.2f} {:8.2f} {:10.3f}\n", section.y, section.share, at.surface_x05,
-               at.surface_x50, at.surface_x95, at.surface_x95 - at.surface_x05, json["settlement_max"].get<double>());
+    examples::say(stdout, "{:8.2f} {:8.3f} {:8.2f} {:8.2f} {:8.2f} {:8.2f} {:10.3f}\n", section.y, section.share,
+                  at.surface_x05, at.surface_x50, at.surface_x95, at.surface_x95 - at.surface_x05,
+                  json["settlement_max"].get<double>());
   }
 }
 
@@ -92,14 +94,22 @@ inline void begin_anew(std::filesystem::path const& folder) {
   }
 }
 
+/// What a run that goes on remembers of the processes before it.
+struct RunNotes {
+  scarp::GroundAtRest<3> rest{};
+  examples::RunUsage used;
+
+  SCARP_MEMBERS(rest, used)
+};
+
 /// Runs a scene, or goes on with one, and writes its results.
 /// \return exit code of the program: 0, 130 where it was interrupted, 3 where it stopped for another reason
 inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::CheckpointFiles& files, Moment started) {
   auto const scene = make_scene(choice);
   scarp::ThreadExecutor executor(choice.threads);
   auto problem = scene.problem(executor);
-  fmt::print(stderr, "{} hexahedra, {} points, {} threads\n", problem.discretisation().mesh().elements.size(),
-             problem.discretisation().point_count(), executor.threads());
+  examples::say(stderr, "{} hexahedra, {} points, {} threads\n", problem.discretisation().mesh().elements.size(),
+                problem.discretisation().point_count(), executor.threads());
   folder.begin();
   bool const resumes = files.resumes();
   if (!resumes) begin_anew(folder.path());
@@ -109,8 +119,9 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
       scarp::FieldSeries<scarp::RveQuantities>(folder.path(), scene.throw_to, choice.frames, depth),
       scarp::ConvergenceLog(folder.path() / "convergence.csv", depth, start), scarp::Progress(scene.throw_to, depth),
       scarp::StopSignal(), scarp::TimeLimit(choice.time_limit, started));
-  scarp::GroundAtRest<3> rest;
-  scarp::CheckpointedRun stages(files, observers, rest);
+  RunNotes notes{.used = examples::RunUsage(started)};
+  auto& rest = notes.rest;
+  scarp::CheckpointedRun stages(files, observers, notes);
   stages.stage([&] {
     auto const settled = scene.settle(problem, stages);
     rest = scarp::ground_at_rest(problem);
@@ -118,18 +129,24 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
   });
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& report = stages.report();
-  if (!report.verdict.acceptable()) observers.ended(problem, report.load);
+  if (stages.stopped()) {
+    folder.end(stages.trouble());
+    examples::say(stderr, "fault_slab: {}\n", stages.trouble());
+  } else if (!report.verdict.acceptable()) {
+    observers.ended(problem, report.load);
+  }
   auto const& grid = problem.discretisation();
   auto const all = sections(scene, grid.mesh(), rest.of(grid.mesh()), grid.positions(), report.load);
   write_surface(all, folder.path() / "surface.csv");
-  auto json = summary(choice, scene, problem, all, report);
+  auto json = summary(choice, scene, problem, all, report, notes.used);
   json["run"] = examples::json_of(folder.record());
-  scarp::write_file(folder.path() / "summary.json", json.dump(2) + "\n");
+  examples::write_json(folder.path() / "summary.json", json);
+  if (stages.stopped()) return 1;
   folder.end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
   print_table(all);
   if (report.verdict.acceptable()) return 0;
-  fmt::print(stderr, "fault_slab: stopped at h/H = {:.5f} ({}; last refused step: {})\n", report.load / depth,
-             name(report.verdict.reason), name(report.last_failure));
+  examples::say(stderr, "fault_slab: stopped at h/H = {:.5f} ({}; last refused step: {})\n", report.load / depth,
+                name(report.verdict.reason), name(report.last_failure));
   return report.verdict.reason == scarp::Reason::interrupted ? 130 : 3;
 }
 

@@ -17,9 +17,9 @@
 #include "scarp/dem/gradings.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "scarp/element/hex8.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
-#include "scarp/fault/tapered_slip.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
 
 namespace fault_slab {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../shared/convergence_table.hpp"
+#include "../shared/tell.hpp"
 #include "fault.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
@@ -25,8 +26,8 @@ double reaction(Problem& problem) {
 /// makes it local, bit for bit.
 template <class SceneOn>
 void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
-  fmt::print("{:>6} {:>9} {:>6} {:>8} {:>10} {:>9} {:>12} {:>6} {:>8} {:>6} {:>7}\n", "size", "triangles", "l", "throw",
-             "outcrop", "width", "reaction", "steps", "refused", "iter", "s");
+  examples::say(stdout, "{:>6} {:>9} {:>6} {:>8} {:>10} {:>9} {:>12} {:>6} {:>8} {:>6} {:>7}\n", "size", "triangles",
+                "l", "throw", "outcrop", "width", "reaction", "steps", "refused", "iter", "s");
   scarp::SerialExecutor executor;
   for (double const length : choice.lengths) {
     for (double const size : choice.sizes) {
@@ -46,10 +47,10 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
       auto const& grid = problem.discretisation();
       auto const found =
           scarp::outcrop(scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions()), run.load);
-      fmt::print("{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
-                 grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
-                 reaction(problem) - at_rest, run.steps, run.refused, run.iterations, watch.seconds(),
-                 run.verdict.acceptable() ? "" : name(run.last_failure));
+      examples::say(stdout, "{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
+                    grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
+                    reaction(problem) - at_rest, run.steps, run.refused, run.iterations, watch.seconds(),
+                    run.verdict.acceptable() ? "" : name(run.last_failure));
       std::fflush(stdout);
     }
   }

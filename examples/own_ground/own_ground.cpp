@@ -2,11 +2,12 @@
 // Where does a reverse fault come out in ground of one's own: a mesh from Gmsh, quadratic elements, an own soil law?
 #include <filesystem>
 
+#include "../shared/tell.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad8.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/given_ground.hpp"
-#include "scarp/fault/reverse_fault.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
 #include "scarp/solver/tangent_rules.hpp"
@@ -36,11 +37,13 @@ struct PressureStiffened {
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 using Ground = scarp::GivenGround<scarp::Quad8>;
 
-int main(int count, char** arguments) {
+int main(int count, char** arguments) try {
   auto const file = count > 1 ? std::filesystem::path(arguments[1])
                               : std::filesystem::path(__FILE__).replace_filename("own_ground.msh");
   scarp::FreeFieldFault<PressureStiffened, Newton, Ground, scarp::ReverseFault> scene;
-  scene.ground = scarp::ground_from_file<scarp::Quad8>(file);
+  std::vector<std::string> notes;
+  scene.ground = scarp::ground_from_file<scarp::Quad8>(file, &notes);
+  examples::tell(notes);
   scene.fault.dip = 0.8;  // [rad]
   scene.throw_to = 0.5;   // [m]
   scene.solver.tolerance = 1e-8;
@@ -56,11 +59,15 @@ int main(int count, char** arguments) {
   auto const survey =
       rupture_survey(grid.mesh(), rest.positions, grid.positions(), offset_at(scene.fault, report.load));
   auto const& surface = survey.surface;
-  fmt::print("{}: throw {:.3f} m up, half of it at x = {:.2f} m, 5 and 95 % at {:.2f} and {:.2f} m\n",
-             name(report.verdict.status), report.load, surface.surface_x50, surface.surface_x05, surface.surface_x95);
+  examples::say(stdout, "{}: throw {:.3f} m up, half of it at x = {:.2f} m, 5 and 95 % at {:.2f} and {:.2f} m\n",
+                name(report.verdict.status), report.load, surface.surface_x50, surface.surface_x05,
+                surface.surface_x95);
   // Elastic ground spreads the step widely around the tip's own place; a rupture would follow the fault to the left.
   return report.verdict.acceptable() && surface.surface_x05 < surface.surface_x50 &&
                  surface.surface_x50 < surface.surface_x95
              ? 0
              : 1;
+} catch (std::exception const& problem) {
+  examples::say(stderr, "own_ground: {}\n", problem.what());
+  return 2;
 }

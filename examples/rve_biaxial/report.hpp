@@ -113,7 +113,7 @@ inline void write_all(scarp::RunFolder& own, Choice const& choice, std::vector<R
   scarp::write_packing_tables(folder, results.front().consolidated, study_law());
   auto summary = summarise(choice, results, smoothing);
   summary["run"] = examples::json_of(own.record());
-  scarp::write_file(folder / "summary.json", summary.dump(2) + "\n");
+  examples::write_json(folder / "summary.json", summary);
   own.end("finished");
 }
 

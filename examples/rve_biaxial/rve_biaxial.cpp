@@ -10,6 +10,7 @@
 
 #include "../shared/command_line.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
 #include "report.hpp"
 #include "tables.hpp"
@@ -45,8 +46,7 @@ void declare_options(CLI::App& app, Options& options) {
   app.add_option("--smoothing", options.smoothing, "strain window through which the table's peaks are read")
       ->check(number_from(0.0, false, 1.0));
   examples::declare_output(app, options.output, "folder for biaxial.csv, packing_*.csv, summary.json");
-  app.set_config("--config", "", "file with lines `option = value`");
-  app.allow_config_extras(CLI::config_extras_mode::error);
+  examples::declare_config(app);
 }
 
 /// One result per friction and seed in their order, whichever thread worked on it.
@@ -142,9 +142,9 @@ int main(int argc, char** argv) {
     require_success(results, options);
     rve_biaxial::write_all(folder, options.choice, results, options.smoothing);
     auto const budget = rve_biaxial::error_budget(results, options.choice.pressure, {});
-    fmt::print("{}", scarp::budget_headline(budget));
+    examples::say(stdout, "{}", scarp::budget_headline(budget));
     rve_biaxial::print_tables(results, options.smoothing);
-    fmt::print("\n{}", scarp::budget_table(budget));
+    examples::say(stdout, "\n{}", scarp::budget_table(budget));
   } catch (std::exception const& problem) {
     return examples::ended_by(problem, "rve_biaxial", app);
   }

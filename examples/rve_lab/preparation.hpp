@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
+#include "../shared/tell.hpp"
 #include "material.hpp"
 #include "scarp/dem/preparation.hpp"
 
@@ -34,7 +33,8 @@ PackingType consolidate(PackingType const& cloud, typename PackingType::Law cons
     scarp::refuse("the consolidation at friction {} ended with {} ({}): change pressure, stiffness or number of grains",
                   friction, scarp::name(prepared.verdict.status), scarp::name(prepared.verdict.reason));
   }
-  fmt::print("preparation friction {:.6f} gives void ratio {:.6f}\n", friction, prepared.packing.void_ratio());
+  examples::say(stdout, "preparation friction {:.6f} gives void ratio {:.6f}\n", friction,
+                prepared.packing.void_ratio());
   std::fflush(stdout);
   return std::move(prepared.packing);
 }

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
 #include "options.hpp"
 #include "preparation.hpp"
@@ -36,12 +37,13 @@ void write_packing(Test const& choice, scarp::RunFolder& own, PackingType const&
                                   {"preparation_friction", preparation.friction}}},
                                 {"void_ratio", packing.void_ratio()}};
   scarp::save_packing(file, packing);
-  scarp::write_file(material_path(file), document.dump(2) + "\n");
+  examples::write_json(material_path(file), document);
   write_state(folder, "packing", packing, law);
   auto const state = scarp::balance(packing, law);
-  fmt::print("{}: void ratio {:.6f}, {} contacts, coordination {:.3f}, stress [Pa] xx {:.1f}, xy {:.1f}, yy {:.1f}\n",
-             file.string(), packing.void_ratio(), state.contacts, scarp::coordination(packing, law).all,
-             state.stress(0, 0), state.stress(0, 1), state.stress(1, 1));
+  examples::say(
+      stdout, "{}: void ratio {:.6f}, {} contacts, coordination {:.3f}, stress [Pa] xx {:.1f}, xy {:.1f}, yy {:.1f}\n",
+      file.string(), packing.void_ratio(), state.contacts, scarp::coordination(packing, law).all, state.stress(0, 0),
+      state.stress(0, 1), state.stress(1, 1));
 }
 
 /// Each command has a record of its own, so that a packing is prepared and sheared in one folder.
@@ -54,6 +56,7 @@ scarp::RunFolder folder_of(Test const& choice, CLI::App const& app, std::vector<
 }
 
 void prepare(Test& choice, CLI::App const& app) {
+  require_used(app, choice.material);
   auto own = folder_of(choice, app, {"packing.packing"});
   with_material(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     write_packing(choice, own, prepare_packing<PackingType>(choice.preparation, law), law);
@@ -62,11 +65,13 @@ void prepare(Test& choice, CLI::App const& app) {
 }
 
 void shear(Test& choice, CLI::App const& app) {
+  require_used(app, choice.path);
   auto own = folder_of(choice, app, {"path.csv", "summary.json"});
   if (!choice.packing.empty()) {
     read_material(
         choice.packing, [&](std::string const& name) { return is_given(app, name); }, choice.material);
   }
+  require_used(app, choice.material);
   with_material(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     auto packing = choice.packing.empty() ? prepare_packing<PackingType>(choice.preparation, law)
                                           : scarp::load_packing<PackingType>(choice.packing);
@@ -80,8 +85,7 @@ int main(int argc, char** argv) {
   CLI::App app("A laboratory for packings; SUBCOMMAND --help shows its options");
   examples::declare_version(app);
   app.option_defaults()->always_capture_default();
-  app.set_config("--config", "", "file with sections like [shear] and lines `option = value`");
-  app.allow_config_extras(CLI::config_extras_mode::error);
+  examples::declare_config(app, "file with sections like [shear] and lines `option = value`");
   app.require_subcommand(1);
   auto* const prepare_app = app.add_subcommand("prepare", "makes a packing under isotropic pressure");
   auto* const shear_app = app.add_subcommand("shear", "sends a packing along a path");
@@ -104,6 +108,7 @@ int main(int argc, char** argv) {
     if (prepare_app->parsed()) prepare(prepared, *prepare_app);
     if (shear_app->parsed()) shear(sheared, *shear_app);
     if (replay_app->parsed()) {
+      require_used(*replay_app, replayed.path);
       replay(replayed, {.normal_stiffness = is_given(*replay_app, "normal-stiffness"),
                         .tangential_stiffness = is_given(*replay_app, "tangential-stiffness"),
                         .friction = is_given(*replay_app, "friction")});

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "../shared/budget_report.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
 #include "choices.hpp"
 #include "material_file.hpp"
 #include "recorder.hpp"
@@ -20,14 +19,15 @@ namespace rve_lab {
 inline double largest_ratio(Row const& row) { return value(row, "mean_q") / value(row, "mean_p"); }
 
 inline void print_head() {
-  fmt::print("{:>9} {:>11} {:>11} {:>7} {:>9} {:>6} {:>6} {:>9}\n", "strain", "p [Pa]", "q [Pa]", "q/p", "e", "Z",
-             "F_c", "e_v");
+  examples::say(stdout, "{:>9} {:>11} {:>11} {:>7} {:>9} {:>6} {:>6} {:>9}\n", "strain", "p [Pa]", "q [Pa]", "q/p", "e",
+                "Z", "F_c", "e_v");
 }
 
 inline void print_row(Row const& row) {
-  fmt::print("{:>9.5f} {:>11.4g} {:>11.4g} {:>7.3f} {:>9.5f} {:>6.3f} {:>6.3f} {:>9.5f}\n", value(row, "strain"),
-             value(row, "mean_p"), value(row, "mean_q"), largest_ratio(row), value(row, "void_ratio"),
-             value(row, "coordination"), value(row, "contact_anisotropy"), value(row, "volumetric_strain"));
+  examples::say(stdout, "{:>9.5f} {:>11.4g} {:>11.4g} {:>7.3f} {:>9.5f} {:>6.3f} {:>6.3f} {:>9.5f}\n",
+                value(row, "strain"), value(row, "mean_p"), value(row, "mean_q"), largest_ratio(row),
+                value(row, "void_ratio"), value(row, "coordination"), value(row, "contact_anisotropy"),
+                value(row, "volumetric_strain"));
   std::fflush(stdout);
 }
 
@@ -89,9 +89,9 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   write_state(folder, "peak", peak_packing, law);
   write_state(folder, "end", lab.packing(), law);
   scarp::save_packing(folder / "end.packing", lab.packing());
-  scarp::write_file(folder / "end.json", nlohmann::json{{"material", material}}.dump(2) + "\n");
-  fmt::print("{}{}", scarp::budget_headline(budget.parts()), scarp::budget_table(budget.parts()));
-  fmt::print("largest q/p {:.4f} at strain {:.5f}\n", largest_ratio(peak), value(peak, "strain"));
+  examples::write_json(folder / "end.json", nlohmann::json{{"material", material}});
+  examples::say(stdout, "{}{}", scarp::budget_headline(budget.parts()), scarp::budget_table(budget.parts()));
+  examples::say(stdout, "largest q/p {:.4f} at strain {:.5f}\n", largest_ratio(peak), value(peak, "strain"));
   nlohmann::json const summary{{"path", choice.name},
                                {"material", material},
                                {"grains", lab.packing().grain_count()},
@@ -102,7 +102,8 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
                                {"peak", nlohmann::json(std::map<std::string, double>(peak.begin(), peak.end()))},
                                {"output", folder.string()},
                                {"run", examples::json_of(own.record())}};
-  scarp::write_file(folder / "summary.json", summary.dump(2) + "\n");
+  examples::write_json(folder / "summary.json", summary);
+  if (path.held != nullptr) require_held(lab, path);
   own.end("finished");
 }
 

@@ -6,11 +6,22 @@
 #include <optional>
 #include <string>
 
+#include "../shared/tell.hpp"
 #include "paths.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/balance.hpp"
 
 namespace rve_lab {
+
+/// Deepest overlap over the smallest contact radius of the packing.
+template <class PackingType>
+double deepest_overlap(PackingType const& packing, typename PackingType::Law const& law) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    smallest = std::min(smallest, PackingType::Shape::contact_radius(scarp::row_pose(packing, i)));
+  }
+  return scarp::balance(packing, law).deepest_overlap / smallest;
+}
 
 /// A packing on its way along a path. Its list of pairs is renewed at once when it gets old, so that the contacts can
 /// be looked at after every step, and its deformation gradient is followed across changes of the cell's base vectors.
@@ -27,14 +38,16 @@ class Specimen {
       scarp::refuse("the packing cannot be tested ({}): check its cell, at least two diameters wide, and its positions",
                     scarp::name(verdict.reason));
     }
-    double const pressure = path.held == nullptr ? 0.0 : held.value_or(path.held(scarp::balance(packing_, law).stress));
     if (path.held != nullptr) {
-      if (!(std::isfinite(pressure) && pressure > 0.0)) {
+      double const present = path.held(scarp::balance(packing_, law).stress);
+      pressure_ = held.value_or(present);
+      if (!(std::isfinite(pressure_) && pressure_ > 0.0)) {
         scarp::refuse("a pressure of {} Pa is to be held (grains carry compression only): give a positive one",
-                      pressure);
+                      pressure_);
       }
+      consolidate(present);
     }
-    drive_.emplace(packing_, law_, path.loading(strain_step, pressure));
+    drive_.emplace(packing_, law_, path.loading(strain_step, pressure_));
   }
   Specimen(Specimen const&) = delete;
   Specimen& operator=(Specimen const&) = delete;
@@ -46,6 +59,9 @@ class Specimen {
     deformation_ = packing_.cell * inverse_start_;
     return renew();
   }
+
+  /// What the path holds [Pa], zero where it holds nothing.
+  double pressure() const { return pressure_; }
 
   void reverse() { drive_->load(drive_->loading().reversed()); }
 
@@ -59,6 +75,36 @@ class Specimen {
 
  private:
   static constexpr double deepest = 1.0;  ///< over the reduced radius of a contact: half the radius of equal discs
+
+  /// Brings a packing to the pressure that its path holds, before the path begins: both normal stresses in the proportion that
+  /// they have, no shear strain.
+  /// present: the pressure that it has [Pa]
+  /// \throws InputError for a pressure that it does not come to
+  void consolidate(double present) {
+    constexpr double slight = 1e-3;  // what the first steps of a path even out
+    if (std::abs(pressure_ - present) <= slight * pressure_) return;
+    Tensor const stress = scarp::balance(packing_, law_).stress;
+    scarp::Loading<2> loading;
+    for (int axis = 0; axis < 2; ++axis) {
+      double const share = present > 0.0 ? stress(axis, axis) / -present : -1.0;
+      loading.controls.push_back(scarp::component_control<2>(axis, -pressure_ * (share < 0.0 ? -share : 1.0)));
+    }
+    double const before = packing_.void_ratio();
+    auto verdict = scarp::Servo{}.reach(stepper_, packing_, law_, loading);
+    if (auto const stopped = stepper_.stop(packing_, law_); !stopped.acceptable()) verdict = stopped;
+    if (verdict.acceptable() && deepest_overlap(packing_, law_) > deepest)
+      verdict = {scarp::Status::failed, scarp::Reason::too_deep};
+    if (!verdict.acceptable()) {
+      scarp::refuse(
+          "the packing does not come from {:.6g} Pa to the {:.6g} Pa that its path holds ({}): choose another stress",
+          present, pressure_, scarp::name(verdict.reason));
+    }
+    examples::say(stdout, "brought from {:.6g} to {:.6g} Pa before the path: void ratio {:.8f}, {:.8f} before\n",
+                  present, pressure_, packing_.void_ratio(), before);
+    inverse_start_ = packing_.cell.inverse();
+    if (verdict = renew(); !verdict.acceptable())
+      scarp::refuse("the packing cannot be tested ({}): take a larger one", scarp::name(verdict.reason));
+  }
 
   scarp::Verdict renew() {
     Tensor const before = packing_.cell;
@@ -74,6 +120,7 @@ class Specimen {
   Tensor inverse_start_;  ///< of the cell at the start, in the present base vectors
   Tensor deformation_ = Tensor::Identity();
   double time_step_ = 0.0;
+  double pressure_ = 0.0;
 };
 
 /// \throws InputError always: the path came to an end at a strain
@@ -84,14 +131,14 @@ class Specimen {
       scarp::name(verdict.status), scarp::name(verdict.reason), strain, file);
 }
 
-/// Deepest overlap over the smallest contact radius of the packing.
-template <class PackingType>
-double deepest_overlap(PackingType const& packing, typename PackingType::Law const& law) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-    smallest = std::min(smallest, PackingType::Shape::contact_radius(scarp::row_pose(packing, i)));
-  }
-  return scarp::balance(packing, law).deepest_overlap / smallest;
+/// \throws InputError for a specimen that has not got the stress which its path holds
+template <class Lab>
+void require_held(Lab const& lab, PathKind const& path) {
+  constexpr double most = 0.1;  // what steps of an ordinary size are off
+  double const found = path.held(scarp::balance(lab.packing(), lab.law()).stress);
+  if (std::abs(found - lab.pressure()) <= most * lab.pressure()) return;
+  scarp::refuse("the path ended at {:.4g} Pa where {:.4g} Pa were to be held: take smaller steps, or another stress",
+                found, lab.pressure());
 }
 
 }  // namespace rve_lab

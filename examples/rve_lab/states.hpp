@@ -7,7 +7,7 @@
 
 #include "scarp/dem/contacts.hpp"
 #include "scarp/io/csv.hpp"
-#include "scarp/io/packings/detail/grain_columns.hpp"
+#include "scarp/io/packings/packing_reader.hpp"
 
 namespace rve_lab {
 

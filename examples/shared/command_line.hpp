@@ -6,6 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -61,6 +64,26 @@ inline CLI::Validator seed_number() {
                     : fmt::format("'{}' is no seed (it must be a whole number, from 0, of at most 15 digits)", given);
       },
       "SEED");
+}
+
+/// Files with lines `option = value`: a value may hold commas, and editors may have put a byte order mark first.
+class ConfigFile : public CLI::ConfigTOML {
+ public:
+  ConfigFile() { arraySeparator = '\x1f'; }
+
+  std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+    std::string text(std::istreambuf_iterator<char>(input), {});
+    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
+    std::istringstream rest(text);
+    return CLI::ConfigTOML::from_config(rest);
+  }
+};
+
+/// One with an unknown option is refused when it is read.
+inline void declare_config(CLI::App& app, std::string const& what = "file with lines `option = value`") {
+  app.set_config("--config", "", what);
+  app.config_formatter(std::make_shared<ConfigFile>());
+  app.allow_config_extras(CLI::config_extras_mode::error);
 }
 
 /// Why a folder cannot take results, or nothing. The folder itself is made when results are written; what it lies in must

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scarp/solver/load_stepping.hpp"
+#include "tell.hpp"
 
 namespace examples {
 
@@ -42,18 +43,18 @@ struct Series {
   bool holds() const { return !gate || std::abs(error(outcomes.size() - 1)) <= *gate; }
 
   static void print_head() {
-    fmt::print("{:<34} {:>8} {:>6} {:>10} {:>10} {:>8} {:>5} {:>10} {:>5} {:>5} {:>7}\n", "", "elements", "dofs",
-               "answer", "formula", "error %", "order", "limit", "steps", "iter", "seconds");
+    examples::say(stdout, "{:<34} {:>8} {:>6} {:>10} {:>10} {:>8} {:>5} {:>10} {:>5} {:>5} {:>7}\n", "", "elements",
+                  "dofs", "answer", "formula", "error %", "order", "limit", "steps", "iter", "seconds");
   }
 
   /// order: of the error between a mesh and the one before; limit: of the last three answers if they approach it at one rate
   void print() const {
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       auto const& one = outcomes[k];
-      fmt::print("{:<34} {:8} {:6} {:10.5g} {:10.5g} {:8.3f} {:>5} {:>10} {:5} {:5} {:7.2f}{}\n", k == 0 ? what : "",
-                 one.elements, one.dofs, one.answer, formula, 100.0 * error(k), order(k), limit(k), one.run.steps,
-                 one.run.iterations, one.seconds,
-                 (one.note.empty() ? "" : "  " + one.note) + (k + 1 < outcomes.size() ? "" : mark()));
+      examples::say(stdout, "{:<34} {:8} {:6} {:10.5g} {:10.5g} {:8.3f} {:>5} {:>10} {:5} {:5} {:7.2f}{}\n",
+                    k == 0 ? what : "", one.elements, one.dofs, one.answer, formula, 100.0 * error(k), order(k),
+                    limit(k), one.run.steps, one.run.iterations, one.seconds,
+                    (one.note.empty() ? "" : "  " + one.note) + (k + 1 < outcomes.size() ? "" : mark()));
     }
     std::fflush(stdout);
   }

@@ -12,6 +12,8 @@
 #include "scarp/core/build_info.hpp"
 #include "scarp/measure/resources.hpp"
 #include "scarp/run/run_folder.hpp"
+#include "tell.hpp"
+#include "write_json.hpp"
 
 namespace examples {
 
@@ -117,9 +119,9 @@ inline std::string sizes_asked(CLI::App const& app) {
 /// \return its exit code: 2 for a folder, checkpoint or other input that is refused, else 1
 inline int ended_by(std::exception const& problem, std::string const& program, CLI::App const& app) {
   if (dynamic_cast<std::bad_alloc const*>(&problem) != nullptr) {
-    fmt::print(stderr, "{}: the memory is spent (asked for were {}): ask for less\n", program, sizes_asked(app));
+    examples::say(stderr, "{}: the memory is spent (asked for were {}): ask for less\n", program, sizes_asked(app));
   } else {
-    fmt::print(stderr, "{}: {}\n", program, problem.what());
+    examples::say(stderr, "{}: {}\n", program, problem.what());
   }
   return dynamic_cast<scarp::InputError const*>(&problem) != nullptr ? 2 : 1;
 }

@@ -7,7 +7,7 @@
 
 #include "../shared/elastic_solve.hpp"
 #include "scarp/bvp/usual_integration.hpp"
-#include "scarp/fault/normal_fault.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 
 namespace surface_orders {

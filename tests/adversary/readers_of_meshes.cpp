@@ -21,12 +21,14 @@ Game gmsh_reader(std::string const& name) {
     }
   }
   return reader("gmsh " + name, samples, [](std::string const& bytes) {
-    auto const read = scarp::detail::assemble_gmsh<Element>(scarp::detail::read_gmsh_content(bytes, "m.msh"));
+    auto const read = scarp::GmshFile(bytes, "m.msh").mesh<Element>();
     try {
       scarp::validate(read);
     } catch (InputError const& why) {
       demand(false, fmt::format("what was read is no valid mesh: {}", why.what()));
     }
+    for (auto const& [name, facets] : read.boundaries)
+      if (!facets.empty()) demand(!scarp::boundary(read, name).empty(), "a boundary that is not found");
     demand(std::isfinite(samples::volume(read)) && samples::volume(read) > 0.0, "a mesh without a volume");
     scarp::require_no_duplicate_nodes(read);
     scarp::require_no_hanging_nodes(read);

@@ -3,8 +3,8 @@
 
 #include "adversary/readers.hpp"
 #include "io/mesh_samples.hpp"
+#include "io/mesh_tables.hpp"
 #include "scarp/io/csv_reader.hpp"
-#include "scarp/io/mesh_tables.hpp"
 #include "scarp/run/run_folder.hpp"
 
 namespace adversary {
@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> table_samples() {
   ScratchFolder const folder;
-  scarp::write_mesh_tables(folder.path(), samples::mesh_sample<scarp::Quad4>(samples::sheared));
+  samples::write_mesh_tables(folder.path(), samples::mesh_sample<scarp::Quad4>(samples::sheared));
   scarp::CsvTable table({"name", "a \"quoted\" one", "value"});
   table.add("x, y", "two\nlines", 1.5);
   table.add("", "\"", -2e-300);

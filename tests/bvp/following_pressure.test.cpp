@@ -5,7 +5,7 @@
 
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/random.hpp"
-#include "scarp/element/line3.hpp"
+#include "scarp/element/line.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/scene/scene.hpp"
 #include "support/refusals.hpp"

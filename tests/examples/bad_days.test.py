@@ -12,12 +12,13 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
 FAULT = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
-SEED = int(os.environ.get("SCARP_SEED", random.randrange(10**6)))
+SEED = int(os.environ.get("SCARP_SEED", "1"))
 SCENE = [str(FAULT), "--quick", "--size", "12", "--soil", "mohr_coulomb", "--throw-over-depth", "0.01", "--threads", "1",
          "--output", "out"]
 SAVING = [*SCENE, "--checkpoint", "states", "--checkpoint-every", "0", "--resume"]
@@ -51,7 +52,7 @@ def run(words, folder, file_limit=None, preload=None):
         if file_limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (file_limit, file_limit))
     environment = {**os.environ, **({"LD_PRELOAD": str(preload)} if preload else {})}
-    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120, preexec_fn=bound,
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, errors="replace", timeout=120, preexec_fn=bound,
                           restore_signals=False, env=environment)
     return done.returncode, done.stdout + done.stderr
 
@@ -95,6 +96,71 @@ def check_full_disk_and_resume(folder, expected):
     expect(tables(here) == expected, "with room again: other tables than those of an undisturbed run")
 
 
+def check_streams(folder, expected):
+    """Nobody reads what the run says: it computes and writes the same."""
+    for title, words in (("an error stream on a full disk", "2>/dev/full"), ("closed streams", ">&- 2>&-"),
+                         ("an error stream that is closed", "2>&-")):
+        here = folder / title.replace(" ", "_")
+        here.mkdir()
+        code, said = run(["sh", "-c", f'exec "$@" {words}', "sh", *SCENE], here)
+        expect(code == 0, f"{title}: ended with {code}\n{said[-1000:]}")
+        expect(tables(here) == expected, f"{title}: other tables than those of an undisturbed run")
+        expect((here / "out/summary.json").exists(), f"{title}: no summary")
+
+
+def check_signals(folder, expected):
+    """A run whose terminal goes, or whose reader goes, saves itself and ends; it goes on to the same bits."""
+    for title, words in (("SIGHUP", 'exec "$@" 2>log'), ("SIGPIPE", 'exec "$@" 2>&1')):
+        here = folder / title
+        here.mkdir()
+        with subprocess.Popen(["sh", "-c", words, "sh", *SAVING], cwd=here, stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, preexec_fn=lambda: signal.signal(signal.SIGPIPE, signal.SIG_DFL)) as process:
+            if title == "SIGPIPE":
+                process.stdout.readline()
+                process.stdout.close()
+            else:
+                while process.poll() is None and not list((here / "states").glob("checkpoint_*")):
+                    time.sleep(0.005)
+                process.send_signal(signal.SIGHUP)
+            code = process.wait(120)
+        expect(code == 130, f"{title}: ended with {code}")
+        expect(json.loads((here / "out/run.json").read_text())["state"] == "interrupted", f"{title}: another state")
+        code, said = run(SAVING, here)
+        expect(code == 0 and tables(here) == expected, f"{title}: gone on, ended with {code}\n{said[-1000:]}")
+
+
+def check_names(folder, expected):
+    """Folders whose names are no UTF-8 get all results, and JSON."""
+    here = folder / "names"
+    here.mkdir()
+    code, said = run([*SCENE[:-1], b"b\xf6den", "--checkpoint", b"st\xe4nde", "--checkpoint-every", "0", "--resume"], here)
+    expect(code == 0, f"a folder whose name is no UTF-8: ended with {code}\n{said[-1000:]}")
+    for name in ("run.json", "summary.json"):
+        json.loads((pathlib.Path(os.fsdecode(os.fsencode(here) + b"/b\xf6den")) / name).read_text(encoding="utf-8"))
+
+
+def check_small_disk(folder, expected):
+    """A file system that fills up: the run ends in words, its record says so, and it goes on when there is room again."""
+    (folder / "small").mkdir()
+    pages = sum(-(-path.stat().st_size // 4096) for path in (folder / "whole").rglob("*") if path.is_file())
+    for share in (0.3, 0.6, 0.9):
+        size = int(4 * share * pages)
+        title = f"a disk of {size} kB"
+        script = (f'mount -t tmpfs -o size={size}k none small || exit 99; cd small; "$@"; echo "first $?"; cp -r . ../full_{size}; '
+                  f'mount -o remount,size=20m . ; "$@"; code=$?; cp -r out/. ../whole_{size}; exit $code')
+        if shutil.which("unshare") is None:
+            return print("no unshare here: no small file systems")
+        code, said = run(["unshare", "-rm", "sh", "-c", script, "sh", *SAVING], folder)
+        if code == 99 or "unshare" in said:
+            return print("no name spaces here: no small file systems")
+        expect(("first 1\n" in said or "first 2\n" in said) and "cannot write" in said, f"{title}: {said[-1000:]}")
+        record = folder / f"full_{size}/out/run.json"
+        if record.exists():
+            expect(json.loads(record.read_text())["state"] != "running", f"{title}: the record says that it runs")
+        found = {name: (folder / f"whole_{size}" / name).read_bytes() for name in TABLES}
+        expect(code == 0 and found == expected, f"{title}, with room again: ended with {code}\n{said[-1000:]}")
+
+
 def check_jumping_clock(folder, expected):
     compiler = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if compiler is None:
@@ -126,5 +192,6 @@ with tempfile.TemporaryDirectory() as scratch:
     (scratch / "out").rename(scratch / "whole")
     check_full_disk(scratch, expected)
     check_full_disk_and_resume(scratch, expected)
-    check_jumping_clock(scratch, expected)
+    for check in (check_streams, check_signals, check_names, check_small_disk, check_jumping_clock):
+        check(scratch, expected)
 finish()

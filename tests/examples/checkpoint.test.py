@@ -19,7 +19,7 @@ from expectations import expect, finish
 
 FAULT = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
 KILLS = int(os.environ.get("SCARP_KILLS", "3"))
-SEED = int(os.environ.get("SCARP_SEED", random.randrange(10**6)))
+SEED = int(os.environ.get("SCARP_SEED", "1"))
 SCENES = {
     "packings": ["--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "0.01"],
     "frictional footing": ["--quick", "--soil", "mohr_coulomb", "--case", "light", "--footing", "frictional",

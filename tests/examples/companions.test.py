@@ -50,6 +50,9 @@ with tempfile.TemporaryDirectory() as scratch:
     shipped = json.loads((pathlib.Path(__file__).resolve().parents[2] / "examples/fault_rupture/companions.json").read_text())
     expect(all(names(entry) == names(known[0]) for entry in shipped), "scenes of the file that comes with the program have the lines of today")
 
+    for line in ("tolerance = 1e-08", "largest-gradient = 0.02"):
+        expect(line in known[0]["scene"].splitlines(), f"what the soil decides stands there as a number: {line}")
+
     # Known from now on, to the same scene, whatever is written on the way.
     done, later = run(scratch, "--probe-a-x", "-5")
     expect(later["error_budget"]["parts"]["mesh"] == parts["mesh"], "a later run of the same scene tells it")

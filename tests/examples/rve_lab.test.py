@@ -96,6 +96,43 @@ def check_held_stress(folder):
         expect(abs(row["sxx"] / -PRESSURE - 1.0) < 0.01, f"lateral stress {row['sxx']} at strain {row['strain']}")
 
 
+def check_other_stress(folder):
+    """A stress other than the packing's is there before the path begins: no ramp is taken for a peak."""
+    code, said = run("prepare", "--grains", "100", "--output", "made", folder=folder)
+    expect(code == 0, f"prepare: ended with {code}\n{said}")
+    for pressure, name in ((4e5, "up"), (1e5, "down")):
+        code, said = run("shear", "--packing", "made/packing.packing", "--strain", "0.002", "--strain-step", "1e-5",
+                         "--lateral-stress", pressure, "--output", name, folder=folder)
+        expect(code == 0, f"--lateral-stress {pressure}: ended with {code}\n{said}")
+        rows = read(folder / name / "path.csv") if code == 0 else []
+        for column in ("sxx", "syy"):
+            expect(rows and abs(rows[0][column] / -pressure - 1.0) < 1e-3, f"{column} begins at {rows[:1]}")
+        for row in rows:
+            expect(abs(row["mean_sxx"] / -pressure - 1.0) < 0.05, f"lateral stress {row['mean_sxx']} at {row['strain']}")
+    code, said = run("shear", "--packing", "made/packing.packing", "--lateral-stress", "1e12", "--output", "crushed",
+                     folder=folder)
+    expect(code > 0 and "does not come from" in said, f"a stress beyond reach: ended with {code}\n{said}")
+    for title, named, arguments in (
+            ("a stress that oedometers do not hold", "--lateral-stress", ["--path", "oedometer", "--lateral-stress", "4e5"]),
+            ("an amplitude without cycles", "--amplitude", ["--amplitude", "0.1"]),
+            ("a strain beside cycles", "--strain", ["--cycles", "1", "--strain", "0.1"]),
+            ("a modulus of linear contacts", "--modulus", ["--modulus", "1e9"]),
+            ("an aspect of discs", "--aspect", ["--aspect", "0.5"])):
+        code, said = run("shear", "--grains", "60", *arguments, "--output", "unused", folder=folder)
+        expect(code > 0 and f"{named} is given but not used" in said, f"{title}: ended with {code}\n{said}")
+    expect(not (folder / "unused").exists(), "options that are not used: something was written")
+
+
+def check_loose(folder):
+    (folder / "loose.csv").write_text("x,y,r\n0.02,0.02,0.005\n0.06,0.06,0.005\n0.06,0.02,0.005\n")
+    path = ["--cell", "0.1,0,0,0.1", "--path", "pure_shear", "--strain", "1e-3", "--strain-step", "1e-5", "--out", "x.csv"]
+    code, said = run("replay", "--particles", "loose.csv", *path, folder=folder)
+    expect(code == 0 and "no grains of 'loose.csv' touch" in said, f"a packing without contacts: ended with {code}\n{said}")
+    (folder / "space.csv").write_text("x,y,z,r\n0.02,0.02,0.02,0.005\n0.06,0.06,0.06,0.005\n")
+    code, said = run("replay", "--particles", "space.csv", *path, folder=folder)
+    expect(code > 0 and "column 'z'" in said, f"grains in space: ended with {code}\n{said}")
+
+
 def check_relax(folder):
     """Particles alone, without contacts, come to rest at the pressure that is asked for."""
     particles = ["--particles", SUDODEM / "G_particles.csv", "--cell", "0.16663676021512222,0,0,0.16670996462691512"]
@@ -172,7 +209,7 @@ def check_early_end(folder):
 if not LAB.is_file():
     print(f"skipped: there is no '{LAB}' (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_paths, check_cell, check_held_stress, check_relax, check_round_trip, check_refusals, check_early_end):
+for check in (check_paths, check_cell, check_held_stress, check_other_stress, check_loose, check_relax, check_round_trip, check_refusals, check_early_end):
     started = time.monotonic()
     with tempfile.TemporaryDirectory() as scratch:
         check(pathlib.Path(scratch))

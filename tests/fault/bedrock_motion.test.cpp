@@ -8,14 +8,19 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
-#include "scarp/fault/normal_fault.hpp"
-#include "scarp/fault/reverse_fault.hpp"
-#include "scarp/fault/shared_slip.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
+#include "scarp/fault/ground.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 
 namespace {
+
+/// A normal fault whose left side takes a quarter of the slip, the other way.
+struct SharedSlip : scarp::NormalFault {
+  scarp::Vector<2> left() const { return -0.25 * NormalFault::right(); }
+  scarp::Vector<2> right() const { return 0.75 * NormalFault::right(); }
+};
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -126,16 +131,12 @@ TEST_CASE("a reverse fault is the normal one backwards, and slip may be shared b
   auto const moves = scarp::bedrock_constraints(mesh, normal).displacement(1.0);
   auto const back = scarp::bedrock_constraints(mesh, scarp::ReverseFault{.dip = 0.9, .tip = 3.0}).displacement(1.0);
   CHECK((moves + back).norm() < 1e-15);
-  scarp::SharedSlip<scarp::NormalFault> const shared{normal, 0.25};
-  CHECK((shared.right() - shared.left() - normal.right()).norm() < 1e-15);
-  CHECK((shared.left() + 0.25 * normal.right()).norm() < 1e-15);
+  SharedSlip const shared{normal};
   auto const offset = scarp::offset_at(shared, 2.0);
   CHECK(offset.tip == 3.0);
   CHECK(offset.foot == samples::Approx(-0.5).epsilon(1e-15));
   CHECK(offset.hanging == samples::Approx(1.5).epsilon(1e-15));
   CHECK(scarp::offset_at(scarp::ReverseFault{}, 2.0).hanging == -2.0);
-  for (double const share : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()})
-    CHECK_REFUSED((scarp::SharedSlip<scarp::NormalFault>{normal, share}.left()), "share", fmt::format("{}", share));
 }
 
 TEST_CASE("a fault that is given no tip meets the ground at zero") {
@@ -176,4 +177,16 @@ TEST_CASE("a tip outside the bottom, in its outermost facets or, where a node is
   }
   CHECK_NOTHROW(scarp::require_node_at_tip(mesh, 3.0));
   CHECK_REFUSED(scarp::require_node_at_tip(mesh, 3.25), "tip is at x = 3.25 m", "3 m");
+}
+
+TEST_CASE("a fault without a bottom to meet, and a mesh without the sides that move, are refused") {
+  auto mesh = ground();
+  mesh.boundaries["bottom"].clear();
+  CHECK_REFUSED(scarp::bedrock_constraints(mesh, scarp::NormalFault{.tip = 3.0}),
+                "the boundary 'bottom' has no facets");
+  CHECK_REFUSED(scarp::require_node_at_tip(mesh, 3.0), "the boundary 'bottom' has no facets");
+  CHECK_REFUSED(scarp::bottom_level(mesh), "the boundary 'bottom' has no facets");
+  mesh = ground();
+  mesh.boundaries.erase("left");
+  CHECK_REFUSED(scarp::bedrock_constraints(mesh, scarp::NormalFault{.tip = 3.0}), "there is no boundary 'left'");
 }

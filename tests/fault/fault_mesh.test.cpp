@@ -385,3 +385,12 @@ TEST_CASE("patterns that the elements cannot follow are refused") {
     CHECK_NOTHROW((FaultMesh{.size = 5.0, .pattern = pattern}.generate<scarp::Quad4>()));
   }
 }
+
+TEST_CASE("a layer along the strike is refused without length and without cells") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (double const wrong : {0.0, -1.0, nan})
+    CHECK_REFUSED((FaultMesh{.strike = wrong}.generate<scarp::Hex8>()), "length of the layer along the strike");
+  for (int const wrong : {0, -1, 10'001})
+    CHECK_REFUSED((FaultMesh{.strike_cells = wrong}.generate<scarp::Hex8>()), "cells along the strike",
+                  std::to_string(wrong));
+}

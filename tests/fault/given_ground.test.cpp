@@ -7,7 +7,7 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet4.hpp"
 #include "scarp/element/tri6.hpp"
-#include "scarp/fault/layered_ground.hpp"
+#include "scarp/fault/ground.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/io/gmsh/gmsh_writer.hpp"
 #include "support/approx.hpp"

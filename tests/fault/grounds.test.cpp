@@ -7,8 +7,8 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/reverse_fault.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 

@@ -10,6 +10,7 @@
 #include "scarp/homogenise/balance.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
+#include "support/refusals.hpp"
 
 using Grains = samples::Ellipses;
 
@@ -30,8 +31,58 @@ TEST_CASE("ground that once carried a quarter more has its overburden at every d
     CHECK(after(1, 1) == samples::Approx(-ground.overburden(plain.depths[k])).epsilon(2e-3));
     CHECK(after(0, 0) / after(1, 1) > 1.05 * before(0, 0) / before(1, 1));
   }
-  for (double const wrong : {0.99, std::numeric_limits<double>::quiet_NaN()}) {
-    ground.preload = wrong;
-    CHECK_THROWS_WITH_AS(ground.make<Grains>(law, {3.0}), doctest::Contains("preload"), scarp::InputError);
-  }
+}
+
+namespace {
+
+/// Of few grains, which come to rest in a moment.
+scarp::LevelGround<scarp::EllipseGrading> small_ground() {
+  scarp::LevelGround<scarp::EllipseGrading> ground;
+  ground.cloud = {.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75},
+                  .grains = 30,
+                  .density = 2650.0,
+                  .thickness = 0.2,
+                  .seed = 1};
+  return ground;
+}
+
+}  // namespace
+
+TEST_CASE("settings of level ground that cannot be are refused") {
+  auto const law = samples::study_law();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  auto const refused = [&](auto change, std::vector<double> depths, std::initializer_list<std::string_view> parts) {
+    auto ground = small_ground();
+    change(ground);
+    CHECK(samples::message_of([&] { ground.make<Grains>(law, depths); }) == samples::Naming(parts));
+  };
+  auto const none = [](auto&) {};
+  refused(none, {}, {"no depths are given"});
+  refused(none, {3.0, nan}, {"depth of a packing", "nan"});
+  refused([](auto& g) { g.preload = 0.99; }, {3.0}, {"preload", "0.99"});
+  refused([](auto& g) { g.preload = nan; }, {3.0}, {"preload", "nan"});
+  refused([](auto& g) { g.unit_weight = -1.0; }, {3.0}, {"unit weight", "-1"});
+  refused([](auto& g) { g.surcharge = nan; }, {3.0}, {"surcharge", "nan"});
+  refused([](auto& g) { g.preparation.pressure = 5e3; }, {0.0, 3.0}, {"prepared at 5000 Pa", "carries 4000 Pa"});
+}
+
+TEST_CASE("packings that do not come to their stress end the preparation in words") {
+  auto const law = samples::study_law();
+  auto const ended = [&](auto change, std::initializer_list<std::string_view> parts) {
+    auto ground = small_ground();
+    change(ground);
+    CHECK(samples::message_of<scarp::PreparationError>([&] { ground.make<Grains>(law, {3.0}); }) ==
+          samples::Naming(parts));
+  };
+  ended([](auto& g) { g.preparation.consolidation.most_steps = 1; }, {"did not reach 2000 Pa"});
+  ended([](auto& g) { g.compression.servo.most_steps = 1; }, {"stopped at 51040 Pa"});
+}
+
+TEST_CASE("depths are the same by their overburden, in models of any size") {
+  // A model in a centrifuge: a hundred times the weight, a hundredth of the depths.
+  auto ground = small_ground();
+  ground.unit_weight *= 1e4;
+  ground.surcharge = 4e3;
+  auto const made = ground.make<Grains>(samples::study_law(), {3e-4, 3.008e-4, 3.008e-4 * (1.0 + 1e-12)});
+  CHECK(made.packings.size() == 2);  // 0.8 micrometres and 0.03 % of the overburden apart, and two that are the same
 }

@@ -8,8 +8,11 @@
 
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
-#include "scarp/fault/layered_ground.hpp"
+#include "scarp/fault/frictional_footing.hpp"
+#include "scarp/fault/ground.hpp"
+#include "scarp/fault/sticking_footing.hpp"
 #include "support/approx.hpp"
+#include "support/files.hpp"
 #include "support/refusals.hpp"
 
 namespace {
@@ -162,4 +165,23 @@ TEST_CASE("sizes of footings that are not positive or not finite are refused") {
     CHECK_REFUSED(scarp::add_footing_block(mesh, 1.0, wrong), fmt::format("size of the footing is {}", wrong));
   }
   CHECK_REFUSED(scarp::mark_footing_base(mesh, nan, width), "centre of the footing is nan");
+}
+
+TEST_CASE(
+    "a footing that cannot be is refused before it is placed, and so is a log without distance between its rows") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  auto const refused = [](scarp::StripFooting const& footing, std::string_view what) {
+    CHECK_REFUSED(footing.validate(), what);
+    CHECK_REFUSED(scarp::StickingFooting{.footing = footing}.edges(), what);
+    CHECK_REFUSED(scarp::FrictionalFooting<>{.footing = footing}.edges(), what);
+  };
+  refused({.centre = nan}, "centre of the footing");
+  refused({.width = 0.0}, "width of the footing");
+  refused({.width = nan}, "width of the footing");
+  refused({.bearing = -1.0}, "mean pressure below the footing");
+  refused({.bearing = nan}, "mean pressure below the footing");
+  samples::ScratchFolder const folder;
+  for (double const to : {0.0, -1.0, nan})
+    CHECK_REFUSED(scarp::FootingLog(folder.path(), scarp::StickingFooting{}, to, 10, 1.0), "distance between profiles");
+  CHECK_REFUSED(scarp::FootingLog(folder.path(), scarp::StickingFooting{}, 1.0, 0, 1.0), "distance between profiles");
 }

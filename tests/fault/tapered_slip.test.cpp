@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/fault/tapered_slip.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,6 @@
 
 #include "scarp/element/hex8.hpp"
 #include "scarp/element/quad4.hpp"
-#include "scarp/fault/normal_fault.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"

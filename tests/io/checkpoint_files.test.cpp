@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "support/files.hpp"
 #include "support/refusals.hpp"
 
@@ -51,8 +53,10 @@ TEST_CASE("a run that is resumed goes on from the newest checkpoint and numbers 
 
 TEST_CASE("a folder with checkpoints is refused to a run that starts afresh and to another scene") {
   ScratchFolder const folder;
-  CheckpointFiles files({.folder = folder / "saved"}, "soil: sand\n");
-  save(files, 1);
+  {
+    CheckpointFiles files({.folder = folder / "saved"}, "soil: sand\n");
+    save(files, 1);
+  }
   CHECK(samples::message_of<scarp::CheckpointError>([&] {
           static_cast<void>(CheckpointFiles({.folder = folder / "saved"}, "soil: sand\n"));
         }) == samples::Naming{"saved", "earlier run"});
@@ -62,9 +66,11 @@ TEST_CASE("a folder with checkpoints is refused to a run that starts afresh and 
 
 TEST_CASE("where the newest checkpoint is harmed the one before is named if it is sound") {
   ScratchFolder const folder;
-  CheckpointFiles files({.folder = folder / "saved"}, "soil: sand\n");
-  save(files, 1);
-  save(files, 2);
+  {
+    CheckpointFiles files({.folder = folder / "saved"}, "soil: sand\n");
+    save(files, 1);
+    save(files, 2);
+  }
   scarp::write_file(folder / "saved/checkpoint_000002", "harmed");
   scarp::CheckpointSettings const settings{.folder = folder / "saved", .resume = true};
   CHECK_THROWS_WITH_AS(CheckpointFiles(settings, "soil: sand\n"),
@@ -73,4 +79,25 @@ TEST_CASE("where the newest checkpoint is harmed the one before is named if it i
   auto const said = samples::message_of<scarp::CheckpointError>([&] { CheckpointFiles(settings, "soil: sand\n"); });
   CHECK(samples::contains(said, "checkpoint_000002"));
   CHECK_FALSE(samples::contains(said, "the one before"));
+}
+
+TEST_CASE("settings that cannot be are refused, and folders that cannot be looked into") {
+  ScratchFolder const folder;
+  CHECK_REFUSED(CheckpointFiles({.folder = folder / "saved", .every_seconds = -1.0}, ""),
+                "time between two checkpoints", "-1");
+  CHECK_REFUSED(CheckpointFiles({.folder = folder / "saved", .every_seconds = std::nan("")}, ""),
+                "time between two checkpoints", "nan");
+  CHECK_REFUSED(CheckpointFiles({.folder = folder / "saved", .every_attempts = -1}, ""),
+                "attempts between two checkpoints", "-1");
+  scarp::write_file(folder / "file", "");
+  CHECK_REFUSED(CheckpointFiles({.folder = folder / "file/saved"}, ""), "file/saved", "Not a directory");
+  CHECK_REFUSED(CheckpointFiles({.folder = folder / "file/saved", .locks = false}, ""), "file/saved",
+                "Not a directory");
+}
+
+TEST_CASE("a folder of checkpoints has one owner, and other ranks of a run, which do not lock it") {
+  ScratchFolder const folder;
+  CheckpointFiles const owner({.folder = folder / "saved"}, "soil: sand\n");
+  CHECK_REFUSED(CheckpointFiles({.folder = folder / "saved"}, "soil: sand\n"), "is in use");
+  CHECK_NOTHROW(CheckpointFiles({.folder = folder / "saved", .locks = false}, "soil: sand\n"));
 }

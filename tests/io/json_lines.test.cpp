@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/io/json_lines.hpp"
+#include "scarp/io/json.hpp"
 
 #include <doctest/doctest.h>
 
@@ -54,4 +54,27 @@ TEST_CASE("a log is one object a line, and goes on where it is resumed") {
   CHECK(scarp::read_file(path) == "{\"resumed\":false}\n{\"resumed\":true}\n");
   scarp::JsonLog(path).add(scarp::JsonObject());
   CHECK(scarp::read_file(path) == "{}\n");
+}
+
+TEST_CASE("text that is not UTF-8 becomes JSON with replacement characters") {
+  CHECK(scarp::quoted_json("b\xf6"
+                           "den") ==
+        "\"b\xEF\xBF\xBD"
+        "den\"");
+  // Analytic: RFC 3629. Sound characters of one to four bytes; forms too long, halves of pairs, beyond U+10FFFF, cut off.
+  for (std::string const sound :
+       {"a", "\xC3\xB6", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "\xED\x9F\xBF", "\xF4\x8F\xBF\xBF"})
+    CHECK(scarp::valid_utf8(sound) == sound);
+  for (std::string const wrong : {"\x80", "\xC0\x80", "\xC1\xBF", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xF0\x8F\xBF\xBF",
+                                  "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xE2\x82"}) {
+    std::string expected;
+    for (std::size_t k = 0; k < wrong.size(); ++k) expected += "\xEF\xBF\xBD";
+    CHECK(scarp::valid_utf8(wrong) == expected);
+  }
+}
+
+TEST_CASE("a string that another program has escaped is read back as UTF-8") {
+  std::string_view text = "\"\\u00e9 \\u20ac \\ud83d\\ude00 \\u000a\"";
+  CHECK(scarp::take_json_string(text) == "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80 \n");
+  CHECK(text.empty());
 }

@@ -8,9 +8,9 @@
 #include <exception>
 #include <span>
 
+#include "io/mesh_tables.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
 #include "scarp/io/gmsh/gmsh_writer.hpp"
-#include "scarp/io/mesh_tables.hpp"
 #include "scarp/io/vtu.hpp"
 
 namespace {
@@ -38,7 +38,7 @@ void write_all(std::filesystem::path const& stem, scarp::Mesh<Element> const& me
   scarp::write_gmsh(name + "_41_text.msh", mesh, {GmshVersion::v4_1, GmshEncoding::text});
   scarp::write_gmsh(name + "_41_binary.msh", mesh, {GmshVersion::v4_1, GmshEncoding::binary});
   std::filesystem::create_directory(stem);
-  scarp::write_mesh_tables(stem, mesh);
+  samples::write_mesh_tables(stem, mesh);
 }
 
 void write_samples(std::filesystem::path const& folder) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/io/pvd.hpp"
+#include "scarp/io/vtu.hpp"
 
 #include <doctest/doctest.h>
 

@@ -96,7 +96,7 @@ TEST_CASE("a false length of a list is refused before anything of that size is m
   std::uint64_t const many = 8000;              // as many as bytes follow
   std::memcpy(writer.bits().data() + length_at, &many, sizeof(many));
   std::vector<Large> list;
-  CHECK_REFUSED(scarp::StateReader(writer.bits())("list", list), "list");
+  CHECK_REFUSED(scarp::StateReader(writer.bits())("list", list), "ends inside");
   CHECK(list.capacity() < 8);
 }
 

@@ -77,3 +77,13 @@ TEST_CASE("an invalid part is refused and the mesh stays") {
   CHECK_REFUSED(scarp::join(mesh, part), "element 0", "Jacobian -");
   CHECK(mesh.elements.size() == 4);
 }
+
+TEST_CASE("a facet between two parts that both have in a boundary is there once") {
+  auto mesh = box<scarp::Quad4>(0.0);
+  mesh.boundaries["joint"] = mesh.boundaries["right"];
+  auto part = box<scarp::Quad4>(1.0);
+  part.boundaries["joint"] = part.boundaries["left"];
+  scarp::join(mesh, part);
+  CHECK_NOTHROW(scarp::validate(mesh));
+  CHECK(mesh.boundaries["joint"].size() == 2);
+}

@@ -102,3 +102,20 @@ TEST_CASE("unknown names are refused with the known ones") {
   CHECK_REFUSED(scarp::region_number(square(), "rock"), "region 'rock'", "sand, clay");
   CHECK(scarp::region_number(square(), "clay") == 1);
 }
+
+TEST_CASE("a facet that is in a boundary twice is refused, in whatever order of its nodes") {
+  auto mesh = square();
+  mesh.boundaries["bottom"] = {{0, 1}, {1, 0}};
+  CHECK(complaint(mesh) == Naming{"boundary 'bottom' holds the facet (1, 0) twice"});
+  mesh.boundaries["bottom"] = {{0, 1}};
+  mesh.boundaries["all"] = {{0, 1}, {1, 2}};  // in another boundary it may be
+  CHECK(complaint(mesh) == "");
+}
+
+TEST_CASE("a boundary without facets is refused to whoever asks for it") {
+  auto mesh = square();
+  mesh.boundaries["drain"];
+  CHECK(complaint(mesh) == "");
+  CHECK_REFUSED(scarp::boundary(mesh, "drain"), "the boundary 'drain' has no facets");
+  CHECK_REFUSED(scarp::boundary_nodes(mesh, "drain"), "the boundary 'drain' has no facets");
+}

@@ -84,19 +84,23 @@ int main(int argc, char** argv) {
   int const threads = std::atoi(argv[1]);
   double const length = std::atof(argv[2]);
   scarp::CheckpointFiles files;
-  if (argc > 3)
-    files = {{.folder = argv[3], .resume = true, .every_attempts = 1}, fmt::format("length = {}\n", length)};
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (argc > 3) {
+    files = {{.folder = argv[3], .resume = true, .every_attempts = 1, .locks = rank == 0},
+             fmt::format("length = {}\n", length)};
+  }
   int const attempts = argc > 4 ? std::atoi(argv[4]) : 1000;
   auto const& ground = samples::sandy_ground();
   if (length == 0.0) {
-    rupture(ground, threads, files, attempts);
+    rupture(ground, threads, std::move(files), attempts);
   } else {
     scarp::FreeFieldFault<scarp::Nonlocal<samples::Sand>> scene;
     scene.soil = {.provider = ground.soil, .length = length};
     scene.ground = ground.ground;
     scene.throw_to = ground.throw_to;
     scene.solver = ground.solver;
-    rupture(scene, threads, files, attempts);
+    rupture(scene, threads, std::move(files), attempts);
   }
   MPI_Finalize();
 }

@@ -2,8 +2,10 @@
 #include "scarp/run/checkpointed_run.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
 #include <optional>
 #include <set>
 
@@ -40,20 +42,31 @@ struct LoadLog : scarp::NeverStops {
 
 struct Killed {};
 
+/// Files can become as long as that; writing beyond it fails as on a full disk.
+void limit_files(rlim_t bytes) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  limit.rlim_cur = bytes;
+  setrlimit(RLIMIT_FSIZE, &limit);
+}
+
 /// Asks to stop, or ends without a word as a killed process does.
 struct Ending {
   int stop_after = 1 << 30;  ///< attempts
   int die_after = 1 << 30;
   mutable int questions = 1 << 30;  ///< after which it asks to stop, within an attempt or before one
+  int full_after = 1 << 30;         ///< the disk
 
   template <class Problem>
   void attempted(Problem const&, scarp::StepReport const&) {
     --stop_after;
     if (--die_after == 0) throw Killed{};
+    if (--full_after == 0) limit_files(64);
   }
   bool wants_stop() const { return stop_after <= 0 || --questions <= 0; }
 
-  SCARP_MEMBERS_EXCEPT((stop_after, die_after, questions))
+  SCARP_MEMBERS_EXCEPT((stop_after, die_after, questions, full_after))
 };
 
 /// Takes a budget's place when there is none.
@@ -84,6 +97,7 @@ struct Outcome {
   Notes notes;
   std::string log;
   std::vector<double> budget;
+  std::string trouble;
 };
 
 /// A softening block that is settled, pulled with refused steps on the way, and pulled on nearly to its peak, by objects that
@@ -108,6 +122,7 @@ Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending e
   run.stage([&] { return stepping.run(solver, problem, 0.0, 0.012, run); });
   run.stage([&] { return stepping.run(solver, problem, 0.012, 0.016, run); });
   outcome.report = run.report();
+  outcome.trouble = run.trouble();
   outcome.state.emplace(problem);
   outcome.log = content(folder / "log.csv");
   if (has_budget) {
@@ -204,6 +219,21 @@ TEST_CASE("rows that were written after the last checkpoint vanish when a killed
   }
 }
 
+TEST_CASE(
+    "a run whose disk is full stops with what it could not write, and goes on to the same bits when there is room") {
+  for (int const attempts : {1, 6, 11}) {
+    CAPTURE(attempts);
+    ScratchFolder const folder;
+    scarp::CheckpointSettings const settings{.folder = folder / "states", .every_seconds = 1e9, .every_attempts = 1};
+    auto const stopped = pull(folder, {settings, scene}, {.full_after = attempts});
+    limit_files(RLIM_INFINITY);
+    CHECK(stopped.report.verdict.reason == scarp::Reason::interrupted);
+    CHECK(contains(stopped.trouble, "cannot write"));
+    CHECK(contains(stopped.trouble, "File too large"));
+    check_same(pull(folder, resumed(folder), {}), undisturbed());
+  }
+}
+
 TEST_CASE("two checkpoints are kept, and a run afresh does not replace them") {
   ScratchFolder const folder;
   scarp::CheckpointSettings const settings{.folder = folder / "states", .every_seconds = 0.0};
@@ -255,9 +285,8 @@ TEST_CASE("a checkpoint of another scene, version or machine is refused with the
 TEST_CASE("a checkpoint is refused by a scene of another size and by one whose tables have lost rows") {
   ScratchFolder const folder;
   static_cast<void>(pull(folder, resumed(folder), {.stop_after = 6}));
-  auto const files = resumed(folder);
   std::vector<scarp::VoigtStress<2>> few(3);
-  CHECK_THROWS_WITH_AS(files.load([&](scarp::StateReader& reader) { reader("stage", few); }),
+  CHECK_THROWS_WITH_AS(resumed(folder).load([&](scarp::StateReader& reader) { reader("stage", few); }),
                        doctest::Contains("it has 'stage' of 4 bytes where 'stage' of 24 bytes should be"),
                        CheckpointError);
   scarp::StateWriter writer;

@@ -171,3 +171,30 @@ TEST_CASE("a run that was killed before its first checkpoint starts afresh where
   CHECK(contains(refusal(folder, [&] { run(folder, "out", files(folder, "states", false), false); }), "--overwrite"));
   CHECK_FALSE(run(folder, "out", files(folder, "states", true), true, "finished").empty());
 }
+
+TEST_CASE(
+    "a run that an exception ends is not called running, and one that was refused before it began leaves no record") {
+  ScratchFolder const folder;
+  CHECK_THROWS_AS(
+      [&] {
+        RunFolder own({.folder = folder / "out"}, record());
+        own.begin();
+        throw scarp::FileError("the disk is full");
+      }(),
+      scarp::FileError);
+  CHECK(scarp::RunRecord::from(content(folder / "out/run.json")).state == "failed");
+}
+
+TEST_CASE("a run whose folders have names that are not UTF-8 goes on there") {
+  ScratchFolder const folder;
+  auto const identity = run(folder, "b\xf6den", files(folder, "st\xe4nde", true), true, "interrupted");
+  auto const text = content(folder / "b\xf6den/run.json");
+  CHECK(scarp::valid_utf8(text) == text);
+  CHECK(run(folder, "b\xf6den", files(folder, "st\xe4nde", true), true, "finished") == identity);
+}
+
+TEST_CASE("two programs do not save into one folder of checkpoints") {
+  ScratchFolder const folder;
+  auto const one = files(folder, "states", true);
+  CHECK(contains(refusal(folder, [&] { files(folder, "states", true); }), "is in use (process "));
+}

@@ -145,7 +145,8 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
 template <class Provider, class Executor>
 Outcome pull_in_parts(Provider const& provider, Executor& executor, std::filesystem::path const& folder,
                       Pull const& wanted) {
-  scarp::CheckpointSettings const settings{.folder = folder / "states", .resume = true, .every_seconds = 1e9};
+  scarp::CheckpointSettings const settings{
+      .folder = folder / "states", .resume = true, .every_seconds = 1e9, .locks = scarp::is_first_rank(executor)};
   for (int parts = 0; parts < 100; ++parts) {
     auto outcome = pull(provider, executor, folder, wanted, {settings, "a block\n"}, 1);
     if (outcome.report.verdict.reason != scarp::Reason::interrupted) return outcome;

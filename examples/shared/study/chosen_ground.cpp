@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "chosen_ground.hpp"
 
+#include "../tell.hpp"
 #include "scarp/fault/given_ground.hpp"
 
 namespace fault_rupture {
@@ -22,7 +23,12 @@ double ChosenGround<E>::depth() const {
 
 template <class E>
 ChosenGround<E> ground_of(Choice const& choice) {
-  if (!choice.mesh.empty()) return {.given = scarp::ground_from_file<E>(choice.mesh).given};
+  if (!choice.mesh.empty()) {
+    std::vector<std::string> notes;
+    auto ground = scarp::ground_from_file<E>(choice.mesh, &notes);
+    examples::tell(notes);
+    return {.given = std::move(ground.given)};
+  }
   auto const pattern = choice.pattern.value_or(is_triangle ? MeshPattern::crossed : MeshPattern::quads);
   scarp::FaultMesh layer{.tip = choice.tip, .size = choice.size, .row_aspect = choice.aspect};
   switch (pattern) {

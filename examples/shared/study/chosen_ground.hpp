@@ -6,8 +6,8 @@
 #include "choice.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/fault_mesh.hpp"
-#include "scarp/fault/normal_fault.hpp"
 
 namespace fault_rupture {
 

@@ -12,7 +12,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/element/line2.hpp"
+#include "scarp/element/line.hpp"
 #include "scarp/element/map.hpp"
 
 namespace scarp {

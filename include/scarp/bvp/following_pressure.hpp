@@ -9,7 +9,7 @@
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/element/line2.hpp"
+#include "scarp/element/line.hpp"
 
 namespace scarp {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
-#include "scarp/element/checked_element.hpp"
+#include "scarp/element/reference_element.hpp"
 
 namespace scarp {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "scarp/core/index.hpp"
-#include "scarp/element/detail/gauss_rule.hpp"
-#include "scarp/element/line2.hpp"
+#include "scarp/element/detail/quadrature_rules.hpp"
+#include "scarp/element/line.hpp"
 
 namespace scarp {
 

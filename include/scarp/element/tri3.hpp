@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/element/detail/simplex_rule.hpp"
-#include "scarp/element/line2.hpp"
+#include "scarp/element/detail/quadrature_rules.hpp"
+#include "scarp/element/line.hpp"
 
 namespace scarp {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/element/line3.hpp"
+#include "scarp/element/line.hpp"
 #include "scarp/element/tri3.hpp"
 
 namespace scarp {

@@ -19,33 +19,6 @@ concept BedrockMotion = requires(Motion const& motion) {
   { motion.right() } -> std::same_as<Vector<2>>;
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class Motion>
-struct MissingOfMotion {
-  static_assert(
-      requires(Motion const& motion) {
-        { motion.tip } -> std::convertible_to<double>;
-      },
-      "scarp: a motion of the bedrock needs `double tip` [m]");
-  static_assert(
-      requires(Motion const& motion) {
-        { motion.left() } -> std::same_as<Vector<2>>;
-      },
-      "scarp: a motion of the bedrock needs `Vector<2> left() const`, per unit of throw");
-  static_assert(
-      requires(Motion const& motion) {
-        { motion.right() } -> std::same_as<Vector<2>>;
-      },
-      "scarp: a motion of the bedrock needs `Vector<2> right() const`, per unit of throw");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Motion>
-concept CheckedMotion = BedrockMotion<Motion> || detail::MissingOfMotion<Motion>::nothing;
-
 /// A fault whose slip changes along its strike: share_along(y) of `left()` and `right()` at the strike y [m].
 template <class Motion>
 concept ChangesAlongStrike = BedrockMotion<Motion> && requires(Motion const& motion, double y) {
@@ -61,7 +34,7 @@ FaultOffset offset_at(Motion const& motion, double fault_throw) {
 /// \throws InputError when no corner of the bottom lies at the tip of a fault
 template <class Element>
 SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
-  auto const lines = detail::bottom_corners(mesh);
+  auto const lines = detail::corners_along(mesh, "bottom");
   double nearest = std::numeric_limits<double>::infinity();
   for (double const line : lines) {
     if (std::abs(line - tip) < std::abs(nearest - tip)) nearest = line;

@@ -10,7 +10,6 @@
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/detail/grid_slab.hpp"
 #include "scarp/fault/detail/layer_checks.hpp"
-#include "scarp/fault/detail/size_for_count.hpp"
 #include "scarp/mesh/graded_lines.hpp"
 #include "scarp/mesh/jittered_grid.hpp"
 

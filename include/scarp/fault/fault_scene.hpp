@@ -7,9 +7,8 @@
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/detail/carried_weight.hpp"
 #include "scarp/fault/detail/precompiled_ground.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/ground.hpp"
-#include "scarp/fault/layered_ground.hpp"
-#include "scarp/fault/normal_fault.hpp"
 #include "scarp/scene/scene.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
@@ -83,7 +82,7 @@ struct ProblemOfFault {
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
 template <CheckedProvider Soil, class Structure, class Solver = QuasiNewton<>,
-          CheckedGround GroundType = LayeredGround<Tri3>, CheckedMotion Motion = NormalFault,
+          CheckedGround GroundType = LayeredGround<Tri3>, BedrockMotion Motion = NormalFault,
           class GridType = UsualGridOf<GroundType>>
 struct SCARP_EXPORT FaultScene {
   using Grid = GridType;
@@ -153,7 +152,7 @@ struct SCARP_EXPORT FaultScene {
 
 // Outside of the class, so that a library can keep them.
 
-template <CheckedProvider Soil, class Structure, class Solver, CheckedGround GroundType, CheckedMotion Motion,
+template <CheckedProvider Soil, class Structure, class Solver, CheckedGround GroundType, BedrockMotion Motion,
           class GridType>
 Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::mesh() const {
   static_assert(CheckedStructure<Structure, Grid>);
@@ -165,7 +164,7 @@ Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundTyp
   return made;
 }
 
-template <CheckedProvider Soil, class Structure, class Solver, CheckedGround GroundType, CheckedMotion Motion,
+template <CheckedProvider Soil, class Structure, class Solver, CheckedGround GroundType, BedrockMotion Motion,
           class GridType>
 template <class Executor>
 typename detail::ProblemOfFault<FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>, Executor>::Type

@@ -33,7 +33,7 @@ struct BareGround {
 
 /// Nothing but ground and fault; by default the study's case.
 template <CheckedProvider Soil, class Solver = QuasiNewton<>, CheckedGround GroundType = LayeredGround<Tri3>,
-          CheckedMotion Motion = NormalFault, class Grid = UsualGridOf<GroundType>>
+          BedrockMotion Motion = NormalFault, class Grid = UsualGridOf<GroundType>>
 using FreeFieldFault = FaultScene<Soil, BareGround, Solver, GroundType, Motion, Grid>;
 
 #ifdef SCARP_PRECOMPILED

@@ -5,7 +5,7 @@
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/fault_scene.hpp"
-#include "scarp/fault/footing_motion.hpp"
+#include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/straight_facets.hpp"
 
@@ -17,7 +17,11 @@ struct FrictionalFooting {
   StripFooting footing{};
   Law interface {};  ///< [Pa/m] where grains have [N/m]
 
-  std::vector<double> edges() const { return footing.edges(); }
+  /// \throws InputError
+  std::vector<double> edges() const {
+    footing.validate();
+    return footing.edges();
+  }
   template <class Element>
   void put_on(Mesh<Element>& mesh) const {
     mark_footing_base(mesh, footing.centre, footing.width);

@@ -5,9 +5,9 @@
 
 #include "scarp/core/error.hpp"
 #include "scarp/fault/detail/ground_outline.hpp"
-#include "scarp/fault/detail/surface_corners.hpp"
-#include "scarp/fault/ground_levels.hpp"
-#include "scarp/io/gmsh/gmsh_element_type.hpp"
+#include "scarp/fault/detail/step_at_tip.hpp"
+#include "scarp/fault/ground.hpp"
+#include "scarp/io/gmsh/gmsh_reader.hpp"
 #include "scarp/mesh/mesh_checks.hpp"
 
 namespace scarp {
@@ -79,8 +79,7 @@ struct GivenGround {
       std::sort(corners.begin(), corners.end());
       corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     }
-    double const same =
-        corners.empty() ? 0.0 : 1e-7 * (corners.back() - corners.front());  // what files with seven digits hold
+    double const same = 1e-7 * (corners.back() - corners.front());  // what files with seven digits hold
     for (double const edge : edges) detail::require_corner(corners, edge, same);
     return given;
   }
@@ -94,15 +93,18 @@ struct GivenGround {
 /// \throws InputError naming the file for what read_gmsh refuses, missing or further regions, missing boundaries, nodes
 /// at one place, hanging nodes, boundaries that are not straight at the soil's ends, and sides of the soil in no
 /// boundary or in two
+/// notes: gets what the file holds that the ground does not have, see GmshFile
 template <HasGmshType E>
-GivenGround<E> ground_from_file(std::filesystem::path const& path) {
+GivenGround<E> ground_from_file(std::filesystem::path const& path, std::vector<std::string>* notes = nullptr) {
+  GmshFile const file(path);
+  if (notes != nullptr) *notes = file.notes();
   auto const read = [&]() -> Mesh<E> {
     if constexpr (HasMidSides<E>) {
-      if (gmsh_element_type(path) == E::Linear::gmsh_type) {
-        return with_mid_side_nodes<E>(read_gmsh<typename E::Linear>(path));
+      if (file.element_type() == E::Linear::gmsh_type) {
+        return with_mid_side_nodes<E>(file.mesh<typename E::Linear>());
       }
     }
-    return read_gmsh<E>(path);
+    return file.mesh<E>();
   };
   GivenGround<E> ground{read()};
   try {

@@ -23,13 +23,21 @@ struct LevelGround {
   IsotropicPreparation preparation{.pressure = 2e3, .preparation_friction = 0.08};
   OneDimensionalCompression compression{};
 
+  /// \throws InputError
+  void validate() const {
+    require_not_negative("unit weight of level ground", unit_weight);
+    require_not_negative("surcharge of level ground", surcharge);
+    require_at_least("preload of level ground, over its overburden,", preload, 1.0);
+  }
+
   double overburden(double depth) const { return surcharge + unit_weight * depth; }
 
-  /// depths [m], any order; equal ones (to 1e-6 m) share a packing
+  /// depths [m], any order; those with the same overburden, to 1e-7 of it, share a packing
   /// \throws PreparationError when a stress is not reached, InputError for bad parameters
   template <class PackingType>
   PackingsByDepth<PackingType> make(typename PackingType::Law const& law, std::vector<double> depths) const {
     if (depths.empty()) refuse("no depths are given (level ground needs at least one): pass the depths of the points");
+    validate();
     for (double const depth : depths) require_finite("depth of a packing", depth);
     std::sort(depths.begin(), depths.end());
     if (preparation.pressure > overburden(depths.front())) {
@@ -38,13 +46,8 @@ struct LevelGround {
           "lower the pressure or raise the surcharge",
           preparation.pressure, overburden(depths.front()));
     }
-    if (!(preload >= 1.0)) {
-      refuse(
-          "the preload is {} (it is what the ground once carried over what it carries now): give 1, for none, or more",
-          preload);
-    }
-    depths.erase(std::unique(depths.begin(), depths.end(), [](double a, double b) { return b - a < 1e-6; }),
-                 depths.end());
+    auto const alike = [&](double a, double b) { return overburden(b) - overburden(a) <= 1e-7 * overburden(b); };
+    depths.erase(std::unique(depths.begin(), depths.end(), alike), depths.end());
     std::vector<double> pressures;
     for (double const depth : depths) pressures.push_back(preload * overburden(depth));
     auto const base = preparation.prepare(cloud.template make<PackingType>(), law);

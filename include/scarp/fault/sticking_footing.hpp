@@ -6,7 +6,7 @@
 
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/fault/fault_scene.hpp"
-#include "scarp/fault/footing_motion.hpp"
+#include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/run/visit_point.hpp"
 
@@ -18,7 +18,11 @@ struct StickingFooting {
   double height = 1.0;                                               ///< [m]
   LinearElastic<2> block = LinearElastic<2>::from_lame(20e9, 12e9);  ///< the study's
 
-  std::vector<double> edges() const { return footing.edges(); }
+  /// \throws InputError
+  std::vector<double> edges() const {
+    footing.validate();
+    return footing.edges();
+  }
   template <class Element>
   void put_on(Mesh<Element>& mesh) const {
     mark_footing_base(mesh, footing.centre, footing.width);

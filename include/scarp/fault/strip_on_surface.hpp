@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/fault/detail/surface_corners.hpp"
+#include "scarp/fault/detail/step_at_tip.hpp"
 #include "scarp/mesh/graded_lines.hpp"
 #include "scarp/mesh/joined_meshes.hpp"
 #include "scarp/mesh/pattern_grid.hpp"
@@ -67,12 +67,12 @@ void mark_footing_base(Mesh<Element>& mesh, double centre, double width) {
   double const same = 1e-6 * width;
   if (mesh.boundaries.count("footing_base") != 0) {
     auto const corners = detail::corners_along(mesh, "footing_base");
-    if (corners.empty() || std::abs(corners.front() - from) > same || std::abs(corners.back() - to) > same) {
+    if (std::abs(corners.front() - from) > same || std::abs(corners.back() - to) > same) {
       refuse(
           "the mesh has its 'footing_base' from x = {} to {} m (the footing reaches from {} to {} m): set the "
           "footing's "
           "centre and width to the mesh's",
-          corners.empty() ? 0.0 : corners.front(), corners.empty() ? 0.0 : corners.back(), from, to);
+          corners.front(), corners.back(), from, to);
     }
     return;
   }
@@ -110,7 +110,6 @@ void add_footing_block(Mesh<Element>& mesh, double height, double size) {
   require_positive("height of the footing", height);
   require_positive("element size of the footing", size);
   auto const& base = boundary(mesh, "footing_base");
-  if (base.empty()) refuse("the mesh's 'footing_base' is empty (a block cannot stand on it): mark it first");
   double const level = mesh.nodes[detail::index(base.front().front())].y();
   if (std::find(mesh.regions.begin(), mesh.regions.end(), "footing") != mesh.regions.end()) {
     return detail::require_block(mesh, level, height);

@@ -6,6 +6,7 @@
 
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/detail/framed_file.hpp"
+#include "scarp/io/folder_lock.hpp"
 #include "scarp/io/read_file.hpp"
 
 namespace scarp {
@@ -22,6 +23,14 @@ struct CheckpointSettings {
   bool resume = false;             ///< continue from the newest one; afresh where there is none
   double every_seconds = 600.0;    ///< wall time between two of them
   int every_attempts = 0;          ///< also after so many attempts at a step; 0: by time alone
+  bool locks = true;               ///< keeps the folder for this process; the other ranks of a run do not
+
+  /// \throws InputError
+  void validate() const {
+    require_not_negative("time between two checkpoints [s]", every_seconds);
+    if (every_attempts < 0)
+      refuse("the attempts between two checkpoints are {} (0 counts none): give 0 or more", every_attempts);
+  }
 };
 
 namespace detail {
@@ -50,19 +59,22 @@ inline void refuse_other_scene(std::string const& saved, std::string const& aske
 }  // namespace detail
 
 /// The checkpoints of one run: numbered files in a folder of their own, of which the last two are kept.
-/// What is read from one is kept until release().
+/// What is read from one is kept until release(). The folder is locked as long as this lives: two programs cannot replace each
+/// other's checkpoints.
 class CheckpointFiles {
  public:
   /// Saves nothing.
   CheckpointFiles() = default;
 
   /// scene: all choices that make the scene, a line for each; run_folder.hpp says which run it is
+  /// \throws FolderError for a folder that is in use or cannot be written
   /// \throws CheckpointError for a newest checkpoint that is harmed, of another scene, version or machine, and for an old one
   /// where the run is to start afresh
   CheckpointFiles(CheckpointSettings settings, std::string scene)
       : settings_(std::move(settings)), scene_(std::move(scene)) {
+    settings_.validate();
     if (settings_.folder.empty()) return;
-    require_not_negative("time between two checkpoints", settings_.every_seconds);
+    if (settings_.locks) lock_ = FolderLock(settings_.folder, "checkpoints.lock");
     auto const present = numbers();
     if (present.empty()) return;
     number_ = present.back();
@@ -108,7 +120,7 @@ class CheckpointFiles {
       writer("folder of the run", run_folder_);
       write(writer);
     });
-    write_file(path(number_ + 1), bytes);
+    write_file(path(number_ + 1), bytes, Durability::on_disk);  // before the older ones go
     ++number_;
     remove_older();
   }
@@ -202,6 +214,7 @@ class CheckpointFiles {
   std::string run_folder_;
   std::string bytes_;
   int number_ = 0;
+  FolderLock lock_;
 };
 
 }  // namespace scarp

@@ -22,7 +22,7 @@ class FolderError : public InputError {
   using InputError::InputError;
 };
 
-/// Keeps a folder for one writer, by a locked file `run.lock` in it. The kernel lets go of it when the process dies, however that
+/// Keeps a folder for one writer of a kind, by a locked file in it. The kernel lets go of it when the process dies, however that
 /// comes about. A folder that is not there is made; when the lock goes, so does what was made and got no content.
 class FolderLock {
  public:
@@ -30,7 +30,8 @@ class FolderLock {
   FolderLock() = default;
 
   /// \throws FolderError when another lock holds the folder, or when it cannot be written
-  explicit FolderLock(std::filesystem::path const& folder) : path_(folder / "run.lock") {
+  explicit FolderLock(std::filesystem::path const& folder, std::string const& name = "run.lock")
+      : path_(folder / name) {
     make(folder);
     try {
       lock(folder);

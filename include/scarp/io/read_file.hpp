@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -11,8 +12,29 @@
 
 namespace scarp {
 
+namespace detail {
+
+/// What often lies where a file should be: no format that is read here begins so.
+inline void refuse_stand_in(std::string_view content, std::string_view file) {
+  auto begin = content.substr(0, 256);
+  begin.remove_prefix(std::min(begin.find_first_not_of(" \t\r\n"), begin.size()));
+  std::string lower;
+  for (char const letter : begin.substr(0, 16))
+    lower += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
+  if (lower.starts_with("<!doctype html") || lower.starts_with("<html"))
+    refuse("cannot read '{}' (it is a web page): download the file itself", file);
+  if (begin.starts_with("version https://git-lfs"))
+    refuse("cannot read '{}' (it is a pointer of Git LFS): fetch the file itself by `git lfs pull`", file);
+  if (begin.starts_with("\x1f\x8b") || begin.starts_with("PK\x03\x04") || begin.starts_with("BZh") ||
+      begin.starts_with("\xfd"
+                        "7zXZ"))
+    refuse("cannot read '{}' (it is compressed): unpack it", file);
+}
+
+}  // namespace detail
+
 /// The whole content of a file, byte by byte.
-/// \throws InputError for a file that is missing, a folder or cannot be read
+/// \throws InputError for a file that is missing, a folder or cannot be read, and for a web page, a pointer of Git LFS or an archive
 inline std::string read_file(std::filesystem::path const& path) {
   std::error_code trouble;
   if (!std::filesystem::exists(path, trouble)) {
@@ -28,6 +50,7 @@ inline std::string read_file(std::filesystem::path const& path) {
     content.append(block, static_cast<std::size_t>(stream.gcount()));
   }
   if (!stream.eof()) refuse("cannot read '{}' (the system refuses it): check its permissions", path.string());
+  detail::refuse_stand_in(content, path.string());
   return content;
 }
 

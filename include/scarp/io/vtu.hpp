@@ -1,17 +1,61 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
+#include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/detail/base64.hpp"
-#include "scarp/io/detail/xml_text.hpp"
+#include "scarp/io/json.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {
+
+/// Base64 text of some bytes, with padding (RFC 4648, section 4).
+inline std::string base64(std::span<std::byte const> bytes) {
+  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr std::size_t group = 3;
+  std::string text;
+  text.reserve((bytes.size() + group - 1) / group * 4);
+  for (std::size_t first = 0; first < bytes.size(); first += group) {
+    std::size_t const given = std::min(group, bytes.size() - first);
+    unsigned bits = 0;
+    for (std::size_t k = 0; k < group; ++k) {
+      bits = bits << 8U | (k < given ? std::to_integer<unsigned>(bytes[first + k]) : 0U);
+    }
+    for (std::size_t k = 0; k <= group; ++k) {
+      text += k <= given ? letters[bits >> (6U * (group - k)) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+/// Text that may stand between the quotes of an XML attribute.
+inline std::string xml_text(std::string_view text) {
+  std::string safe;
+  for (char const letter : text) {
+    switch (letter) {
+      case '&': safe += "&amp;"; break;
+      case '<': safe += "&lt;"; break;
+      case '>': safe += "&gt;"; break;
+      case '"': safe += "&quot;"; break;
+      default: safe += letter;
+    }
+  }
+  return safe;
+}
 
 /// A named quantity at all nodes or all elements, numbers flat and component running fastest.
 /// A vector (dim components) is written with three and a tensor (dim * dim, row by row) with nine, the added ones
@@ -103,10 +147,24 @@ inline std::string vtu_field(VtuField const& field, std::size_t entries, std::st
       field.values);
 }
 
+/// A name that VTK can read and that no other field has.
+inline void require_field_name(std::string const& name, std::set<std::string>& known) {
+  bool sound = !name.empty() && valid_utf8(name) == name;
+  for (char const letter : name) sound = sound && static_cast<unsigned char>(letter) >= 0x20 && letter != 0x7f;
+  if (!sound)
+    refuse("a field is named '{}' (names are of one letter and more in UTF-8, without control characters): rename it",
+           valid_utf8(name));
+  if (!known.insert(name).second) refuse("two fields are named '{}' (a file cannot tell them apart): rename one", name);
+}
+
 inline std::string vtu_fields(std::vector<VtuField> const& fields, std::string_view tag, std::size_t entries,
                               std::string_view place, int dim) {
   std::string text = fmt::format("<{}>\n", tag);
+  std::set<std::string> known;
   for (auto const& field : fields) {
+    require_field_name(field.name, known);
+    std::set<std::string> components;
+    for (auto const& name : field.component_names) require_field_name(name, components);
     text += vtu_field(field, entries, place, dim);
   }
   return text + fmt::format("</{}>\n", tag);
@@ -130,7 +188,7 @@ std::string vtu_cells(Mesh<Element> const& mesh) {
 /// Writes an unstructured grid for ParaView and the like: XML with inline base64 binary, in full precision.
 /// positions [m]: of the nodes, such as the deformed ones, shape (nodes of the mesh). The region of every element is
 /// added as the cell field "region".
-/// \throws InputError for fields or positions of the wrong length
+/// \throws InputError for fields or positions of the wrong length, and for names of fields that are there twice or no text
 /// \throws FileError when the file cannot be written; an older file of this name is then untouched
 template <class Element>
 void write_vtu(std::filesystem::path const& path, Mesh<Element> const& mesh,
@@ -157,5 +215,43 @@ void write_vtu(std::filesystem::path const& path, Mesh<Element> const& mesh,
                 detail::vtu_fields(at_elements, "CellData", mesh.elements.size(), "elements", dim) +
                 "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
 }
+
+/// A time series of VTU files in one folder, listed in `<folder>/<name>.pvd`, which ParaView opens as one animation.
+class PvdSeries {
+ public:
+  /// Time and file, relative to the folder.
+  using Entry = std::pair<double, std::string>;
+
+  /// earlier: what entries() was when a run that is now continued was saved
+  PvdSeries(std::filesystem::path folder, std::string name, std::vector<Entry> earlier = {})
+      : folder_(std::move(folder)), name_(std::move(name)), entries_(std::move(earlier)) {}
+
+  std::filesystem::path path() const { return folder_ / (name_ + ".pvd"); }
+
+  std::vector<Entry> const& entries() const { return entries_; }
+
+  /// Lists one more file and rewrites the list as a whole, so that an interrupted run leaves a complete one.
+  /// time: the load factor or what the pictures are ordered by, increasing; file: name relative to the folder
+  /// \throws InputError for a time that is not above the last one, FileError when the list cannot be written
+  void add(double time, std::filesystem::path const& file) {
+    if (!std::isfinite(time) || (!entries_.empty() && !(time > entries_.back().first))) {
+      refuse("time {} of '{}' cannot be added (times must be finite and increase): order the files", time,
+             file.string());
+    }
+    entries_.emplace_back(time, file.generic_string());
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
+    for (auto const& [when, what] : entries_) {
+      text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", when, xml_text(what));
+    }
+    write_file(path(), text + "</Collection>\n</VTKFile>\n");
+  }
+
+  SCARP_MEMBERS_EXCEPT((folder_, name_), entries_)
+
+ private:
+  std::filesystem::path folder_;
+  std::string name_;
+  std::vector<Entry> entries_;
+};
 
 }  // namespace scarp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <set>
 
 #include "scarp/mesh/detail/place_index.hpp"
 #include "scarp/mesh/mesh.hpp"
@@ -42,7 +43,15 @@ void join(Mesh<Element>& mesh, Mesh<Element> const& part) {
   }
   for (auto const& [name, facets] : part.boundaries) {
     auto& united = mesh.boundaries[name];
-    for (auto const& facet : facets) united.push_back(renumbered(facet));
+    auto const sorted = [](auto facet) {
+      std::sort(facet.begin(), facet.end());
+      return facet;
+    };
+    std::set<std::array<int, Element::facet_nodes>> known;
+    for (auto const& facet : united) known.insert(sorted(facet));
+    for (auto const& facet : facets) {
+      if (known.insert(sorted(renumbered(facet))).second) united.push_back(renumbered(facet));
+    }
   }
 }
 

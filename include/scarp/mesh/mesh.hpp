@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -115,10 +116,14 @@ void validate_boundaries(Mesh<Element> const& mesh) {
   }
   std::sort(sides.begin(), sides.end());
   for (auto const& [name, facets] : mesh.boundaries) {
+    std::set<std::array<int, Element::facet_nodes>> known;
     for (auto const& facet : facets) {
       if (!std::binary_search(sides.begin(), sides.end(), sorted(facet))) {
         refuse("boundary '{}' holds the facet ({}) (no element has this side): check its node numbers", name,
                listed(facet));
+      }
+      if (!known.insert(sorted(facet)).second) {
+        refuse("boundary '{}' holds the facet ({}) twice (loads on it would double): remove one", name, listed(facet));
       }
     }
   }
@@ -127,7 +132,7 @@ void validate_boundaries(Mesh<Element> const& mesh) {
 }  // namespace detail
 
 /// \throws InputError for an empty mesh, wrong node or region numbers, positions that are not finite, unused nodes,
-/// elements without positive volume and boundary facets that are no element's side
+/// elements without positive volume, boundary facets that are no element's side, and such that are there twice
 template <class Element>
 void validate(Mesh<Element> const& mesh) {
   detail::validate_sizes(mesh);
@@ -136,7 +141,8 @@ void validate(Mesh<Element> const& mesh) {
   detail::validate_boundaries(mesh);
 }
 
-/// \throws InputError for an unknown name, listing the known ones
+/// The facets of a boundary; all who load, hold or measure one find it by this.
+/// \throws InputError for an unknown name, listing the known ones, and for a boundary without facets
 template <class Element>
 std::vector<std::array<int, Element::facet_nodes>> const& boundary(Mesh<Element> const& mesh, std::string_view name) {
   auto const found = mesh.boundaries.find(std::string(name));
@@ -147,11 +153,18 @@ std::vector<std::array<int, Element::facet_nodes>> const& boundary(Mesh<Element>
     }
     refuse("there is no boundary '{}' (the mesh has: {}): use one of these names", name, listed(known));
   }
+  if (found->second.empty()) {
+    refuse(
+        "the boundary '{}' has no facets (nothing can be held, loaded or measured on it): put sides of elements into "
+        "it, or "
+        "take another",
+        name);
+  }
   return found->second;
 }
 
 /// Numbers of the nodes on a boundary, sorted, each once.
-/// \throws InputError for an unknown name, listing the known ones
+/// \throws InputError as boundary() does
 template <class Element>
 std::vector<int> boundary_nodes(Mesh<Element> const& mesh, std::string_view name) {
   std::vector<int> numbers;

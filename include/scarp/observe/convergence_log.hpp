@@ -7,7 +7,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/io/csv.hpp"
-#include "scarp/io/json_lines.hpp"
+#include "scarp/io/json.hpp"
 #include "scarp/observe/observers.hpp"
 
 namespace scarp {

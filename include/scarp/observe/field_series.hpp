@@ -14,7 +14,6 @@
 #include "scarp/core/geo.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/element/map.hpp"
-#include "scarp/io/pvd.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/run/visit_point.hpp"

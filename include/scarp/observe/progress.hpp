@@ -26,20 +26,25 @@ class Progress : public NeverStops {
     double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     if (report.verdict.acceptable()) {
       double const remaining = report.load > 0.0 ? elapsed * (to_ - report.load) / (report.load - from_) : 0.0;
-      fmt::print(
-          stderr, "{}step {:4}  h/H {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n",
-          name_, report.step, report.load / load_unit_, report.residual(), report.iterations(), elapsed, remaining);
+      say("{}step {:4}  h/H {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n", name_,
+          report.step, report.load / load_unit_, report.residual(), report.iterations(), elapsed, remaining);
     } else {
-      fmt::print(stderr, "{}step {:4}  refused at h/H {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n",
-                 name_, report.step, report.load / load_unit_, report.iterations(), report.residual(),
-                 name(report.verdict.reason), where(problem, report));
+      say("{}step {:4}  refused at h/H {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n", name_,
+          report.step, report.load / load_unit_, report.iterations(), report.residual(), name(report.verdict.reason),
+          where(problem, report));
     }
-    std::fflush(stderr);
   }
 
   SCARP_MEMBERS_EXCEPT((to_, load_unit_, name_, from_, started_))  // the time that remains is guessed anew
 
  private:
+  /// An error stream that cannot be written ends no run.
+  template <class... Arguments>
+  static void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    std::fputs(fmt::format(text, std::forward<Arguments>(arguments)...).c_str(), stderr);
+    std::fflush(stderr);
+  }
+
   template <class Problem>
   static std::string where(Problem const& problem, StepReport const& report) {
     if (report.weak_dof >= 0)

@@ -21,7 +21,8 @@ namespace scarp {
 /// \endcode
 /// Stages before that of the checkpoint are left out; the problem that it is loaded into is a new one of the same scene. A
 /// checkpoint is made before an attempt when its time has come, where a stage ends, and where it stops, for whatever reason:
-/// with the last accepted state then. Where points are shared out among processes, the first one writes for all and each reads all:
+/// with the last accepted state then. When something cannot be written, by an observer or of a checkpoint, the run stops there as
+/// when it is interrupted, and trouble() says what. Where points are shared out among processes, the first one writes for all and each reads all:
 /// another number of processes may go on.
 template <class Watched, Described Notes>
 class CheckpointedRun {
@@ -51,9 +52,14 @@ class CheckpointedRun {
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& step) {
     ++attempts_;
-    watched_.attempted(problem, step);
+    writing(problem, [&] { watched_.attempted(problem, step); });
   }
-  bool wants_stop() const { return watched_.wants_stop(); }
+  bool wants_stop() const { return stopped_ || watched_.wants_stop(); }
+
+  /// What could not be written; on the first rank, empty where there is nothing of the kind.
+  std::string const& trouble() const { return trouble_; }
+  /// Whether a rank has such trouble.
+  bool stopped() const { return stopped_; }
 
   template <class Problem, class Session>
   void begins(Problem& problem, Session& session, RunState& state) {
@@ -90,15 +96,27 @@ class CheckpointedRun {
   template <class Problem, class Session>
   void save(Problem& problem, Session const& session, RunState const& state) {
     if (!files_.saves()) return;
-    with_all_states(problem, [&] {
-      files_.save([&](StateWriter& writer) {
-        writer("stage", stage_);
-        writer("earlier stages", report_);
-        members(std::as_const(*this), std::as_const(problem), session, state, writer);
+    writing(problem, [&] {
+      with_all_states(problem, [&] {
+        files_.save([&](StateWriter& writer) {
+          writer("stage", stage_);
+          writer("earlier stages", report_);
+          members(std::as_const(*this), std::as_const(problem), session, state, writer);
+        });
       });
     });
     attempts_ = 0;
     saved_ = Clock::now();
+  }
+
+  template <class Problem, class Action>
+  void writing(Problem const& problem, Action const& action) {
+    try {
+      action();
+    } catch (FileError const& problem_of_file) {
+      if (trouble_.empty()) trouble_ = problem_of_file.what();
+    }
+    stopped_ = agreed(problem.executor(), !trouble_.empty());
   }
 
   void read_place(StateReader& reader) {
@@ -123,6 +141,8 @@ class CheckpointedRun {
   int first_ = 0;     ///< stage to begin with
   int attempts_ = 0;  ///< since the last checkpoint
   Clock::time_point saved_;
+  std::string trouble_;
+  bool stopped_ = false;
 };
 
 }  // namespace scarp

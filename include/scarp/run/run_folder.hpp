@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <exception>
 
 #include "scarp/io/checkpoint_files.hpp"
 #include "scarp/io/folder_lock.hpp"
@@ -65,11 +66,22 @@ class RunFolder {
   /// \throws FileError
   void end(std::string state) { write(std::move(state)); }
 
+  RunFolder(RunFolder const&) = delete;
+  RunFolder& operator=(RunFolder const&) = delete;
+  /// A run that an exception ends has not stayed running.
+  ~RunFolder() {
+    if (record_.state != "running" || std::uncaught_exceptions() <= exceptions_) return;
+    try {
+      end("failed");
+    } catch (...) {  // the exception that is under way says more
+    }
+  }
+
  private:
   static std::string absolute(std::filesystem::path const& path) {
     std::error_code trouble;
     auto const found = std::filesystem::weakly_canonical(path, trouble);
-    return trouble ? std::filesystem::absolute(path).string() : found.string();
+    return valid_utf8(trouble ? std::filesystem::absolute(path).string() : found.string());  // as the record has it
   }
 
   std::string name() const { return settings_.folder.string(); }
@@ -127,12 +139,28 @@ class RunFolder {
   void write(std::string state) {
     record_.state = std::move(state);
     record_.changed = time_stamp();
-    write_file(settings_.folder / settings_.record, record_.text());
+    auto const file = settings_.folder / settings_.record;
+    try {
+      write_file(file, record_.text());
+    } catch (FileError const&) {
+      if (!write_in_place(file, record_.text())) throw;
+    }
+  }
+
+  /// On a full disk: the blocks that the file has are there still.
+  static bool write_in_place(std::filesystem::path const& path, std::string const& text) {
+    std::error_code trouble;
+    detail::OpenFile const file(std::fopen(path.string().c_str(), "r+b"));
+    bool const written =
+        file && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() && std::fflush(file.get()) == 0;
+    if (written) std::filesystem::resize_file(path, text.size(), trouble);
+    return written && !trouble;
   }
 
   RunFolderSettings settings_;
   RunRecord record_;
   FolderLock lock_;
+  int exceptions_ = std::uncaught_exceptions();  ///< under way when this was made
 };
 
 }  // namespace scarp

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/json_text.hpp"
+#include "scarp/io/json.hpp"
 #include "scarp/io/read_file.hpp"
 #include "scarp/io/time_stamp.hpp"
 

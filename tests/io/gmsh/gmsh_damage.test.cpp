@@ -39,8 +39,7 @@ std::vector<std::string> files() {
 /// Anything but a valid mesh or an InputError fails the test.
 bool is_read(std::string bytes) {
   try {
-    auto const mesh =
-        scarp::detail::assemble_gmsh<Element>(scarp::detail::read_gmsh_content(std::move(bytes), "m.msh"));
+    auto const mesh = scarp::GmshFile(std::move(bytes), "m.msh").mesh<Element>();
     scarp::validate(mesh);
     return true;
   } catch (scarp::InputError const& error) {
@@ -138,7 +137,7 @@ TEST_CASE("binary files of the other order of bytes are read") {
                            swapped(Tag{1}, Tag{1}, Tag{9}, Tag{9}, 2, 1, 2, Tag{1}, Tag{9}, Tag{1}, Tag{2}, Tag{3}) +
                            "\n$EndElements\n";
   for (auto const& bytes : {v2_2, v4_1}) {
-    auto const mesh = scarp::detail::assemble_gmsh<Element>(scarp::detail::read_gmsh_content(bytes, "m.msh"));
+    auto const mesh = scarp::GmshFile(bytes, "m.msh").mesh<Element>();
     CHECK(mesh.nodes == std::vector<scarp::Vector<2>>{{0.0, 0.0}, {2.5, 0.0}, {0.0, 1.5}});
     CHECK(mesh.elements == std::vector<std::array<int, 3>>{{0, 1, 2}});
     CHECK(mesh.regions == std::vector<std::string>{"sand"});

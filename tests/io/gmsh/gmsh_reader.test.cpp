@@ -5,7 +5,6 @@
 
 #include "io/mesh_samples.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/gmsh/gmsh_element_type.hpp"
 #include "support/files.hpp"
 #include "support/refusals.hpp"
 
@@ -213,7 +212,7 @@ TEST_CASE("a file tells the type of its elements before it is read as one") {
   ScratchFolder const folder;
   auto const type_of = [&](std::string const& text) {
     scarp::write_file(folder / "m.msh", text);
-    return scarp::gmsh_element_type(folder / "m.msh");
+    return scarp::GmshFile(folder / "m.msh").element_type();
   };
   CHECK(type_of(square_22) == scarp::Tri3::gmsh_type);
   CHECK(type_of(square_41) == scarp::Tri3::gmsh_type);
@@ -302,4 +301,64 @@ TEST_CASE("what is no mesh of a version that is read is refused") {
                 std::filesystem::temp_directory_path().string());
   std::string const no_elements = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Elements\n0 0 0 0\n$EndElements\n";
   CHECK(complaint(no_elements) == Naming{"'m.msh' holds neither surface nor volume elements"});
+}
+
+TEST_CASE("a side is in a boundary once, however often the file says so") {
+  std::vector<std::array<int, 2>> const once{{0, 1}};
+  // MSH 2.2 repeats a line for each group, and a file may name two groups alike.
+  auto const repeated =
+      with(with(square_22, "$Elements\n5", "$Elements\n6"), "5 1 2 4 1 12 7", "5 1 2 4 1 12 7\n4 1 2 4 1 7 12");
+  CHECK(read(repeated).boundaries.at("ground") == once);
+  auto const two_tags = with(with(repeated, "4 1 2 4 1 7 12", "4 1 2 8 1 7 12"), "2\n1 4 \"ground\"",
+                             "3\n1 8 \"ground\"\n1 4 \"ground\"");
+  CHECK(read(two_tags).boundaries.at("ground") == once);
+  // Gmsh keeps the groups of `Physical Curve(4) = {5, -5}` with both signs.
+  for (auto const* groups : {"2 -4 4 2 1 2", "2 4 4 2 1 2", "3 4 -4 -4 2 1 2"})
+    CHECK(read(with(square_41, "1 -4 2 1 2", groups)).boundaries.at("physical_4") == once);
+}
+
+TEST_CASE("an element in one region by several tags has that region") {
+  auto const mesh = read(with(square_41, "0 1 5\n$EndE", "2 6 -6 1 5\n$EndE"));
+  CHECK(mesh.regions == std::vector<std::string>{"physical_6"});
+  auto const alike = with(with(square_41, "0 1 5\n$EndE", "2 6 7 1 5\n$EndE"), "$Entities",
+                          "$PhysicalNames\n2\n2 6 \"sand\"\n2 7 \"sand\"\n$EndPhysicalNames\n$Entities");
+  CHECK(read(alike).regions == std::vector<std::string>{"sand"});
+}
+
+TEST_CASE("what a file names or holds and its mesh has not is told") {
+  auto const notes = [](std::string const& text) { return scarp::GmshFile(text, "m.msh").notes(); };
+  using Notes = std::vector<std::string>;
+  CHECK(notes(square_41).empty());
+  CHECK(notes(with(square_22, "2\n1 4", "3\n1 9 \"drain\"\n1 4")) ==
+        Notes{"'m.msh': the physical group 'drain' is empty: no element of dimension 1 is in it"});
+  // As meshio writes them: names of groups, and elements in none.
+  auto const lost = notes(with(with(square_22, "30 2 2 2 1", "30 2 2 0 1"), "21 2 3 1 1", "21 2 3 0 1"));
+  REQUIRE(lost.size() == 2);
+  CHECK(samples::contains(lost[0], "'sand' is empty"));
+  CHECK(samples::contains(lost[1], "2 elements are in no physical group"));
+  auto const sections =
+      notes(square_22 + "$Periodic\n0\n$EndPeriodic\n$ElementData\n$EndElementData\n$Comments\n$EndComments\n");
+  REQUIRE(sections.size() == 2);
+  CHECK(samples::contains(sections[0], "$Periodic is not read: nothing ties"));
+  CHECK(samples::contains(sections[1], "$ElementData is not read"));
+  CHECK(samples::contains(notes(with(square_22, "1 4 \"ground\"", "0 4 \"corner\""))[0],
+                          "'corner' of dimension 0 is not read"));
+}
+
+TEST_CASE("a boundary without sides is refused to whoever loads or holds it") {
+  auto const mesh = read(with(square_22, "2\n1 4", "3\n1 9 \"drain\"\n1 4"));
+  CHECK_REFUSED(scarp::boundary(mesh, "drain"), "the boundary 'drain' has no facets");
+  CHECK_REFUSED(scarp::boundary_nodes(mesh, "drain"), "the boundary 'drain' has no facets");
+}
+
+TEST_CASE("what is no mesh is called by its kind") {
+  CHECK(read("\xEF\xBB\xBF" + square_22).elements == read(square_22).elements);
+  CHECK(complaint("<!DOCTYPE html><html>404: not found</html>") == samples::Naming{"it is a web page"});
+  CHECK(complaint("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n") ==
+        samples::Naming{"pointer of Git LFS"});
+  CHECK(complaint("\x1f\x8b\x08 and so on") == samples::Naming{"compressed"});
+  CHECK(complaint("// by a script\n" + square_22) ==
+        samples::Naming{
+            "'//' (a section such as $Nodes must begin): give a mesh of Gmsh, which begins with $MeshFormat"});
+  CHECK(complaint(with(square_22, "$Nodes", "// nodes\n$Nodes")) == samples::Naming{"leave out comments"});
 }

@@ -333,3 +333,18 @@ TEST_CASE("grains too small or too large to have a mass are refused") {
     CHECK(contains(said, "beyond what a number here can hold"));
   }
 }
+
+TEST_CASE("grains in space are not read as grains in the plane, and a plane with a height is one") {
+  std::string const complaint = complaint_about("x,y,z,r\n1,1,1,0.5\n4,4,2,0.5\n");
+  CHECK(contains(complaint, "line 3 of 'grains.csv'"));
+  CHECK(contains(complaint, "column 'z'"));
+  CHECK(complaint_about("x,y,z,r\n1,1,2,0.5\n4,4,2,0.5\n").empty());
+}
+
+TEST_CASE("contacts of a packing whose cell has become too thin for its grains are refused") {
+  auto named = grains(two_discs);
+  named.packing.cell *= 0.05;
+  CHECK_REFUSED(scarp::read_contacts(
+                    named, scarp::CsvColumns("id1,id2,cell_i,cell_j,ftx,fty\n10,20,1,-1,0,0\n", "contacts.csv"), law()),
+                "contacts.csv", "cell is too thin for its grains");
+}

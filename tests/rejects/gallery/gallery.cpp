@@ -209,14 +209,6 @@ struct Wrong {};
 FreeFieldFault<Elastic, QuasiNewton<>, Wrong> scene;
 }  // namespace case_32
 
-// first: a motion of the bedrock needs `double tip`
-// also: left()
-// also: right()
-namespace case_33 {
-struct Wrong {};
-FreeFieldFault<Elastic, QuasiNewton<>, LayeredGround<Tri3>, Wrong> scene;
-}  // namespace case_33
-
 // first: a structure needs `std::vector<double> edges()
 // also: put_on(
 // also: extra_dofs()

@@ -6,8 +6,8 @@
 #include "scarp/bvp/usual_integration.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/fault_mesh.hpp"
-#include "scarp/fault/normal_fault.hpp"
 #include "scarp/scene/scene.hpp"
 #include "scarp/solver/thread_executor.hpp"
 

@@ -1,12 +1,187 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <filesystem>
+#include <fmt/format.h>
 
-#include "scarp/io/gmsh/detail/gmsh_assembly.hpp"
-#include "scarp/io/gmsh/detail/gmsh_sections_22.hpp"
-#include "scarp/io/gmsh/detail/gmsh_sections_41.hpp"
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scarp/io/gmsh/detail/gmsh_boundaries.hpp"
+#include "scarp/io/gmsh/detail/gmsh_content.hpp"
+#include "scarp/io/gmsh/detail/gmsh_sections.hpp"
 #include "scarp/io/read_file.hpp"
+
+namespace scarp::detail {
+
+/// How many elements of a dimension a file has, by type.
+inline std::map<int, std::size_t> gmsh_kinds(GmshContent const& content, int dim) {
+  std::map<int, std::size_t> kinds;
+  for (auto const& block : content.blocks) {
+    if (block.type.dim == dim && !block.tags.empty()) kinds[block.type.type] += block.tags.size();
+  }
+  return kinds;
+}
+
+/// Such as "12 x type 2 (3-node triangle), 40 x type 3 (4-node quadrangle)".
+inline std::string shown_gmsh_kinds(std::map<int, std::size_t> const& kinds) {
+  std::vector<std::string> parts;
+  for (auto const& [type, elements] : kinds) {
+    parts.push_back(fmt::format("{} x type {} ({})", elements, type, find_gmsh_type(type)->name));
+  }
+  return listed(parts);
+}
+
+/// What to do about elements that are not of the type that is wanted.
+inline std::string other_kind_advice(std::map<int, std::size_t> const& kinds) {
+  if (kinds.size() > 1) return "mesh with one kind of element (in Gmsh recombine all surfaces or none)";
+  auto const element = find_gmsh_type(kinds.begin()->first)->element;
+  if (element.empty()) return "mesh with another kind (in Gmsh order 1 or 2, with Mesh.SecondOrderIncomplete = 1)";
+  return fmt::format("read it as {}", element);
+}
+
+/// \throws InputError unless all elements of the file's highest dimension are of this type
+inline void require_gmsh_kind(GmshContent const& content, int wanted) {
+  GmshType const& type = *find_gmsh_type(wanted);
+  int highest = 0;
+  for (auto const& block : content.blocks) {
+    if (!block.tags.empty()) highest = std::max(highest, block.type.dim);
+  }
+  auto const kinds = gmsh_kinds(content, highest);
+  if (highest < 2) {
+    refuse(
+        "'{}' holds neither surface nor volume elements (once there is a physical group, Gmsh saves only what is in "
+        "one): mesh in {}D and put surfaces or volumes into groups",
+        content.file, type.dim);
+  }
+  if (highest != type.dim) {
+    refuse("'{}' is a {}D mesh with {} ({} needs a {}D one): {}", content.file, highest, shown_gmsh_kinds(kinds),
+           type.element, type.dim, other_kind_advice(kinds));
+  }
+  if (kinds.size() > 1 || kinds.begin()->first != wanted) {
+    refuse("'{}' holds {} (all elements of a mesh of {} are of type {}): {}", content.file, shown_gmsh_kinds(kinds),
+           type.element, wanted, other_kind_advice(kinds));
+  }
+}
+
+/// Positions [m] of the numbered nodes; a plane mesh must lie in one plane of constant z.
+template <class Element>
+void read_gmsh_positions(GmshContent const& content, GmshNumbering const& numbering, Mesh<Element>& mesh) {
+  constexpr double flat = 1e-9;  // of the mesh's size: round-off of a geometry kernel
+  double extent = 0.0;
+  auto const& nodes = numbering.nodes();
+  for (auto const& node : nodes) {
+    Vector<Element::dim> position;
+    for (int k = 0; k < Element::dim; ++k) {
+      position(k) = node.position[index(k)];
+      extent = std::max(extent, std::abs(position(k) - nodes.front().position[index(k)]));
+    }
+    mesh.nodes.push_back(position);
+  }
+  if constexpr (Element::dim == 2) {
+    for (auto const& node : nodes) {
+      if (std::abs(node.position[2] - nodes.front().position[2]) > flat * extent) {
+        refuse("node {} of '{}' is at z = {}, node {} at z = {} (a plane mesh has one z): turn it into the xy plane",
+               node.tag, content.file, node.position[2], nodes.front().tag, nodes.front().position[2]);
+      }
+    }
+  }
+}
+
+/// The only physical group of an element, zero for none; of several with one name the first.
+inline int gmsh_region(GmshContent const& content, GmshPick const& pick, int dim) {
+  for (int const other : pick.groups) {
+    auto const first = gmsh_group_name(content, {dim, pick.groups[0]});
+    if (auto const name = gmsh_group_name(content, {dim, other}); name != first) {
+      refuse("element {} of '{}' is in the physical groups '{}' and '{}' (it can have one material): keep one of them",
+             pick.tag, content.file, first, name);
+    }
+  }
+  return pick.groups.empty() ? 0 : pick.groups.front();
+}
+
+/// Names the regions in the order of their tags; elements without group form the region "mesh".
+template <class Element>
+void read_gmsh_regions(GmshContent const& content, std::vector<GmshPick> const& picks, Mesh<Element>& mesh) {
+  constexpr int dim = Element::dim;
+  std::map<int, int> number;  // of the region, by tag
+  for (auto const& [group, name] : content.names) {
+    if (group.first == dim) number[group.second] = -1;
+  }
+  for (auto const& pick : picks) number[gmsh_region(content, pick, dim)] = -1;
+  for (auto& [tag, region] : number) {
+    auto const name = tag == 0 ? std::string("mesh") : gmsh_group_name(content, {dim, tag});
+    auto const known = std::find(mesh.regions.begin(), mesh.regions.end(), name);
+    region = static_cast<int>(known - mesh.regions.begin());
+    if (known == mesh.regions.end()) mesh.regions.push_back(name);
+  }
+  for (auto const& pick : picks) mesh.element_region.push_back(number[gmsh_region(content, pick, dim)]);
+}
+
+template <class Element>
+void refuse_repeated_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
+                              Mesh<Element> const& mesh) {
+  using Entry = std::pair<std::array<int, Element::nodes>, std::int64_t>;
+  std::vector<Entry> entries;
+  for (std::size_t e = 0; e < picks.size(); ++e) {
+    entries.emplace_back(mesh.elements[e], picks[e].tag);
+    auto& nodes = entries.back().first;
+    std::sort(nodes.begin(), nodes.end());
+    if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) {
+      refuse("element {} of '{}' names a node twice (it has collapsed): mesh the geometry again", picks[e].tag,
+             content.file);
+    }
+  }
+  std::sort(entries.begin(), entries.end());
+  auto const twice = std::adjacent_find(entries.begin(), entries.end(),
+                                        [](Entry const& a, Entry const& b) { return a.first == b.first; });
+  if (twice != entries.end()) {
+    refuse(
+        "elements {} and {} of '{}' have the same nodes (MSH 2.2 repeats what is in two physical groups): give each "
+        "element one group of its dimension",
+        twice->second, std::next(twice)->second, content.file);
+  }
+}
+
+/// Names the elements as the file does, which the check of the mesh cannot.
+template <class Element>
+void refuse_inverted_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
+                              Mesh<Element> const& mesh) {
+  constexpr std::string_view advice = Element::dim == 2
+                                          ? "turn the surface so that its normal points along z, or mesh it again"
+                                          : "mesh the geometry again";
+  for (int e = 0; e < count(mesh.elements); ++e) {
+    if (auto const determinant = bad_jacobian(mesh, e)) {
+      auto const& pick = picks[index(e)];
+      refuse(
+          "element {} of '{}' (its nodes there: {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way "
+          "round): {}",
+          pick.tag, content.file, listed(std::span(pick.nodes, index(Element::nodes))), *determinant, Element::dim,
+          advice);
+    }
+  }
+}
+
+template <class Element>
+Mesh<Element> assemble_gmsh(GmshContent const& content) {
+  require_gmsh_kind(content, Element::gmsh_type);
+  auto const picks = pick_gmsh_elements(content, Element::gmsh_type);
+  GmshNumbering const numbering(content, picks, Element::nodes);
+  Mesh<Element> mesh;
+  read_gmsh_positions(content, numbering, mesh);
+  for (auto const& pick : picks) mesh.elements.push_back(numbering.template numbers<Element>(pick));
+  read_gmsh_regions(content, picks, mesh);
+  refuse_repeated_elements(content, picks, mesh);
+  refuse_inverted_elements(content, picks, mesh);
+  read_gmsh_boundaries(content, numbering, mesh);
+  return mesh;
+}
+
+}  // namespace scarp::detail
 
 namespace scarp {
 
@@ -69,6 +244,7 @@ inline GmshContent read_gmsh_content(std::string bytes, std::string const& file)
       has_elements = true;
     } else {
       stream.skip_section(name);
+      if (name != "Comments") content.skipped.push_back(name);
       continue;
     }
     stream.end_section(name);
@@ -80,17 +256,81 @@ inline GmshContent read_gmsh_content(std::string bytes, std::string const& file)
   return content;
 }
 
+/// What a file names or holds that its mesh does not have, a sentence each.
+inline std::vector<std::string> gmsh_notes(GmshContent const& content) {
+  int dim = 0;
+  bool has_regions = false;
+  std::size_t outside = 0;  // elements in no group
+  for (auto const& block : content.blocks) dim = std::max(dim, block.tags.empty() ? 0 : block.type.dim);
+  std::set<std::pair<int, std::string>> names;
+  for (auto const& block : content.blocks) {
+    if (block.tags.empty()) continue;
+    if (block.type.dim == dim && block.groups.empty()) outside += block.tags.size();
+    for (int const group : block.groups)
+      names.emplace(block.type.dim, gmsh_group_name(content, {block.type.dim, group}));
+  }
+  std::vector<std::string> notes;
+  for (auto const& [group, name] : content.names) {
+    has_regions = has_regions || group.first == dim;
+    if (group.first < dim - 1) {
+      notes.push_back(
+          fmt::format("'{}': the physical group '{}' of dimension {} is not read", content.file, name, group.first));
+    } else if (names.insert({group.first, name}).second) {
+      notes.push_back(fmt::format("'{}': the physical group '{}' is empty: no element of dimension {} is in it",
+                                  content.file, name, group.first));
+    }
+  }
+  if (outside > 0 && has_regions)
+    notes.push_back(
+        fmt::format("'{}': {} elements are in no physical group: they are the region 'mesh'", content.file, outside));
+  for (auto const& section : content.skipped) {
+    notes.push_back(fmt::format("'{}': the section ${} is not read{}", content.file, section,
+                                section == "Periodic" ? ": nothing ties the nodes of its sides" : ""));
+  }
+  return notes;
+}
+
 }  // namespace detail
 
-/// Reads a mesh of Gmsh: MSH 2.2 or 4.1, text or binary, of any order of bytes. Physical groups of the elements'
-/// dimension become regions, those of one dimension less boundaries; without a name they are called
-/// "physical_<tag>". Elements in no group form the region "mesh". Nodes and elements are numbered in the order of their
-/// tags; nodes of no element, points and elements of lower dimension in no group are left out. Lengths in [m].
-/// \throws InputError naming file and line, byte, node or element for what is no mesh of such elements, is damaged,
-/// turned inside out, or in 2D not flat in z
+/// A file of Gmsh, read once: MSH 2.2 or 4.1, text or binary, of any order of bytes.
+class GmshFile {
+ public:
+  /// \throws InputError naming file and line or byte for what is no mesh of Gmsh or is damaged
+  explicit GmshFile(std::filesystem::path const& path) : GmshFile(read_file(path), path.string()) {}
+  /// bytes: of the file; name: in complaints
+  GmshFile(std::string bytes, std::string const& name) : content_(detail::read_gmsh_content(std::move(bytes), name)) {}
+
+  /// Gmsh's number of the type of the elements, to choose the one that mesh() reads them as (`Tri6::gmsh_type`); of several types
+  /// in the highest dimension the lowest number, 0 without surfaces and volumes.
+  int element_type() const {
+    for (int const dim : {3, 2}) {
+      if (auto const kinds = detail::gmsh_kinds(content_, dim); !kinds.empty()) return kinds.begin()->first;
+    }
+    return 0;
+  }
+
+  /// What the file names or holds that mesh() does not have: empty physical groups, sections that are not read. A sentence each.
+  std::vector<std::string> notes() const { return detail::gmsh_notes(content_); }
+
+  /// Physical groups of the elements' dimension become regions, those of one dimension less boundaries, with each side
+  /// once; without a name they are called "physical_<tag>". Elements in no group form the region "mesh". Nodes and
+  /// elements are numbered in the order of their tags; nodes of no element, points and elements of lower dimension in
+  /// no group are left out. Lengths in [m].
+  /// \throws InputError naming file and node or element for what is no mesh of such elements, is turned inside out, or
+  /// in 2D not flat in z
+  template <HasGmshType Element>
+  Mesh<Element> mesh() const {
+    return detail::assemble_gmsh<Element>(content_);
+  }
+
+ private:
+  detail::GmshContent content_;
+};
+
+/// The mesh of a file of Gmsh, see GmshFile. \throws InputError
 template <HasGmshType Element>
 Mesh<Element> read_gmsh(std::filesystem::path const& path) {
-  return detail::assemble_gmsh<Element>(detail::read_gmsh_content(read_file(path), path.string()));
+  return GmshFile(path).mesh<Element>();
 }
 
 }  // namespace scarp

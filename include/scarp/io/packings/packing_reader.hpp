@@ -2,16 +2,68 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <unordered_map>
 
 #include "scarp/core/index.hpp"
 #include "scarp/dem/neighbour_list.hpp"
 #include "scarp/io/csv_reader.hpp"
-#include "scarp/io/packings/detail/grain_columns.hpp"
 
 namespace scarp {
+
+/// The columns of a table that hold the sizes of a shape's grains, in the shape's order. A shape that has an
+/// orientation in the plane also names the column of its angle [rad], counter-clockwise from x. Another shape is one
+/// specialisation more.
+template <class Shape>
+struct GrainColumns;
+
+struct Disc;
+struct Sphere;
+struct Ellipse;
+struct Superellipse;
+template <class Template>
+struct Clump;
+
+template <>
+struct GrainColumns<Disc> {
+  static constexpr std::array<std::string_view, 1> size{"r"};
+};
+
+template <>
+struct GrainColumns<Sphere> {
+  static constexpr std::array<std::string_view, 1> size{"r"};
+};
+
+template <>
+struct GrainColumns<Ellipse> {
+  static constexpr std::array<std::string_view, 2> size{"a", "b"};
+  static constexpr std::string_view angle = "angle";
+};
+
+template <>
+struct GrainColumns<Superellipse> {
+  static constexpr std::array<std::string_view, 3> size{"a", "b", "eps"};
+  static constexpr std::string_view angle = "angle";
+};
+
+template <class Template>
+struct GrainColumns<Clump<Template>> {
+  static constexpr std::array<std::string_view, 1> size{"scale"};
+  static constexpr std::string_view angle = "angle";
+};
+
+template <class Shape>
+concept HasGrainColumns = requires {
+  requires GrainColumns<Shape>::size.size() == static_cast<std::size_t>(Shape::size_count);
+  requires Shape::orientation_count == 0 || (Shape::orientation_count == 2 && requires {
+    { GrainColumns<Shape>::angle } -> std::convertible_to<std::string_view>;
+  });
+};
 
 /// A packing of a file and what its grains are called there.
 template <class PackingType>
@@ -89,6 +141,17 @@ void read_places(CsvColumns const& table, PackingType& packing) {
   }
 }
 
+/// Grains in the plane may come with a column z, but then it is the same for all.
+inline void refuse_places_in_space(CsvColumns const& table) {
+  if (!table.has("z")) return;
+  auto const places = table.column("z");
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (places[i] == places[0]) continue;
+    table.refuse_cell(i, "z", fmt::format("the first grain has {}, and grains in the plane lie in one", places[0]),
+                      "read them as grains in space, or leave the column out");
+  }
+}
+
 /// Overlap [m] of a listed pair and the smaller of its contact radii [m].
 struct Depth {
   double overlap;
@@ -150,6 +213,7 @@ template <class PackingType>
       refuse("the cell for '{}' has a content of {} (its base vectors must be finite and right-handed): check them",
              table.file(), cell.determinant());
     }
+    if constexpr (PackingType::dim == 2) detail::refuse_places_in_space(table);
     NamedPacking<PackingType> named;
     auto& packing = named.packing;
     packing.cell = cell;

@@ -1,11 +1,140 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/io/gmsh/detail/gmsh_kinds.hpp"
-#include "scarp/io/gmsh/detail/gmsh_picks.hpp"
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scarp/core/index.hpp"
+#include "scarp/element/reference_element.hpp"
+#include "scarp/io/gmsh/detail/gmsh_content.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp::detail {
+
+/// Corners of a plane cell; its nodes are rings of as many: corners, then, if there are any, mid-side nodes.
+template <class Cell>
+inline constexpr int plane_corners = detail::count(Cell::facets());
+
+/// Whether two lists name the nodes of a side in the same sense of rotation, begun at any corner.
+template <class Cell>
+bool same_winding(std::array<int, Cell::nodes> const& a, std::array<int, Cell::nodes> const& b) {
+  if constexpr (Cell::dim == 1) {
+    return a == b;
+  } else {
+    constexpr int corners = plane_corners<Cell>;
+    for (int shift = 0; shift < corners; ++shift) {
+      bool same = true;
+      for (int k = 0; k < Cell::nodes && same; ++k) {
+        int const ring = k / corners * corners;
+        same = a[index(k)] == b[index(ring + (k - ring + shift) % corners)];
+      }
+      if (same) return true;
+    }
+    return false;
+  }
+}
+
+/// The same line or plane cell, run through the other way.
+template <class Cell>
+std::array<int, Cell::nodes> turned_round(std::array<int, Cell::nodes> nodes) {
+  auto turned = nodes;
+  if constexpr (Cell::dim == 1) {
+    std::swap(turned[0], turned[1]);
+  } else if constexpr (Cell::dim == 2) {
+    constexpr int corners = plane_corners<Cell>;
+    for (int k = 0; k < Cell::nodes; ++k) {
+      bool const mid_side = k >= corners;
+      turned[index(k)] = mid_side ? nodes[index(3 * corners - 1 - k)] : nodes[index((corners - k) % corners)];
+    }
+  }
+  return turned;
+}
+
+/// One element of a file.
+struct GmshPick {
+  std::int64_t tag;
+  std::span<int const> groups;
+  bool turned;
+  std::int64_t const* nodes;  ///< tags, in Gmsh's order
+};
+
+/// The elements of a type in the order of their tags: so all formats of a mesh give the same numbering.
+inline std::vector<GmshPick> pick_gmsh_elements(GmshContent const& content, int type) {
+  std::vector<GmshPick> picks;
+  for (auto const& block : content.blocks) {
+    if (block.type.type != type) continue;
+    auto const* nodes = block.nodes.data();
+    for (auto const tag : block.tags) {
+      picks.push_back({tag, block.groups, block.turned, nodes});
+      nodes += block.type.nodes;
+    }
+  }
+  std::stable_sort(picks.begin(), picks.end(), [](auto const& a, auto const& b) { return a.tag < b.tag; });
+  return picks;
+}
+
+/// Numbers from 0 of those nodes of a file that elements use, in the order of their tags.
+class GmshNumbering {
+ public:
+  GmshNumbering(GmshContent const& content, std::vector<GmshPick> const& picks, int nodes_each)
+      : file_(content.file), nodes_(content.nodes) {
+    auto const by_tag = [](auto const& a, auto const& b) { return a.tag < b.tag; };
+    std::stable_sort(nodes_.begin(), nodes_.end(), by_tag);
+    auto const twice =
+        std::adjacent_find(nodes_.begin(), nodes_.end(), [](auto const& a, auto const& b) { return a.tag == b.tag; });
+    if (twice != nodes_.end()) {
+      refuse("'{}' lists node {} twice (each node has its own tag): write the file again", file_, twice->tag);
+    }
+    std::vector<bool> used(nodes_.size(), false);
+    for (auto const& pick : picks) {
+      for (auto const tag : std::span(pick.nodes, index(nodes_each))) {
+        auto const found = std::lower_bound(nodes_.begin(), nodes_.end(), GmshNode{tag, {}}, by_tag);
+        if (found == nodes_.end() || found->tag != tag) {
+          refuse("element {} of '{}' names node {} (the file has no such node): write the file again", pick.tag, file_,
+                 tag);
+        }
+        used[detail::index(found - nodes_.begin())] = true;
+      }
+    }
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      if (used[n]) nodes_[kept++] = nodes_[n];
+    }
+    nodes_.resize(kept);
+  }
+
+  std::vector<GmshNode> const& nodes() const { return nodes_; }
+
+  /// \return -1 for a node that no element uses
+  int operator()(std::int64_t tag) const {
+    auto const found = std::lower_bound(nodes_.begin(), nodes_.end(), tag,
+                                        [](GmshNode const& node, std::int64_t wanted) { return node.tag < wanted; });
+    return found == nodes_.end() || found->tag != tag ? -1 : static_cast<int>(found - nodes_.begin());
+  }
+
+  /// The nodes of an element in the order of this library.
+  template <class Cell>
+  std::array<int, Cell::nodes> numbers(GmshPick const& pick) const {
+    std::array<int, Cell::nodes> numbers;
+    for (int a = 0; a < Cell::nodes; ++a) numbers[index(a)] = (*this)(pick.nodes[Cell::gmsh_order[index(a)]]);
+    return pick.turned ? turned_round<Cell>(numbers) : numbers;
+  }
+
+ private:
+  std::string file_;
+  std::vector<GmshNode> nodes_;
+};
+
+/// The name of a physical group; files may leave it out.
+inline std::string gmsh_group_name(GmshContent const& content, DimTag group) {
+  auto const found = content.names.find(group);
+  return found != content.names.end() ? found->second : fmt::format("physical_{}", group.second);
+}
 
 /// All sides of all elements, to be found by their nodes in any order.
 template <class Element>
@@ -65,6 +194,7 @@ void refuse_other_sides(GmshContent const& content) {
   }
 }
 
+/// A side belongs to a boundary once, however often the file says so: in several groups of one name, or as several lines.
 template <class Element>
 void read_gmsh_boundaries(GmshContent const& content, GmshNumbering const& numbering, Mesh<Element>& mesh) {
   constexpr int dim = Element::dim - 1;
@@ -76,13 +206,19 @@ void read_gmsh_boundaries(GmshContent const& content, GmshNumbering const& numbe
   std::erase_if(picks, [](GmshPick const& pick) { return pick.groups.empty(); });
   if (picks.empty()) return;
   ElementSides<Element> const sides(mesh);
+  std::set<std::pair<std::string, std::array<int, Element::facet_nodes>>> known;  // with sorted nodes
   for (auto const& pick : picks) {
     auto side = numbering.template numbers<typename Element::Facet>(pick);
     if (!sides.orient(side)) {
       refuse("element {} of '{}' in the physical group '{}' lies on no side of an element: mesh the geometry again",
              pick.tag, content.file, gmsh_group_name(content, {dim, pick.groups.front()}));
     }
-    for (int const group : pick.groups) mesh.boundaries[gmsh_group_name(content, {dim, group})].push_back(side);
+    auto key = side;
+    std::sort(key.begin(), key.end());
+    for (int const group : pick.groups) {
+      auto const name = gmsh_group_name(content, {dim, group});
+      if (known.emplace(name, key).second) mesh.boundaries[name].push_back(side);
+    }
   }
 }
 

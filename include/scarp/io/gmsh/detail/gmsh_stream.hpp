@@ -21,7 +21,9 @@ namespace scarp::detail {
 class GmshStream {
  public:
   /// content: of the file; file: its name in complaints
-  GmshStream(std::string content, std::string file) : content_(std::move(content)), file_(std::move(file)) {}
+  GmshStream(std::string content, std::string file) : content_(std::move(content)), file_(std::move(file)) {
+    if (content_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark that editors write
+  }
 
   std::string const& file() const { return file_; }
   bool binary() const { return binary_; }
@@ -46,9 +48,11 @@ class GmshStream {
     last_ = at_;
     if (at_ == content_.size()) return {};
     if (content_[at_] != '$') {
-      refuse("{} has '{}' (a section such as $Nodes must begin): check the counts of the section before it", place(),
-             shown(peek_word()));
+      refuse("{} has '{}' (a section such as $Nodes must begin): {}", place(), shown(peek_word()),
+             at_section_ ? "check the counts of the section before it, and leave out comments"
+                         : "give a mesh of Gmsh, which begins with $MeshFormat");
     }
+    at_section_ = true;
     std::string name(next_word("the name of a section").substr(1));
     to_next_line();
     return name;
@@ -182,6 +186,7 @@ class GmshStream {
   std::string file_;
   std::size_t at_ = 0;
   std::size_t last_ = 0;
+  bool at_section_ = false;  ///< one has begun
   bool binary_ = false;
   bool swapped_ = false;
 };
