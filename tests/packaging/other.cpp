@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "other.hpp"
 
-#include "every_header.hpp"
+#include "scarp/core/tensor.hpp"
+#include "scarp/core/voigt.hpp"
 
 scarp::Random const* other_random() {
   static scarp::Random const random(1);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""[slow] States of every adaptor around every adaptor have the same bits on one and two MPI ranks, in one go and from checkpoints, and observers
+"""[nightly] States of every adaptor around every adaptor have the same bits on one and two MPI ranks, in one go and from checkpoints, and observers
 on the first rank see the same. Environment: SCARP_TEST_PROGRAMS, the folder of states_on_ranks (skipped, exit 77, without it or mpirun)."""
 import os
 import pathlib
