@@ -15,13 +15,14 @@ from expectations import expect, finish
 
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 folders = [f"-isystem{folder[2:]}" if "eigen3" in folder else folder for folder in include_folders()]
-command = [compiler, "-std=c++20", *WARNINGS, "-DFMT_HEADER_ONLY", *folders]
+command = [compiler, "-std=c++20", *WARNINGS, *folders]
 text = (root / "README.md").read_text()
 library = os.environ.get("SCARP_LIBRARY", "")
 if library.endswith(".a") and pathlib.Path(library).is_file():
     command += ["-DSCARP_PRECOMPILED", "-DEIGEN_MAX_ALIGN_BYTES=64", "-DEIGEN_MAX_STATIC_ALIGN_BYTES=64"]
-    linked = [library, "-pthread"]
+    linked = [library, "-lfmt", "-pthread"]
 else:
+    command.append("-DFMT_HEADER_ONLY")
     linked = ["-pthread"]
 blocks = [(text[: match.start()].count("\n") + 2, match[1]) for match in re.finditer(r"^```cpp\n(.*?)^```$", text, re.M | re.S)]
 expect(any("int main" in block for _, block in blocks), "README.md has no block that is a program")
