@@ -6,6 +6,7 @@ NAME: beyond_map, beyond_dips, objectivity, or error_vs_time_SUBJECT; all for wh
 """
 import itertools
 import pathlib
+import re
 import sys
 
 sys.dont_write_bytecode = True
@@ -82,25 +83,39 @@ def objectivity(rows):
     return drawn
 
 
+COST = "CPU time over the base setting [-]"
+
+
+def front_of(points):
+    """(cost, error) that no other point beats in both, the cheapest first."""
+    found = []
+    for cost, error in sorted(points):
+        if not found or error < found[-1][1]:
+            found.append((cost, error))
+    return found
+
+
 def error_vs_time(rows):
     """A panel for each response, a curve for each setting, the front in grey."""
-    responses = list(dict.fromkeys(row["response"] for row in rows))
+    responses = [column.removesuffix(" error [%]") for column in rows[0] if column.endswith(" error [%]")]
     drawn, axes = plt.subplots(1, len(responses) + 1, figsize=(3.3 * (len(responses) + 1), 3.9), squeeze=False)
     knobs = list(dict.fromkeys(row["knob"] for row in rows if row["knob"] != "base"))
     handles = {}
     for axis, response in zip(axes[0], responses):
-        known = [row for row in rows if row["response"] == response and row["error"] and number(row["error"]) > 0.0 and row["new sample"] == "0"]
-        front = sorted((number(row["cost"]), number(row["error"])) for row in known if row["on front"] == "1")
-        if front:
-            handles["front"], = axis.step(*zip(*front), where="post", color=figures.BLACK, linewidth=4.0, alpha=0.15)
-        for knob, group in itertools.groupby(known, key=lambda row: row["knob"]):
-            group = list(group)
+        known = [(row["knob"], row["setting"], number(row[COST]), number(row[f"{response} error [%]"])) for row in rows
+                 if row[COST] and row[f"{response} error [%]"] and row.get("new sample") != "1" and row["knob"] != "grains"]
+        known = [point for point in known if point[-1] > 0.0]
+        handles["front"], = axis.step(*zip(*front_of([point[2:] for point in known])), where="post", color=figures.BLACK, linewidth=4.0, alpha=0.15)
+        for knob, group in itertools.groupby(known, key=lambda point: point[0]):
+            _, settings, costs, errors = zip(*group)
+            ordered = all(re.fullmatch(r"[0-9.e+-]+", setting) for setting in settings)
             k = knobs.index(knob) if knob in knobs else -1
-            style = {"marker": MARKERS[k % len(MARKERS)], "color": COLOURS[k % len(COLOURS)], "markersize": 4 if k >= 0 else 10,
-                     "markerfacecolor": None if k >= 0 else "none", "linestyle": "-" if all(row["value"] for row in group) else ""}
-            handles[knob], = axis.plot([number(row["cost"]) for row in group], [number(row["error"]) for row in group], **style)
-        axis.set(xscale="log", yscale="log", xlabel="CPU time over the base setting's", title=response)
-    axes[0][0].set_ylabel("error relative to the reference")
+            style = {"marker": MARKERS[k % len(MARKERS)], "color": COLOURS[k % len(COLOURS)], "markersize": 4 if k >= 0 else 10}
+            if k < 0:
+                style["markerfacecolor"] = "none"
+            handles[knob], = axis.plot(costs, errors, linestyle="-" if ordered else "", **style)
+        axis.set(xscale="log", yscale="log", xlabel="CPU time over the base setting's [-]", title=response)
+    axes[0][0].set_ylabel("error relative to the reference [%]")
     axes[0][-1].axis("off")
     axes[0][-1].legend(handles.values(), handles.keys(), loc="center left")
     return drawn

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Figures 3 and 4 of the study by our runs."""
+"""Figures 3 to 5 of the study by our runs."""
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import PowerNorm
 from PIL import Image
 from scarp_figures import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, plt
 
-COLOURS = {"light": GREEN, "heavy": VERMILION}
+COLOURS = {"free": BLUE, "light": GREEN, "heavy": VERMILION}
 DEPTH = 25.0           # [m]
 FOOTING_THROW = 1.99 / DEPTH  # of the study's fig. 4
 THROWS = [0.028, 0.057, 0.085]
@@ -89,7 +89,28 @@ def footings(sets, level):
     return drawn
 
 
+def over_strain(sets, quantities):
+    """A row for each of (name, label, factor), columns A and B: means of the packings around each point, and one deviation among them."""
+    one = sets["8 m"]
+    drawn, rows = plt.subplots(len(quantities), 2, figsize=(7.6, 2.7 * len(quantities)), sharex="col", squeeze=False)
+    for column, point in zip(rows.T, ("A", "B")):
+        for axes, (name, label, factor) in zip(column, quantities):
+            for case, colour in COLOURS.items():
+                if (case, point) not in one.histories:
+                    continue
+                series = one.histories[case, point]
+                strain, values = 100.0 * series["eps_q"].mean(axis=1), factor * series[name]
+                axes.plot(strain, values.mean(axis=1), color=colour, label=case)
+                axes.fill_between(strain, values.mean(axis=1) - values.std(axis=1), values.mean(axis=1) + values.std(axis=1), color=colour, alpha=0.12, linewidth=0)
+            axes.set_ylabel(label)
+        column[0].set_title(f"{point}, x = {one.points[point]:.1f} m" if point in one.points else point, loc="left")
+        column[-1].set_xlabel("deviatoric strain [%]")
+    rows[0, 0].legend()
+    return drawn
+
+
 def write(folder, sets, level):
-    saved(free_field(sets, level), folder / "cases_free.png")
+    saved(free_field(sets, level), folder / "study_free.png")
     if len(sets["8 m"].runs) > 1:
-        saved(footings(sets, level), folder / "cases_footings.png")
+        saved(footings(sets, level), folder / "study_footings.png")
+    saved(over_strain(sets, [("q", "q [kPa]", 1e-3), ("eps_v", "volumetric strain [%]", 100.0)]), folder / "study_stress.png")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""cases.py: the three cases beside the study, from the runs in output/study_*: docs/data/study_cases.csv, study_runs.csv and two figures.
+"""cases.py: the three cases beside the study, from the runs in output/study_*: docs/data/study_cases.csv, study_runs.csv and three figures.
 Run by `benchmarks/study/run cases`; where a run is missing the data file keeps its value."""
 import dataclasses
 import json
@@ -16,7 +16,7 @@ import ground_points
 from common import data_folder, measures, origin, read_table, write_table
 
 OUTPUT = REPOSITORY / "output"
-FIGURES = REPOSITORY / "docs" / "study"
+FIGURES = REPOSITORY / "docs" / "figures"
 CASES = ["free", "heavy", "light"]
 SEEDS = [1, 2, 3]
 # Height of the points A and B above bedrock [m], 4 m below the surface.
