@@ -59,7 +59,7 @@ TEST_CASE("the same prescription twice is one, two different ones are refused") 
 
 TEST_CASE("nodes, axes and rates that do not exist are refused") {
   auto constraints = on_square();
-  CHECK_REFUSED(constraints.fix(5, 0), "node 5, axis 0", "0 to 3");
+  CHECK_REFUSED(constraints.fix(5, 0), "node 5, axis 0", "0 to 4");
   CHECK_REFUSED(constraints.fix(-1, 0), "node -1, axis 0");
   CHECK_REFUSED(constraints.fix(0, 2), "node 0, axis 2", "0 to 1");
   CHECK_REFUSED(constraints.move(0, 0, std::numeric_limits<double>::quiet_NaN()), "rate", "nan");

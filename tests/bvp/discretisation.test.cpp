@@ -233,7 +233,7 @@ TEST_CASE("an increment that is not finite cannot be committed, and saved positi
   CHECK(disc.positions() == moved);
   disc.restore(saved);
   CHECK(disc.positions() == saved);
-  CHECK_REFUSED(disc.restore({}), "0 entries", "4 are needed");
+  CHECK_REFUSED(disc.restore({}), "0 entries", "5 are needed");
 }
 
 TEST_CASE("arrays of the wrong length and wrong thicknesses are refused") {

@@ -308,7 +308,7 @@ TEST_CASE("a saved packing whose list leads outside its arrays is refused") {
   refused([](Discs& packing) { packing.pairs.second.pop_back(); }, "arrays of pairs");
   refused([](Discs& packing) { packing.pairs.ghost_owner[0] = -1; }, "ghosts");
   refused([&](Discs& packing) { packing.pairs.ghost_owner[0] = grains; }, "ghosts");
-  refused([](Discs& packing) { packing.pairs.ghost_shift.pop_back(); }, "ghosts");
+  refused([](Discs& packing) { packing.pairs.ghost_shift.pop_back(); }, "arrays of pairs");
   refused([](Discs& packing) { packing.velocity.resize(packing.grain_count() - 1); }, "arrays of grains");
   refused([](Discs& packing) { packing.cell.col(0) *= -1.0; }, "cell");
   refused([](Discs& packing) { packing.population = nullptr; }, "arrays of grains");

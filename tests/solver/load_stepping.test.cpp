@@ -259,8 +259,8 @@ TEST_CASE("a run refuses bounds that are no numbers") {
   CHECK_REFUSED(run(stepping(), nan, 1.0), "load factor", "nan");
   CHECK_REFUSED(run(stepping(), 0.0, samples::infinity), "load factor", "inf");
   CHECK_THROWS_WITH_AS(run(stepping(), 1.0, 0.5), doctest::Contains("it can only grow"), scarp::InputError);
-  CHECK_REFUSED(run({.first = nan}, 0.0, 1.0), "load step", "nan");
-  CHECK_REFUSED(run({.first = 0.0}, 0.0, 1.0), "load step", "is 0");
+  CHECK_REFUSED(run({.first = nan}, 0.0, 1.0), "first load increment", "nan");
+  CHECK_REFUSED(run({.first = 0.0}, 0.0, 1.0), "first load increment", "is 0");
   CHECK_REFUSED(run({.smallest = -1.0}, 0.0, 1.0), "smallest", "-1");
   CHECK_REFUSED(run({.largest_gradient = nan}, 0.0, 1.0), "gradient", "nan");
   // Nothing to do is no error.
