@@ -49,7 +49,7 @@ def check_command(line, where):
         folder = program_folder(kind, words[0])
         if folder is None:
             faults.append(f"{where}: ./{kind}/run {words[0]} is not there")
-    for script in re.findall(r"(?<![.\w])\./((?:tests|benchmarks)(?:/\w+)+)", line):
+    for script in re.findall(r"(?<![.\w])\./((?:tests|benchmarks)(?:/\w+)+(?:\.\w+)?)", line):
         if not (ROOT / script).exists():
             faults.append(f"{where}: ./{script} is not there")
     if "./examples/run" in line or "./benchmarks/" in line or "./tests/" in line:
