@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // How far is each tangent policy from the derivative of a packing's stress, and what does it cost? 400 ellipses at
-// 200 kPa and after pure shear; prints the tables of docs/tangents.md.
+// 200 kPa and after pure shear; prints the tables of docs/notes/tangents.md.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -106,6 +106,9 @@ for page in pages:
                 faults.append(f"{where}: the link to {target} leads nowhere")
             named.add(file)
 
+for page in sorted(set(re.findall(r"docs/[\w/-]+\.md", code))):
+    if not (ROOT / page).exists():
+        faults.append(f"a source names {page}, which is not there")
 if words > WORDS:
     faults.append(f"the pages have {words} words, more than {WORDS}")
 size = sum(path.stat().st_size for path in (ROOT / "docs").rglob("*") if path.is_file())
