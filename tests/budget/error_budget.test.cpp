@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "constitutive/nestings.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
@@ -198,4 +199,26 @@ TEST_CASE("sampling that cannot be done is refused") {
   CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.most_followed = -1}), "followed points is -1");
   CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.share = std::nan("")}), "share of work for samples is nan");
   CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.loose_pressure = -1.0}), "loose pressure is -1");
+}
+
+TEST_CASE("the budget is complete whatever adaptor is around a packing") {
+  nestings::for_each_adaptor([](auto adaptor) {
+    CAPTURE(std::string(adaptor.name));
+    Points points(adaptor.around(nestings::Loosening{}), 5);
+    scarp::ErrorBudget budget(points);
+    points.strain(-1e-4, budget);
+    auto const parts = budget.parts();
+    CHECK(part(parts, "unbalanced_mean") == 1e-3);
+    CHECK(part(parts, "unbalanced_largest") == 1e-3);
+    CHECK(part(parts, "kinetic_share") == 1e-4);
+    CHECK(part(parts, "inertial_number") > 0.0);
+  });
+}
+
+TEST_CASE("bounds that are negative or no number are refused, by name") {
+  Points points(Relaxing{}, 50);
+  CHECK_REFUSED(scarp::ErrorBudget(points, {.residual = -1.0}), "budget's residual is -1");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {.accumulated = std::nan("")}), "budget's accumulated is nan");
+  CHECK_NOTHROW(scarp::ErrorBudget(points, {.mesh = std::numeric_limits<double>::infinity()}));
+  CHECK_REFUSED(scarp::companion_part("mesh", -14.0, -15.0, 25.0, std::nan(""), "place"), "bound", "is nan");
 }

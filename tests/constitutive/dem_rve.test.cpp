@@ -5,8 +5,12 @@
 
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/constitutive/varied_parameters.hpp"
+#include "scarp/core/correlated_field.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "scarp/io/packings/packing_file.hpp"
 #include "support/approx.hpp"
+#include "support/files.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 
@@ -174,7 +178,97 @@ TEST_CASE("grains that lie in each other by more than the reduced radius fail as
     return provider.initial_state({}).verdict;
   };
   CHECK(verdict(2.49e-3).acceptable());
-  CHECK(verdict(2.51e-3) == Verdict{Status::failed, Reason::too_deep});
+  CHECK_REFUSED(verdict(2.51e-3), "packing of point 0", "too_deep");
+}
+
+namespace {
+
+/// Stresses of a state along a path.
+template <class Provider>
+std::vector<VoigtStress<2>> path_of(Provider const& provider, typename Provider::State state) {
+  std::vector<VoigtStress<2>> stresses{provider.stress(state)};
+  for (int k = 0; k < 3; ++k) {
+    typename Provider::State trial = state;
+    stresses.push_back(provider.respond(state, shear_increment(2e-4), trial).stress);
+    state = trial;
+  }
+  return stresses;
+}
+
+/// The packing as it is, but listed anew when it is used next.
+template <class PackingType>
+PackingType unlisted(PackingType packing) {
+  packing.pairs.drift = std::numeric_limits<double>::infinity();
+  return packing;
+}
+
+}  // namespace
+
+TEST_CASE("a packing that was prepared with one law answers with a stiffer one as if it had been listed with that") {
+  auto const& prepared = samples::consolidated<Ellipses>(80).packing;
+  samples::ScratchFolder const folder;
+  scarp::save_packing(folder / "soft.pak", prepared);
+  auto const loaded = scarp::load_packing<Ellipses>(folder / "soft.pak");
+  for (double const factor : {10.0, 100.0}) {
+    auto law = samples::study_law();
+    law.normal_stiffness *= factor;
+    law.tangential_stiffness *= factor;
+    Rve const expected{.law = law, .source = {unlisted(prepared)}};
+    auto const path = path_of(expected, expected.initial_state({}));
+    for (auto const& packing : {prepared, loaded}) {
+      Rve const stiff{.law = law, .source = {packing}};
+      auto const found = path_of(stiff, stiff.initial_state({}));
+      for (std::size_t k = 0; k < path.size(); ++k)
+        CHECK(found[k] == path[k]);  // the same list and steps: the same bits
+    }
+    using Varied = scarp::VariedParameters<Rve>;
+    Varied const varied{rve(80), [&](Rve const& common, scarp::Site<2> const&) {
+                          Rve own = common;
+                          own.law = law;
+                          return own;
+                        }};
+    auto const found = path_of(varied, varied.initial_state({}));
+    for (std::size_t k = 0; k < path.size(); ++k) CHECK(found[k] == path[k]);
+  }
+}
+
+TEST_CASE("packings whose stiffness is a lognormal field answer as each one alone") {
+  scarp::CorrelatedField<2> const field({.lengths = {20.0, 2.0}, .seed = 7});
+  scarp::Lognormal const stiffness{.mean = 6e6, .variation = 2.0};
+  auto const own_law = [=](scarp::Site<2> const& site) {
+    auto law = samples::study_law();
+    law.normal_stiffness = law.tangential_stiffness = stiffness.of(field(site.position));
+    return law;
+  };
+  scarp::VariedParameters<Rve> const soil{rve(80), [=](Rve const& common, scarp::Site<2> const& site) {
+                                            Rve own = common;
+                                            own.law = own_law(site);
+                                            return own;
+                                          }};
+  double softest = 1e300;
+  double stiffest = 0.0;
+  for (int k = 0; k < 6; ++k) {
+    scarp::Site<2> const site{.index = k, .position = {30.0 * k, 0.0}};
+    Rve const alone{.law = own_law(site), .source = {unlisted(rve(80).source.packing)}};
+    auto const expected = path_of(alone, alone.initial_state(site));
+    auto const found = path_of(soil, soil.initial_state(site));
+    for (std::size_t step = 0; step < expected.size(); ++step) CHECK(found[step] == expected[step]);
+    softest = std::min(softest, alone.law.normal_stiffness);
+    stiffest = std::max(stiffest, alone.law.normal_stiffness);
+  }
+  CHECK(stiffest > 3.0 * softest);  // or the field says little
+}
+
+TEST_CASE("a state that another law has left plans by the time step of its new law") {
+  auto soft = rve(80);
+  soft.inertial_number = 1e-5;  // limits the rate alone
+  auto const state = soft.initial_state({});
+  auto stiff = soft;
+  stiff.law.normal_stiffness *= 100.0;
+  stiff.law.tangential_stiffness *= 100.0;
+  auto const increment = shear_increment(1e-5);
+  // Analytic: the critical step goes with the root of mass over stiffness.
+  CHECK(stiff.plan(state, increment) == samples::Approx(10.0 * soft.plan(state, increment)).epsilon(1e-2));
 }
 
 TEST_CASE("points take the packing of the nearest depth") {

@@ -282,7 +282,7 @@ TEST_CASE("strength that softens reaches its residual value and stays there") {
   CHECK(state.stress(5) == samples::Approx(4e3).epsilon(1e-9));
 }
 
-TEST_CASE("softening too steep for the elastic unloading of a point is refused with a reason") {
+TEST_CASE("softening too steep for the elastic unloading of a point comes to the residual strength at once") {
   scarp::SofteningStrength const strength{
       .peak = {.cohesion = 10e3}, .residual = {.cohesion = 1e3}, .strain_to_residual = 1e-5};
   scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
@@ -291,10 +291,76 @@ TEST_CASE("softening too steep for the elastic unloading of a point is refused w
   auto trial = state;
   scarp::Gradient<2> shear = scarp::Gradient<2>::Zero();
   shear(0, 1) = shear(1, 0) = 2e-3;
-  auto const answer = clay.respond(state, shear, trial);
-  // Either a strength on the softening branch or the residual one belongs to it: never anything in between, never NaN.
-  REQUIRE(answer.stress.allFinite());
-  if (answer.verdict.acceptable()) CHECK(trial.stress(5) == samples::Approx(1e3).epsilon(1e-6));
+  REQUIRE(clay.respond(state, shear, trial).verdict.acceptable());
+  // Analytic: 4e-3 of shear strain less the elastic 1e3 / 3.85e6 is far beyond the 1e-5 of the fall.
+  CHECK(trial.stress(5) == samples::Approx(1e3).epsilon(1e-9));
+}
+
+TEST_CASE("an increment to which no strength belongs is refused with a reason") {
+  // Tension of 1 kPa is cut off until 1e-4 of plastic shear, then none. Stretched by 2e-3 the ground yields by 2e-3 below the
+  // cut-off, so not by so little; without a cut-off its stresses of 26.9 and 11.5 kPa are elastic for a cohesion of 10 kPa.
+  scarp::SofteningStrength const strength{
+      .peak = {.cohesion = 10e3, .tension = 1e3}, .residual = {.cohesion = 10e3}, .strain_to_residual = 1e-4};
+  scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
+      scarp::IsotropicElasticity::from_young_poisson(10e6, 0.3), strength, {}};
+  auto const state = clay.initial_state({});
+  auto trial = state;
+  scarp::Gradient<2> stretch = scarp::Gradient<2>::Zero();
+  stretch(0, 0) = 2e-3;
+  CHECK(clay.respond(state, stretch, trial).verdict == scarp::Verdict{scarp::Status::failed, scarp::Reason::no_return});
+  CHECK(trial.stress == state.stress);
+  CHECK(trial.plastic_shear == 0.0);
+}
+
+TEST_CASE("stresses return near incompressibility as elsewhere") {
+  scarp::Random random(5);
+  std::array<int, 4> places{};
+  for (double const poisson : {0.495, 0.499, 0.4999, 0.49999, 0.499999}) {
+    for (int draw = 0; draw < 5000; ++draw) {
+      RandomCase drawn(random);
+      drawn.elasticity = scarp::IsotropicElasticity::from_young_poisson(1e4, poisson);
+      if (draw % 10 == 0) drawn.strength.friction = drawn.strength.dilation = degrees(89.0);
+      CAPTURE(poisson);
+      CAPTURE(draw);
+      auto const returned = return_of(drawn)(drawn.trial);
+      REQUIRE(returned.found);
+      ++places[static_cast<std::size_t>(returned.planes)];
+      REQUIRE(drawn.excess(returned.stress) <= 1e-10 * drawn.scale());
+      // Analytic: what plastic strain takes away is 2 G of its deviator and K of its trace. Round-off of the strain, 1e-16 of it, times
+      // the bulk modulus, at most 5e5 of the shear modulus.
+      Vector<3> const taken = drawn.trial - returned.stress;
+      double const volume = returned.plastic_strain.sum();
+      double const bulk = drawn.elasticity.lame_lambda + 2.0 * drawn.elasticity.shear_modulus / 3.0;
+      Vector<3> const deviator = (taken.array() - taken.mean()).matrix();
+      Vector<3> const strain = (returned.plastic_strain.array() - volume / 3.0).matrix();
+      REQUIRE((deviator - 2.0 * drawn.elasticity.shear_modulus * strain).norm() <= 1e-10 * drawn.scale());
+      REQUIRE(std::abs(taken.mean() - bulk * volume) <= 1e-8 * drawn.scale());
+    }
+  }
+  for (int const count : places) CHECK(count > 500);
+}
+
+TEST_CASE("at the apex no strain changes the stress, however many planes led there") {
+  // Sand without cohesion and Poisson's ratio: two cut-offs take all of a stress in two directions.
+  auto const returned = MohrCoulombReturn({.friction = 0.5}, 0.0, 1e6)({2e3, 1e3, 0.0});
+  REQUIRE(returned.found);
+  CHECK(returned.stress.isZero(1e-9));
+  CHECK(returned.tangent.isZero(0.0));
+}
+
+TEST_CASE("an initial stress outside the strength is refused with its place and the K0 that would be borne") {
+  using Sand = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
+  Sand sand{scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3),
+            {{.friction = degrees(30.0)}},
+            {.surcharge = 4e3, .unit_weight = 16e3, .k0 = 1.0 / 3.0}};  // analytic: just borne, tan^2(45 - phi/2)
+  scarp::Site<2> const site{.index = 4, .region = 1, .depth = 10.0};
+  CHECK_NOTHROW(sand.initial_state(site));
+  for (double const k0 : {0.333, 3.001}) {
+    sand.initial.k0 = k0;
+    CHECK_REFUSED(sand.initial_state(site), "point 4 in region 1, 10 m deep", "K0 lies between 0.333 and 3.000");
+  }
+  sand.strength.strength.cohesion = 1e3;
+  CHECK_NOTHROW(sand.initial_state(site));
 }
 
 TEST_CASE("friction alone carries no tension") {

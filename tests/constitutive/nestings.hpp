@@ -13,20 +13,26 @@
 /// Every adaptor around every adaptor, for the laws of what is saved.
 namespace nestings {
 
-/// Elasticity that stiffens along its path, counts as fluid where it is wider than at the start, and plans work.
+/// Elasticity that stiffens along its path, counts as fluid where it is wider than at the start, plans work and is balanced as
+/// packings are.
 struct Loosening {
   static constexpr int dim = 2;
   using Plan = int;
   struct State {
     scarp::EngineeringStrain<2> strain = scarp::EngineeringStrain<2>::Zero();
     double path = 0.0;
+    double unbalanced_ratio = 0.0;
+    double kinetic_share = 0.0;
+    double inertial_number = 0.0;
+    scarp::Verdict verdict{};
 
-    SCARP_MEMBERS(strain, path)
+    SCARP_MEMBERS(strain, path, unbalanced_ratio, kinetic_share, inertial_number, verdict)
   };
 
   scarp::IsotropicElasticity elasticity{6e6, 4e6};
 
-  State initial_state(scarp::Site<2> const&) const { return {{-1e-3, -1e-3, 0.0}, 0.0}; }
+  State initial_state(scarp::Site<2> const&) const { return {.strain = {-1e-3, -1e-3, 0.0}}; }
+  double weight_of(State const&) const { return 1.0; }
   scarp::VoigtTangent<2> tangent(State const& state) const { return (1.0 + state.path) * elasticity.stiffness<2>(); }
   scarp::VoigtStress<2> stress(State const& state) const { return tangent(state) * state.strain; }
   Plan plan(State const& committed, scarp::Gradient<2> const& increment) const {
@@ -41,7 +47,11 @@ struct Loosening {
     trial.strain = committed.strain + scarp::to_engineering_strain<2, double>(increment);
     trial.path = committed.path + increment.norm() * (1.0 + 1.0 / plan);
     bool const wider = trial.strain(0) + trial.strain(1) > 0.0;
-    return {stress(trial), wider ? scarp::Verdict{scarp::Status::fluid, scarp::Reason::no_contacts} : scarp::Verdict{}};
+    trial.unbalanced_ratio = 1e-3;
+    trial.kinetic_share = 1e-4;
+    trial.inertial_number = increment.norm() / plan;
+    trial.verdict = wider ? scarp::Verdict{scarp::Status::fluid, scarp::Reason::no_contacts} : scarp::Verdict{};
+    return {stress(trial), trial.verdict};
   }
 };
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <vector>
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 
@@ -92,6 +93,81 @@ void a_rotation_turns_the_stress() {
   CHECK(answer.verdict.acceptable());
   CHECK((answer.stress - scarp::to_voigt_stress<dim, double>(expected)).norm() <=
         Sample<Provider>::rotation * before.norm());
+}
+
+/// An increment of strain that is turned on its way ends in the turned stress of the strain alone.
+template <class Provider>
+void a_rotation_on_top_of_a_strain_turns_its_answer() {
+  constexpr int dim = Provider::dim;
+  auto const provider = Sample<Provider>::provider();
+  auto const committed = Sample<Provider>::state(provider);
+  Tensor<dim> const identity = Tensor<dim>::Identity();
+  Tensor<dim> turn = identity;
+  turn.template topLeftCorner<2, 2>() = scarp::rotation(Sample<Provider>::rotation_step);
+  Gradient<dim> const whole = ordinary_increment<dim>(Sample<Provider>::increment);
+  Gradient<dim> const strain = (whole + whole.transpose()) / 2.0;
+  auto trial = committed;
+  VoigtStress<dim> const alone = provider.respond(committed, strain, trial).stress;
+  auto const answer = provider.respond(committed, turn * (identity + strain) - identity, trial);
+  Tensor<dim> const expected = turn * scarp::from_voigt_stress<dim, double>(alone) * turn.transpose();
+  CHECK(answer.verdict.acceptable());
+  // Where the path within the increment counts, its axes are off by less than the rotation.
+  double const off = Sample<Provider>::elastic ? 0.0 : Sample<Provider>::rotation_step;
+  CHECK((answer.stress - scarp::to_voigt_stress<dim, double>(expected)).norm() <=
+        Sample<Provider>::rotation * alone.norm() + off * (alone - provider.stress(committed)).norm());
+}
+
+/// Work [J/m3 of the start] on a point whose deformation goes straight from corner to corner in steps.
+template <class Provider>
+double work_along(std::vector<Tensor<Provider::dim>> const& corners, int steps) {
+  constexpr int dim = Provider::dim;
+  auto const provider = Sample<Provider>::provider();
+  auto state = Sample<Provider>::state(provider);
+  Tensor<dim> before = corners.front();
+  double work = 0.0;
+  for (std::size_t side = 1; side < corners.size(); ++side) {
+    for (int step = 1; step <= steps; ++step) {
+      double const part = static_cast<double>(step) / steps;
+      Tensor<dim> const now = (1.0 - part) * corners[side - 1] + part * corners[side];
+      auto trial = state;
+      auto const answer = provider.respond(state, now * before.inverse() - Tensor<dim>::Identity(), trial);
+      REQUIRE(answer.verdict.status != scarp::Status::failed);
+      Tensor<dim> const rate = 2.0 * (now - before) * (now + before).inverse();  // at the middle, to third order
+      VoigtStress<dim> const mean = (provider.stress(state) + answer.stress) / 2.0;
+      double const volume = (now.determinant() + before.determinant()) / 2.0;
+      work += volume * (scarp::from_voigt_stress<dim, double>(mean) * rate).trace();
+      state = trial;
+      before = now;
+    }
+  }
+  return work;
+}
+
+/// A strain that goes back the way it came, or round a square either way, gives no energy away.
+template <class Provider>
+void a_closed_cycle_of_strain_gives_no_energy() {
+  constexpr int dim = Provider::dim;
+  auto const provider = Sample<Provider>::provider();
+  auto const start = Sample<Provider>::state(provider);
+  double const size = Sample<Provider>::increment;
+  double const stiffness = provider.tangent(start).norm();
+  double const stress = provider.stress(start).norm();
+  Tensor<dim> const origin = Tensor<dim>::Identity();
+  Gradient<dim> const whole = ordinary_increment<dim>(size);
+  Tensor<dim> const first = origin + (whole + whole.transpose()) / 2.0;
+  Tensor<dim> second = origin;
+  second(0, 1) = second(1, 0) = size;
+  Tensor<dim> const both = first + second - origin;
+  constexpr int steps = 4;
+  // Third order of the strain: the trapezoid's, and that of a stress rate that no energy stands behind. Rest: what an answer
+  // may be off by on each of the sides.
+  double const order = 3.0 * stiffness * size * size * size + 4.0 * Sample<Provider>::rest * stress * size;
+  CHECK(work_along<Provider>({origin, first, origin}, steps) >= -order);
+  // Round a square such a rate gives or takes the stress times the square's area, less than a tenth of the energy that
+  // strain of this size stores.
+  double const area = order + stress * size * size;
+  CHECK(work_along<Provider>({origin, first, both, second, origin}, steps) >= -area);
+  CHECK(work_along<Provider>({origin, second, both, first, origin}, steps) >= -area);
 }
 
 /// Symmetric gradient of one engineering strain component.

@@ -146,6 +146,14 @@ TEST_CASE_TEMPLATE("every provider: a rotation turns the stress", Provider, EVER
   provider_laws::a_rotation_turns_the_stress<Provider>();
 }
 
+TEST_CASE_TEMPLATE("every provider: a rotation on top of a strain turns its answer", Provider, EVERY_PROVIDER) {
+  provider_laws::a_rotation_on_top_of_a_strain_turns_its_answer<Provider>();
+}
+
+TEST_CASE_TEMPLATE("every provider: a closed cycle of strain gives no energy", Provider, EVERY_PROVIDER) {
+  provider_laws::a_closed_cycle_of_strain_gives_no_energy<Provider>();
+}
+
 TEST_CASE_TEMPLATE("every provider: the tangent is the derivative of the stress, or an upper bound of it", Provider,
                    EVERY_PROVIDER) {
   provider_laws::the_tangent_is_the_derivative_or_bounds_it<Provider>();

@@ -19,6 +19,7 @@
 #include "scarp/io/state_bits.hpp"
 #include "scarp/solver/executor.hpp"
 #include "support/packings.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -160,7 +161,9 @@ TEST_CASE("what is saved comes back: elasticity and plasticity, in the plane and
 
 TEST_CASE("what is saved comes back: packings of several shapes and laws") {
   what_is_saved_comes_back(discs());
-  what_is_saved_comes_back(rve(samples::study_law(), samples::loose_cloud<samples::Ellipses>(16, 1)));
+  auto loose = rve(samples::study_law(), samples::loose_cloud<samples::Ellipses>(16, 1));
+  loose.fluid_start = true;
+  what_is_saved_comes_back(loose);
   // Dashpots ask how long the last move took.
   using Damped = scarp::HertzMindlin<scarp::HertzRestitution>;
   using DampedDiscs = scarp::Packing<scarp::Disc, Damped>;
@@ -198,7 +201,10 @@ TEST_CASE("what is saved comes back: points that see means of their neighbours")
     sites[static_cast<std::size_t>(k)] = {.index = k, .position = {0.5 * k, 1.0}, .depth = 1.0};
   std::vector<double> const volumes(6, 0.25);
   std::vector<scarp::Neighbourhood> const wide(6, {.length = 1.2});
-  auto const make = [&] { return scarp::NonlocalMaterials<Field>(Field({}, sites), sites, volumes, wide); };
+  auto const made = [&](std::vector<scarp::Neighbourhood> const& each) {
+    return scarp::NonlocalMaterials<Field>(Field({}, sites), sites, volumes, each);
+  };
+  auto const make = [&] { return made(wide); };
   auto const answer = [&](auto& field, double part) {
     std::vector<Gradient<2>> gradients;
     for (int k = 0; k < 6; ++k) gradients.push_back(provider_laws::ordinary_increment<2>(part * 1e-4 * (k % 3)));
@@ -218,4 +224,10 @@ TEST_CASE("what is saved comes back: points that see means of their neighbours")
   read(bits_of(field), loaded);
   CHECK(bits_of(loaded) == bits_of(field));
   CHECK(answer(loaded, 0.5) == answer(field, 0.5));
+  // Stresses against unseen strain belong to the means that they came from.
+  for (auto const& other : {scarp::Neighbourhood{.length = 0.9}, scarp::Neighbourhood{.length = 1.2, .stiffness = 0.5},
+                            scarp::Neighbourhood{.length = 1.2, .fading = 2e-3}}) {
+    auto elsewhere = made(std::vector<scarp::Neighbourhood>(6, other));
+    CHECK_REFUSED(read(bits_of(field), elsewhere), "points that see other means");
+  }
 }

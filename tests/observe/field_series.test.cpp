@@ -9,6 +9,8 @@
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/scene/scene.hpp"
+#include "support/files.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -77,4 +79,45 @@ TEST_CASE("in space strains are those of the whole tensor, and stress has its si
     CHECK(std::abs(fields.stress[6 * e + 1] + 500.0) < 1e-9);
     CHECK(std::abs(fields.stress[6 * e + 2] + 1e3) < 1e-9);
   }
+}
+
+namespace {
+
+/// A quantity with a name.
+struct Named {
+  std::string_view name = "status";
+  scarp::Quantities operator()(Soil const&, Soil::State const&) const { return {{name, 1.0}}; }
+};
+struct Volumetric : Named {
+  scarp::Quantities operator()(Soil const&, Soil::State const&) const { return {{"volumetric_strain", 1.0}}; }
+};
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("an own quantity with the name of a field is refused before a file is written", Own, Named,
+                   Volumetric) {
+  scarp::SerialExecutor serial;
+  scarp::Discretisation<scarp::Quad4> grid(
+      scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, 1.0}, .cells = {1, 1}}.generate());
+  scarp::Constraints constraints(grid.mesh());
+  auto const region = grid.mesh().regions.front();
+  auto problem =
+      scarp::make_problem(grid, 1.0, boost::hana::make_tuple(scarp::Region{region, Soil::from_young_poisson(1e6, 0.3)}),
+                          std::move(constraints), scarp::LoadHistory(), serial);
+  samples::ScratchFolder const folder;
+  scarp::FieldSeries<Own> series(folder.path(), 1.0, 2, 1.0);
+  auto const name = std::is_same_v<Own, Named> ? "'status'" : "'volumetric_strain'";
+  CHECK_REFUSED(series.attempted(problem, {}), "own quantity", name);
+  CHECK_FALSE(std::filesystem::exists(folder / "fields/step_0000.vtu"));
+}
+
+TEST_CASE("a series' end, number of frames and unit that cannot be are refused") {
+  samples::ScratchFolder const folder;
+  auto const series = [&](double to, int frames, double unit) {
+    return scarp::FieldSeries<>(folder.path(), to, frames, unit);
+  };
+  CHECK_REFUSED(series(0.0, 4, 25.0), "end of the load is 0");
+  CHECK_REFUSED(series(-1.0, -4, 25.0), "end of the load is -1");
+  CHECK_REFUSED(series(1.0, 0, 25.0), "up to the end of the load is 0");
+  CHECK_REFUSED(series(1.0, 4, std::nan("")), "unit of the load is nan");
 }

@@ -66,15 +66,20 @@ TEST_CASE_TEMPLATE("packings are written at the first steps that have come to th
   auto const cell = scarp::read_csv(folder / "packings/A_3_cell.csv");
   CHECK(grains.rows() == 80);
   CHECK(grains.column("a") == grains.column("b"));
-  // Love and Weber's stress of what is written is nearly the state's: shear forces carry the rest, and no deviator.
+  // The normal forces' part of Love and Weber's stress along x, of what is written and of the packing itself.
   auto const from = contacts.column("x1");
   auto const to = contacts.column("x2");
   auto const force = contacts.column("normal_force");
   auto const normal = contacts.column("nx");
   double sum = 0.0;
   for (std::size_t c = 0; c < contacts.rows(); ++c) sum += force[c] * normal[c] * (to[c] - from[c]);
+  double expected = 0.0;
+  scarp::for_each_contact(sand().initial_state({}).packing, samples::study_law(), [&](auto const& contact) {
+    expected += contact.normal_force * contact.normal()(0) * contact.branch(0);
+  });
+  CHECK(sum == samples::Approx(expected).epsilon(1e-9));  // numbers are written in full; round-off of places
   double const area = cell.column("a1x")[0] * cell.column("a2y")[0] - cell.column("a1y")[0] * cell.column("a2x")[0];
-  CHECK(sum / (area * samples::thickness) == samples::Approx(samples::pressure).epsilon(0.1));
+  CHECK(area == samples::Approx(sand().source.packing.cell.determinant()).epsilon(1e-12));
 }
 
 TEST_CASE("a series that goes on from a checkpoint has the packings before it in its list") {
@@ -103,9 +108,16 @@ TEST_CASE("a point without a packing leaves nothing behind") {
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
-TEST_CASE("shares that are none are refused") {
+TEST_CASE("shares, ends, units and points that cannot be are refused") {
   ScratchFolder const folder;
   for (auto const& shares : {std::vector{0.5, 0.5}, std::vector{-0.1}, std::vector{1.1}, std::vector{std::nan("")}})
     CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, 1.0, shares, 1.0),
                   fmt::format("share {} of the load", shares.back()));
+  CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, std::nan(""), {0.5}, 1.0), "end of the load is nan");
+  CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, 1.0, {0.5}, 0.0), "unit of the load is 0");
+  OnePoint<Rve> const problem(sand());
+  for (int const point : {-1, 1}) {
+    scarp::PackingSeries series(folder.path(), "A", point, 1.0, {0.0}, 1.0);
+    CHECK_REFUSED(series.attempted(problem, accepted(0.0)), fmt::format("point {} is to be observed", point));
+  }
 }

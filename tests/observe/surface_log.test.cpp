@@ -8,6 +8,7 @@
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/state_bits.hpp"
 #include "support/files.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -129,4 +130,17 @@ TEST_CASE("a run that stops between two profiles leaves its last state, once") {
   REQUIRE(rows.size() == 2 * points);
   CHECK(rows.back().settlement == 0.25);
   CHECK(rows.back().fault_throw == 0.25);
+}
+
+TEST_CASE("a log's end, number of profiles and unit that cannot be are refused") {
+  ScratchFolder const folder;
+  auto const log = [&](double to, int profiles, double unit) {
+    return scarp::SurfaceLog<>(folder / "surface.csv", to, profiles, unit);
+  };
+  CHECK_NOTHROW(log(2.0, 4, 25.0));
+  CHECK_REFUSED(log(-2.0, 4, 25.0), "end of the load is -2");
+  CHECK_REFUSED(log(std::nan(""), 4, 25.0), "end of the load is nan");
+  CHECK_REFUSED(log(-2.0, -4, 25.0), "end of the load is -2");
+  CHECK_REFUSED(log(2.0, 0, 25.0), "up to the end of the load is 0");
+  CHECK_REFUSED(log(2.0, 4, 0.0), "unit of the load is 0");
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,10 +52,11 @@ inline std::string budget_table(BudgetParts const& parts) {
 /// Part of an error budget that a run cannot see itself: how far its answer is from that of a companion, the same scene with one
 /// choice made otherwise - a mesh of other directions, smaller load steps.
 /// own, companion: the same measure of both runs; size: what an error is relative to, in the measure's unit
-/// \throws InputError for a size that is not finite and positive
+/// \throws InputError for a size that is not finite and positive, and for a bound that is negative or NaN
 inline BudgetPart companion_part(std::string name, double own, double companion, double size, double bound,
                                  std::string meaning) {
   require_positive("size that a companion's difference is relative to", size);
+  require_at_least("bound of a companion's difference", bound, 0.0);
   return {std::move(name), std::abs(companion - own) / size, bound, std::move(meaning)};
 }
 
@@ -77,6 +79,13 @@ struct ErrorBounds {
   double mesh = 4e-2;             ///< against a companion on another mesh
   double load_step = 2e-2;        ///< against a companion with smaller load steps
 
+  /// Infinite: no bound. \throws InputError for a bound that is negative or NaN
+  void validate() const {
+    members(*this, [](std::string_view name, double bound) {
+      require_at_least(fmt::format("bound of the error budget's {}", name), bound, 0.0);
+    });
+  }
+
   SCARP_MEMBERS(residual, work_gap, linear_residual, iterated_linear_residual, condition, unbalanced_mean,
                 unbalanced_largest, kinetic_share, inertial_number, held_stress, doubling_median, doubling_95,
                 accumulated, mesh, load_step)
@@ -90,6 +99,15 @@ struct ErrorSampling {
   int most_followed = 24;        ///< at most so many,
   std::vector<int> followed{};   ///< and these
   double loose_pressure = 0.0;   ///< [Pa]; stresses below that of this pressure count as large as it
+
+  /// \throws InputError for numbers that are negative or not finite
+  void validate() const {
+    require_not_negative("share of work for samples", share);
+    require_not_negative("loose pressure", loose_pressure);
+    require_at_least("number of samples of a step", most_samples, 0);
+    require_at_least("number of followed points", most_followed, 0);
+    require_at_least("number of points for a followed one", points_per_followed, 1);
+  }
 };
 
 }  // namespace scarp

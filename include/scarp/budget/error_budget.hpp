@@ -70,11 +70,8 @@ class ErrorBudget : public NeverStops {
   /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
   explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
       : bounds_(bounds), sampling_(sampling), iterates_equations_(detail::iterates_equations(problem.materials())) {
-    require_not_negative("share of work for samples", sampling.share);
-    require_not_negative("loose pressure", sampling.loose_pressure);
-    require_not_negative("number of samples of a step", sampling.most_samples);
-    require_not_negative("number of followed points", sampling.most_followed);
-    require_positive("number of points for a followed one", sampling.points_per_followed);
+    bounds.validate();
+    sampling.validate();
     int const points = problem.materials().point_count();
     for (int point = 0; point < points; ++point) {
       if (owns_point(problem.executor(), point)) seen_.push_back(point);

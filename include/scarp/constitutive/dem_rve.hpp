@@ -67,11 +67,15 @@ struct DemRve {
   double unbalanced_tolerance = 0.05;  ///< asked of every response
   double loose_pressure = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
   double time_step_share = usual_time_step_share;  ///< of the critical step's lower bound
+  bool fluid_start = false;  ///< whether a point may start with a packing without contacts, see StiffnessFloor
   Damping damping{};
   Tangent tangent_policy{};
 
+  /// A packing that was listed with another law is listed anew.
+  /// \throws InputError for parameters that no response can be made with, and for a packing that carries nothing or cannot be
+  /// used
   State initial_state(Site<dim> const& site) const {
-    check();
+    validate();
     State state;
     state.packing = source.at(site);
     if (!state.packing.population) {
@@ -80,9 +84,30 @@ struct DemRve {
     }
     require_positive("normal stiffness of the contact law", spring_modulus(state.packing, law));
     require_consistent(law, state.packing.population->largest_radius());
-    Stepper stepper = make_stepper();
+    Stepper stepper;
     state.verdict = observe(stepper, state);
+    if (state.verdict.status == Status::failed)
+      refuse("the packing of point {} cannot be used ({}): give the provider's source another one", site.index,
+             name(state.verdict.reason));
+    if (state.verdict.status == Status::fluid && !fluid_start)
+      require_contacts(fmt::format("the packing of point {}", site.index), 0);
     return state;
+  }
+
+  /// \throws InputError for parameters that no response can be made with
+  void validate() const {
+    require_positive("strain per DEM step", strain_per_step);
+    require_positive("inertial number", inertial_number);
+    require_positive("unbalanced tolerance", unbalanced_tolerance);
+    require_positive("share of the critical time step", time_step_share);
+    require_not_negative("loose pressure", loose_pressure);
+    if constexpr (Frictional<Law>) {
+      require_not_negative("friction of the contact law", Law(law).friction_coefficient());
+    }
+    require_at_least("least number of DEM steps of a response", least_steps, 1);
+    require_at_least("most DEM steps of a response", most_steps, least_steps);
+    detail::validated(damping);
+    detail::validated(tangent_policy);
   }
 
   VoigtStress<dim> stress(State const& state) const { return state.stress; }
@@ -138,25 +163,14 @@ struct DemRve {
   }
 
  private:
-  /// \throws InputError for parameters that no response can be made with
-  void check() const {
-    require_positive("strain per DEM step", strain_per_step);
-    require_positive("inertial number", inertial_number);
-    require_positive("unbalanced tolerance", unbalanced_tolerance);
-    require_positive("share of the critical time step", time_step_share);
-    require_not_negative("loose pressure", loose_pressure);
-    if constexpr (Frictional<Law>) {
-      require_not_negative("friction of the contact law", Law(law).friction_coefficient());
-    }
-    if (least_steps < 1 || most_steps < least_steps) {
-      refuse("a response is to take {} to {} DEM steps (at least one, and not more than the most): mend the bounds",
-             least_steps, most_steps);
-    }
-  }
-
   using Stepper = TimeStepper<PackingType, Damping>;
 
-  double time_step(State const& state) const { return time_step_share * state.packing.pairs.critical_step; }
+  /// [s], for a packing that was listed with another law as the next step will list it.
+  double time_step(State const& state) const {
+    auto const& pairs = state.packing.pairs;
+    bool const is_ours = pairs.basis.agrees_with(list_basis(state.packing, law, pairs.skin));
+    return time_step_share * (is_ours ? pairs.critical_step : critical_step(state.packing, law));
+  }
 
   static double largest_strain(Gradient<dim> const& increment) {
     return largest_principal<dim>((increment + increment.transpose()) / 2.0);
@@ -173,13 +187,6 @@ struct DemRve {
   double least_pressure(PackingType const& packing) const { return 3e-17 * spring_modulus(packing, law); }
 
   static double mean_pressure(VoigtStress<dim> const& stress) { return -stress.template head<dim>().sum() / dim; }
-
-  Stepper make_stepper() const {
-    Stepper stepper;
-    stepper.damping = damping;
-    stepper.time_step_share = time_step_share;
-    return stepper;
-  }
 
   Verdict observe(Stepper& stepper, State& state) const {
     StepObservation<dim> seen;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <concepts>
 
-#include "scarp/core/voigt.hpp"
+#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/core/error.hpp"
 
 namespace scarp {
 
@@ -22,6 +23,13 @@ struct GeostaticStress {
   double unit_weight = 0.0;  ///< gamma [N/m3]
   double k0 = 1.0;           ///< horizontal over vertical stress
 
+  /// \throws InputError for a number that is negative or not finite
+  void validate() const {
+    require_not_negative("surcharge on the ground surface", surcharge);
+    require_not_negative("unit weight", unit_weight);
+    require_not_negative("ratio of horizontal to vertical stress, K0,", k0);
+  }
+
   /// depth [m]; a point above the ground surface carries the surcharge only
   VoigtStress<Dim> at(double depth) const {
     double const vertical = -(surcharge + unit_weight * std::max(depth, 0.0));
@@ -36,6 +44,17 @@ template <int Dim>
 struct StressFree {
   VoigtStress<Dim> at(double) const { return VoigtStress<Dim>::Zero(); }
 };
+
+/// The stress [Pa] that a point starts with.
+/// \throws InputError for a field whose numbers are wrong and for a stress that is not finite
+template <int Dim, class Field>
+  requires InitialStressField<Field, Dim> VoigtStress<Dim> initial_stress(Field const& field, Site<Dim> const& site) {
+    VoigtStress<Dim> const stress = detail::validated(field).at(site.depth);
+    if (!stress.allFinite())
+      refuse("the initial stress of point {} is not finite (its depth is {} m): mend the field or the point's depth",
+             site.index, site.depth);
+    return stress;
+  }
 
 static_assert(InitialStressField<GeostaticStress<2>, 2> && InitialStressField<GeostaticStress<3>, 3>);
 static_assert(InitialStressField<StressFree<2>, 2> && InitialStressField<StressFree<3>, 3>);

@@ -57,12 +57,16 @@ struct Lazy {
   double memory = 0.5;            ///< share of an earlier error that a better answer leaves
 
   /// \throws InputError for bounds that are negative or not finite
-  State initial_state(Site<dim> const& site) const {
+  void validate() const {
     require_not_negative("tolerance of a predicted stress", tolerance);
     require_positive("largest strain that is predicted", largest_strain);
     require_not_negative("loose pressure", loose_pressure);
     require_positive("strain from which a tangent learns", learning_strain);
     require_not_negative("share of an earlier error that is remembered", memory);
+  }
+
+  State initial_state(Site<dim> const& site) const {
+    validate();
     typename Provider::State own = provider.initial_state(site);
     VoigtTangent<dim> const tangent = provider.tangent(own);
     VoigtStress<dim> const stress = provider.stress(own);

@@ -16,7 +16,7 @@ struct IsotropicElasticity {
   double shear_modulus = 0.0;
 
   /// \throws InputError unless shear modulus and three-dimensional bulk modulus are finite and positive
-  static IsotropicElasticity from_lame(double lame_lambda, double shear_modulus) {
+  void validate() const {
     require_finite("Lame's lambda", lame_lambda);
     require_positive("shear modulus", shear_modulus);
     double const bulk_modulus = lame_lambda + 2.0 * shear_modulus / 3.0;
@@ -26,7 +26,11 @@ struct IsotropicElasticity {
           "Pa",
           bulk_modulus, lame_lambda, shear_modulus, -2.0 * shear_modulus / 3.0);
     }
-    return {lame_lambda, shear_modulus};
+  }
+
+  /// \throws InputError as validate() does
+  static IsotropicElasticity from_lame(double lame_lambda, double shear_modulus) {
+    return detail::validated(IsotropicElasticity{lame_lambda, shear_modulus});
   }
 
   SCARP_MEMBERS(lame_lambda, shear_modulus)
@@ -84,7 +88,11 @@ struct LinearElastic {
     return {IsotropicElasticity::from_young_poisson(young, poisson), initial};
   }
 
-  State initial_state(Site<Dim> const& site) const { return {initial.at(site.depth)}; }
+  /// \throws InputError for an elasticity or an initial stress that cannot be
+  State initial_state(Site<Dim> const& site) const {
+    elasticity.validate();
+    return {initial_stress<Dim>(initial, site)};
+  }
 
   VoigtStress<Dim> stress(State const& state) const { return state.stress; }
 

@@ -34,15 +34,27 @@ struct MohrCoulomb {
   InitialStress initial{};  ///< every point's start, by depth
 
   /// The stress out of the plane starts as the horizontal one in it.
-  /// \throws InputError for a strength or elasticity that cannot be
+  /// \throws InputError for a strength or elasticity that cannot be, and for a stress outside the strength
   State initial_state(Site<Dim> const& site) const {
-    require_sound(strength);
-    static_cast<void>(IsotropicElasticity::from_lame(elasticity.lame_lambda, elasticity.shear_modulus));
-    VoigtStress<Dim> const start = initial.at(site.depth);
+    validate();
+    VoigtStress<Dim> const start = initial_stress<Dim>(initial, site);
     Tensor<3> stress = Tensor<3>::Zero();
     stress.template topLeftCorner<Dim, Dim>() = from_voigt_stress<Dim, double>(start);
     if (Dim == 2) stress(2, 2) = start(0);
+    require_within_strength(principal(stress).values, site);
     return {to_voigt_stress<3, double>(stress), 0.0, elasticity.template stiffness<Dim>()};
+  }
+
+  /// Of a law of strength without a check of its own the ends are checked.
+  /// \throws InputError for a strength or elasticity that cannot be
+  void validate() const {
+    elasticity.validate();
+    if constexpr (requires { strength.validate(); }) {
+      strength.validate();
+    } else {
+      strength.at(0.0).validate();
+      if constexpr (StrengthType::changes) strength.at(std::numeric_limits<double>::infinity()).validate();
+    }
   }
 
   VoigtStress<Dim> stress(State const& state) const {
@@ -53,8 +65,8 @@ struct MohrCoulomb {
   /// Derivative of the last increment's answer with respect to its strain; before any, the elastic stiffness.
   VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
 
-  /// Fails with `not_finite`, `element_inverted`, or `no_return` where softening is so steep that no strength belongs to the
-  /// increment; `trial` is then a copy of `committed`.
+  /// Fails with `not_finite`, `element_inverted`, or `no_return` where no strength belongs to the increment, since a strength
+  /// that rises at once by more than the increment bears lies in its way; `trial` is then a copy of `committed`.
   Response<Dim> respond(State const& committed, Gradient<Dim> const& increment, State& trial) const {
     trial = committed;
     RotatedIncrement<Dim> const moved(increment);
@@ -80,6 +92,21 @@ struct MohrCoulomb {
 
  private:
   using Return = detail::PrincipalReturn;
+
+  void require_within_strength(Vector<3> const& stress, Site<Dim> const& site) const {
+    Strength const start = strength.at(0.0);
+    detail::MohrCoulombReturn const surface(start, elasticity.lame_lambda, elasticity.shear_modulus);
+    if (surface.excess(stress) <= 1e-10 * std::max(stress.cwiseAbs().maxCoeff(), start.cohesion)) return;  // round-off
+    double const sine = std::sin(start.friction);
+    refuse(
+        "the initial stress of point {} in region {}, {} m deep, has principal stresses of {}, {} and {} Pa (its "
+        "strength, "
+        "cohesion {} Pa and friction {} rad, does not bear them): give more strength or another initial stress; "
+        "without "
+        "cohesion K0 lies between {:.3f} and {:.3f}",
+        site.index, site.region, site.depth, stress(0), stress(1), stress(2), start.cohesion, start.friction,
+        (1.0 - sine) / (1.0 + sine), (1.0 + sine) / (1.0 - sine));
+  }
 
   Return returned_at(Vector<3> const& trial, double plastic_shear) const {
     return detail::MohrCoulombReturn(strength.at(plastic_shear), elasticity.lame_lambda,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/neighbour_mean.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/finite_strain.hpp"
 
@@ -58,6 +61,13 @@ struct Neighbourhood {
   double length = 0.0;     ///< radius [m]; 0: the point is a local one
   double stiffness = 1.0;  ///< share of the point's initial tangent
   double fading = 1e-3;    ///< strain after which the stress against unseen strain has faded
+
+  /// \throws InputError for numbers that are negative or not finite, and a fading strain of zero
+  void validate() const {
+    require_not_negative("length that increments are averaged over", length);
+    require_not_negative("stiffness against unseen strain", stiffness);
+    require_positive("strain after which unseen stress has faded", fading);
+  }
 };
 
 /// Any field whose points see weighted means of the increments around them instead of their own,
@@ -89,9 +99,8 @@ class NonlocalMaterials {
         by_own_(sites.size(), VoigtTangent<dim>::Zero()),
         by_mean_(by_own_) {
     for (std::size_t k = 0; k < sites.size(); ++k) {
-      double const share = require_not_negative("stiffness against unseen strain", neighbourhoods[k].stiffness);
-      fading_.push_back(require_positive("strain after which unseen stress has faded", neighbourhoods[k].fading));
-      stiffness_.push_back(share * field_.committed_tangent(static_cast<int>(k)));
+      fading_.push_back(neighbourhoods[k].fading);
+      stiffness_.push_back(neighbourhoods[k].stiffness * field_.committed_tangent(static_cast<int>(k)));
     }
   }
 
@@ -149,10 +158,22 @@ class NonlocalMaterials {
     field_.visit(point, visit);
   }
 
-  /// What evolves: the field and tau.
+  /// What evolves: the field and tau, beside what they depend on.
+  /// \throws InputError when it reads what points with other neighbours, or another stiffness against unseen strain, have come to
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(field_, mean_, fading_, stiffness_, own_, committed_, trial_, by_own_, by_mean_);
+    auto const own = self.basis();
+    auto saved = own;
+    visit("basis", saved);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (!(std::abs(saved[k] - own[k]) <= 1e-9 * std::abs(own[k])))  // round-off of another compiler
+        refuse(
+            "a saved state is of points that see other means, {} for {} (another mesh, length, stiffness or fading): "
+            "go on "
+            "with the same ones",
+            saved[k], own[k]);
+    }
     visit("field", self.field_);
     visit("tau", std::span(self.committed_));
   }
@@ -167,8 +188,22 @@ class NonlocalMaterials {
              sites.size(), volumes.size(), neighbourhoods.size(), count);
     }
     std::vector<double> lengths;
-    for (auto const& neighbourhood : neighbourhoods) lengths.push_back(neighbourhood.length);
+    for (auto const& neighbourhood : neighbourhoods) lengths.push_back(detail::validated(neighbourhood).length);
     return {sites, volumes, lengths};
+  }
+
+  /// Tells neighbours, their weights and the stresses against unseen strain from others.
+  std::array<double, 4> basis() const {
+    std::array<double, 4> sums{};
+    for (int point = 0; point < point_count(); ++point) {
+      for (auto const& [other, weight] : mean_.of(point)) {
+        sums[0] += 1.0;
+        sums[1] += weight * weight * (1.0 + other);
+      }
+      sums[2] += fading_[detail::index(point)];
+      sums[3] += stiffness_[detail::index(point)].norm();
+    }
+    return sums;
   }
 
   /// tau of a point that sees one gradient and does not see another.

@@ -17,8 +17,18 @@ struct PerturbationTangent {
       1e-6;                 ///< of settled packings: times the stress it must stay well below stiffness x strain
   int most_steps = 50'000;  ///< of each settling
   int check_every = 50;     ///< steps between looks at the balance
-  LocalDamping damping{};
+  LocalDamping damping{};   ///< of the trials, whatever damping the packing answers with
   TangentComplaint complain = complain_of_tangent;  ///< hears of each tangent that is less exact than asked
+
+  /// \throws InputError for a strain or numbers of steps that are not positive
+  void validate() const {
+    require_positive("strain of a packing's modes", strain);
+    require_at_least("number of steps that strain a packing", strain_steps, 1);
+    require_positive("unbalanced tolerance of a settled packing", unbalanced_tolerance);
+    require_at_least("most steps of a settling", most_steps, 1);
+    require_at_least("number of steps between looks at the balance", check_every, 1);
+    detail::validated(damping);
+  }
 
   /// Central differences. What was reached by then is taken where a packing does not settle, after `complain` was told.
   template <class PackingType>
@@ -39,6 +49,7 @@ struct PerturbationTangent {
       PackingType const& packing, typename PackingType::Law const& law,
       EngineeringStrain<PackingType::dim> const& towards = EngineeringStrain<PackingType::dim>::Zero(),
       long* steps = nullptr) const {
+    validate();
     constexpr int dim = PackingType::dim;
     TangentAnswer<dim> answer{VoigtTangent<dim>::Zero(), {}};
     long taken = 0;

@@ -30,10 +30,15 @@ struct StiffnessFloor {
   double share = 1e-4;         ///< of the isotropic part of the initial tangent
   double shear_modulus = 0.0;  ///< [Pa] instead, with Poisson's ratio zero, when positive
 
-  /// \throws InputError for a share that is not positive, and for a share of nothing where a point is fluid from the
-  /// start
-  State initial_state(Site<dim> const& site) const {
+  /// \throws InputError for a share that is not positive, and for a modulus that is negative or not finite
+  void validate() const {
     require_positive("share of a fluid point's stiffness", share);
+    require_not_negative("shear modulus of a fluid point", shear_modulus);
+  }
+
+  /// \throws InputError also for a share of nothing where a point is fluid from the start
+  State initial_state(Site<dim> const& site) const {
+    validate();
     auto own = provider.initial_state(site);
     IsotropicElasticity elasticity{0.0, shear_modulus};
     if (!(shear_modulus > 0.0)) {

@@ -25,26 +25,26 @@ struct Strength {
 
   /// The tensile stress that is cut off; beyond the apex there is nothing to cut.
   double cut_off() const { return std::min(tension, apex()); }
-};
 
-/// \throws InputError for angles out of order (were they given in degrees?), negative or not finite strengths
-inline void require_sound(Strength const& strength) {
-  require_not_negative("cohesion", strength.cohesion);
-  if (!(strength.friction >= 0.0 && strength.friction < 0.999 * std::numbers::pi / 2.0)) {
-    refuse("the friction angle is {} rad (it must be from 0 to below a right angle): {}", strength.friction,
-           strength.friction > 1.5 && strength.friction < 90.0 ? "was it given in degrees?" : "give radians");
+  /// \throws InputError for angles out of order (were they given in degrees?), negative or not finite strengths
+  void validate() const {
+    require_not_negative("cohesion", cohesion);
+    if (!(friction >= 0.0 && friction < 0.999 * std::numbers::pi / 2.0)) {
+      refuse("the friction angle is {} rad (it must be from 0 to below a right angle): {}", friction,
+             friction > 1.5 && friction < 90.0 ? "was it given in degrees?" : "give radians");
+    }
+    if (!(dilation >= 0.0 && dilation <= friction)) {
+      refuse(
+          "the angle of dilation is {} rad with a friction of {} rad (beyond it flow would create energy): choose one "
+          "from 0 to the friction",
+          dilation, friction);
+    }
+    if (!(tension >= 0.0)) {
+      refuse("the tensile strength is {} Pa (it must not be negative): give zero for none, infinity for no cut-off",
+             tension);
+    }
   }
-  if (!(strength.dilation >= 0.0 && strength.dilation <= strength.friction)) {
-    refuse(
-        "the angle of dilation is {} rad with a friction of {} rad (beyond it flow would create energy): choose one "
-        "from 0 to the friction",
-        strength.dilation, strength.friction);
-  }
-  if (!(strength.tension >= 0.0)) {
-    refuse("the tensile strength is {} Pa (it must not be negative): give zero for none, infinity for no cut-off",
-           strength.tension);
-  }
-}
+};
 
 /// at(plastic shear strain): the strength after so much plastic shear, the accumulated difference of the largest and the
 /// smallest principal plastic strain. `changes`: whether it depends on it at all.
@@ -61,17 +61,10 @@ struct ConstantStrength {
   Strength strength{};
 
   Strength at(double) const { return strength; }
+  void validate() const { strength.validate(); }
 };
 
 static_assert(StrengthLaw<ConstantStrength>);
-
-/// As far as the ends of a law tell; one that can be wrong in between has an overload of its own.
-/// \throws InputError for a strength that cannot be
-template <StrengthLaw Law>
-void require_sound(Law const& law) {
-  require_sound(law.at(0.0));
-  if constexpr (Law::changes) require_sound(law.at(std::numeric_limits<double>::infinity()));
-}
 
 /// Strength that falls from peak to residual, linear in the plastic shear strain (angles in radians, cohesion and tension in
 /// pascals each for itself). Where one of the two cuts no tension off, the other's cut-off holds in between. Without an
@@ -92,14 +85,14 @@ struct SofteningStrength {
     return {between(peak.cohesion, residual.cohesion), between(peak.friction, residual.friction),
             between(peak.dilation, residual.dilation), between(peak.cut_off(), residual.cut_off())};
   }
-};
 
-/// \throws InputError for a peak or residual strength that cannot be, or a fall over no strain
-inline void require_sound(SofteningStrength const& strength) {
-  require_positive("plastic shear strain from peak to residual strength", strength.strain_to_residual);
-  require_sound(strength.peak);
-  require_sound(strength.residual);
-}
+  /// \throws InputError for a peak or residual strength that cannot be, or a fall over no strain
+  void validate() const {
+    require_positive("plastic shear strain from peak to residual strength", strain_to_residual);
+    peak.validate();
+    residual.validate();
+  }
+};
 
 static_assert(StrengthLaw<SofteningStrength>);
 

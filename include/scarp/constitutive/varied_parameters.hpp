@@ -42,7 +42,12 @@ struct VariedParameters {
   Provider common{};
   std::function<Provider(Provider const&, Site<dim> const&)> vary{};
 
-  /// \throws InputError without a function that varies, and whatever that function throws
+  /// \throws InputError without a function that varies
+  void validate() const {
+    if (!vary) refuse("points have no parameters of their own (no function varies the common ones): give `vary`");
+  }
+
+  /// \throws InputError as validate() does, and whatever the function that varies throws
   State initial_state(Site<dim> const& site) const {
     auto own = provider_at(site);
     auto state = own->initial_state(site);
@@ -78,9 +83,7 @@ struct VariedParameters {
 
  private:
   std::shared_ptr<Provider const> provider_at(Site<dim> const& site) const {
-    if (!vary) {
-      refuse("point {} has no parameters of its own (no function varies the common ones): give `vary`", site.index);
-    }
+    validate();
     return std::make_shared<Provider const>(vary(common, site));
   }
 };

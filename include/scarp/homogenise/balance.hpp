@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
+#include "scarp/core/error.hpp"
 #include "scarp/dem/contacts.hpp"
 #include "scarp/dem/packing.hpp"
 #include "scarp/homogenise/sliding_contacts.hpp"
@@ -22,6 +24,12 @@ struct Balance {
   double sliding_share = 0.0;          ///< contacts that refuse more shear force, as a share of all
   double deepest_overlap = 0.0;        ///< [m]
 };
+
+/// \throws InputError for a packing without contacts; what: names it
+inline void require_contacts(std::string_view what, std::size_t contacts) {
+  if (contacts == 0)
+    refuse("{} has 0 contacts (it carries no stress and has no stiffness): compress it until its grains touch", what);
+}
 
 /// Eq. 5 of the study, with f the force on the second grain and l the branch from first to second.
 template <class PackingType>

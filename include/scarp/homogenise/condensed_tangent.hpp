@@ -44,6 +44,12 @@ struct CondensedTangent {
   bool initial_stress = true;                       ///< with the terms of the present stress; never in the fallback
   TangentComplaint complain = complain_of_tangent;  ///< hears of each fallback
 
+  /// \throws InputError for springs to the ground that are negative or not finite
+  void validate() const {
+    sliding.validate();
+    require_not_negative("spring to the ground of a condensed packing", regularisation);
+  }
+
   /// The condensed tangent, or the one under uniform strain after `complain` was told why.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
@@ -59,6 +65,7 @@ struct CondensedTangent {
   template <class PackingType>
   TangentAnswer<PackingType::dim> condense(PackingType const& packing, typename PackingType::Law const& law) const {
     constexpr int dim = PackingType::dim;
+    validate();
     Assembly<dim> const assembly = assemble(packing, law);
     VoigtTangent<dim> const affine = assembly.affine / packing.volume();
     if (assembly.stiffness.rows() == 0) return {affine, {Status::fluid, Reason::no_contacts}};

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/dem/contacts.hpp"
 
@@ -16,6 +17,12 @@ struct SlidingContacts {
   /// Shear force that is asked for, as a share of the contact's force. While grains move, contacts that slide under a
   /// growing normal force stand a little below the limit: it grows once more after their last slip.
   double nearness = 1e-2;
+
+  /// \throws InputError for shares out of range
+  void validate() const {
+    require_between("share of a sliding contact's tangential stiffness", shear_share, 0.0, 1.0);
+    require_positive("shear force that sliding contacts are asked for, as a share,", nearness);
+  }
 
   template <int Dim, class Law>
   bool slides(Contact<Dim> const& contact, Law const& law) const {

@@ -25,7 +25,7 @@ class ConvergenceLog : public NeverStops {
                 "dem_steps", "seconds", "seconds_in_points"},
                start),
         lines_(std::filesystem::path(file).replace_extension(".jsonl"), start == CsvStart::resumed),
-        load_unit_(load_unit) {}
+        load_unit_(require_positive("unit of the load", load_unit)) {}
 
   template <class Problem>
   void attempted(Problem const&, StepReport const& report) {

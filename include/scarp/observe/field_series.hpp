@@ -127,33 +127,26 @@ template <class PointQuantities = NoQuantities>
 class FieldSeries : public NeverStops {
  public:
   /// frames: files are written at load 0 and then whenever the load has grown by to / frames
+  /// \throws InputError for an end, a number of frames or a unit that is not positive
   FieldSeries(std::filesystem::path folder, double to, int frames, double load_unit)
       : folder_(std::move(folder)),
-        between_(require_positive("distance between frames", to / frames)),
-        end_(to),
-        load_unit_(load_unit),
+        schedule_(detail::validated(LoadSchedule{to, frames, load_unit})),
         series_(folder_, "fields") {}
 
+  /// \throws InputError for a quantity that has the name of a field
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
-    if (!report.verdict.acceptable()) return;
-    bool const due = report.load >= next_ || report.load >= end_;
-    if (!due || report.load <= last_) return;
-    while (next_ <= report.load) next_ += between_;
-    last_ = report.load;
-    write(problem, report.load);
+    if (report.verdict.acceptable() && schedule_.takes(report.load)) write(problem, report.load);
   }
 
   /// Writes the last state of a run whose fault has moved and that stopped between two frames; its statuses are those
   /// of the points' last answers, also where these were refused.
   template <class Problem>
   void ended(Problem const& problem, double load) {
-    if (!(load > 0.0 && load > last_)) return;
-    last_ = load;
-    write(problem, load);
+    if (schedule_.takes_end(load)) write(problem, load);
   }
 
-  SCARP_MEMBERS_EXCEPT((folder_, between_, end_, load_unit_, quantities_), series_, next_, last_, frame_)
+  SCARP_MEMBERS_EXCEPT((folder_, quantities_), schedule_, series_, frame_)
 
  private:
   template <class Problem>
@@ -176,21 +169,21 @@ class FieldSeries : public NeverStops {
     fields.at_elements.push_back({"volumetric_strain", 1, std::span<double const>(at_elements.volumetric), {}});
     fields.at_elements.push_back({"deviatoric_strain", 1, std::span<double const>(at_elements.deviatoric), {}});
     fields.at_elements.push_back({"status", 1, std::span<int const>(at_elements.status), {}});
-    for (auto const& [name, column] : at_elements.quantities)
+    for (auto const& [name, column] : at_elements.quantities) {
+      if (std::any_of(fields.at_elements.begin(), fields.at_elements.end(),
+                      [&, &own = name](auto const& field) { return field.name == own; }))
+        refuse("an own quantity is named '{}' (fields of that name are written already): give it another name", name);
       fields.at_elements.push_back({name, 1, std::span<double const>(column), {}});
+    }
     auto const file = std::filesystem::path("fields") / fmt::format("step_{:04}.vtu", frame_++);
     write_vtu(folder_ / file, mesh, grid.positions(), fields);
-    series_.add(load / load_unit_, file);
+    series_.add(load / schedule_.unit, file);
   }
 
   std::filesystem::path folder_;
-  double between_;
-  double end_;
-  double load_unit_;
+  LoadSchedule schedule_;
   PvdSeries series_;
   PointQuantities quantities_;
-  double next_ = 0.0;
-  double last_ = -1.0;
   int frame_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
@@ -68,6 +69,50 @@ struct Borrowed {
     if constexpr (Described<Observer>) Observer::members(*self.observer, visit);
   }
 };
+
+/// When a series writes: at load 0, whenever the load has grown by to / count, and at the end.
+struct LoadSchedule {
+  double to = 0.0;
+  int count = 0;
+  double unit = 1.0;  ///< that loads are told in
+  double next = 0.0;
+  double last = -1.0;  ///< load that was written last
+
+  /// \throws InputError for an end, a number or a unit that is not positive
+  void validate() const {
+    require_positive("end of the load", to);
+    require_at_least("number of files or profiles up to the end of the load", count, 1);
+    require_positive("unit of the load", unit);
+  }
+
+  /// Whether a state at this load is written; true once for each.
+  bool takes(double load) {
+    if (load <= last || (load < next && load < to)) return false;
+    while (next <= load) next += to / count;
+    last = load;
+    return true;
+  }
+
+  /// Whether the last state of a run is to be written that stopped between two of them after the fault has moved.
+  bool takes_end(double load) {
+    if (!(load > 0.0 && load > last)) return false;
+    last = load;
+    return true;
+  }
+
+  SCARP_MEMBERS_EXCEPT((to, count, unit), next, last)
+};
+
+namespace detail {
+/// \throws InputError for a point that a problem does not have
+template <class Problem>
+int require_point(Problem const& problem, int point) {
+  int const count = problem.materials().point_count();
+  if (point < 0 || point >= count)
+    refuse("point {} is to be observed (there are points 0 to {}): choose one of these", point, count - 1);
+  return point;
+}
+}  // namespace detail
 
 /// Observer behaviour of one that never stops a run.
 struct NeverStops {

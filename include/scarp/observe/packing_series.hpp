@@ -21,7 +21,7 @@ class PackingSeries : public NeverStops {
  public:
   /// point: number of a material point, see nearest_point
   /// shares: of `to`, from 0 to 1, increasing
-  /// \throws InputError for other shares
+  /// \throws InputError for other shares, and for an end or a unit that is not positive
   PackingSeries(std::filesystem::path const& folder, std::string name, int point, double to, std::vector<double> shares,
                 double load_unit)
       : folder_(folder / "packings"),
@@ -29,7 +29,7 @@ class PackingSeries : public NeverStops {
         point_(point),
         to_(require_positive("end of the load", to)),
         shares_(std::move(shares)),
-        load_unit_(load_unit) {
+        load_unit_(require_positive("unit of the load", load_unit)) {
     double before = -1.0;
     for (double const share : shares_) {
       if (!(share >= 0.0 && share <= 1.0 && share > before))
@@ -60,7 +60,7 @@ class PackingSeries : public NeverStops {
   void write(Problem const& problem, double load) {
     last_ = load;
     std::optional<PackingPicture> picture;
-    visit_point(problem, point_,
+    visit_point(problem, detail::require_point(problem, point_),
                 [&](auto const& provider, auto const& state) { picture = packing_in(provider, state); });
     if (!picture) return;
     std::filesystem::create_directories(folder_);

@@ -30,18 +30,19 @@ int nearest_point(DiscretisationType const& discretisation, Vector<Discretisatio
 class RveProbe : public NeverStops {
  public:
   /// point: number of a material point, see nearest_point
+  /// \throws InputError for a unit that is not positive
   RveProbe(std::filesystem::path const& file, int point, double load_unit, CsvStart start = CsvStart::anew)
       : log_(file,
              {"throw_over_depth", "eps_q", "eps_v", "p", "q", "contact_fabric", "particle_fabric", "void_ratio", "sxx",
               "syy", "sxy"},
              start),
         point_(point),
-        load_unit_(load_unit) {}
+        load_unit_(require_positive("unit of the load", load_unit)) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;
-    auto const stress = committed_stress(problem, point_);
+    auto const stress = committed_stress(problem, detail::require_point(problem, point_));
     auto const geo_stress = geo::plane_stress(stress);
     auto const strain = geo::plane_strain(seen_deformation(problem, point_));
     double fabric_of_contacts = std::numeric_limits<double>::quiet_NaN();

@@ -18,7 +18,10 @@ class Progress : public NeverStops {
  public:
   /// name: before every line, of one run among several
   Progress(double to, double load_unit, std::string name = {})
-      : to_(to), load_unit_(load_unit), name_(std::move(name)), started_(std::chrono::steady_clock::now()) {}
+      : to_(require_finite("end of the load", to)),
+        load_unit_(require_positive("unit of the load", load_unit)),
+        name_(std::move(name)),
+        started_(std::chrono::steady_clock::now()) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {

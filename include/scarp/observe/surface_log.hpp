@@ -17,46 +17,38 @@ namespace scarp {
 template <int Dim = 2>
 class SurfaceLog : public NeverStops {
  public:
+  /// \throws InputError for an end, a number of profiles or a unit that is not positive
   SurfaceLog(std::filesystem::path const& file, double to, int profiles, double load_unit,
              CsvStart start = CsvStart::anew)
       : log_(file, {"throw_over_depth", "x_initial", "x", "settlement", "joined"}, start),
-        between_(require_positive("distance between profiles", to / profiles)),
-        end_(to),
-        load_unit_(load_unit) {}
+        schedule_(detail::validated(LoadSchedule{to, profiles, load_unit})) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     rest_.attempted(problem, report);
-    if (!report.verdict.acceptable() || (report.load < next_ && report.load < end_)) return;
-    while (next_ <= report.load) next_ += between_;
-    write(problem, report.load);
+    if (report.verdict.acceptable() && schedule_.takes(report.load)) write(problem, report.load);
   }
 
   /// Writes the last state of a run that stopped between two profiles.
   template <class Problem>
   void ended(Problem const& problem, double load) {
-    if (load > last_) write(problem, load);
+    if (schedule_.takes_end(load)) write(problem, load);
   }
 
-  SCARP_MEMBERS_EXCEPT((between_, end_, load_unit_), log_, rest_, next_, last_)
+  SCARP_MEMBERS(log_, rest_, schedule_)
 
  private:
   template <class Problem>
   void write(Problem const& problem, double load) {
-    last_ = load;
     auto const& grid = problem.discretisation();
     for (auto const& point : surface_profile(grid.mesh(), rest_.of(grid.mesh()), grid.positions())) {
-      log_.add(load / load_unit_, point.x_initial, point.x, point.settlement, point.joined ? 1 : 0);
+      log_.add(load / schedule_.unit, point.x_initial, point.x, point.settlement, point.joined ? 1 : 0);
     }
   }
 
   CsvLog log_;
   GroundAtRest<Dim> rest_;
-  double between_;
-  double end_;
-  double load_unit_;
-  double next_ = 0.0;
-  double last_ = 0.0;
+  LoadSchedule schedule_;
 };
 
 }  // namespace scarp
