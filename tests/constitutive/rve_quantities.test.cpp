@@ -13,8 +13,8 @@ TEST_CASE("the balance of a packing is found within every adaptor around every a
     CAPTURE(name);
     auto const committed = provider.initial_state({.index = 3});
     auto trial = committed;
-    // The plan asks also those that would rather predict.
-    auto const plan = provider.refined(provider.plan(committed, increment));
+    // Refined, a plan asks a provider that would rather predict, and refined once more one within it.
+    auto const plan = provider.refined(provider.refined(provider.plan(committed, increment)));
     REQUIRE(provider.respond(committed, increment, trial, plan).verdict.acceptable());
     auto const found = scarp::packing_balance(provider, trial);
     CHECK(found.has_packing);
