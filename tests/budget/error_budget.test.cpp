@@ -206,7 +206,7 @@ TEST_CASE("the budget is complete whatever adaptor is around a packing") {
     CAPTURE(std::string(adaptor.name));
     Points points(adaptor.around(nestings::Loosening{}), 5);
     scarp::ErrorBudget budget(points);
-    points.strain(-1e-4, budget);
+    points.strain(-5e-4, budget);  // more than is predicted at once
     auto const parts = budget.parts();
     CHECK(part(parts, "unbalanced_mean") == 1e-3);
     CHECK(part(parts, "unbalanced_largest") == 1e-3);
