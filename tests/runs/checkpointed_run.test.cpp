@@ -2,6 +2,9 @@
 #include "scarp/run/checkpointed_run.hpp"
 
 #include <doctest/doctest.h>
+#ifdef __linux__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -310,4 +313,73 @@ TEST_CASE("a checkpoint that holds more than the scene remembers is refused") {
   static_cast<void>(pull(folder, {{.folder = folder / "states", .every_seconds = 1e9}, scene}, {.stop_after = 6}));
   CHECK(samples::message_of<CheckpointError>([&] { pull(folder, resumed(folder), {}, false); }) ==
         samples::Naming{"holds more than the scene"});
+}
+
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+/// Memory in use [bytes] when so many steps have been attempted.
+struct MemoryInUse : scarp::NeverStops {
+  std::vector<int> attempts;
+  std::vector<std::size_t>* bytes;
+  int seen = 0;
+
+  template <class Problem>
+  void attempted(Problem const&, scarp::StepReport const&) {
+    if (std::ranges::count(attempts, ++seen) == 0) return;
+    auto const now = ::mallinfo2();
+    bytes->push_back(now.uordblks + now.hblkhd);
+  }
+  SCARP_MEMBERS_EXCEPT((attempts, bytes, seen))
+};
+
+TEST_CASE("a run of a thousand steps holds no more memory than one of a hundred") {
+  ScratchFolder const folder;
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({}, serial);
+  Budget budget;
+  budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 8});
+  std::vector<std::size_t> bytes;
+  bytes.reserve(2);
+  scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}}},
+                             scarp::Borrowed(budget), MemoryInUse{{}, {100, 1000}, &bytes});
+  Notes notes;
+  scarp::CheckpointFiles files;
+  scarp::CheckpointedRun run(files, observers, notes);
+  scarp::LoadStepping const stepping{.first = 1e-5, .smallest = 1e-6, .largest = 1e-5};
+  run.stage([&] { return stepping.run(scarp::QuasiNewton<>{}, problem, 0.0, 0.0101, run); });
+  REQUIRE(bytes.size() == 2);
+  if (bytes[0] == 0) return;  // a sanitizer has replaced the allocator
+  // Less than a number a step.
+  CHECK(bytes[1] < bytes[0] + 4096);
+}
+#endif
+
+// A checkpoint on somebody's disk, not one that this program has just written. Where a saved type or the format's version changes,
+// raise the version; this command writes the new one, and the old one stays to be refused:
+// SCARP_STORE=1 ctest --test-dir build -R runs/checkpointed_run
+TEST_CASE(
+    "a checkpoint that was stored is continued, or refused with its version where the format has another one now") {
+  auto const stored = std::filesystem::path(__FILE__).parent_path() / "../reference/stored";
+  auto const newest = fmt::format("run_{}", scarp::detail::checkpoint_format.version);
+  if (std::getenv("SCARP_STORE") != nullptr) {
+    ScratchFolder const folder;
+    static_cast<void>(pull(folder, {{.folder = folder / "states", .every_seconds = 1e9}, scene}, {.stop_after = 4}));
+    std::filesystem::create_directories(stored);
+    std::filesystem::copy(folder.path(), stored / newest, std::filesystem::copy_options::recursive);
+  }
+  REQUIRE(std::filesystem::exists(stored / newest));
+  for (auto const& run : std::filesystem::directory_iterator(stored)) {
+    if (!run.is_directory()) continue;
+    ScratchFolder const folder;
+    std::filesystem::copy(run.path(), folder.path(), std::filesystem::copy_options::recursive);
+    if (run.path().filename() == newest) {
+      auto const outcome = pull(folder, resumed(folder), {});
+      // Not its bits: the standard library's functions differ in the last one.
+      CHECK(outcome.report.verdict.acceptable());
+      CHECK(outcome.report.steps == undisturbed().report.steps);
+      CHECK(outcome.report.load == undisturbed().report.load);
+      CHECK(std::ranges::count(outcome.log, '\n') == std::ranges::count(undisturbed().log, '\n'));
+    } else {
+      CHECK(contains(complaint_about(folder), "it is of version"));
+    }
+  }
 }

@@ -322,3 +322,22 @@ TEST_CASE("members that do not fit each other are refused") {
   CHECK(contains(complaint([](auto& packing) { packing.pairs.ghost_owner[0] = 9; }), "its ghosts have no owner"));
   CHECK(contains(complaint([](auto& packing) { packing.cell.setZero(); }), "its cell has no positive content"));
 }
+
+// A file on somebody's disk, not one that this program has just written. Where the format's version is raised, this command
+// writes the new file, and the old one stays to be refused:
+// SCARP_STORE=1 ctest --test-dir build -R io/packings/packing_file
+TEST_CASE("a packing that was stored is read, or refused with its version where the format has another one now") {
+  auto const folder = std::filesystem::path(__FILE__).parent_path() / "../../reference/stored";
+  auto const newest = folder / fmt::format("discs_{}.packing", scarp::detail::packing_format.version);
+  auto const expected = grid<Discs>(3, 3, 1);
+  if (std::getenv("SCARP_STORE") != nullptr) scarp::save_packing(newest, expected);
+  REQUIRE(std::filesystem::exists(newest));
+  for (auto const& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() != ".packing") continue;
+    if (file.path().filename() == newest.filename()) {
+      check_same(scarp::load_packing<Discs>(file.path()), expected);
+    } else {
+      CHECK_REFUSED(scarp::load_packing<Discs>(file.path()), file.path().filename().string(), "it is of version");
+    }
+  }
+}
