@@ -7,7 +7,6 @@
 namespace error_vs_time {
 namespace {
 
-using Measured;
 using scarp::LocalDamping;
 
 struct DoublePrecision {};

@@ -209,15 +209,15 @@ double growth(Law const& law, double share) {
   return speed() / before;
 }
 
-/// Steady at the default step, without bound at four times it: the bound is neither missing nor idle.
+/// Steady at the default step, without bound at twenty times it (the bound of Hertz's law holds for deeper overlaps, too): the bound is neither missing nor idle.
 template <class Law>
 Case default_step(std::string const& name, Law const& law) {
   return {.group = "time step",
           .name = name,
-          .expected = "velocities stay below ten times the nudge; at four times the default step they grow",
+          .expected = "velocities stay below ten times the nudge; at twenty times the default step they grow",
           .run = [law](Size) {
             auto outcome = at_most(10.0, growth(law, scarp::usual_time_step_share), "growth of the velocities");
-            outcome.as_expected &= growth(law, 4.0 * scarp::usual_time_step_share) > 1e3;
+            outcome.as_expected &= growth(law, 20.0 * scarp::usual_time_step_share) > 1e3;
             return outcome;
           }};
 }

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "scarp/bvp/constraints.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "stability/soil_block.hpp"
 #include "stability/stability_case.hpp"
 
@@ -102,16 +102,6 @@ Outcome mechanism() {
           static_cast<double>(watch.attempts), "attempts", describe_dof(problem.discretisation().mesh(), run.weak_dof)};
 }
 
-/// An accuracy that nothing reaches.
-Outcome no_tolerance(double tolerance) {
-  auto problem = Block{}.make();
-  Watch watch;
-  auto const run = scarp::LoadStepping{.first = 1e-3, .smallest = 1e-6}.run(Newton{.tolerance = tolerance}, problem,
-                                                                            0.0, 0.02, watch);
-  bool const named = run.verdict.reason == scarp::Reason::step_too_small || run.verdict.acceptable();
-  return {named && watch.attempts < watch.most, static_cast<double>(watch.attempts), "attempts", words(run, watch)};
-}
-
 }  // namespace
 
 Cases solver_cases() {
@@ -130,7 +120,6 @@ Cases solver_cases() {
   add("softening beyond the limit load", "step_too_small at the peak",
       [](Size) { return beyond_the_limit_load(2e3, 1.05); });
   add("block that may slide", "singular_system, a degree of freedom along x", [](Size) { return mechanism(); });
-  add("tolerance NaN", "step_too_small within bounded work", [](Size) { return no_tolerance(std::nan("")); });
   return cases;
 }
 
