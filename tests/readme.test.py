@@ -19,7 +19,8 @@ command = [compiler, "-std=c++20", *WARNINGS, *folders]
 text = (root / "README.md").read_text()
 library = os.environ.get("SCARP_LIBRARY", "")
 if library.endswith(".a") and pathlib.Path(library).is_file():
-    command += ["-DSCARP_PRECOMPILED", "-DEIGEN_MAX_ALIGN_BYTES=64", "-DEIGEN_MAX_STATIC_ALIGN_BYTES=64"]
+    # A static library is compiled for this machine, and so must be what it meets.
+    command += ["-march=native", "-DSCARP_PRECOMPILED", "-DEIGEN_MAX_ALIGN_BYTES=64", "-DEIGEN_MAX_STATIC_ALIGN_BYTES=64"]
     linked = [library, "-lfmt", "-pthread"]
 else:
     command.append("-DFMT_HEADER_ONLY")
