@@ -53,9 +53,11 @@ std::string fronts(error_vs_time::SweepTable const& table) {
 
 void report(Options const& options, Subject const& subject) {
   auto const table = subject.run(options);
-  auto const more = fmt::format(
-      "{} repetitions; base setting {:.3g} s, reference {:.3g} times that; costs differ by {:.2g} % by chance",
-      table.repetitions, table.rows.front().seconds, table.reference_cost, 100.0 * table.cost_noise);
+  auto const reference = std::isfinite(table.reference_cost)
+                             ? fmt::format("reference {:.3g} times that", table.reference_cost)
+                             : std::string("exact reference");
+  auto const more = fmt::format("{} repetitions; base setting {:.3g} s, {}; costs differ by {:.2g} % by chance",
+                                table.repetitions, table.rows.front().seconds, reference, 100.0 * table.cost_noise);
   benchmarks::write_data("error_vs_time_" + subject.name, table.csv(), more, fronts(table));
 }
 
