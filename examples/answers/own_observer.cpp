@@ -5,9 +5,9 @@
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/scene/scene.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 
 #include "lattice.hpp"
 

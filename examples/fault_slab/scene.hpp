@@ -13,14 +13,14 @@
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/mirrored.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/sphere.hpp"
+#include "scarp/dem/mirrored.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/shape/sphere.hpp"
 
 namespace fault_slab {
 

@@ -4,9 +4,9 @@
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/scene/scene.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 
 /// \f$ \sigma = (K A + G D)\,\varepsilon,\; G = G_0/(1 + \gamma/\gamma_r),\; \gamma^2 = \varepsilon^T D \varepsilon \f$
 /// with A, D for the change of area and of shape. Small strain; the shear stress tends to G_0 gamma_r.

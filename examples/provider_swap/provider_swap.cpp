@@ -6,11 +6,11 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/ellipse.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
+#include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 using Elastic = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;

@@ -8,9 +8,9 @@
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/superellipse.hpp"
-#include "scarp/shape/ellipse.hpp"
 #include "scarp/shape/disc.hpp"
+#include "scarp/shape/ellipse.hpp"
+#include "scarp/shape/superellipse.hpp"
 
 namespace rve_lab {
 

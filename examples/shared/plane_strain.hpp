@@ -8,10 +8,10 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/mesh/graded_lines.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 
 namespace examples {
 

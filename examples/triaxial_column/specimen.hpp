@@ -8,8 +8,8 @@
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
-#include "scarp/dem/preparation.hpp"
 #include "scarp/dem/gradings.hpp"
+#include "scarp/dem/preparation.hpp"
 #include "scarp/shape/sphere.hpp"
 
 namespace triaxial_column {

@@ -128,12 +128,6 @@ TEST_CASE("saved states of a hidden provider are read by its own blank one") {
   CHECK(soil.stress(loaded) == field.committed_stress(0));
 }
 
-TEST_CASE("the state of a hidden provider can be read") {
-  auto const text = scarp::state_text(Any(sand()).initial_state({}));
-  CHECK(text.find("position: 80 rows of 2\n") != std::string::npos);
-  CHECK(scarp::state_text(scarp::AnyState<2>{}).empty());
-}
-
 TEST_CASE("the floor's stress is found in a hidden state") {
   Sand::State state;
   state.floor_stress << 1.0, 2.0, 3.0;

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/ellipse.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "scarp/shape/ellipse.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "scarp/element/tri3.hpp"
-#include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
+#include "scarp/fault/fault_mesh.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/thread_executor.hpp"
 

@@ -175,7 +175,9 @@ TEST_CASE("fields and positions of the wrong length are refused and an older fil
   CHECK(content(path) == "older");
 }
 
-TEST_CASE("names of fields that are no text of XML or are there already are refused, all others are written so that XML has them") {
+TEST_CASE(
+    "names of fields that are no text of XML or are there already are refused, all others are written so that XML has "
+    "them") {
   ScratchFolder const folder;
   auto const mesh = scarp::RectangleMesh{}.generate();
   std::vector<int> const numbers(mesh.elements.size(), 1);
@@ -184,11 +186,18 @@ TEST_CASE("names of fields that are no text of XML or are there already are refu
     for (auto const& name : names) fields.at_elements.push_back({name, 1, std::span<int const>(numbers)});
     scarp::write_vtu(folder / "f.vtu", mesh, mesh.nodes, fields);
   };
-  for (std::string const wrong : {"", "a\x01" "b", "line\nline", "\x7f", "b\xf6" "den"})
+  for (std::string const wrong : {"",
+                                  "a\x01"
+                                  "b",
+                                  "line\nline", "\x7f",
+                                  "b\xf6"
+                                  "den"})
     CHECK_REFUSED(write({wrong}), "a field is named '");
   CHECK_REFUSED(write({"status", "status"}), "two fields are named 'status'");
   CHECK_REFUSED(write({"region"}), "two fields are named 'region'");  // which is always written
   CHECK_FALSE(std::filesystem::exists(folder / "f.vtu"));
-  write({"mean pressure <kPa> & \"more\"", "b\xC3\xB6" "den"});
+  write({"mean pressure <kPa> & \"more\"",
+         "b\xC3\xB6"
+         "den"});
   CHECK(contains(content(folder / "f.vtu"), "Name=\"mean pressure &lt;kPa&gt; &amp; &quot;more&quot;\""));
 }

@@ -187,10 +187,18 @@ TEST_CASE(
 
 TEST_CASE("a run whose folders have names that are not UTF-8 goes on there") {
   ScratchFolder const folder;
-  auto const identity = run(folder, "b\xf6" "den", files(folder, "st\xe4nde", true), true, "interrupted");
-  auto const text = content(folder / "b\xf6" "den/run.json");
+  auto const identity = run(folder,
+                            "b\xf6"
+                            "den",
+                            files(folder, "st\xe4nde", true), true, "interrupted");
+  auto const text = content(folder /
+                            "b\xf6"
+                            "den/run.json");
   CHECK(scarp::valid_utf8(text) == text);
-  CHECK(run(folder, "b\xf6" "den", files(folder, "st\xe4nde", true), true, "finished") == identity);
+  CHECK(run(folder,
+            "b\xf6"
+            "den",
+            files(folder, "st\xe4nde", true), true, "finished") == identity);
 }
 
 TEST_CASE("two programs do not save into one folder of checkpoints") {

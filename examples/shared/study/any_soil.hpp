@@ -7,9 +7,9 @@
 
 #include "choice.hpp"
 #include "scarp/constitutive/any_provider.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/one_of.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 
 namespace fault_rupture {
 

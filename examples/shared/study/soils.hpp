@@ -11,8 +11,8 @@
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/shape/ellipse.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 
 namespace fault_rupture {
 

@@ -10,7 +10,6 @@
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/io/state_bits.hpp"
-#include "scarp/io/state_text.hpp"
 
 namespace scarp {
 
@@ -27,7 +26,6 @@ class HiddenState {
   virtual bool is_described() const = 0;
   virtual void write(StateWriter& writer) const = 0;
   virtual void read(StateReader& reader) = 0;
-  virtual void tell(StateText& text) const = 0;
   virtual VoigtStress<Dim> floor_stress_inside() const = 0;
 };
 
@@ -42,9 +40,6 @@ class HiddenStateOf final : public HiddenState<Dim> {
   bool is_described() const override { return Described<State>; }
   void write(StateWriter& writer) const override { described(writer, state); }
   void read(StateReader& reader) override { described(reader, state); }
-  void tell(StateText& text) const override {
-    if constexpr (Described<State>) text("state", state);
-  }
   VoigtStress<Dim> floor_stress_inside() const override { return floor_stress_in<Dim>(state); }
 
   State state;
@@ -109,8 +104,6 @@ class AnyState {
       self.held_->write(visit);
     } else if constexpr (std::same_as<Visitor, StateReader>) {
       self.held_->read(visit);
-    } else if constexpr (std::same_as<Visitor, StateText>) {
-      self.held_->tell(visit);
     }
   }
 

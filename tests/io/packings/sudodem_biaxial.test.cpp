@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/loading.hpp"
 #include "scarp/dem/drive.hpp"
+#include "scarp/dem/loading.hpp"
 #include "scarp/io/packings/packing_reader.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "support/approx.hpp"
