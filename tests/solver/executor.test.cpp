@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <thread>
@@ -106,4 +111,83 @@ TEST_CASE("a task may ask the team for tasks of its own, and two threads may ask
   ask();
   other.join();
   CHECK(all == 2 * 50 * 40);
+}
+
+namespace {
+
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+#else
+constexpr bool sanitized = false;
+#endif
+
+/// What a child process writes that may have no more than so many bytes of addresses above those that it has; "killed" when it
+/// does not end within 20 seconds.
+template <class Action>
+std::string within_memory(rlim_t more, Action const& action) {
+  std::array<int, 2> ends{};
+  REQUIRE(pipe(ends.data()) == 0);
+  pid_t const child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    alarm(20);
+    rlim_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    rlimit const limit{pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more, RLIM_INFINITY};
+    setrlimit(RLIMIT_AS, &limit);
+    std::string const words = action();
+    _exit(write(ends[1], words.data(), words.size()) == static_cast<ssize_t>(words.size()) ? 0 : 1);
+  }
+  close(ends[1]);
+  std::string words;
+  std::array<char, 256> part{};
+  for (ssize_t got = 0; (got = read(ends[0], part.data(), part.size())) > 0;)
+    words.append(part.data(), static_cast<std::size_t>(got));
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status) ? "killed" : words;
+}
+
+}  // namespace
+
+TEST_CASE("threads that cannot be started end in words, not in a wait for ever" * doctest::skip(sanitized)) {
+  // A thread has 8 MB of stack or so: some can be started, two hundred cannot.
+  auto const words = within_memory(rlim_t{200} << 20U, [] {
+    try {
+      scarp::ThreadExecutor const executor(200);
+      return std::string("all were started");
+    } catch (scarp::InputError const& error) {
+      return std::string(error.what());
+    }
+  });
+  CHECK(words.find("200 threads were asked for") != std::string::npos);
+  CHECK(words.find("could be started") != std::string::npos);
+}
+
+TEST_CASE("tasks of one team may call another team, whose tasks call the first") {
+  scarp::ThreadExecutor first(3);
+  scarp::ThreadExecutor second(2);
+  std::vector<std::atomic<int>> times(6 * 5 * 4);
+  auto const around = [&](scarp::ThreadExecutor& outer, scarp::ThreadExecutor& inner) {
+    outer.for_each(6, [&](int i) {
+      inner.for_each(
+          5, [&](int k) { outer.for_each(4, [&](int m) { ++times[static_cast<std::size_t>((i * 5 + k) * 4 + m)]; }); });
+    });
+  };
+  around(first, second);
+  for (auto const& count : times) CHECK(count == 1);
+  // From two threads in opposite order: neither waits for the other's team.
+  std::thread other([&] {
+    for (int round = 0; round < 50; ++round) around(second, first);
+  });
+  for (int round = 0; round < 50; ++round) around(first, second);
+  other.join();
+  for (auto const& count : times) CHECK(count == 101);
 }

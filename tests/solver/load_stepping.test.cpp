@@ -246,6 +246,46 @@ TEST_CASE("a body that nothing holds is not called balanced") {
   CHECK(problem.discretisation().positions() == grid.positions());
 }
 
+namespace {
+
+/// Linear; from a strain on it tells a tangent of nothing.
+struct Exhausted {
+  static constexpr int dim = 2;
+  using State = Softening::State;
+  Softening law{};
+  double largest = 1e-3;
+
+  State initial_state(scarp::Site<2> const& site) const { return law.initial_state(site); }
+  scarp::VoigtStress<2> stress(State const& state) const { return law.stress(state); }
+  scarp::VoigtTangent<2> tangent(State const& state) const {
+    return state.strain.norm() < largest ? law.tangent(state) : scarp::VoigtTangent<2>(scarp::VoigtTangent<2>::Zero());
+  }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    return law.respond(committed, increment, trial);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a step that cannot begin is reported with its load and its reason, and counts as refused") {
+  using Block = samples::Block<Exhausted>;
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({}, serial);
+  auto witness = samples::watch(problem);
+  auto const run = stepping().run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0, 0.1, witness);
+  CHECK(run.verdict == Verdict{Status::failed, Reason::singular_system});
+  REQUIRE(run.steps > 0);
+  REQUIRE(run.load > 0.0);
+  CHECK(run.last_failure == Reason::singular_system);
+  CHECK(run.refused == 1);
+  CHECK(run.weak_dof >= 0);
+  auto const& last = witness.reports.back();
+  CHECK(last.verdict == run.verdict);
+  CHECK(last.load == run.load);
+  CHECK(last.step == run.steps + 1);
+  CHECK(witness.reports[witness.reports.size() - 2].load == run.load);
+}
+
 TEST_CASE("a run refuses bounds that are no numbers") {
   scarp::SerialExecutor serial;
   auto problem = SoftBlock::make({}, serial);

@@ -28,26 +28,29 @@ constexpr double stiffness = 1e8;  // [Pa/m]
 constexpr double weight = 74e3;    // [N]: 37 kPa on 2 m, so that 0.2 mm of slip is elastic
 
 /// Ground of 6 m whose nodes move as `motion` says, and a footing on it, 2 m wide with its centre at 3 m; its weight is there
-/// from the start. above [m]: where the base floats at first, over the ground
+/// from the start. above [m]: where the base floats at first, over the ground. scale: of all lengths, at equal stresses; the
+/// motion is given for the scale 1
 template <class Motion>
-Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion, double above = 0.0) {
-  Grid grid(scarp::RectangleMesh{.width = 6.0, .height = 2.0, .columns = 12, .rows = 4}.generate());
+Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion, double above = 0.0, double scale = 1.0) {
+  Grid grid(scarp::RectangleMesh{.width = 6.0 * scale, .height = 2.0 * scale, .columns = 12, .rows = 4}.generate());
   auto const& mesh = grid.mesh();
   scarp::Constraints constraints(mesh, scarp::RigidBody::extra_dofs);
   for (int n = 0; n < grid.node_count(); ++n) {
-    scarp::Vector<2> const rate = motion(mesh.nodes[static_cast<std::size_t>(n)]);
+    scarp::Vector<2> const rate = scale * motion(scarp::Vector<2>(mesh.nodes[static_cast<std::size_t>(n)] / scale));
     for (int axis = 0; axis < 2; ++axis) constraints.move(n, axis, rate(axis));
   }
   std::vector<double> breaks;
   for (int const node : boundary_nodes(mesh, "top")) breaks.push_back(mesh.nodes[static_cast<std::size_t>(node)].x());
-  double const base = 2.0 + above;
-  scarp::RigidFooting const footing({{3.0, base}, 1.0}, {2.0, base}, {4.0, base}, breaks, 1.0, grid.dof_count());
+  double const base = (2.0 + above) * scale;
+  scarp::RigidFooting const footing({{3.0 * scale, base}, scale}, {2.0 * scale, base}, {4.0 * scale, base}, breaks, 1.0,
+                                    grid.dof_count());
   Eigen::VectorXd load = Eigen::VectorXd::Zero(grid.dof_count() + 3);
-  load(grid.dof_count() + 1) = -weight;
+  load(grid.dof_count() + 1) = -weight * scale;
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
   scarp::ProviderField<Soil> field(Soil::from_young_poisson(20e6, 0.3), sites);
-  Contact contact({.normal_stiffness = stiffness, .tangential_stiffness = stiffness, .friction = friction}, footing,
+  double const spring = stiffness / scale;
+  Contact contact({.normal_stiffness = spring, .tangential_stiffness = spring, .friction = friction}, footing,
                   scarp::FacetChain(boundary(mesh, "top")), mesh.nodes);
   return {std::move(grid), std::move(field),  std::move(constraints), scarp::LoadHistory(std::move(load)),
           executor,        std::move(contact)};
@@ -132,4 +135,29 @@ TEST_CASE(
   MESSAGE(refused << " of " << draws << " tried again in smaller steps");
   // The bar is what a footing over a fault may cost, a twentieth.
   CHECK(refused <= draws / 20);
+}
+
+TEST_CASE("a footing of a centrifuge's model, or of a thousand times the size, answers as the one of two metres") {
+  // Floats at first, and its ground is drawn out and tilted.
+  auto const motion = [](auto const& place) -> scarp::Vector<2> {
+    return scarp::Vector<2>(1e-2 * place.x(), -0.02 * place.x());
+  };
+  auto const place_at = [&](double scale, long& iterations) {
+    scarp::SerialExecutor executor;
+    auto problem = moved_ground(executor, motion, 0.01, scale);
+    auto const run = in_one_step(problem, 0.01);
+    REQUIRE(run.verdict.acceptable());
+    iterations = run.iterations;
+    auto const& body = problem.attached().body().body();
+    return scarp::Vector<3>(body.reference().x() / scale, body.reference().y() / scale, body.rotation());
+  };
+  long iterations = 0;
+  scarp::Vector<3> const usual = place_at(1.0, iterations);
+  for (double const scale : {0.01, 1000.0}) {
+    CAPTURE(scale);
+    long scaled = 0;
+    // Every number but angles is the other one times a power of the scale: round-off, magnified by the iterations.
+    CHECK((place_at(scale, scaled) - usual).norm() < 1e-12);
+    CHECK(scaled == iterations);
+  }
 }

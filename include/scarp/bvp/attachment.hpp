@@ -17,7 +17,8 @@ namespace scarp {
 /// add_forces(nodes, increment, forces): adds the internal forces [N] at an increment from the committed state, given the
 /// committed positions of the nodes [m]; add_stiffness(entries): their derivative at the last increment asked for;
 /// commit(nodes, increment): makes that state the committed one, before the nodes move; thickness(), where it has one, is
-/// compared with the mesh's. What can slide also has
+/// compared with the mesh's; length() [m], where it has one, is the size of a body with degrees of freedom of its own, which its
+/// motions are measured by. What can slide also has
 /// add_held_stiffness(entries): the stiffness as if nothing slid, positive where bodies touch.
 template <class Part, int Dim>
 concept Attachment = requires(Part& part, Part const& constant, std::vector<Vector<Dim>> const& nodes,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "scarp/core/described.hpp"
@@ -16,6 +17,21 @@
 #include "scarp/element/map.hpp"
 
 namespace scarp {
+
+namespace detail {
+/// \throws InputError for facets that are none, or one that is there twice, whatever the order of its nodes
+template <class Facet>
+void require_facets(std::string_view what, std::vector<Facet> facets) {
+  if (facets.empty()) refuse("{} has no facets (nothing can touch or load it): name a boundary with facets", what);
+  for (auto& facet : facets) std::sort(facet.begin(), facet.end());
+  std::sort(facets.begin(), facets.end());
+  auto const twice = std::adjacent_find(facets.begin(), facets.end());
+  if (twice != facets.end()) {
+    refuse("{} has the facet of the nodes ({}) twice (it would count twice): name each facet once", what,
+           listed(*twice));
+  }
+}
+}  // namespace detail
 
 /// Part of a mesh's outline in the plane, straight facets with the body on their left.
 class FacetChain {
@@ -31,9 +47,9 @@ class FacetChain {
     SCARP_MEMBERS(facet, xi, at_end)
   };
 
-  /// \throws InputError when there is no facet
+  /// \throws InputError when there is no facet, or one twice
   explicit FacetChain(std::vector<Facet> facets) : facets_(std::move(facets)) {
-    if (facets_.empty()) refuse("a chain of facets is empty (nothing can touch it): name a boundary with facets");
+    detail::require_facets("a chain of facets", facets_);
   }
 
   std::vector<Facet> const& facets() const { return facets_; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/facet_chain.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/element/line.hpp"
@@ -25,9 +26,10 @@ class FollowingPressure {
   using Facet = std::array<int, FacetType::nodes>;
 
   /// pressure [Pa], positive pushes inwards; thickness [m]
-  /// \throws InputError for a pressure that is not finite or a thickness that is not positive
+  /// \throws InputError for a pressure that is not finite, a thickness that is not positive, no facets or one twice
   FollowingPressure(std::vector<Facet> facets, double pressure, double thickness = 1.0)
       : facets_(std::move(facets)), thickness_(thickness) {
+    detail::require_facets("a following pressure", facets_);
     require_finite("pressure", pressure);
     require_positive("thickness", thickness);
     for (auto const& where : FacetType::quadrature()) {

@@ -63,6 +63,9 @@ class Interface {
   Law const& law() const { return law_; }
   Body const& body() const { return body_; }
   int extra_dofs() const { return body_.extra_dofs(); }
+  /// Of the body, where it has one [m].
+  double length() const requires requires(Body const& body) { body.length(); }
+  { return body_.length(); }
 
   Verdict add_forces(std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) {
     auto moved = nodes;

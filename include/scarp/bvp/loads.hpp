@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/bvp/discretisation.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/core/precompiled.hpp"
 
 namespace scarp {
@@ -14,11 +15,16 @@ namespace scarp {
 /// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
 /// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
 /// per_volume: b [N/m3] of every region of the mesh
+/// \throws InputError unless there is one for each region
 template <class Element, class Motion, class Scheme>
 SCARP_EXPORT Eigen::VectorXd body_force(Discretisation<Element, Motion, Scheme> const& discretisation,
                                         std::vector<Vector<Element::dim>> const& per_volume) {
   constexpr int dim = Element::dim;
   auto const& mesh = discretisation.mesh();
+  if (per_volume.size() != mesh.regions.size()) {
+    refuse("forces per volume are given for {} regions (the mesh has {}: {}): give one for each", per_volume.size(),
+           mesh.regions.size(), listed(mesh.regions));
+  }
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
   for (int e = 0; e < detail::count(mesh.elements); ++e) {
     auto const& nodes = mesh.elements[detail::index(e)];

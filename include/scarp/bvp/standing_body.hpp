@@ -40,18 +40,30 @@ class RigidFooting {
  public:
   /// body: at its start; left, right [m]: ends of the base; breaks [m]: places of the ground's nodes along x
   /// dofs_before: degrees of freedom of the mesh's nodes
+  /// \throws InputError for a base that does not go from left to right, or a thickness that is not positive
   RigidFooting(RigidBody body, Vector<2> const& left, Vector<2> const& right, std::vector<double> const& breaks,
                double thickness, int dofs_before)
-      : body_(std::move(body)), first_(dofs_before), base_((right - left).normalized()) {
-    double const length = (right - left).norm();
+      : body_(std::move(body)),
+        first_(dofs_before),
+        base_((right - left).normalized()),
+        length_((right - left).norm()) {
+    require_positive("thickness", thickness);
+    if (!(left.allFinite() && right.allFinite() && left.x() < right.x())) {
+      refuse(
+          "the base of a footing goes from ({} m, {} m) to ({} m, {} m) (it must go from left to right): give its ends "
+          "in this order",
+          left.x(), left.y(), right.x(), right.y());
+    }
     for (auto const& point : base_points(left.x(), right.x(), breaks)) {
       own_.push_back(left + point.along * (right - left) - body_.reference());
-      area_.push_back(point.weight * length * thickness);
+      area_.push_back(point.weight * length_ * thickness);
     }
   }
 
   RigidBody const& body() const { return body_; }
 
+  /// Width of the base [m].
+  double length() const { return length_; }
   static int extra_dofs() { return RigidBody::extra_dofs; }
   std::size_t point_count() const { return own_.size(); }
   double area(std::size_t k) const { return area_[k]; }
@@ -68,12 +80,13 @@ class RigidFooting {
   }
   void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const& increment) { body_.commit(increment, first_); }
 
-  SCARP_MEMBERS_EXCEPT((first_, base_, own_, area_), body_)
+  SCARP_MEMBERS_EXCEPT((first_, base_, length_, own_, area_), body_)
 
  private:
   RigidBody body_;
   int first_;
   Vector<2> base_;
+  double length_;
   std::vector<Vector<2>> own_;
   std::vector<double> area_;
 };

@@ -43,21 +43,17 @@ bool agreed(Executor const& executor, bool said) {
 }
 
 /// Runs a task on the first rank only, which may look at the points of all ranks by visit_point; the others answer meanwhile.
+/// What one of them throws ends all.
 template <class Problem, class Task>
 void on_first_rank(Problem const& problem, Task const& task) {
   auto const& executor = problem.executor();
   using Executor = std::remove_cvref_t<decltype(executor)>;
   if constexpr (SharesPoints<Executor>) {
-    if (executor.rank() != 0) {
-      executor.serve([&](int point) {
-        StateWriter writer;
-        visit_point(problem, point, [&](auto const&, auto const& state) { writer("state", state); });
-        return writer.bits();
-      });
-      return;
-    }
-    task();
-    executor.dismiss();
+    executor.on_first(task, [&](int point) {
+      StateWriter writer;
+      visit_point(problem, point, [&](auto const&, auto const& state) { writer("state", state); });
+      return writer.bits();
+    });
   } else {
     task();
   }
@@ -70,7 +66,9 @@ class OnFirstRank {
   /// make(): the observers, called on the first rank only
   template <std::invocable Make>
   OnFirstRank(Executor const& executor, Make const& make) : executor_(executor) {
-    if (is_first_rank(executor)) observers_.emplace(make());
+    together(executor, [&] {
+      if (is_first_rank(executor)) observers_.emplace(make());
+    });
   }
 
   template <class Problem>
@@ -83,7 +81,11 @@ class OnFirstRank {
     on_first_rank(problem, [&] { observers_->ended(problem, load); });
   }
 
-  bool wants_stop() const { return agreed(executor_, observers_ && observers_->wants_stop()); }
+  bool wants_stop() const {
+    bool said = false;
+    together(executor_, [&] { said = observers_ && observers_->wants_stop(); });
+    return agreed(executor_, said);
+  }
 
   /// Of the observers; nothing on other ranks.
   template <class Self, class Visit>

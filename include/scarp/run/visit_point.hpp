@@ -9,7 +9,7 @@
 namespace scarp {
 
 /// Calls visit(provider, state) with the committed state of a point. Where points are shared out among processes, this is for the first
-/// one, inside on_first_rank (scene/first_rank.hpp): it gets a copy of what another one has.
+/// one, inside on_first_rank (run/first_rank.hpp): it gets a copy of what another one has.
 template <class Problem, class Visit>
 void visit_point(Problem const& problem, int point, Visit const& visit) {
   using Executor = std::remove_cvref_t<decltype(problem.executor())>;

@@ -4,6 +4,7 @@
 #include <boost/hana/at.hpp>
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -183,9 +184,12 @@ template <class DiscretisationType, ExecutesTasks Executor,
 SceneProblem<DiscretisationType, Executor, Attached, Providers...> make_problem(
     DiscretisationType discretisation, double surface_level, boost::hana::tuple<Region<Providers>...> const& regions,
     Constraints constraints, LoadHistory loads, Executor& executor, Attached attached = {}) {
-  auto materials = SceneMaterials<Providers...>::make(discretisation, surface_level, regions,
-                                                      [&](int point) { return owns_point(executor, point); });
-  return {std::move(discretisation), std::move(materials), std::move(constraints), std::move(loads), executor,
+  std::optional<typename SceneMaterials<Providers...>::Type> materials;
+  together(executor, [&] {
+    materials.emplace(SceneMaterials<Providers...>::make(discretisation, surface_level, regions,
+                                                         [&](int point) { return owns_point(executor, point); }));
+  });
+  return {std::move(discretisation), std::move(*materials), std::move(constraints), std::move(loads), executor,
           std::move(attached)};
 }
 

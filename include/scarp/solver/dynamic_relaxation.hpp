@@ -18,7 +18,7 @@ namespace scarp {
 /// hundreds.
 template <LinearSolver Linear = SparseLu>
 struct DynamicRelaxation {
-  double tolerance = 5e-3;  ///< force residual relative to the reactions
+  double tolerance = 5e-3;  ///< force residual, see EquilibriumProblem::residuals
   int most_iterations = 1000;
   double hopeless = 10.0;  ///< residual beyond which a step is given up
   double mass = 1.5;       ///< relative to the least one that is stable for the tangents at the start of the step

@@ -149,8 +149,8 @@ class SCARP_EXPORT EquilibriumProblem final
     return evaluation;
   }
 
-  /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses. Where points see means it is
-  /// of use as long as this problem stays where it is.
+  /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses. Where points see means it
+  /// refers to this problem.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
                         Stiffness& stiffness) const override {
     if constexpr (averages) {
@@ -169,7 +169,8 @@ class SCARP_EXPORT EquilibriumProblem final
     return largest;
   }
 
-  /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom / |reactions|, Euclidean norms; then follows every
+  /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads| and what the
+  /// elements and the attachment carried there in the last evaluation, Euclidean norms; then follows every
   /// region of the mesh that is held nowhere, by its name, unless it is the only one, as a rigid body, and "attached", each
   /// over its own loads at the present load factor (0 without such loads).
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
@@ -214,7 +215,7 @@ class SCARP_EXPORT EquilibriumProblem final
 
  private:
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {
-    return detail::residual_of_all(unbalanced, load_now_, free_dofs_, constraints_.prescribed_dofs());
+    return detail::residual_of_all(unbalanced, load_now_, carried_, free_dofs_, constraints_.prescribed_dofs());
   }
 
   decltype(auto) of_nodes(Eigen::VectorXd const& increment) const {
@@ -236,10 +237,13 @@ class SCARP_EXPORT EquilibriumProblem final
 
   void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) {
     discretisation_.internal_force(of_nodes(increment), points_.stresses(), evaluation.unbalanced);
+    evaluation.unbalanced.conservativeResizeLike(Eigen::VectorXd::Zero(dof_count()));
+    carried_ = detail::squared_over(free_dofs_, evaluation.unbalanced);
     if constexpr (!is_bare) {
-      evaluation.unbalanced.conservativeResizeLike(Eigen::VectorXd::Zero(dof_count()));
+      Eigen::VectorXd const of_elements = evaluation.unbalanced;
       Verdict const verdict = this->attached_.add_forces(discretisation_.positions(), increment, evaluation.unbalanced);
       if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
+      carried_ = std::max(carried_, detail::squared_over(free_dofs_, evaluation.unbalanced - of_elements));
     }
     evaluation.unbalanced -= load_now_;
     evaluation.residual = residual(evaluation.unbalanced);
@@ -254,6 +258,7 @@ class SCARP_EXPORT EquilibriumProblem final
   Constraints constraints_;
   LoadHistory loads_;
   Eigen::VectorXd load_now_;
+  double carried_ = 0.0;  ///< at free degrees of freedom in the last evaluation, squared [N2]
   std::vector<int> free_dofs_;
   detail::RegionResiduals<dim> regions_;
 };

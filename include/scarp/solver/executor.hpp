@@ -14,11 +14,13 @@ concept ExecutesTasks = requires(Executor& executor, void (&task)(int)) {
 
 /// One of several processes that run the same program, each of which owns some of the material points.
 /// owns(point): whether this process answers for a point; share(values): completes an array over all points of which
-/// every process has the entries of its own. All processes must call share alike.
+/// every process has the entries of its own; together(work): does it, and throws everywhere what it throws on one process. All
+/// processes must call share and together alike.
 template <class Executor>
 concept SharesPoints = ExecutesTasks<Executor> && requires(Executor& executor, std::vector<double>& values) {
   { executor.owns(0) } -> std::same_as<bool>;
   executor.share(values);
+  executor.together([] {});
 };
 
 /// One task after the other on the calling thread.
@@ -39,6 +41,17 @@ bool owns_point(Executor const& executor, int point) {
   } else {
     static_cast<void>(executor), static_cast<void>(point);
     return true;
+  }
+}
+
+/// Work that all processes begin alike: what it throws on one of them is thrown on all.
+template <ExecutesTasks Executor, class Work>
+void together(Executor const& executor, Work const& work) {
+  if constexpr (SharesPoints<Executor>) {
+    executor.together(work);
+  } else {
+    static_cast<void>(executor);
+    work();
   }
 }
 

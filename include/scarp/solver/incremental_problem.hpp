@@ -46,10 +46,8 @@ class IncrementalProblem {
 
  protected:
   IncrementalProblem() = default;
-  IncrementalProblem(IncrementalProblem const&) = default;
-  IncrementalProblem(IncrementalProblem&&) = default;
-  IncrementalProblem& operator=(IncrementalProblem const&) = default;
-  IncrementalProblem& operator=(IncrementalProblem&&) = default;
+  IncrementalProblem(IncrementalProblem const&) = delete;  // sessions and stiffnesses refer to it
+  IncrementalProblem& operator=(IncrementalProblem const&) = delete;
 };
 
 /// The same with something attached to the mesh.
@@ -59,6 +57,7 @@ class AttachedProblem : public IncrementalProblem<Dim, Stiffness> {
   static constexpr bool is_bare = false;
 
   virtual int first_beside() const = 0;
+  virtual double length() const = 0;
   virtual Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) = 0;
   virtual Eigen::SparseMatrix<double> attached_stiffness() const = 0;
   virtual Eigen::SparseMatrix<double> held_stiffness() const = 0;

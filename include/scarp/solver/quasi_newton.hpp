@@ -13,7 +13,7 @@ namespace scarp {
 /// takes the points along the straight path from their committed states to the iterate.
 template <TangentRule<2> Rule = PointSecant, LinearSolver Linear = SparseLu>
 struct QuasiNewton {
-  double tolerance = 5e-3;  ///< force residual relative to the reactions
+  double tolerance = 5e-3;  ///< force residual, see EquilibriumProblem::residuals
   int most_iterations = 30;
   double hopeless = 10.0;    ///< residual beyond which a step is given up
   int most_refinements = 4;  ///< of points that have not converged, in each iteration

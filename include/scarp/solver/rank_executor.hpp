@@ -6,9 +6,13 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/solver/executor.hpp"
@@ -37,6 +41,44 @@ class MpiSession {
     std::abort();
   }
 };
+
+namespace detail {
+
+/// How a value is sent: as its bytes, where it may be copied so.
+template <class Value>
+struct LyingInMemory {
+  static_assert(std::is_trivially_copyable_v<Value>, "scarp: values that ranks share are copied byte by byte");
+  static constexpr std::size_t size = sizeof(Value);
+  static void write(Value const& value, std::byte* to) { std::memcpy(to, &value, size); }
+  static void read(std::byte const* from, Value& value) { std::memcpy(&value, from, size); }
+};
+
+/// Eigen's matrices of fixed size are copied by functions of their own; their numbers lie side by side.
+template <class Scalar, int Rows, int Columns, int Options>
+struct LyingInMemory<Eigen::Matrix<Scalar, Rows, Columns, Options, Rows, Columns>> {
+  using Value = Eigen::Matrix<Scalar, Rows, Columns, Options, Rows, Columns>;
+  static_assert(Rows > 0 && Columns > 0, "scarp: values that ranks share own no memory");
+  static constexpr std::size_t size = sizeof(Scalar) * static_cast<std::size_t>(Rows * Columns);
+  static void write(Value const& value, std::byte* to) { std::memcpy(to, value.data(), size); }
+  static void read(std::byte const* from, Value& value) { std::memcpy(value.data(), from, size); }
+};
+
+template <int Dim>
+struct LyingInMemory<Response<Dim>> {
+  using Stress = LyingInMemory<VoigtStress<Dim>>;
+  using Told = LyingInMemory<Verdict>;
+  static constexpr std::size_t size = Stress::size + Told::size;
+  static void write(Response<Dim> const& value, std::byte* to) {
+    Stress::write(value.stress, to);
+    Told::write(value.verdict, to + Stress::size);
+  }
+  static void read(std::byte const* from, Response<Dim>& value) {
+    Stress::read(from, value.stress);
+    Told::read(from + Stress::size, value.verdict);
+  }
+};
+
+}  // namespace detail
 
 /// An MPI rank: all ranks run the same solver, each of them answers for every so-many-th point and holds the states of no others.
 /// Gradients are known everywhere; only stresses, tangents and verdicts travel. Neighbouring points, whose packings
@@ -68,32 +110,60 @@ class RankExecutor {
     local_.for_each(count, std::forward<Task>(task));
   }
 
-  /// Values are sent as they lie in memory: ranks run the same binary on machines of one kind.
+  /// Work that all ranks begin alike. What it throws on one of them is thrown on all: there as it is, elsewhere as InputError with
+  /// the same words and the rank.
+  template <std::invocable Work>
+  void together(Work const& work) const {
+    std::exception_ptr own;
+    std::string words;
+    try {
+      work();
+    } catch (std::exception const& error) {
+      own = std::current_exception();
+      words = error.what();
+    } catch (...) {
+      own = std::current_exception();
+      words = "an exception without words";
+    }
+    int const mine = own ? rank_ : ranks_;
+    int first = ranks_;
+    MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, communicator_);
+    if (first == ranks_) return;
+    int length = detail::count(words);
+    MPI_Bcast(&length, 1, MPI_INT, first, communicator_);
+    words.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(words.data(), length, MPI_CHAR, first, communicator_);
+    if (own) std::rethrow_exception(own);
+    refuse("rank {} has stopped ({}): see its words", first, words);
+  }
+
+  /// The bytes of numbers are sent: ranks run the same binary on machines of one kind.
   template <class Value>
   void share(std::vector<Value>& values) {
-    static_assert(std::is_trivially_destructible_v<Value>, "values that own memory cannot be sent as they lie in it");
+    using Lying = detail::LyingInMemory<Value>;
     double const started = MPI_Wtime();
     auto const count = values.size();
     auto const ranks = static_cast<std::size_t>(ranks_);
+    // Counted in values: of those there are no more than an int can count, of their bytes perhaps.
     std::vector<int> lengths(ranks);
     std::vector<int> starts(ranks);
     for (std::size_t r = 0, at = 0; r < ranks; at += owned(count, r++)) {
-      lengths[r] = static_cast<int>(owned(count, r) * sizeof(Value));
-      starts[r] = static_cast<int>(at * sizeof(Value));
+      lengths[r] = static_cast<int>(owned(count, r));
+      starts[r] = static_cast<int>(at);
     }
-    std::vector<std::byte> mine(detail::index(lengths[detail::index(rank_)]));
+    std::vector<std::byte> mine(owned(count, detail::index(rank_)) * Lying::size);
     std::byte* to = mine.data();
-    for (auto k = detail::index(rank_); k < count; k += ranks, to += sizeof(Value)) {
-      std::memcpy(to, &values[k], sizeof(Value));
-    }
-    std::vector<std::byte> all(count * sizeof(Value));
-    MPI_Allgatherv(mine.data(), detail::count(mine), MPI_BYTE, all.data(), lengths.data(), starts.data(), MPI_BYTE,
+    for (auto k = detail::index(rank_); k < count; k += ranks, to += Lying::size) Lying::write(values[k], to);
+    std::vector<std::byte> all(count * Lying::size);
+    MPI_Datatype one;
+    MPI_Type_contiguous(static_cast<int>(Lying::size), MPI_BYTE, &one);
+    MPI_Type_commit(&one);
+    MPI_Allgatherv(mine.data(), lengths[detail::index(rank_)], one, all.data(), lengths.data(), starts.data(), one,
                    communicator_);
+    MPI_Type_free(&one);
     for (std::size_t r = 0; r < ranks; ++r) {
-      std::byte const* from = all.data() + starts[r];
-      for (std::size_t k = r; k < count; k += ranks, from += sizeof(Value)) {
-        std::memcpy(static_cast<void*>(&values[k]), from, sizeof(Value));
-      }
+      std::byte const* from = all.data() + static_cast<std::size_t>(starts[r]) * Lying::size;
+      for (std::size_t k = r; k < count; k += ranks, from += Lying::size) Lying::read(from, values[k]);
     }
     seconds_sharing_ += MPI_Wtime() - started;
   }
@@ -106,39 +176,69 @@ class RankExecutor {
   }
 
   /// On the first rank: what the owner of a point answers while it serves.
+  /// \throws InputError with the owner's words where it could not
   std::string ask(int point) const {
     int const owner = point % ranks_;
     MPI_Send(&point, 1, MPI_INT, owner, question, communicator_);
     MPI_Status status;
-    MPI_Probe(owner, answer, communicator_, &status);
+    MPI_Probe(owner, MPI_ANY_TAG, communicator_, &status);
     int length = 0;
     MPI_Get_count(&status, MPI_BYTE, &length);
     std::string bytes(static_cast<std::size_t>(length), '\0');
-    MPI_Recv(bytes.data(), length, MPI_BYTE, owner, answer, communicator_, MPI_STATUS_IGNORE);
+    MPI_Recv(bytes.data(), length, MPI_BYTE, owner, status.MPI_TAG, communicator_, MPI_STATUS_IGNORE);
+    if (status.MPI_TAG == failure)
+      refuse("rank {} cannot answer for point {} ({}): see its words", owner, point, bytes);
     return bytes;
   }
 
-  /// On the first rank: nothing more to ask, the others go on.
-  void dismiss() const {
-    int const nothing = -1;
-    for (int other = 1; other < ranks_; ++other) MPI_Send(&nothing, 1, MPI_INT, other, question, communicator_);
-  }
-
-  /// On the others: answer(point) returns the bytes for each point that the first rank asks for, until it dismisses them.
-  template <std::invocable<int> Answer>
-  void serve(Answer const& answer_to) const {
-    for (;;) {
-      int point = -1;
-      MPI_Recv(&point, 1, MPI_INT, 0, question, communicator_, MPI_STATUS_IGNORE);
-      if (point < 0) return;
-      std::string const bytes = answer_to(point);
-      MPI_Send(bytes.data(), detail::count(bytes), MPI_BYTE, 0, answer, communicator_);
-    }
+  /// The first rank does a task, which may ask; the others answer meanwhile: answer_to(point) returns the bytes. What one throws
+  /// ends all.
+  template <std::invocable Task, std::invocable<int> Answer>
+  void on_first(Task const& task, Answer const& answer_to) const {
+    together([&] {
+      if (rank_ != 0) return serve(answer_to);
+      struct Dismissal {
+        RankExecutor const& executor;
+        ~Dismissal() {
+          int const nothing = -1;
+          for (int other = 1; other < executor.ranks_; ++other)
+            MPI_Send(&nothing, 1, MPI_INT, other, question, executor.communicator_);
+        }
+      } const dismissal{*this};
+      task();
+    });
   }
 
  private:
   static constexpr int question = 1;  // tags of messages
   static constexpr int answer = 2;
+  static constexpr int failure = 3;
+
+  /// Until the first rank has no more questions; then what an answer has thrown is thrown.
+  template <class Answer>
+  void serve(Answer const& answer_to) const {
+    std::exception_ptr thrown;
+    for (;;) {
+      int point = -1;
+      MPI_Recv(&point, 1, MPI_INT, 0, question, communicator_, MPI_STATUS_IGNORE);
+      if (point < 0) break;
+      std::string bytes;
+      int tag = answer;
+      try {
+        bytes = answer_to(point);
+        if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+          refuse("the state of point {} has {} bytes (MPI sends no more than {} at once): make it smaller", point,
+                 bytes.size(), std::numeric_limits<int>::max());
+        }
+      } catch (std::exception const& error) {
+        thrown = std::current_exception();
+        bytes = error.what();
+        tag = failure;
+      }
+      MPI_Send(bytes.data(), detail::count(bytes), MPI_BYTE, 0, tag, communicator_);
+    }
+    if (thrown) std::rethrow_exception(thrown);
+  }
 
   /// Number of points among `count` that a rank owns.
   std::size_t owned(std::size_t count, std::size_t rank) const {

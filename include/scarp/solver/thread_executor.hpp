@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -20,18 +21,70 @@ namespace scarp {
 /// share out evenly. Tasks write only their own results: the answer has the same bits for any number of threads.
 class ThreadExecutor {
  public:
-  /// threads, the calling one included; 0 takes as many as the machine has \throws InputError for a negative number
+  /// threads, the calling one included; 0 takes as many as the machine has
+  /// \throws InputError for a negative number, or more than can be started
   explicit ThreadExecutor(int threads = 0) {
     if (threads < 0)
       refuse("{} threads were asked for (at least one must work): give a positive number, or 0 for all", threads);
     if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    for (int k = 1; k < threads; ++k) team_.emplace_back([this] { serve(); });
+    team_.reserve(static_cast<std::size_t>(threads - 1));
+    try {
+      for (int k = 1; k < threads; ++k) team_.emplace_back([this] { serve(); });
+    } catch (std::system_error const& error) {
+      int const started = this->threads();
+      end_service();
+      refuse(
+          "{} threads were asked for (only {} could be started: {}): ask for fewer, or raise the limit of processes "
+          "and memory",
+          threads, started, error.what());
+    }
   }
 
   ThreadExecutor(ThreadExecutor const&) = delete;
   ThreadExecutor& operator=(ThreadExecutor const&) = delete;
 
-  ~ThreadExecutor() {
+  ~ThreadExecutor() { end_service(); }
+
+  int threads() const { return detail::count(team_) + 1; }
+
+  /// An exception of a task is rethrown here after all threads have come to rest. A task that calls a team which is at work,
+  /// its own or another one, does its tasks one after the other on its own thread; otherwise calls of several threads wait for
+  /// one another.
+  template <std::invocable<int> Task>
+  void for_each(int count, Task&& task) {
+    if (!begin_round(count, std::ref(task))) {
+      for (int i = 0; i < count; ++i) task(i);
+      return;
+    }
+    work();
+    std::unique_lock lock(mutex_);
+    end_.wait(lock, [this] { return busy_ == 0; });
+    task_ = nullptr;
+    std::exception_ptr const failure = std::exchange(failure_, nullptr);
+    in_round_ = false;
+    lock.unlock();
+    free_.notify_one();
+    if (failure) std::rethrow_exception(failure);
+  }
+
+ private:
+  /// \return false for a task of this or another team while this one is at work: waiting might never end
+  bool begin_round(int count, std::function<void(int)> task) {
+    std::unique_lock lock(mutex_);
+    if (in_round_ && within_task_) return false;
+    free_.wait(lock, [this] { return !in_round_; });
+    in_round_ = true;
+    task_ = std::move(task);
+    count_ = count;
+    next_ = 0;
+    busy_ = detail::count(team_);
+    ++round_;
+    lock.unlock();
+    begin_.notify_all();
+    return true;
+  }
+
+  void end_service() {
     {
       std::lock_guard const lock(mutex_);
       over_ = true;
@@ -39,36 +92,8 @@ class ThreadExecutor {
     begin_.notify_all();
   }
 
-  int threads() const { return detail::count(team_) + 1; }
-
-  /// An exception of a task is rethrown here after all threads have come to rest. Within a task the tasks run one after
-  /// the other on its own thread, since the team is at work; calls of several threads wait for one another.
-  template <std::invocable<int> Task>
-  void for_each(int count, Task&& task) {
-    if (at_work_for_ == this) {
-      for (int i = 0; i < count; ++i) task(i);
-      return;
-    }
-    std::lock_guard const one_round(rounds_);
-    {
-      std::lock_guard const lock(mutex_);
-      task_ = std::ref(task);
-      count_ = count;
-      next_ = 0;
-      busy_ = detail::count(team_);
-      ++round_;
-    }
-    begin_.notify_all();
-    work();
-    std::unique_lock lock(mutex_);
-    end_.wait(lock, [this] { return busy_ == 0; });
-    task_ = nullptr;
-    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-  }
-
- private:
   void work() {
-    ThreadExecutor const* const before = std::exchange(at_work_for_, this);
+    bool const before = std::exchange(within_task_, true);
     for (int i = next_++; i < count_; i = next_++) {
       try {
         task_(i);
@@ -78,7 +103,7 @@ class ThreadExecutor {
         next_ = count_;
       }
     }
-    at_work_for_ = before;
+    within_task_ = before;
   }
 
   void serve() {
@@ -95,10 +120,10 @@ class ThreadExecutor {
     }
   }
 
-  static inline thread_local ThreadExecutor const* at_work_for_ = nullptr;  ///< of whose round this thread runs a task
+  static inline thread_local bool within_task_ = false;  ///< this thread runs a task of some team
 
-  std::mutex rounds_;
   std::mutex mutex_;
+  std::condition_variable free_;
   std::condition_variable begin_;
   std::condition_variable end_;
   std::function<void(int)> task_;
@@ -106,6 +131,7 @@ class ThreadExecutor {
   std::atomic<int> next_ = 0;
   int busy_ = 0;
   long round_ = 0;
+  bool in_round_ = false;
   bool over_ = false;
   std::exception_ptr failure_;
   std::vector<std::jthread> team_;

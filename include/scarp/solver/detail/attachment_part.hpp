@@ -21,6 +21,22 @@ class AttachmentPart : public AttachedProblem<Dim, Stiffness> {
   /// The first degree of freedom of its own, behind those of the mesh.
   int first_beside() const override { return static_cast<Problem const&>(*this).discretisation().dof_count(); }
 
+  /// Size [m] of what is attached where it tells one, else of the mesh.
+  double length() const override {
+    if constexpr (requires { attached_.length(); }) {
+      return attached_.length();
+    } else {
+      auto const& nodes = static_cast<Problem const&>(*this).discretisation().mesh().nodes;
+      Vector<Dim> low = nodes.front();
+      Vector<Dim> high = low;
+      for (auto const& node : nodes) {
+        low = low.cwiseMin(node);
+        high = high.cwiseMax(node);
+      }
+      return (high - low).maxCoeff();
+    }
+  }
+
   /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment. Whether it could
   /// answer is said by the next evaluation.
   Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) override {

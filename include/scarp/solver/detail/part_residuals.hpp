@@ -15,15 +15,20 @@
 
 namespace scarp::detail {
 
-/// |unbalanced| over free degrees of freedom / |reactions|, Euclidean norms.
-inline double residual_of_all(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads,
+/// Square of a vector's Euclidean norm over some degrees of freedom.
+inline double squared_over(std::vector<int> const& dofs, Eigen::VectorXd const& forces) {
+  double sum = 0.0;
+  for (int const dof : dofs) sum += forces(dof) * forces(dof);
+  return sum;
+}
+
+/// |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads| and what the elements and the attachment
+/// carry at free degrees of freedom (`carried`, squared); Euclidean norms. Reactions alone may be round-off: those of a body that is
+/// pressed from all sides.
+inline double residual_of_all(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double carried,
                               std::vector<int> const& free_dofs, std::vector<int> const& prescribed_dofs) {
-  double free = 0.0;
-  for (int const dof : free_dofs) free += unbalanced(dof) * unbalanced(dof);
-  double prescribed = 0.0;
-  for (int const dof : prescribed_dofs) prescribed += unbalanced(dof) * unbalanced(dof);
-  // A body held nowhere has no reactions: measure against the loads.
-  double const scale = prescribed > 0.0 ? prescribed : loads.squaredNorm();
+  double const free = squared_over(free_dofs, unbalanced);
+  double const scale = std::max({squared_over(prescribed_dofs, unbalanced), loads.squaredNorm(), carried});
   return free == 0.0 ? 0.0 : std::sqrt(free / scale);
 }
 

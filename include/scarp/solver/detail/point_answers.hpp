@@ -120,6 +120,12 @@ class SCARP_EXPORT PointAnswers {
 
   std::size_t count() const { return detail::index(materials_.point_count()); }
 
+  /// The tasks of this process.
+  template <class Task>
+  void for_each(int count, Task const& task) const {
+    together(executor_, [&] { executor_.for_each(count, task); });
+  }
+
   /// Completes an array over all points by what other processes know.
   template <class Value>
   void share(std::vector<Value>& values) const {
@@ -146,7 +152,7 @@ class SCARP_EXPORT PointAnswers {
     // The longest answers first: one that begins last would keep the other threads waiting.
     std::vector<int> order = selected;
     std::ranges::stable_sort(order, std::ranges::greater{}, [&](int point) { return materials_.work(point); });
-    executor_.for_each(detail::count(order), [&](int task) {
+    for_each(detail::count(order), [&](int task) {
       int const point = order[detail::index(task)];
       auto const k = detail::index(point);
       responses_[k] = materials_.respond(point, gradients_[k]);
@@ -174,7 +180,7 @@ class SCARP_EXPORT PointAnswers {
   template <class TangentOf>
   Tangents all_tangents(TangentOf const& tangent_of) const {
     Tangents values(count());
-    executor_.for_each(detail::count(owned_), [&](int task) {
+    for_each(detail::count(owned_), [&](int task) {
       int const point = owned_[detail::index(task)];
       values[detail::index(point)] = tangent_of(point);
     });

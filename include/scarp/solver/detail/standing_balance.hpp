@@ -58,7 +58,7 @@ std::optional<double> share_without_work(Work const& work, double most) {
 template <class Problem>
 class StandingBalance {
  public:
-  explicit StandingBalance(Problem& problem) : problem_(problem) {
+  explicit StandingBalance(Problem& problem) : problem_(problem), length_(problem.length()) {
     for (int const dof : problem.constraints().free_dofs()) {
       if (dof >= problem.first_beside()) dofs_.push_back(dof);
     }
@@ -94,16 +94,17 @@ class StandingBalance {
   static constexpr int most_questions = 3000;
   static constexpr double better = 1e-3;  ///< of the accuracy asked for, where Newton's method comes that far
   static constexpr double least_share = 0.1;
-  static constexpr double decrease = 0.1;     ///< of the imbalance, over the share of Newton's step
-  static constexpr double first_way = 1e-4;   ///< [m], of a body that touches nothing
-  static constexpr double longest_way = 1.0;  ///< [m]
-  static constexpr double least_way = 1e-14;  ///< [m], round-off of places some ten metres from the origin
+  static constexpr double decrease = 0.1;  ///< of the imbalance, over the share of Newton's step
+  // Over the length of the body:
+  static constexpr double first_way = 1e-5;  ///< of a body that touches nothing
+  static constexpr double longest_way = 1.0;
+  static constexpr double least_way = 1e-15;  ///< round-off of places some ten lengths from the origin
 
   bool by_newton(Eigen::VectorXd& place, Eigen::VectorXd& unbalanced, Eigen::VectorXd& increment) {
     auto const tangent = factors(problem_.attached_stiffness());
     if (!tangent.isInvertible()) return false;
     Eigen::VectorXd const direction = -tangent.solve(unbalanced);
-    if (direction.norm() < least_way) return false;
+    if (direction.norm() < least_way * length_) return false;
     for (double share = 1.0; share > least_share; share *= 0.5) {
       Eigen::VectorXd const there = place + share * direction;
       Eigen::VectorXd const left = at(there, increment);
@@ -120,13 +121,13 @@ class StandingBalance {
     auto const held = factors(problem_.held_stiffness());
     Eigen::VectorXd const direction = held.isInvertible()
                                           ? Eigen::VectorXd(-held.solve(unbalanced))
-                                          : Eigen::VectorXd(-first_way / unbalanced.norm() * unbalanced);
-    if (direction.norm() < least_way) return false;
+                                          : Eigen::VectorXd(-first_way * length_ / unbalanced.norm() * unbalanced);
+    if (direction.norm() < least_way * length_) return false;
     double const start = unbalanced.dot(direction);
     auto const work = [&](double share) {
       return share == 0.0 ? start : at(place + share * direction, increment).dot(direction);
     };
-    auto const share = share_without_work(work, std::max(1.0, longest_way / direction.norm()));
+    auto const share = share_without_work(work, std::max(1.0, longest_way * length_ / direction.norm()));
     if (share) place += *share * direction;
     unbalanced = at(place, increment);
     return share.has_value();
@@ -156,6 +157,7 @@ class StandingBalance {
   }
 
   Problem& problem_;
+  double length_;          ///< of the body [m]
   std::vector<int> dofs_;  ///< free ones beside the mesh
   Eigen::VectorXd loads_;
   int asked_ = 0;
