@@ -177,7 +177,14 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
          "--budget-companions", choice.budget_companions,
          "run the scene once more on a mesh of other directions and once with smaller load steps, for the error budget")
       ->configurable(false);
-  app.add_option("--companions", choice.companions, "file of what such runs came to: read, and with them written");
+  app.add_option("--companions", choice.companions, "file of what such runs came to: read, and with them written")
+      ->check([](std::string const& given) {
+        auto const folder = std::filesystem::path(given).parent_path();
+        return folder.empty() || std::filesystem::is_directory(folder)
+                   ? std::string()
+                   : fmt::format("there is no folder '{}' (the file would lie in it): create it first",
+                                 folder.string());
+      });
   auto* const folder =
       app.add_option("--checkpoint", choice.checkpoint,
                      "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")

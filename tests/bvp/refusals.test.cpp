@@ -12,6 +12,7 @@
 #include "scarp/bvp/loads.hpp"
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
+#include "support/approx.hpp"
 
 namespace {
 
@@ -58,7 +59,7 @@ TEST_CASE("a force per volume is given for each region of the mesh") {
   using Forces = std::vector<scarp::Vector<2>>;
   CHECK_REFUSED(scarp::body_force(grid, Forces(1, {0.0, -1.0})), "for 1 regions", "the mesh has 2", "sand", "clay");
   CHECK_REFUSED(scarp::body_force(grid, Forces(3, {0.0, -1.0})), "for 3 regions", "the mesh has 2");
-  CHECK(scarp::body_force(grid, Forces(2, {0.0, -1.0})).sum() == doctest::Approx(-1.0).epsilon(1e-14));
+  CHECK(scarp::body_force(grid, Forces(2, {0.0, -1.0})).sum() == samples::Approx(-1.0).epsilon(1e-14));
 }
 
 TEST_CASE("facets that are none, or one that would count twice, are refused") {

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSL-1.0
+"""[slow] Every option of fault_rupture that takes a value refuses one that it cannot take, by name and before any file is written.
+Options are those that --help lists. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
+PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+WRONG = {"FLOAT": ("nan", "inf", "1,5", "many"), "INT": ("1.5", "99999999999", "many"), "UINT": ("-1", "many"),
+         "TEXT": ("no/such thing",), "TEXT:SEED": ("-1", "1.5", "many"), "TEXT:FILE": ("no/such thing",)}
+TEXTS = {"--config"}  # read before anything else, refused in the words of the file
+
+
+def run(program, words, folder):
+    """Exit code 0 where it had to be stopped: it began to compute."""
+    words = [PROGRAMS / program[0], *program[1:], *words]
+    try:
+        done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=20)
+    except subprocess.TimeoutExpired:
+        return 0, "still running after 20 s"
+    return done.returncode, done.stdout + done.stderr
+
+
+def options_of(said):
+    """(name, type) of the options with a value."""
+    for line in said.splitlines():
+        found = re.match(r"\s+(?:-\w,)?(--[a-z][a-z0-9-]*)(?:,--[a-z0-9-]+)* (FLOAT|INT|UINT|TEXT(?::SEED|:FILE)?)\b", line)
+        if found:
+            yield found[1], found[2]
+
+
+built = [name for name in ("fault_rupture",) if (PROGRAMS / name).exists()]
+if not built:
+    print(f"skipped: no programs in {PROGRAMS} (set SCARP_EXAMPLES and build the examples)")
+    sys.exit(77)
+tried = set()
+with tempfile.TemporaryDirectory() as scratch:
+    for name in built:
+        _, said = run([name], ["--help"], scratch)
+        commands = re.findall(r"^  ([a-z_]+) {2,}", said.split("Subcommands:")[1], re.M) if "Subcommands:" in said else []
+        for program in [[name]] + [[name, command] for command in commands]:
+            code, said = run(program, ["--help"], scratch)
+            expect(code == 0, f"{program} --help ended with {code}\n{said}")
+            for option, kind in options_of(said):
+                tried.add((name, option))
+                for value in WRONG[kind]:
+                    code, said = run(program, [option, value], scratch)
+                    what = f"{' '.join(program)} {option} {value!r}"
+                    expect(code > 0, f"{what}: ended with {code}\n{said[-500:]}")
+                    expect(option.lstrip("-") in said or option in TEXTS or value in said, f"{what}: the message does not name it\n{said[-500:]}")
+    expect(not list(pathlib.Path(scratch).iterdir()), f"files are left: {list(pathlib.Path(scratch).iterdir())}")
+expect(len(tried) >= 5 * ("fault_rupture" in built), "the help lists no options in the form that this test looks for")
+print(f"{len(tried)} options of {len(built)} programs")
+finish()
