@@ -106,6 +106,7 @@ Answer<Shape::dim> listed(Smooth<Shape> packing, scarp::Frictionless const& law)
   }
   std::sort(answer.meetings.begin(), answer.meetings.end());
   packing.pairs.critical_step = 1e-3;
+  packing.pairs.basis = scarp::list_basis(packing, law, packing.pairs.skin);  // else the list would be made anew
   scarp::TimeStepper<Smooth<Shape>> stepper;
   stepper.damping = {.factor = 0.0, .drag = 0.0};
   stepper.time_step_share = 1.0;
