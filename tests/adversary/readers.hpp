@@ -12,6 +12,7 @@
 /// Readers under attack, each with valid files to begin with.
 namespace adversary {
 
+using samples::content;
 using samples::ScratchFolder;
 using scarp::InputError;
 using scarp::Random;
