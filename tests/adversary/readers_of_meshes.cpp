@@ -2,8 +2,8 @@
 #include "adversary/readers.hpp"
 #include "io/mesh_samples.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
-#include "scarp/io/gmsh/gmsh_writer.hpp"
 #include "scarp/mesh/mesh_checks.hpp"
+#include "support/gmsh_writer.hpp"
 
 namespace adversary {
 

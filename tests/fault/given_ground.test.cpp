@@ -9,9 +9,9 @@
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
-#include "scarp/io/gmsh/gmsh_writer.hpp"
 #include "support/approx.hpp"
 #include "support/files.hpp"
+#include "support/gmsh_writer.hpp"
 #include "support/refusals.hpp"
 
 namespace {

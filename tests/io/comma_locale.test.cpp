@@ -10,11 +10,11 @@
 #include "scarp/io/csv.hpp"
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
-#include "scarp/io/gmsh/gmsh_writer.hpp"
 #include "scarp/io/json.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 #include "support/files.hpp"
+#include "support/gmsh_writer.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 
 #include "io/mesh_tables.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
-#include "scarp/io/gmsh/gmsh_writer.hpp"
 #include "scarp/io/vtu.hpp"
+#include "support/gmsh_writer.hpp"
 
 namespace {
 

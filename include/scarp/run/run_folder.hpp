@@ -53,8 +53,6 @@ class RunFolder {
 
   std::filesystem::path const& path() const { return settings_.folder; }
   RunRecord const& record() const { return record_; }
-  /// False where the file system knows no locks.
-  bool is_locked() const { return lock_.holds(); }
 
   /// From now on the folder is this run's.
   /// \throws FileError

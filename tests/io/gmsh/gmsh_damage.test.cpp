@@ -5,8 +5,8 @@
 
 #include "io/mesh_samples.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
-#include "scarp/io/gmsh/gmsh_writer.hpp"
 #include "support/files.hpp"
+#include "support/gmsh_writer.hpp"
 
 namespace {
 

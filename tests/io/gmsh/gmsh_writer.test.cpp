@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/io/gmsh/gmsh_writer.hpp"
+#include "support/gmsh_writer.hpp"
 
 #include <doctest/doctest.h>
 
