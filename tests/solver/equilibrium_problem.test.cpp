@@ -130,3 +130,19 @@ TEST_CASE("parts that do not fit together are refused") {
   CHECK_REFUSED(make(field_on(grid), scarp::Constraints(smaller.mesh()), {}),
                 fmt::format("constraints {}", smaller.dof_count()));
 }
+
+TEST_CASE("an increment is committed once, after its own evaluation") {
+  scarp::SerialExecutor serial;
+  auto grid = square();
+  auto constraints = held_as_a_body(grid);
+  auto field = field_on(grid);
+  Problem<> problem(std::move(grid), std::move(field), std::move(constraints), {}, serial);
+  Eigen::VectorXd const first = Eigen::VectorXd::LinSpaced(problem.dof_count(), 0.0, 1e-4);
+  CHECK_REFUSED(problem.commit(first), "increment", "evaluate");
+  problem.evaluate(first);
+  CHECK_REFUSED(problem.commit(2.0 * first), "increment", "evaluate");
+  problem.commit(first);
+  auto const stresses = problem.committed_stresses();
+  CHECK_REFUSED(problem.commit(first), "increment", "evaluate");
+  CHECK(problem.committed_stresses() == stresses);
+}

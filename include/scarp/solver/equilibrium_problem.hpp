@@ -127,6 +127,7 @@ class SCARP_EXPORT EquilibriumProblem final
       evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
     } else {
       points_.respond(evaluation);
+      evaluated_ = increment;
       add_up(increment, evaluation);
     }
     return evaluation;
@@ -193,7 +194,14 @@ class SCARP_EXPORT EquilibriumProblem final
   std::vector<VoigtTangent<dim>> trial_tangents() const override { return points_.trial_tangents(); }
 
   /// Makes the increment and the points' trial states the committed ones.
+  /// \throws InputError unless the increment is the last one that was evaluated: trial states belong to that one
   void commit(Eigen::VectorXd const& increment) override {
+    if (evaluated_.size() != increment.size() || evaluated_ != increment) {
+      refuse(
+          "the increment to be committed is not the one that was evaluated last (the points' trial states belong to "
+          "that one): evaluate it first, and commit it once");
+    }
+    evaluated_.resize(0);
     if constexpr (!is_bare) this->attached_.commit(discretisation_.positions(), increment);
     discretisation_.commit(of_nodes(increment));
     points_.materials().commit();
@@ -258,7 +266,8 @@ class SCARP_EXPORT EquilibriumProblem final
   Constraints constraints_;
   LoadHistory loads_;
   Eigen::VectorXd load_now_;
-  double carried_ = 0.0;  ///< at free degrees of freedom in the last evaluation, squared [N2]
+  Eigen::VectorXd evaluated_;  ///< increment that the points' trial states belong to; empty after a commit
+  double carried_ = 0.0;       ///< at free degrees of freedom in the last evaluation, squared [N2]
   std::vector<int> free_dofs_;
   detail::RegionResiduals<dim> regions_;
 };
