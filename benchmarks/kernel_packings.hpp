@@ -13,12 +13,12 @@
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/superellipse.hpp"
-#include "scarp/shape/ellipse.hpp"
-#include "scarp/shape/sphere.hpp"
-#include "scarp/shape/disc.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/shape/clump.hpp"
+#include "scarp/shape/disc.hpp"
+#include "scarp/shape/ellipse.hpp"
+#include "scarp/shape/sphere.hpp"
+#include "scarp/shape/superellipse.hpp"
 
 /// Packings that the benchmarks of the kernel look at.
 namespace scarp_benchmark {

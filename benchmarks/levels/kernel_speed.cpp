@@ -8,9 +8,9 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/ellipse.hpp"
-#include "scarp/shape/disc.hpp"
 #include "scarp/dem/preparation.hpp"
+#include "scarp/shape/disc.hpp"
+#include "scarp/shape/ellipse.hpp"
 
 namespace {
 

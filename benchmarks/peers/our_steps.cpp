@@ -21,10 +21,10 @@
 #include "scarp/core/build_info.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/contacts.hpp"
-#include "scarp/dem/gradings.hpp"
-#include "scarp/shape/sphere.hpp"
-#include "scarp/shape/disc.hpp"
 #include "scarp/dem/drive.hpp"
+#include "scarp/dem/gradings.hpp"
+#include "scarp/shape/disc.hpp"
+#include "scarp/shape/sphere.hpp"
 
 namespace {
 

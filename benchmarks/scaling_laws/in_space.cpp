@@ -11,12 +11,12 @@
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/sphere.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
 #include "scarp/measure/resources.hpp"
 #include "scarp/observe/observers.hpp"
+#include "scarp/shape/sphere.hpp"
 #include "scarp/solver/executor.hpp"
 
 namespace {

@@ -9,10 +9,10 @@
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {

@@ -7,10 +7,10 @@
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/observe/floor_share.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "scarp/dem/loading.hpp"
 #include "scarp/dem/gradings.hpp"
+#include "scarp/dem/loading.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"

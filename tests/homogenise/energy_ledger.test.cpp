@@ -4,8 +4,8 @@
 #include <doctest/doctest.h>
 
 #include "scarp/dem/drive.hpp"
-#include "scarp/dem/loading.hpp"
 #include "scarp/dem/gradings.hpp"
+#include "scarp/dem/loading.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "support/packings.hpp"
 

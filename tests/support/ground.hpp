@@ -5,9 +5,9 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/ellipse.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
+#include "scarp/shape/ellipse.hpp"
 
 /// The free-field scene at a size that runs in a blink.
 namespace samples {

@@ -5,8 +5,8 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/ellipse.hpp"
 #include "scarp/dem/preparation.hpp"
+#include "scarp/shape/ellipse.hpp"
 
 int main() {
   using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;

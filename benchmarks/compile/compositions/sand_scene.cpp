@@ -4,9 +4,9 @@
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/shape/ellipse.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
+#include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 int main() {

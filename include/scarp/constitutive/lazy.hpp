@@ -5,8 +5,8 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/index.hpp"
 #include "scarp/core/finite_strain.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 

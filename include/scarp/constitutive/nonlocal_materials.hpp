@@ -12,8 +12,8 @@
 #include "scarp/constitutive/neighbour_mean.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/index.hpp"
 #include "scarp/core/finite_strain.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
