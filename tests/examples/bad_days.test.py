@@ -116,7 +116,8 @@ def check_signals(folder, expected):
         with subprocess.Popen(["sh", "-c", words, "sh", *SAVING], cwd=here, stdout=subprocess.PIPE,
                               stderr=subprocess.DEVNULL, preexec_fn=lambda: signal.signal(signal.SIGPIPE, signal.SIG_DFL)) as process:
             if title == "SIGPIPE":
-                process.stdout.readline()
+                while not (here / "out/run.json").exists() and process.stdout.readline():
+                    pass
                 process.stdout.close()
             else:
                 while process.poll() is None and not list((here / "states").glob("checkpoint_*")):

@@ -83,7 +83,7 @@ def check_bad_input():
         check_refusal(program, "missing config file", "--config", "none.ini", "none.ini")
         for title, text, named in (("unknown key", "wings = 2\n", "wings"), ("bad value", "grains = -5\n", "grains"),
                                    ("text for a number", "grains = many\n", "grains"),
-                                   ("no options at all", "\x01\x02 [[[ = = ]]\n<xml>\n", "c.ini")):
+                                   ("no options at all", "\x01\x02 [[[ = = ]]\n<xml>\n", "[[[")):
             check_refusal(program, f"{title} in the config file", "--config", "c.ini", named, {"c.ini": text})
     check_refusal(FAULT, "negative size", "--size", "-1", "--size")
     check_refusal(FAULT, "NaN size", "--size", "nan", "--size")

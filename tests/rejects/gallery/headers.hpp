@@ -13,3 +13,4 @@
 #include "scarp/element/quad4.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "scarp/shape/disc.hpp"
