@@ -27,8 +27,8 @@ Game gmsh_reader(std::string const& name) {
     } catch (InputError const& why) {
       demand(false, fmt::format("what was read is no valid mesh: {}", why.what()));
     }
-    for (auto const& [name, facets] : read.boundaries)
-      if (!facets.empty()) demand(!scarp::boundary(read, name).empty(), "a boundary that is not found");
+    for (auto const& [side, facets] : read.boundaries)
+      if (!facets.empty()) demand(!scarp::boundary(read, side).empty(), "a boundary that is not found");
     demand(std::isfinite(samples::volume(read)) && samples::volume(read) > 0.0, "a mesh without a volume");
     scarp::require_no_duplicate_nodes(read);
     scarp::require_no_hanging_nodes(read);

@@ -62,7 +62,7 @@ inline BudgetPart companion_part(std::string name, double own, double companion,
 
 /// Beyond which numbers a run says that it is outside its error budget. All are relative; docs/error-budget.md gives the reasons.
 struct ErrorBounds {
-  double residual = 1e-2;         ///< largest of an accepted step, over the reactions
+  double residual = 1e-2;         ///< largest of an accepted step, over the forces that act
   double work_gap = 5e-2;         ///< external against internal work of the run
   double linear_residual = 1e-8;  ///< largest of a linear system
   double iterated_linear_residual =
