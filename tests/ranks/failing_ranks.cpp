@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // What one rank throws ends all ranks with its words: `mpirun -np 3 failing_ranks WHO`, where WHO throws: "task" (of a point of rank 1),
 // "first" (the first rank, while the others serve), "answer" (rank 2, when it is asked) or "nobody".
+#define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
+#include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <stdexcept>
