@@ -112,8 +112,8 @@ TEST_CASE("The stiffness of a pressure that follows is the derivative of its for
 
 TEST_CASE("A pressure that is not finite and a thickness of zero are refused") {
   using Lateral = scarp::FollowingPressure<>;
-  CHECK_REFUSED(Lateral({}, std::nan(""), 1.0), "pressure is nan");
-  CHECK_REFUSED(Lateral({}, 1.0, 0.0), "thickness is 0");
+  CHECK_REFUSED(Lateral({{0, 1}}, std::nan(""), 1.0), "pressure is nan");
+  CHECK_REFUSED(Lateral({{0, 1}}, 1.0, 0.0), "thickness is 0");
 }
 
 TEST_CASE("A pressure on a mesh of another thickness is refused") {
