@@ -123,7 +123,7 @@ TEST_CASE("a base that the mesh has elsewhere is refused with both places") {
                        scarp::InputError);
   mesh.boundaries["footing_base"].clear();
   CHECK_REFUSED(scarp::mark_footing_base(mesh, centre, width), "footing_base");
-  CHECK_REFUSED(scarp::add_footing_block(mesh, height, 2.0), "footing_base", "empty");
+  CHECK_REFUSED(scarp::add_footing_block(mesh, height, 2.0), "footing_base", "no facets");
 }
 
 TEST_CASE("a footing over a gap in the surface is refused") {
