@@ -102,7 +102,8 @@ class ErrorBudget : public NeverStops {
     auto const add = [&](char const* name, double value, double bound, char const* meaning) {
       parts.push_back({name, value, bound, meaning});
     };
-    add("residual", residual_, bounds_.residual, "largest force residual of an accepted step, over the forces that act");
+    add("residual", residual_, bounds_.residual,
+        "largest force residual of an accepted step, over the forces that act");
     if constexpr (detail::adds_up_work<Problem>)
       add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
     add("linear_residual", linear_residual_,
