@@ -119,7 +119,7 @@ struct MissingOfProvider<Model, true> {
 
 }  // namespace detail
 
-/// A `ConstitutiveProvider`; of one that is none the compiler says in words what is missing.
+/// A `ConstitutiveProvider`; for another type the compiler names the missing member.
 template <class Model>
 concept CheckedProvider = ConstitutiveProvider<Model> || detail::MissingOfProvider<Model>::nothing;
 

@@ -227,7 +227,7 @@ constexpr bool a_law_answers_many_contacts_at_once_so_it_takes_lanes_select_for_
 
 }  // namespace detail
 
-/// A `ContactLaw`; of one that is none the compiler says in words what is missing.
+/// A `ContactLaw`; for another type the compiler names the missing member.
 template <class Law>
 concept CheckedContactLaw = (ContactLaw<Law> || detail::MissingOfContactLaw<Law>::nothing) &&
                             detail::a_law_answers_many_contacts_at_once_so_it_takes_lanes_select_for_if<Law>();

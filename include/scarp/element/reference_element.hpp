@@ -135,7 +135,7 @@ struct MissingOfElement<Element, true> {
 
 }  // namespace detail
 
-/// A `ReferenceElement`; of one that is none the compiler says in words what is missing.
+/// A `ReferenceElement`; for another type the compiler names the missing member.
 template <class Element>
 concept CheckedElement = ReferenceElement<Element> || detail::MissingOfElement<Element>::nothing;
 

@@ -27,7 +27,7 @@ inline double heave_per_throw(double dip) {
 
 namespace scarp {
 
-/// The hanging wall, right of the tip, slides down the fault plane and away from the foot wall, which stays.
+/// The hanging wall, right of the tip, slides down the fault plane and away from the footwall, which stays.
 struct NormalFault {
   double dip = std::numbers::pi / 3.0;  ///< angle of the fault plane against the horizontal [rad], up to pi/2
   double tip = 0.0;                     ///< where the fault meets the bottom of the ground [m]
@@ -39,7 +39,7 @@ struct NormalFault {
 
 static_assert(BedrockMotion<NormalFault>);
 
-/// The hanging wall, right of the tip, is pushed up the fault plane and over the foot wall, which stays.
+/// The hanging wall, right of the tip, is pushed up the fault plane and over the footwall, which stays.
 struct ReverseFault {
   double dip = std::numbers::pi / 3.0;  ///< angle of the fault plane against the horizontal [rad], up to pi/2
   double tip = 0.0;                     ///< where the fault meets the bottom of the ground [m]

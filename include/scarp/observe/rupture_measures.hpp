@@ -8,14 +8,14 @@
 
 namespace scarp {
 
-/// A dip-slip fault below the ground, its foot wall on the left, and how far its walls have settled. With the share of
+/// A dip-slip fault below the ground, its footwall on the left, and how far its walls have settled. With the share of
 /// the offset in place of settlement normal and reverse faults, and those that move both walls, are alike.
 struct FaultOffset {
   double tip = 0.0;      ///< where the fault meets the bottom of the ground, along the first axis [m]
-  double foot = 0.0;     ///< settlement of the foot wall, positive down [m]
+  double foot = 0.0;     ///< settlement of the footwall, positive down [m]
   double hanging = 0.0;  ///< settlement of the hanging wall, negative where it rises [m]
 
-  /// (settlement - foot) / (hanging - foot): 0 with the foot wall, 1 with the hanging wall; NaN without an offset
+  /// (settlement - foot) / (hanging - foot): 0 with the footwall, 1 with the hanging wall; NaN without an offset
   double share(double settlement) const {
     return hanging == foot ? std::numeric_limits<double>::quiet_NaN() : (settlement - foot) / (hanging - foot);
   }
@@ -24,7 +24,7 @@ struct FaultOffset {
 /// Where a fault comes out at the surface, by the steepest part of the profile between two joined points: the whole
 /// offset runs along that one line. `rupture_measures` gives places that do not hang on a single facet.
 struct Outcrop {
-  double outcrop_x;   ///< where the steepest part's line meets the surface of the foot wall [m]
+  double outcrop_x;   ///< where the steepest part's line meets the surface of the footwall [m]
   double steepest_x;  ///< middle of the steepest part [m]
   double width;       ///< distance over which that line runs through the full offset [m]
 };
@@ -50,12 +50,12 @@ inline Outcrop outcrop(std::vector<SurfacePoint> const& profile, FaultOffset con
   return found;
 }
 
-/// Of a fault whose foot wall stays and whose hanging wall goes down by fault_throw [m], up where that is negative.
+/// Of a fault whose footwall stays and whose hanging wall goes down by fault_throw [m], up where that is negative.
 inline Outcrop outcrop(std::vector<SurfacePoint> const& profile, double fault_throw) {
   return outcrop(profile, FaultOffset{.hanging = fault_throw});
 }
 
-/// First place, coming from the foot wall's side, where a profile passes a share of the fault's offset, linear between
+/// First place, coming from the footwall's side, where a profile passes a share of the fault's offset, linear between
 /// points [m] at rest. NaN where it passes in a gap, has passed before the profile begins, or does not pass.
 inline double first_passage(std::vector<SurfacePoint> const& profile, FaultOffset const& fault, double share) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -78,7 +78,7 @@ inline double line_dip(double left, double up) { return std::atan2(up, left); }
 /// there is none.
 struct RuptureMeasures {
   double
-      surface_x05;  ///< first place, from the foot wall's side, that has gone 5 % of the offset: where the scarp begins
+      surface_x05;  ///< first place, from the footwall's side, that has gone 5 % of the offset: where the scarp begins
   double surface_x50;        ///< half of the offset: the middle of the rupture
   double surface_x95;        ///< 95 % of it: where the scarp ends, further off where a graben lies behind it
   double surface_slope_max;  ///< largest |change of settlement / distance| between joined points

@@ -208,7 +208,7 @@ constexpr bool a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if(
 
 }  // namespace detail
 
-/// A `ParticleShape`; of one that is none the compiler says in words what is missing.
+/// A `ParticleShape`; for another type the compiler names the missing member.
 template <class Shape>
 concept CheckedShape = ((ParticleShape<Shape> && detail::HasAxesOfItsSpace<Shape>) ||
                         detail::MissingOfShape<Shape>::nothing) &&
