@@ -2,8 +2,7 @@
 #include <fstream>
 
 #include "adversary/readers.hpp"
-#include "io/mesh_samples.hpp"
-#include "io/mesh_tables.hpp"
+#include "scarp/io/csv.hpp"
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/run/run_folder.hpp"
 
@@ -13,13 +12,18 @@ namespace {
 
 std::vector<std::string> table_samples() {
   ScratchFolder const folder;
-  samples::write_mesh_tables(folder.path(), samples::mesh_sample<scarp::Quad4>(samples::sheared));
+  scarp::CsvTable nodes({"node", "x", "y"});
+  for (int n = 0; n < 10; ++n) nodes.add(n, 0.1 * n, 0.3 - 1e-3 * n);
+  nodes.write(folder / "nodes.csv");
+  scarp::CsvTable elements({"element", "region", "n0", "n1", "n2", "n3"});
+  for (int e = 0; e < 4; ++e) elements.add(e, e % 2 == 0 ? "lower sand" : "upper", e, e + 1, e + 6, e + 5);
+  elements.write(folder / "elements.csv");
   scarp::CsvTable table({"name", "a \"quoted\" one", "value"});
   table.add("x, y", "two\nlines", 1.5);
   table.add("", "\"", -2e-300);
   table.write(folder / "own.csv");
-  return {content(folder / "nodes.csv"), content(folder / "elements.csv"), content(folder / "boundaries.csv"),
-          content(folder / "own.csv"), "# a b c\n1 2 3\n\t4 5.5 6\n# remark\n7 8 9\n"};
+  return {content(folder / "nodes.csv"), content(folder / "elements.csv"), content(folder / "own.csv"),
+          "# a b c\n1 2 3\n\t4 5.5 6\n# remark\n7 8 9\n"};
 }
 
 void use_table(std::string const& bytes, scarp::CsvSeparator separator) {

@@ -99,37 +99,37 @@ double distance_of_stiffness() {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("with mean dilatation the stiffness is the derivative of the internal force", Element, scarp::Tri6,
-                   scarp::Quad4, scarp::Quad8, scarp::Tet10, scarp::Hex8) {
+TEST_CASE_TEMPLATE("with mean dilatation the stiffness is the derivative of the internal force", Element, scarp::Quad8,
+                   scarp::Hex8 ALSO_NIGHTLY(scarp::Tri6, scarp::Quad4, scarp::Tet10)) {
   // Central differences: truncation about (1e-6 over an element size of 0.1)^2, round-off 1e-16 over 1e-6, with the
   // force per stiffness up to 0.1: both below 1e-9.
   CHECK(distance_of_stiffness<Element, scarp::SmallStrain, scarp::BBar>() < 1e-8);
   CHECK(distance_of_stiffness<Element, scarp::UpdatedLagrangian, scarp::BBar>() < 1e-8);
 }
 
-TEST_CASE_TEMPLATE("at fewer points the stiffness is the derivative of the internal force", Element, scarp::Quad4,
-                   scarp::Quad8, scarp::Hex8) {
+TEST_CASE_TEMPLATE("at fewer points the stiffness is the derivative of the internal force", Element, scarp::Quad8,
+                   scarp::Hex8 ALSO_NIGHTLY(scarp::Quad4)) {
   CHECK(distance_of_stiffness<Element, scarp::SmallStrain, scarp::ReducedIntegration>() < 1e-8);  // as above
   CHECK(distance_of_stiffness<Element, scarp::UpdatedLagrangian, scarp::ReducedIntegration>() < 1e-8);
 }
 
-TEST_CASE_TEMPLATE("an element has its rigid motions and no other zero mode", Element, ALL_ELEMENTS) {
+TEST_CASE_TEMPLATE("an element has its rigid motions and no other zero mode", Element, SAMPLE_ELEMENTS) {
   // Analytic: dim translations and dim (dim - 1)/2 rotations.
   CHECK(zero_modes<Element, scarp::FullIntegration>() == rigid_modes<Element>);
   CHECK(zero_modes<Element, scarp::BBar>() == rigid_modes<Element>);
 }
 
-TEST_CASE("with fewer points an element has the known number of hourglass modes") {
-  // Analytic: degrees of freedom less independent strains (3 or 6 per point) less rigid modes: 8 - 3 - 3 and
-  // 24 - 6 - 6; 16 - 12 - 3; 60 - 48 - 6.
-  CHECK(zero_modes<scarp::Quad4, scarp::ReducedIntegration>() == 3 + 2);
-  CHECK(zero_modes<scarp::Hex8, scarp::ReducedIntegration>() == 6 + 12);
-  CHECK(zero_modes<scarp::Quad8, scarp::ReducedIntegration>() == 3 + 1);
-  CHECK(zero_modes<scarp::Hex20, scarp::ReducedIntegration>() == 6 + 6);
+TEST_CASE_TEMPLATE("with fewer points an element has the known number of hourglass modes", Element, scarp::Quad8,
+                   scarp::Hex8 ALSO_NIGHTLY(scarp::Quad4, scarp::Hex20)) {
+  // Analytic: degrees of freedom less independent strains of the points, 3 or 6 each, less rigid modes: 16 - 12 - 3 and
+  // 24 - 6 - 6; 8 - 3 - 3 and 60 - 48 - 6.
+  constexpr int dim = Element::dim;
+  int const strains = scarp::voigt_size<dim> * static_cast<int>(Element::reduced_quadrature().size());
+  CHECK(zero_modes<Element, scarp::ReducedIntegration>() == dim * Element::nodes - strains);
 }
 
 TEST_CASE_TEMPLATE("with mean dilatation an element has one volume change and every point its own shape change",
-                   Element, scarp::Quad4, scarp::Hex8, scarp::Tri6) {
+                   Element, scarp::Hex8 ALSO_NIGHTLY(scarp::Quad4, scarp::Tri6)) {
   constexpr int dim = Element::dim;
   using Tensor = scarp::Tensor<dim>;
   scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::BBar> const disc(
@@ -162,10 +162,10 @@ TEST_CASE_TEMPLATE("with mean dilatation an element has one volume change and ev
 }
 
 TEST_CASE("an element that is turned inside out is named also with mean dilatation") {
-  scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::BBar> const disc(
-      scarp::BoxMesh<scarp::Quad4>{.cells = {2, 1}}.generate());
+  scarp::Discretisation<scarp::Quad8, scarp::UpdatedLagrangian, scarp::BBar> const disc(
+      scarp::BoxMesh<scarp::Quad8>{.cells = {2, 1}}.generate());
   Eigen::VectorXd increment = Eigen::VectorXd::Zero(disc.dof_count());
-  std::vector<scarp::Gradient<2>> gradients(8);
+  std::vector<scarp::Gradient<2>> gradients(static_cast<std::size_t>(disc.point_count()));
   CHECK_FALSE(disc.gradients(increment, gradients).has_value());
   increment(2 * disc.mesh().elements[1][2]) = -0.9;  // the upper right corner of the second element, past its left side
   CHECK(disc.gradients(increment, gradients) == std::optional<int>(1));

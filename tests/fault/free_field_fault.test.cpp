@@ -37,8 +37,8 @@ struct Outcome {
   std::vector<samples::Grains> packings;
 };
 
-template <class Executor, class Observer>
-Outcome run_sand(Executor& executor, Observer& observer) {
+template <class Observer>
+Outcome run_sand(scarp::ThreadExecutor& executor, Observer& observer) {
   auto const& scene = samples::sandy_ground();
   auto problem = scene.problem(executor);
   REQUIRE(scene.settle(problem, observer).verdict == Verdict{});
@@ -63,9 +63,9 @@ void check_same_bits(Outcome const& a, Outcome const& b) {
 
 Outcome const& serial_sand() {
   static Outcome const made = [] {
-    scarp::SerialExecutor serial;
+    scarp::ThreadExecutor executor(1);
     scarp::NoObserver nobody;
-    return run_sand(serial, nobody);
+    return run_sand(executor, nobody);
   }();
   return made;
 }
@@ -101,8 +101,8 @@ struct FilesAreWhole : scarp::NeverStops {
 
 TEST_CASE("elastic ground starts in balance with the given stress ratio and the overburden") {
   auto const scene = samples::elastic_ground();
-  scarp::SerialExecutor serial;
-  auto problem = scene.problem(serial);
+  scarp::ThreadExecutor executor(1);
+  auto problem = scene.problem(executor);
   // Analytic: stress linear in depth balances weight and surcharge, and one point per triangle integrates it exactly.
   CHECK(problem.evaluate_committed().residual < 1e-13);
   scarp::NoObserver nobody;
@@ -121,8 +121,8 @@ TEST_CASE("elastic ground starts in balance with the given stress ratio and the 
 
 TEST_CASE("the fault moves the hanging wall by the throw and leaves the foot wall") {
   auto const scene = samples::elastic_ground();
-  scarp::SerialExecutor serial;
-  auto problem = scene.problem(serial);
+  scarp::ThreadExecutor executor(1);
+  auto problem = scene.problem(executor);
   scarp::NoObserver nobody;
   REQUIRE(scene.settle(problem, nobody).verdict == Verdict{});
   auto const rest = scarp::ground_at_rest(problem);
@@ -144,11 +144,11 @@ TEST_CASE("the fault moves the hanging wall by the throw and leaves the foot wal
 }
 
 TEST_CASE("parts of a scene that make no sense are refused") {
-  scarp::SerialExecutor serial;
+  scarp::ThreadExecutor executor(1);
   auto const refused = [&](char const* what, auto const& change) {
     auto scene = samples::elastic_ground();
     change(scene);
-    CHECK_REFUSED(scene.problem(serial), what);
+    CHECK_REFUSED(scene.problem(executor), what);
   };
   refused("unit weight is -1", [](auto& scene) { scene.unit_weight = -1.0; });
   refused("surcharge is nan", [](auto& scene) { scene.surcharge = std::nan(""); });
@@ -175,7 +175,7 @@ TEST_CASE("ground of packings ruptures to the asked throw") {
 }
 
 TEST_CASE("any number of threads gives the same bits") {
-  for (int const threads : {1, 2, 4, 7}) {
+  for (int const threads : {2, 4, 7}) {
     scarp::ThreadExecutor executor(threads);
     scarp::NoObserver nobody;
     check_same_bits(run_sand(executor, nobody), serial_sand());
@@ -186,7 +186,7 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
   ScratchFolder const folder;
   std::filesystem::create_directory(folder / "fields");
   auto const& scene = samples::sandy_ground();
-  scarp::SerialExecutor serial;
+  scarp::ThreadExecutor executor(1);
   double const unit = scene.ground.layer.depth;
   int files = 0;
   FilesAreWhole whole;
@@ -197,7 +197,7 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
                              scarp::RveProbe(folder / "probe.csv", 3, unit),
                              scarp::PackingSeries(folder.path(), "probe", 3, scene.throw_to, {0.0, 0.5, 1.0}, unit),
                              scarp::ConvergenceLog(folder / "convergence.csv", unit), whole, scarp::TimeLimit(0.0));
-  check_same_bits(run_sand(serial, observers), serial_sand());
+  check_same_bits(run_sand(executor, observers), serial_sand());
   CHECK(files == 5);  // analytic: at rest and at each quarter of the throw
 }
 
@@ -210,11 +210,11 @@ TEST_CASE("an element with one packing is that packing driven by the same gradie
   mesh.regions = {"soil"};
   scarp::Constraints constraints(mesh);
   for (int const node : {0, 1, 2}) constraints.fix(node);
-  scarp::SerialExecutor serial;
+  scarp::ThreadExecutor executor(1);
   scarp::Discretisation<scarp::Tri3> grid(mesh);
   auto const site = grid.site(0, 5.0);
   auto problem = scarp::make_problem(grid, 5.0, boost::hana::make_tuple(scarp::Region{"soil", scene.soil}), constraints,
-                                     Eigen::VectorXd::Zero(6), serial);
+                                     Eigen::VectorXd::Zero(6), executor);
   auto alone = scene.soil.initial_state(site);
   CHECK(problem.materials().committed_stress(0) == alone.stress);
   scarp::Gradient<2> gradient;
