@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/bvp/time_function.hpp"
+#include "scarp/bvp/load_history.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/mesh/mesh.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "scarp/bvp/detail/sparsity.hpp"
+#include "scarp/bvp/integration.hpp"
 #include "scarp/bvp/kinematics.hpp"
-#include "scarp/bvp/point_by_point.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
@@ -66,7 +66,11 @@ class SCARP_EXPORT Discretisation {
                  std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const;
 
   Eigen::SparseMatrix<double> stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
-                                        std::span<VoigtTangent<dim> const> tangents) const;
+                                        std::span<VoigtTangent<dim> const> tangents) const {
+    Eigen::SparseMatrix<double> matrix;
+    stiffness(increment, stresses, tangents, matrix);
+    return matrix;
+  }
 
   /// Engineering strains of all points for a small further displacement from the end of the increment, as Scheme forms
   /// them; row = voigt_size * point + component, shape (voigt_size * point_count, dof_count)
@@ -77,7 +81,13 @@ class SCARP_EXPORT Discretisation {
 
   /// Makes the configuration at the end of the increment the committed one.
   /// \throws InputError when the increment is not finite; nothing has moved then
-  void commit(Eigen::VectorXd const& increment);
+  void commit(Eigen::VectorXd const& increment) {
+    require_length("displacement increment", increment.size(), dof_count());
+    if (!increment.allFinite()) {
+      refuse("the displacement increment is not finite (a diverged step must not be committed): cut the load step");
+    }
+    positions_ = moved(increment);
+  }
 
   /// Puts the committed positions [m] back to ones that were saved.
   void restore(std::vector<Vector<dim>> positions) {
@@ -244,15 +254,6 @@ void Discretisation<Element, Motion, Scheme>::stiffness(Eigen::VectorXd const& i
 }
 
 template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::stiffness(
-    Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
-    std::span<VoigtTangent<dim> const> tangents) const {
-  Eigen::SparseMatrix<double> matrix;
-  stiffness(increment, stresses, tangents, matrix);
-  return matrix;
-}
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::strain_operator(
     Eigen::VectorXd const& increment) const {
   require_length("displacement increment", increment.size(), dof_count());
@@ -289,15 +290,6 @@ std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::Vect
     }
   });
   return volumes;
-}
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-void Discretisation<Element, Motion, Scheme>::commit(Eigen::VectorXd const& increment) {
-  require_length("displacement increment", increment.size(), dof_count());
-  if (!increment.allFinite()) {
-    refuse("the displacement increment is not finite (a diverged step must not be committed): cut the load step");
-  }
-  positions_ = moved(increment);
 }
 
 }  // namespace scarp

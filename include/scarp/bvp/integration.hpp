@@ -56,4 +56,80 @@ concept GivesForces = PlacesPoints<Policy, Element> &&
 template <class Policy, class Element>
 concept Integration = GivesGradients<Policy, Element> && GivesForces<Policy, Element>;
 
+struct FullRule {
+  template <GivesQuadrature Element>
+  static auto points() {
+    return Element::quadrature();
+  }
+};
+
+struct ReducedRule {
+  template <GivesReducedQuadrature Element>
+  static auto points() {
+    return Element::reduced_quadrature();
+  }
+};
+
+/// The displacement method as it stands: every point sees the displacement gradient at its own place.
+template <class Rule>
+struct PointByPoint {
+  template <class Element>
+    requires PlacesPoints<Rule, Element>
+  static auto points() { return Rule::template points<Element>(); }
+
+  template <class Motion, class Element, std::size_t Points>
+  static std::array<Gradient<Element::dim>, Points> gradients(std::array<SpatialShape<Element>, Points> const& shapes,
+                                                              Corners<Element, Element::dim> const& moves) {
+    std::array<Gradient<Element::dim>, Points> gradients;
+    for (std::size_t p = 0; p < Points; ++p) {
+      gradients[p] = moves.transpose().lazyProduct(shapes[p].gradients);
+    }
+    return gradients;
+  }
+
+  /// \f$ f_a = \sum_p v\,\sigma \nabla N_a \f$
+  template <class Element, std::size_t Points>
+  static Corners<Element, Element::dim> forces(std::array<SpatialShape<Element>, Points> const& shapes,
+                                               std::span<VoigtStress<Element::dim> const, Points> stresses) {
+    auto const of_point = [&](std::size_t p) -> Corners<Element, Element::dim> {
+      Tensor<Element::dim> const stress = from_voigt_stress<Element::dim, double>(stresses[p]);
+      return shapes[p].volume * shapes[p].gradients * stress;
+    };
+    Corners<Element, Element::dim> sum = of_point(0);
+    for (std::size_t p = 1; p < Points; ++p) {
+      sum += of_point(p);
+    }
+    return sum;
+  }
+
+  template <class Motion, class Element, std::size_t Points>
+  static ElementMatrix<Element> stiffness(std::array<SpatialShape<Element>, Points> const& shapes,
+                                          std::span<VoigtStress<Element::dim> const, Points> stresses,
+                                          std::span<VoigtTangent<Element::dim> const, Points> tangents) {
+    constexpr int dim = Element::dim;
+    ElementMatrix<Element> matrix = ElementMatrix<Element>::Zero();
+    for (std::size_t p = 0; p < Points; ++p) {
+      auto const& shape = shapes[p];
+      for (int b = 0; b < Element::nodes; ++b) {
+        for (int k = 0; k < dim; ++k) {
+          Gradient<dim> further = Gradient<dim>::Zero();
+          further.row(k) = shape.gradients.row(b);
+          Tensor<dim> const flux = Motion::template flux_change<dim>(further, stresses[p], tangents[p]);
+          Corners<Element, dim> const column = shape.volume * shape.gradients * flux.transpose();
+          matrix.col(dim * b + k) += column.transpose().reshaped();
+        }
+      }
+    }
+    return matrix;
+  }
+};
+
+/// All points of the element's rule: the stiffness of an undistorted element is exact. Low-order elements lock when the
+/// material hardly changes its volume.
+using FullIntegration = PointByPoint<FullRule>;
+
+/// One order lower: cheap, does not lock, but some motions of an element have no stiffness (see its header). Quad8 and
+/// Hex20 do not share theirs with their neighbours; Quad4 and Hex8 do, and need a boundary that prevents them.
+using ReducedIntegration = PointByPoint<ReducedRule>;
+
 }  // namespace scarp

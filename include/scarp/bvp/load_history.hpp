@@ -2,10 +2,63 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <utility>
+#include <vector>
 
-#include "scarp/bvp/time_function.hpp"
+#include "scarp/core/error.hpp"
 
 namespace scarp {
+
+/// Course of a load or a prescribed motion over the load factor, which plays the part of time: linear between its knots,
+/// constant beyond the outer ones. Without knots it is the load factor itself.
+class TimeFunction {
+ public:
+  TimeFunction() = default;
+
+  /// knots: (load factor, value), increasing in the load factor
+  /// \throws InputError for knots that are not finite or not increasing
+  explicit TimeFunction(std::vector<std::pair<double, double>> knots) : knots_(std::move(knots)) {
+    if (knots_.empty()) refuse("a time function has no knots (it needs at least one): give (load factor, value) pairs");
+    for (std::size_t k = 0; k < knots_.size(); ++k) {
+      require_finite("load factor of a knot", knots_[k].first);
+      require_finite("value of a knot", knots_[k].second);
+      if (k > 0 && !(knots_[k].first > knots_[k - 1].first)) {
+        refuse("knot {} is at the load factor {}, the one before at {} (they must increase): order the knots", k,
+               knots_[k].first, knots_[k - 1].first);
+      }
+    }
+  }
+
+  static TimeFunction constant(double value) { return TimeFunction({{0.0, value}}); }
+
+  /// From 0 to 1 between two load factors.
+  static TimeFunction ramp(double from, double to) { return TimeFunction({{from, 0.0}, {to, 1.0}}); }
+
+  /// Zero up to a load factor, then the load factor beyond it.
+  static TimeFunction after(double start) {
+    TimeFunction course({{start, 0.0}});
+    course.slope_at_end_ = 1.0;
+    return course;
+  }
+
+  friend bool operator==(TimeFunction const&, TimeFunction const&) = default;
+
+  double operator()(double load) const {
+    if (knots_.empty()) return load;
+    auto const next = std::upper_bound(knots_.begin(), knots_.end(), load,
+                                       [](double value, auto const& knot) { return value < knot.first; });
+    if (next == knots_.begin()) return knots_.front().second;
+    if (next == knots_.end()) return knots_.back().second + slope_at_end_ * (load - knots_.back().first);
+    auto const& [left, low] = *(next - 1);
+    auto const& [right, high] = *next;
+    return low + (load - left) / (right - left) * (high - low);
+  }
+
+ private:
+  std::vector<std::pair<double, double>> knots_;
+  double slope_at_end_ = 0.0;
+};
 
 /// Nodal forces [N] of a problem over its load factor: a sum of fixed patterns, each with its course. Without a pattern
 /// it has no size of its own, and a problem takes it for no load at all.

@@ -12,6 +12,26 @@
 
 namespace scarp {
 
+namespace detail {
+/// Adds the nodal forces [N] of a cell at its places on the initial mesh: \f$ \int N_a b \f$ with b =
+/// force_at(corners, shape values) over the points of a rule.
+template <class Cell, class Element, class Motion, class Scheme, class Rule, class ForceAt>
+void add_cell_forces(Discretisation<Element, Motion, Scheme> const& discretisation,
+                     std::array<int, Cell::nodes> const& nodes, Rule const& rule, ForceAt const& force_at,
+                     Eigen::VectorXd& forces) {
+  constexpr int dim = Element::dim;
+  auto const rows = corners<Cell, dim>(nodes, discretisation.mesh().nodes);
+  for (auto const& where : rule) {
+    ShapeValues<Cell> const shape = Cell::shape(where.xi);
+    Vector<dim> const force = force_at(rows, shape);
+    double const size = discretisation.thickness() * where.weight * measure<Cell, dim>(rows, where.xi);
+    for (int a = 0; a < Cell::nodes; ++a) {
+      forces.template segment<dim>(dim * nodes[index(a)]) += shape(a) * size * force;
+    }
+  }
+}
+}  // namespace detail
+
 /// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
 /// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
 /// per_volume: b [N/m3] of every region of the mesh
@@ -19,7 +39,6 @@ namespace scarp {
 template <class Element, class Motion, class Scheme>
 SCARP_EXPORT Eigen::VectorXd body_force(Discretisation<Element, Motion, Scheme> const& discretisation,
                                         std::vector<Vector<Element::dim>> const& per_volume) {
-  constexpr int dim = Element::dim;
   auto const& mesh = discretisation.mesh();
   if (per_volume.size() != mesh.regions.size()) {
     refuse("forces per volume are given for {} regions (the mesh has {}: {}): give one for each", per_volume.size(),
@@ -27,16 +46,10 @@ SCARP_EXPORT Eigen::VectorXd body_force(Discretisation<Element, Motion, Scheme> 
   }
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
   for (int e = 0; e < detail::count(mesh.elements); ++e) {
-    auto const& nodes = mesh.elements[detail::index(e)];
     auto const& force = per_volume[detail::index(mesh.element_region[detail::index(e)])];
-    auto const rows = corners<Element, dim>(nodes, mesh.nodes);
-    for (auto const& where : Element::quadrature()) {
-      ShapeValues<Element> const shape = Element::shape(where.xi);
-      double const volume = discretisation.thickness() * where.weight * measure<Element, dim>(rows, where.xi);
-      for (int a = 0; a < Element::nodes; ++a) {
-        forces.template segment<dim>(dim * nodes[detail::index(a)]) += shape(a) * volume * force;
-      }
-    }
+    detail::add_cell_forces<Element>(
+        discretisation, mesh.elements[detail::index(e)],
+        Element::quadrature(), [&](auto const&, auto const&) -> auto const& { return force; }, forces);
   }
   return forces;
 }
@@ -57,21 +70,13 @@ template <class Element, class Motion, class Scheme, class ForceOfRegion>
 template <GivesRules Element, class Motion, class Scheme, class ForceAt>
 Eigen::VectorXd varying_body_force(Discretisation<Element, Motion, Scheme> const& discretisation,
                                    ForceAt const& force_at) {
-  constexpr int dim = Element::dim;
-  auto const& mesh = discretisation.mesh();
-  auto const rule = Element::template rule<4>();
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
-  for (auto const& nodes : mesh.elements) {
-    auto const rows = corners<Element, dim>(nodes, mesh.nodes);
-    for (auto const& where : rule) {
-      ShapeValues<Element> const shape = Element::shape(where.xi);
-      Vector<dim> const position = rows.transpose() * shape;
-      Vector<dim> const per_volume = force_at(position);
-      double const volume = discretisation.thickness() * where.weight * measure<Element, dim>(rows, where.xi);
-      for (int a = 0; a < Element::nodes; ++a) {
-        forces.template segment<dim>(dim * nodes[detail::index(a)]) += shape(a) * volume * per_volume;
-      }
-    }
+  auto const force_in = [&](auto const& rows, auto const& shape) -> Vector<Element::dim> {
+    Vector<Element::dim> const position = rows.transpose() * shape;
+    return force_at(position);
+  };
+  for (auto const& nodes : discretisation.mesh().elements) {
+    detail::add_cell_forces<Element>(discretisation, nodes, Element::template rule<4>(), force_in, forces);
   }
   return forces;
 }
@@ -83,18 +88,11 @@ template <class Element, class Motion, class Scheme>
 SCARP_EXPORT Eigen::VectorXd traction(Discretisation<Element, Motion, Scheme> const& discretisation,
                                       std::string_view boundary_name, Vector<Element::dim> const& per_area) {
   using Facet = typename Element::Facet;
-  constexpr int dim = Element::dim;
-  auto const& mesh = discretisation.mesh();
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
-  for (auto const& facet : boundary(mesh, boundary_name)) {
-    auto const rows = corners<Facet, dim>(facet, mesh.nodes);
-    for (auto const& where : Facet::quadrature()) {
-      ShapeValues<Facet> const shape = Facet::shape(where.xi);
-      double const area = discretisation.thickness() * where.weight * measure<Facet, dim>(rows, where.xi);
-      for (int a = 0; a < Facet::nodes; ++a) {
-        forces.template segment<dim>(dim * facet[detail::index(a)]) += shape(a) * area * per_area;
-      }
-    }
+  for (auto const& facet : boundary(discretisation.mesh(), boundary_name)) {
+    detail::add_cell_forces<Facet>(
+        discretisation, facet, Facet::quadrature(), [&](auto const&, auto const&) -> auto const& { return per_area; },
+        forces);
   }
   return forces;
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
-#include "scarp/bvp/point_by_point.hpp"
+#include "scarp/bvp/integration.hpp"
 
 namespace scarp {
 

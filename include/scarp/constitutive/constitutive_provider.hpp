@@ -2,8 +2,6 @@
 #pragma once
 
 #include <concepts>
-#include <type_traits>
-#include <utility>
 
 #include "scarp/core/error.hpp"
 #include "scarp/core/status.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
 
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/coulomb.hpp"

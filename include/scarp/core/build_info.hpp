@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "scarp/core/one_version.hpp"
-#include "scarp/core/version.hpp"
 
 namespace scarp {
 

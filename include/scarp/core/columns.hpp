@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <new>
-#include <span>
 #include <vector>
 
 #include "scarp/core/index.hpp"

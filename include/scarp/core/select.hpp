@@ -7,8 +7,6 @@
 
 #include "scarp/core/pack.hpp"
 
-#include "scarp/core/one_version.hpp"
-
 namespace scarp::lanes {
 
 /// `yes` where the condition holds, `no` elsewhere; both are always computed. Numbers take a bool, packs a mask.

@@ -6,8 +6,6 @@
 
 #include "scarp/core/pack.hpp"
 
-#include "scarp/core/one_version.hpp"
-
 namespace scarp::lanes {
 
 /// A square root and its inverse.

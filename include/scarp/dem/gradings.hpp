@@ -16,9 +16,11 @@ template <class Template>
 struct Clump;
 
 namespace detail {
-inline void validate_bounds(double smallest, double largest) {
+inline void validate_grading(double smallest, double largest, double aspect = 1.0, double exponent = 1.0) {
   require_positive("smallest size of the grading", smallest);
   require_at_least("largest size of the grading", require_positive("largest size of the grading", largest), smallest);
+  require_positive("aspect ratio of the grading", aspect);
+  require_positive("exponent of the grading", exponent);
 }
 }  // namespace detail
 
@@ -31,7 +33,7 @@ struct RadiusGrading {
   double largest = 0.0;
 
   /// \throws InputError, as those of all gradings
-  void validate() const { detail::validate_bounds(smallest, largest); }
+  void validate() const { detail::validate_grading(smallest, largest); }
 
   SizeOf<Shape> sample(Random& random) const { return {random.uniform(smallest, largest)}; }
 };
@@ -50,10 +52,7 @@ struct AxesGrading {
   double largest = 0.0;
   double aspect = 1.0;
 
-  void validate() const {
-    detail::validate_bounds(smallest, largest);
-    require_positive("aspect ratio of the grading", aspect);
-  }
+  void validate() const { detail::validate_grading(smallest, largest, aspect); }
 
   SizeOf<Shape> sample(Random& random) const {
     double const major = random.uniform(smallest, largest);
@@ -73,11 +72,7 @@ struct ExponentGrading {
   double aspect = 1.0;
   double exponent = 1.0;
 
-  void validate() const {
-    detail::validate_bounds(smallest, largest);
-    require_positive("aspect ratio of the grading", aspect);
-    require_positive("exponent of the grading", exponent);
-  }
+  void validate() const { detail::validate_grading(smallest, largest, aspect, exponent); }
 
   SizeOf<Shape> sample(Random& random) const {
     double const major = random.uniform(smallest, largest);

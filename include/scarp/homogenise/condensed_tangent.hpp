@@ -4,7 +4,6 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 
-#include <cmath>
 #include <vector>
 
 #include "scarp/core/index.hpp"

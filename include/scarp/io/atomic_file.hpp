@@ -13,7 +13,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #if __has_include(<unistd.h>)
 #include <fcntl.h>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
 #include "scarp/core/described.hpp"
 #include "scarp/io/csv.hpp"

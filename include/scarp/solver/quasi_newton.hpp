@@ -4,8 +4,6 @@
 #include "scarp/solver/detail/quasi_newton_session.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/tangent_rules.hpp"
-#ifdef SCARP_PRECOMPILED
-#endif
 
 namespace scarp {
 

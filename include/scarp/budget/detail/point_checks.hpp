@@ -8,7 +8,6 @@
 #include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/constitutive/step_doubling.hpp"
 #include "scarp/core/described.hpp"
-#include "scarp/core/index.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "scarp/io/state_bits.hpp"
 

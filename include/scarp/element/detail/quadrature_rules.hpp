@@ -14,31 +14,22 @@ template <int Points>
 struct GaussLine {
   static_assert(Points >= 1 && Points <= 5, "Gauss rules are tabulated for one to five points per axis");
 
-  static constexpr std::array<double, Points> points() {
-    if constexpr (Points == 1) {
-      return {0.0};
-    } else if constexpr (Points == 2) {
-      return {-0.57735026918962576, 0.57735026918962576};
-    } else if constexpr (Points == 3) {
-      return {-0.77459666924148338, 0.0, 0.77459666924148338};
-    } else if constexpr (Points == 4) {
-      return {-0.86113631159405258, -0.33998104358485626, 0.33998104358485626, 0.86113631159405258};
-    } else {
-      return {-0.90617984593866399, -0.53846931010568309, 0.0, 0.53846931010568309, 0.90617984593866399};
-    }
-  }
+  std::array<double, Points> points;
+  std::array<double, Points> weights;
 
-  static constexpr std::array<double, Points> weights() {
+  static constexpr GaussLine make() {
     if constexpr (Points == 1) {
-      return {2.0};
+      return {{0.0}, {2.0}};
     } else if constexpr (Points == 2) {
-      return {1.0, 1.0};
+      return {{-0.57735026918962576, 0.57735026918962576}, {1.0, 1.0}};
     } else if constexpr (Points == 3) {
-      return {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+      return {{-0.77459666924148338, 0.0, 0.77459666924148338}, {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0}};
     } else if constexpr (Points == 4) {
-      return {0.34785484513745386, 0.65214515486254614, 0.65214515486254614, 0.34785484513745386};
+      return {{-0.86113631159405258, -0.33998104358485626, 0.33998104358485626, 0.86113631159405258},
+              {0.34785484513745386, 0.65214515486254614, 0.65214515486254614, 0.34785484513745386}};
     } else {
-      return {0.23692688505618909, 0.47862867049936647, 128.0 / 225.0, 0.47862867049936647, 0.23692688505618909};
+      return {{-0.90617984593866399, -0.53846931010568309, 0.0, 0.53846931010568309, 0.90617984593866399},
+              {0.23692688505618909, 0.47862867049936647, 128.0 / 225.0, 0.47862867049936647, 0.23692688505618909}};
     }
   }
 };
@@ -55,15 +46,14 @@ constexpr std::size_t power(int base, int exponent) {
 /// The first axis runs fastest.
 template <int Dim, int PerAxis>
 std::array<QuadraturePoint<Dim>, detail::power(PerAxis, Dim)> gauss_rule() {
-  constexpr auto points = GaussLine<PerAxis>::points();
-  constexpr auto weights = GaussLine<PerAxis>::weights();
+  constexpr auto line = GaussLine<PerAxis>::make();
   std::array<QuadraturePoint<Dim>, detail::power(PerAxis, Dim)> rule;
   for (std::size_t p = 0; p < rule.size(); ++p) {
     std::size_t rest = p;
     rule[p].weight = 1.0;
     for (int axis = 0; axis < Dim; ++axis) {
-      rule[p].xi(axis) = points[rest % PerAxis];
-      rule[p].weight *= weights[rest % PerAxis];
+      rule[p].xi(axis) = line.points[rest % PerAxis];
+      rule[p].weight *= line.weights[rest % PerAxis];
       rest /= PerAxis;
     }
   }
@@ -96,6 +86,15 @@ auto conical_rule() {
   return rule;
 }
 
+/// A point all of whose coordinates are `all`, then those of which one, each in turn, is `one`.
+template <int Dim>
+std::array<QuadraturePoint<Dim>, Dim + 1> orbit(double all, double one, double weight) {
+  std::array<QuadraturePoint<Dim>, Dim + 1> points;
+  for (auto& point : points) point = {Vector<Dim>::Constant(all), weight};
+  for (std::size_t axis = 0; axis < Dim; ++axis) points[axis + 1].xi(static_cast<int>(axis)) = one;
+  return points;
+}
+
 }  // namespace detail
 
 /// Points in the simplex with corners at the origin and the unit points, exact up to the total degree `Degree`.
@@ -108,49 +107,28 @@ auto simplex_rule() {
   if constexpr (Dim == 2 && Degree == 1) {
     return std::array<Point, 1>{{{Vector<2>(1.0 / 3.0, 1.0 / 3.0), 0.5}}};
   } else if constexpr (Dim == 2 && Degree == 2) {
-    double const a = 1.0 / 6.0;
-    double const b = 2.0 / 3.0;
-    return std::array<Point, 3>{{{{a, a}, a}, {{b, a}, a}, {{a, b}, a}}};
+    return detail::orbit<2>(1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0);
   } else if constexpr (Dim == 2 && (Degree == 3 || Degree == 4)) {
     double const a = 0.44594849091596489;
     double const b = 0.091576213509770743;
-    double const u = 0.11169079483900573;
-    double const v = 0.054975871827660933;
-    double const far_a = 1.0 - 2.0 * a;
-    double const far_b = 1.0 - 2.0 * b;
-    return std::array<Point, 6>{
-        {{{a, a}, u}, {{far_a, a}, u}, {{a, far_a}, u}, {{b, b}, v}, {{far_b, b}, v}, {{b, far_b}, v}}};
+    auto const [a0, a1, a2] = detail::orbit<2>(a, 1.0 - 2.0 * a, 0.11169079483900573);
+    auto const [b0, b1, b2] = detail::orbit<2>(b, 1.0 - 2.0 * b, 0.054975871827660933);
+    return std::array<Point, 6>{a0, a1, a2, b0, b1, b2};
   } else if constexpr (Dim == 3 && Degree == 1) {
     return std::array<Point, 1>{{{Vector<3>::Constant(0.25), 1.0 / 6.0}}};
   } else if constexpr (Dim == 3 && Degree == 2) {
-    double const a = 0.13819660112501051;  // (5 - sqrt 5)/20
-    double const b = 0.58541019662496852;  // (5 + 3 sqrt 5)/20
-    double const weight = 1.0 / 24.0;
-    return std::array<Point, 4>{{{{a, a, a}, weight}, {{b, a, a}, weight}, {{a, b, a}, weight}, {{a, a, b}, weight}}};
+    return detail::orbit<3>(0.13819660112501051, 0.58541019662496852,
+                            1.0 / 24.0);  // (5 - sqrt 5)/20, (5 + 3 sqrt 5)/20
   } else if constexpr (Dim == 3 && (Degree >= 3 && Degree <= 5)) {
     double const a = 0.31088591926330061;
     double const b = 0.092735250310891226;
     double const c = 0.045503704125649649;
-    double const u = 0.018781320953002642;
-    double const v = 0.012248840519393658;
     double const w = 0.0070910034628469110;
-    double const far_a = 1.0 - 3.0 * a;
-    double const far_b = 1.0 - 3.0 * b;
-    double const far_c = 0.5 - c;
-    return std::array<Point, 14>{{{{a, a, a}, u},
-                                  {{far_a, a, a}, u},
-                                  {{a, far_a, a}, u},
-                                  {{a, a, far_a}, u},
-                                  {{b, b, b}, v},
-                                  {{far_b, b, b}, v},
-                                  {{b, far_b, b}, v},
-                                  {{b, b, far_b}, v},
-                                  {{far_c, c, c}, w},
-                                  {{c, far_c, c}, w},
-                                  {{c, c, far_c}, w},
-                                  {{c, far_c, far_c}, w},
-                                  {{far_c, c, far_c}, w},
-                                  {{far_c, far_c, c}, w}}};
+    auto const [a0, a1, a2, a3] = detail::orbit<3>(a, 1.0 - 3.0 * a, 0.018781320953002642);
+    auto const [b0, b1, b2, b3] = detail::orbit<3>(b, 1.0 - 3.0 * b, 0.012248840519393658);
+    auto const [c0, c1, c2, c3] = detail::orbit<3>(c, 0.5 - c, w);
+    auto const [d0, d1, d2, d3] = detail::orbit<3>(0.5 - c, c, w);
+    return std::array<Point, 14>{a0, a1, a2, a3, b0, b1, b2, b3, c1, c2, c3, d1, d2, d3};
   } else {
     return detail::conical_rule<Dim, Degree>();
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 
 #include "scarp/core/index.hpp"
 #include "scarp/dem/contacts.hpp"
