@@ -12,7 +12,7 @@
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/largest_principal.hpp"
+#include "scarp/core/principal.hpp"
 
 namespace profile {
 

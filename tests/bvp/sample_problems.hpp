@@ -13,6 +13,7 @@
 #include "scarp/element/tet10.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/solver/free_system.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 
 /// Small distorted meshes for every element, and what the tests of the finite-element side do with them.
@@ -104,32 +105,13 @@ std::vector<int> outline(scarp::Mesh<Element> const& mesh) {
 /// Solves the free rows of K x = f with x = 0 at prescribed degrees of freedom.
 inline Eigen::VectorXd solve_free(Eigen::SparseMatrix<double> const& matrix, scarp::Constraints const& constraints,
                                   Eigen::VectorXd const& force) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-      int const row = constraints.free_index(static_cast<int>(entry.row()));
-      int const free_column = constraints.free_index(column);
-      if (row >= 0 && free_column >= 0) {
-        entries.emplace_back(row, free_column, entry.value());
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> reduced(constraints.free_count(), constraints.free_count());
-  reduced.setFromTriplets(entries.begin(), entries.end());
+  scarp::FreeSystem const free(constraints);
   scarp::SparseLu factors;
-  if (!factors.factorize(reduced).acceptable()) {
+  if (!factors.factorize(free.matrix(matrix)).acceptable()) {
     throw std::runtime_error("the stiffness of a sample problem could not be factorised");
   }
-  auto const free = constraints.free_dofs();
-  Eigen::VectorXd reduced_force(constraints.free_count());
-  for (int k = 0; k < constraints.free_count(); ++k) {
-    reduced_force(k) = force(free[static_cast<std::size_t>(k)]);
-  }
-  Eigen::VectorXd const reduced_solution = factors.solve(reduced_force);
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(force.size());
-  for (int k = 0; k < constraints.free_count(); ++k) {
-    solution(free[static_cast<std::size_t>(k)]) = reduced_solution(k);
-  }
+  free.scatter(factors.solve(free.gather(force)), solution);
   return solution;
 }
 

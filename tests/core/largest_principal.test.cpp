@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/core/largest_principal.hpp"
+#include "scarp/core/principal.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/fault/bedrock_motion.hpp"
+#include "scarp/fault/dip_slip_faults.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,6 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
-#include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "support/approx.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/observe/level_profile.hpp"
+#include "scarp/observe/rupture_survey.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,6 @@
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/observe/rupture_survey.hpp"
 #include "support/approx.hpp"
 
 namespace {

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "scarp/budget/budget_part.hpp"
-#include "scarp/budget/detail/doubled_samples.hpp"
-#include "scarp/budget/detail/followed_points.hpp"
 #include "scarp/budget/detail/point_checks.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/described.hpp"

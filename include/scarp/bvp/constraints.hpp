@@ -65,12 +65,6 @@ class Constraints {
 
   bool is_prescribed(int dof) const { return std::binary_search(dofs_.begin(), dofs_.end(), dof); }
 
-  /// Number of a degree of freedom among the free ones, -1 for a prescribed one.
-  int free_index(int dof) const {
-    auto const place = std::lower_bound(dofs_.begin(), dofs_.end(), dof);
-    return place != dofs_.end() && *place == dof ? -1 : dof - static_cast<int>(place - dofs_.begin());
-  }
-
   /// Free degrees of freedom in increasing order.
   std::vector<int> free_dofs() const {
     std::vector<int> free;

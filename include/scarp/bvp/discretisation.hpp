@@ -89,12 +89,6 @@ class SCARP_EXPORT Discretisation {
     positions_ = moved(increment);
   }
 
-  /// Puts the committed positions [m] back to ones that were saved.
-  void restore(std::vector<Vector<dim>> positions) {
-    require_length("saved positions", std::ssize(positions), node_count());
-    positions_ = std::move(positions);
-  }
-
   /// What evolves: the committed positions.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {

@@ -28,10 +28,13 @@ template <CheckedElement Element>
 using UsualGrid = Discretisation<Element, UpdatedLagrangian, UsualIntegration<Element>>;
 
 #ifdef SCARP_PRECOMPILED
-extern template class Discretisation<Tri3, UpdatedLagrangian, UsualIntegration<Tri3>>;
-extern template class Discretisation<Tri6, UpdatedLagrangian, UsualIntegration<Tri6>>;
-extern template class Discretisation<Quad4, UpdatedLagrangian, UsualIntegration<Quad4>>;
-extern template class Discretisation<Quad8, UpdatedLagrangian, UsualIntegration<Quad8>>;
+/// DECLARE: `extern template`, or `template` in the library.
+#define SCARP_GRIDS(DECLARE)                                                       \
+  DECLARE class Discretisation<Tri3, UpdatedLagrangian, UsualIntegration<Tri3>>;   \
+  DECLARE class Discretisation<Tri6, UpdatedLagrangian, UsualIntegration<Tri6>>;   \
+  DECLARE class Discretisation<Quad4, UpdatedLagrangian, UsualIntegration<Quad4>>; \
+  DECLARE class Discretisation<Quad8, UpdatedLagrangian, UsualIntegration<Quad8>>;
+SCARP_GRIDS(extern template)
 #endif
 
 }  // namespace scarp

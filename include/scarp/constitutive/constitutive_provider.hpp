@@ -78,7 +78,10 @@ concept PlansWork = ConstitutiveProvider<Model> && requires {
   { model.respond(committed, increment, trial, plan) } -> std::same_as<Response<Model::dim>>;
 };
 
-struct NoPlan {};
+/// No work is planned.
+struct NoPlan {
+  explicit operator long() const { return 0; }
+};
 
 namespace detail {
 template <class Model>
@@ -94,6 +97,19 @@ struct PlanOf<Model> {
 /// The plan type of a provider; `NoPlan` for one that needs none.
 template <class Model>
 using PlanOf = typename detail::PlanOf<Model>::type;
+
+/// A provider's response, with the plan where it makes plans.
+template <ConstitutiveProvider Model>
+Response<Model::dim> respond_as_planned(Model const& model, typename Model::State const& committed,
+                                        Gradient<Model::dim> const& increment, typename Model::State& trial,
+                                        PlanOf<Model> const& plan) {
+  if constexpr (PlansWork<Model>) {
+    return model.respond(committed, increment, trial, plan);
+  } else {
+    static_cast<void>(plan);
+    return model.respond(committed, increment, trial);
+  }
+}
 
 namespace detail {
 

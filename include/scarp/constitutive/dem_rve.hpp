@@ -8,7 +8,7 @@
 #include "scarp/contact/law_checks.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/finite_strain.hpp"
-#include "scarp/core/largest_principal.hpp"
+#include "scarp/core/principal.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"

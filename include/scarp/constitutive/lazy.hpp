@@ -147,12 +147,7 @@ struct Lazy {
 
   Response<dim> asked(State const& committed, Gradient<dim> const& total, RotatedIncrement<dim> const& moved,
                       State& trial, Plan const& plan) const {
-    Response<dim> response;
-    if constexpr (PlansWork<Provider>) {
-      response = provider.respond(committed.own, total, trial.own, plan.own);
-    } else {
-      response = provider.respond(committed.own, total, trial.own);
-    }
+    Response<dim> const response = respond_as_planned(provider, committed.own, total, trial.own, plan.own);
     trial.stress = response.stress;
     trial.skipped.setZero();
     trial.tangent = committed.tangent;
@@ -182,13 +177,8 @@ struct Lazy {
   /// A tangent that has turned with the material, column by column.
   static VoigtTangent<dim> in_turned_axes(VoigtTangent<dim> const& tangent, Tensor<dim> const& turn) {
     VoigtTangent<dim> result;
-    constexpr auto indices = voigt_indices<dim>();
     for (int k = 0; k < voigt_size<dim>; ++k) {
-      auto const [i, j] = indices[detail::index(k)];
-      Tensor<dim> strain = Tensor<dim>::Zero();
-      strain(i, j) += 0.5;
-      strain(j, i) += 0.5;
-      Gradient<dim> const before = turn.transpose() * strain * turn;
+      Gradient<dim> const before = turn.transpose() * unit_strain<dim>(k) * turn;
       result.col(k) = turned(tangent * to_engineering_strain<dim, double>(before), turn);
     }
     return result;

@@ -121,22 +121,11 @@ class SCARP_EXPORT ProviderField {
 
   Response<dim> respond(int point, Gradient<dim> const& increment) {
     std::size_t const k = detail::index(point);
-    if constexpr (PlansWork<Provider>) {
-      return provider_.respond(committed_[k], increment, trial_[k], plans_[k]);
-    } else {
-      return provider_.respond(committed_[k], increment, trial_[k]);
-    }
+    return respond_as_planned(provider_, committed_[k], increment, trial_[k], plans_[k]);
   }
 
   /// Steps of inner work that one response of this point takes.
-  long work(int point) const {
-    if constexpr (PlansWork<Provider>) {
-      return static_cast<long>(plans_[detail::index(point)]);
-    } else {
-      static_cast<void>(point);
-      return 0;
-    }
-  }
+  long work(int point) const { return static_cast<long>(plans_[detail::index(point)]); }
 
   VoigtStress<dim> committed_stress(int point) const { return provider_.stress(committed_[detail::index(point)]); }
   VoigtTangent<dim> committed_tangent(int point) const { return provider_.tangent(committed_[detail::index(point)]); }

@@ -58,12 +58,8 @@ struct PerturbationTangent {
     PackingType base = packing;
     answer.verdict = trial.stepper.stop(base, law);
     VoigtStress<dim> const start = trial.settle(*this, base, answer.verdict, taken);
-    constexpr auto indices = voigt_indices<dim>();
     for (int k = 0; k < voigt_size<dim>; ++k) {
-      auto const [i, j] = indices[detail::index(k)];
-      Tensor<dim> mode = Tensor<dim>::Zero();
-      mode(i, j) += 0.5;
-      mode(j, i) += 0.5;
+      Tensor<dim> const mode = unit_strain<dim>(k);
       auto const strained = [&](double amount) {
         PackingType copy = base;
         return trial.strain(*this, copy, (amount / strain_steps * mode).eval(), answer.verdict, taken);

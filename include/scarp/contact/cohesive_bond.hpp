@@ -123,7 +123,6 @@ struct CohesiveBond {
 template <class Law>
 CohesiveBond(Law, double, double) -> CohesiveBond<Law>;
 
-static_assert(ContactLaw<CohesiveBond<LinearFrictional>>);
 static_assert(Frictional<CohesiveBond<LinearFrictional>>);
 static_assert(TellsStoredEnergy<CohesiveBond<LinearFrictional>>);
 

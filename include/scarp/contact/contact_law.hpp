@@ -158,16 +158,6 @@ double damping_ratio_of(Law const& law) {
   }
 }
 
-/// Square of a tangential or turning quantity.
-template <class T>
-T squared_size(T const& value) {
-  return value * value;
-}
-template <class T>
-T squared_size(std::array<T, 3> const& value) {
-  return value[0] * value[0] + value[1] * value[1] + value[2] * value[2];
-}
-
 template <class T>
 T inner_product(T const& a, T const& b) {
   return a * b;
@@ -175,6 +165,12 @@ T inner_product(T const& a, T const& b) {
 template <class T>
 T inner_product(std::array<T, 3> const& a, std::array<T, 3> const& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Square of a tangential or turning quantity.
+template <class T>
+auto squared_size(T const& value) {
+  return inner_product(value, value);
 }
 
 template <class T>

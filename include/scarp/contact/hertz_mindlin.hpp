@@ -202,7 +202,6 @@ struct HertzMindlin {
   }
 };
 
-static_assert(ContactLaw<HertzMindlin<>>);
 static_assert(ContactLaw<HertzMindlin<HertzRestitution>>);
 static_assert(Frictional<HertzMindlin<>>);
 static_assert(TellsStoredEnergy<HertzMindlin<>>);

@@ -48,7 +48,6 @@ struct LinearFrictional {
   }
 };
 
-static_assert(ContactLaw<LinearFrictional>);
 static_assert(Frictional<LinearFrictional>);
 static_assert(TellsStoredEnergy<LinearFrictional>);
 

@@ -68,7 +68,6 @@ struct RollingResistance {
 template <class Law>
 RollingResistance(Law, double, double) -> RollingResistance<Law>;
 
-static_assert(ContactLaw<RollingResistance<LinearFrictional>>);
 static_assert(Frictional<RollingResistance<LinearFrictional>>);
 static_assert(TellsStoredEnergy<RollingResistance<LinearFrictional>>);
 

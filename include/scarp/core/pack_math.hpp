@@ -132,53 +132,23 @@ template <class Scalar, std::size_t Width>
 BasicPack<Scalar, Width> hypot(BasicPack<Scalar, Width> const& x, BasicPack<Scalar, Width> const& y) {
   return detail::lane_by_lane([](Scalar a, Scalar b) { return std::hypot(a, b); }, x, y);
 }
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> cbrt(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::cbrt(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> exp(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::exp(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> log(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::log(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> tanh(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::tanh(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> sin(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::sin(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> cos(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::cos(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> tan(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::tan(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> asin(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::asin(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> acos(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::acos(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> atan(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::atan(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> floor(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::floor(value); }, x);
-}
-template <class Scalar, std::size_t Width>
-BasicPack<Scalar, Width> ceil(BasicPack<Scalar, Width> const& x) {
-  return detail::lane_by_lane([](Scalar value) { return std::ceil(value); }, x);
-}
+#define SCARP_LANE_BY_LANE(FUNCTION)                                                   \
+  template <class Scalar, std::size_t Width>                                           \
+  BasicPack<Scalar, Width> FUNCTION(BasicPack<Scalar, Width> const& x) {               \
+    return detail::lane_by_lane([](Scalar value) { return std::FUNCTION(value); }, x); \
+  }
+SCARP_LANE_BY_LANE(cbrt)
+SCARP_LANE_BY_LANE(exp)
+SCARP_LANE_BY_LANE(log)
+SCARP_LANE_BY_LANE(tanh)
+SCARP_LANE_BY_LANE(sin)
+SCARP_LANE_BY_LANE(cos)
+SCARP_LANE_BY_LANE(tan)
+SCARP_LANE_BY_LANE(asin)
+SCARP_LANE_BY_LANE(acos)
+SCARP_LANE_BY_LANE(atan)
+SCARP_LANE_BY_LANE(floor)
+SCARP_LANE_BY_LANE(ceil)
+#undef SCARP_LANE_BY_LANE
 
 }  // namespace scarp::lanes

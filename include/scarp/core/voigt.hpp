@@ -59,6 +59,16 @@ Tensor<Dim, Scalar> from_voigt_stress(VoigtStress<Dim, Scalar> const& voigt) {
   return stress;
 }
 
+/// The strain tensor of one unit component in Voigt order, the others zero.
+template <int Dim>
+Tensor<Dim> unit_strain(int component) {
+  auto const [i, j] = voigt_indices<Dim>()[detail::index(component)];
+  Tensor<Dim> strain = Tensor<Dim>::Zero();
+  strain(i, j) += 0.5;
+  strain(j, i) += 0.5;
+  return strain;
+}
+
 /// Engineering strain of the symmetric part of a displacement gradient.
 template <int Dim, class Scalar>
 EngineeringStrain<Dim, Scalar> to_engineering_strain(Gradient<Dim, Scalar> const& gradient) {

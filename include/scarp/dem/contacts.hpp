@@ -63,22 +63,10 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
   constexpr int dim = PackingType::dim;
   auto const& pairs = packing.pairs;
   for (std::size_t p = 0; p < pairs.count(); ++p) {
-    auto const first = detail::index(pairs.first[p]);
-    auto const second = detail::index(pairs.second[p]);
-    auto const from = row_position(packing, first);
-    auto const to = row_position(packing, second);
-    Point<dim, double> branch;
-    Point<dim, double> start{};
-    for (std::size_t a = 0; a < branch.size(); ++a) branch[a] = to[a] - from[a];
-    if constexpr (Shape::remembers_normal) {
-      for (std::size_t a = 0; a < start.size(); ++a)
-        start[a] = static_cast<double>(pairs.normal(p, static_cast<int>(a)));
-    }
-    auto const pose_first = row_pose(packing, first);
-    auto const pose_second = row_pose(packing, second);
-    auto const touch = settled_touch<Shape>(pose_first, pose_second, branch, start);
-    double const radius_first = Shape::contact_radius(pose_first);
-    double const radius_second = Shape::contact_radius(pose_second);
+    NearTouch<PackingType> const near(packing, p);
+    auto const& touch = near.touch;
+    double const radius_first = Shape::contact_radius(near.first);
+    double const radius_second = Shape::contact_radius(near.second);
     Approach<dim, double> const still{.overlap = touch.overlap,
                                       .slip = {},
                                       .reduced_radius = radius_first * radius_second / (radius_first + radius_second)};
@@ -88,14 +76,14 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
     auto const answer = law.respond(still, memory);
     auto const sideways = as_vector(answer.shear, touch.normal);
     Contact<dim> contact{p,
-                         grain_of_row(packing, first),
-                         grain_of_row(packing, second),
+                         grain_of_row(packing, detail::index(pairs.first[p])),
+                         grain_of_row(packing, detail::index(pairs.second[p])),
                          touch,
                          still,
                          memory,
                          law.stiffness(still.overlap, still.reduced_radius),
                          answer.normal,
-                         Eigen::Map<Vector<dim> const>(branch.data()),
+                         Eigen::Map<Vector<dim> const>(near.branch.data()),
                          Eigen::Map<Vector<dim> const>(sideways.data())};
     contact.force += answer.normal * contact.normal();
     visit(contact);

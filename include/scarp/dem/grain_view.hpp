@@ -7,12 +7,17 @@
 
 namespace scarp {
 
+/// Row of the grain's part that stands in a row of the pair list: another one where that is a ghost.
+template <class PackingType>
+std::size_t owner_of_row(PackingType const& packing, std::size_t row) {
+  std::size_t const rows = packing.row_count();
+  return row < rows ? row : detail::index(packing.pairs.ghost_owner[row - rows]);
+}
+
 /// Number of the grain behind a row of the pair list.
 template <class PackingType>
 std::size_t grain_of_row(PackingType const& packing, std::size_t row) {
-  std::size_t const rows = packing.row_count();
-  std::size_t const own = row < rows ? row : detail::index(packing.pairs.ghost_owner[row - rows]);
-  return own / static_cast<std::size_t>(part_count<typename PackingType::Shape>());
+  return owner_of_row(packing, row) / static_cast<std::size_t>(part_count<typename PackingType::Shape>());
 }
 
 /// Pose of one part of a grain at its present orientation, in double.
@@ -29,8 +34,7 @@ auto grain_pose(PackingType const& packing, std::size_t grain, int part = 0) {
 template <class PackingType>
 auto row_pose(PackingType const& packing, std::size_t row) {
   constexpr auto parts = static_cast<std::size_t>(part_count<typename PackingType::Shape>());
-  std::size_t const rows = packing.row_count();
-  std::size_t const own = row < rows ? row : detail::index(packing.pairs.ghost_owner[row - rows]);
+  std::size_t const own = owner_of_row(packing, row);
   return grain_pose(packing, own / parts, static_cast<int>(own % parts));
 }
 
@@ -50,5 +54,33 @@ Point<PackingType::dim, double> row_position(PackingType const& packing, std::si
   }
   return place;
 }
+
+/// How the rows of a near pair touch: poses of both, the branch between the centres [m] and the touch.
+template <class PackingType>
+struct NearTouch {
+  static constexpr int dim = PackingType::dim;
+  using Shape = typename PackingType::Shape;
+
+  PoseOf<Shape> first;
+  PoseOf<Shape> second;
+  Point<dim, double> branch;
+  Touch<dim, double> touch;
+
+  NearTouch(PackingType const& packing, std::size_t pair) {
+    auto const& pairs = packing.pairs;
+    auto const row_first = detail::index(pairs.first[pair]);
+    auto const row_second = detail::index(pairs.second[pair]);
+    auto const from = row_position(packing, row_first);
+    branch = row_position(packing, row_second);
+    Point<dim, double> start{};
+    for (std::size_t a = 0; a < branch.size(); ++a) {
+      branch[a] -= from[a];
+      if constexpr (Shape::remembers_normal) start[a] = static_cast<double>(pairs.normal(pair, static_cast<int>(a)));
+    }
+    first = row_pose(packing, row_first);
+    second = row_pose(packing, row_second);
+    touch = settled_touch<Shape>(first, second, branch, start);
+  }
+};
 
 }  // namespace scarp

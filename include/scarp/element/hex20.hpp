@@ -8,11 +8,10 @@ namespace scarp {
 
 /// Cube [-1, 1]^3 with corners as Hex8 and then the middles of its edges: around the bottom, around the top, upwards;
 /// serendipity shapes. Gmsh orders the edges by their corners' numbers.
-struct Hex20 {
+struct Hex20 : detail::OnCube<3> {
   using Facet = Quad8;
   using Linear = Hex8;
 
-  static constexpr int dim = 3;
   static constexpr int nodes = 20;
   static constexpr int facet_nodes = 8;
   static constexpr int vtk_cell_type = 25;
@@ -29,11 +28,6 @@ struct Hex20 {
   static ShapeValues<Hex20> shape(Vector<3> const& xi) { return detail::serendipity<Hex20>(xi); }
 
   static ShapeGradients<Hex20> shape_gradients(Vector<3> const& xi) { return detail::serendipity_gradients<Hex20>(xi); }
-
-  template <int Degree>
-  static auto rule() {
-    return cube_rule<3, Degree>();
-  }
 
   /// Three points along each axis: the stiffness of a parallelepiped is exact.
   static auto quadrature() { return gauss_rule<3, 3>(); }

@@ -7,10 +7,9 @@ namespace scarp {
 
 /// Cube [-1, 1]^3, nodes counter-clockwise (seen from above) around the bottom from (-1, -1, -1), then around the top,
 /// trilinear shapes \f$ N_a = (1 + \xi_a \xi)(1 + \eta_a \eta)(1 + \zeta_a \zeta)/8 \f$.
-struct Hex8 {
+struct Hex8 : detail::OnCube<3> {
   using Facet = Quad4;
 
-  static constexpr int dim = 3;
   static constexpr int nodes = 8;
   static constexpr int facet_nodes = 4;
   static constexpr int vtk_cell_type = 12;
@@ -31,11 +30,6 @@ struct Hex8 {
     ShapeGradients<Hex8> gradients;
     gradients << slopes * (1.0 - xi(2)) / 2.0, -level / 2.0, slopes * (1.0 + xi(2)) / 2.0, level / 2.0;
     return gradients;
-  }
-
-  template <int Degree>
-  static auto rule() {
-    return cube_rule<3, Degree>();
   }
 
   /// Two points along each axis: the stiffness of a parallelepiped is exact.

@@ -9,10 +9,9 @@ namespace scarp {
 
 /// Square [-1, 1] x [-1, 1], nodes counter-clockwise from (-1, -1), bilinear shapes
 /// \f$ N_a = (1 + \xi_a \xi)(1 + \eta_a \eta)/4 \f$.
-struct Quad4 {
+struct Quad4 : detail::OnCube<2> {
   using Facet = Line2;
 
-  static constexpr int dim = 2;
   static constexpr int nodes = 4;
   static constexpr int facet_nodes = 2;
   static constexpr int vtk_cell_type = 9;
@@ -36,11 +35,6 @@ struct Quad4 {
       gradients(a, 1) = d * (1.0 + c * xi(0)) / 4.0;
     }
     return gradients;
-  }
-
-  template <int Degree>
-  static auto rule() {
-    return cube_rule<2, Degree>();
   }
 
   /// Two by two points: the stiffness of a parallelogram is exact.

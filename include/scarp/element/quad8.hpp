@@ -8,11 +8,10 @@ namespace scarp {
 
 /// Square [-1, 1] x [-1, 1] with corners as Quad4 and then the middles of its sides (0, 1), (1, 2), (2, 3), (3, 0);
 /// serendipity shapes (quadratic without \f$ \xi^2\eta^2 \f$).
-struct Quad8 {
+struct Quad8 : detail::OnCube<2> {
   using Facet = Line3;
   using Linear = Quad4;
 
-  static constexpr int dim = 2;
   static constexpr int nodes = 8;
   static constexpr int facet_nodes = 3;
   static constexpr int vtk_cell_type = 23;
@@ -27,11 +26,6 @@ struct Quad8 {
   static ShapeValues<Quad8> shape(Vector<2> const& xi) { return detail::serendipity<Quad8>(xi); }
 
   static ShapeGradients<Quad8> shape_gradients(Vector<2> const& xi) { return detail::serendipity_gradients<Quad8>(xi); }
-
-  template <int Degree>
-  static auto rule() {
-    return cube_rule<2, Degree>();
-  }
 
   /// Three by three points: the stiffness of a parallelogram is exact.
   static auto quadrature() { return gauss_rule<2, 3>(); }

@@ -8,11 +8,10 @@ namespace scarp {
 
 /// Tetrahedron with corners as Tet4 and then the middles of its edges (0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3),
 /// quadratic shapes. Gmsh has the last two in the opposite order.
-struct Tet10 {
+struct Tet10 : detail::OnSimplex<3> {
   using Facet = Tri6;
   using Linear = Tet4;
 
-  static constexpr int dim = 3;
   static constexpr int nodes = 10;
   static constexpr int facet_nodes = 6;
   static constexpr int vtk_cell_type = 24;
@@ -27,11 +26,6 @@ struct Tet10 {
 
   static ShapeGradients<Tet10> shape_gradients(Vector<3> const& xi) {
     return detail::quadratic_simplex_gradients<Tet10>(xi);
-  }
-
-  template <int Degree>
-  static auto rule() {
-    return simplex_rule<3, Degree>();
   }
 
   /// Four points: the stiffness of a tetrahedron with straight edges is exact.

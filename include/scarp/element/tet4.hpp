@@ -6,10 +6,9 @@
 namespace scarp {
 
 /// Tetrahedron with corners at the origin and the three unit points, linear shapes: strain and stress are constant.
-struct Tet4 {
+struct Tet4 : detail::OnSimplex<3> {
   using Facet = Tri3;
 
-  static constexpr int dim = 3;
   static constexpr int nodes = 4;
   static constexpr int facet_nodes = 3;
   static constexpr int vtk_cell_type = 10;
@@ -22,11 +21,6 @@ struct Tet4 {
     ShapeGradients<Tet4> gradients;
     gradients << -1.0, -1.0, -1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0;
     return gradients;
-  }
-
-  template <int Degree>
-  static auto rule() {
-    return simplex_rule<3, Degree>();
   }
 
   /// Centroid: the stiffness of the constant strain is exact.

@@ -7,10 +7,9 @@
 namespace scarp {
 
 /// Triangle with corners (0, 0), (1, 0), (0, 1), counter-clockwise, linear shapes: strain and stress are constant.
-struct Tri3 {
+struct Tri3 : detail::OnSimplex<2> {
   using Facet = Line2;
 
-  static constexpr int dim = 2;
   static constexpr int nodes = 3;
   static constexpr int facet_nodes = 2;
   static constexpr int vtk_cell_type = 5;
@@ -23,11 +22,6 @@ struct Tri3 {
     ShapeGradients<Tri3> gradients;
     gradients << -1.0, -1.0, 1.0, 0.0, 0.0, 1.0;
     return gradients;
-  }
-
-  template <int Degree>
-  static auto rule() {
-    return simplex_rule<2, Degree>();
   }
 
   /// Centroid: the stiffness of the constant strain is exact.

@@ -7,11 +7,10 @@
 namespace scarp {
 
 /// Triangle with corners as Tri3 and then the middles of its sides (0, 1), (1, 2), (2, 0), quadratic shapes.
-struct Tri6 {
+struct Tri6 : detail::OnSimplex<2> {
   using Facet = Line3;
   using Linear = Tri3;
 
-  static constexpr int dim = 2;
   static constexpr int nodes = 6;
   static constexpr int facet_nodes = 3;
   static constexpr int vtk_cell_type = 22;
@@ -24,11 +23,6 @@ struct Tri6 {
 
   static ShapeGradients<Tri6> shape_gradients(Vector<2> const& xi) {
     return detail::quadratic_simplex_gradients<Tri6>(xi);
-  }
-
-  template <int Degree>
-  static auto rule() {
-    return simplex_rule<2, Degree>();
   }
 
   /// Three points: the stiffness of a triangle with straight sides is exact.

@@ -3,13 +3,88 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <numbers>
 
+#include "scarp/bvp/constraints.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/fault/bedrock_motion.hpp"
+#include "scarp/core/precompiled.hpp"
+#include "scarp/fault/detail/step_at_tip.hpp"
+#include "scarp/observe/rupture_measures.hpp"
 
-namespace scarp::detail {
+namespace scarp {
+
+/// A fault in the bedrock: how far its two sides move per unit of throw (horizontal, vertical; upwards is positive)
+/// and where it meets the bottom of the ground, `tip` [m]. The throw is the vertical part of the slip [m].
+template <class Motion>
+concept BedrockMotion = requires(Motion const& motion) {
+  { motion.tip } -> std::convertible_to<double>;
+  { motion.left() } -> std::same_as<Vector<2>>;
+  { motion.right() } -> std::same_as<Vector<2>>;
+};
+
+/// A fault whose slip changes along its strike: share_along(y) of `left()` and `right()` at the strike y [m].
+template <class Motion>
+concept ChangesAlongStrike = BedrockMotion<Motion> && requires(Motion const& motion, double y) {
+  { motion.share_along(y) } -> std::same_as<double>;
+};
+
+/// How far both walls have settled at a throw [m], for the measures of the rupture above.
+template <BedrockMotion Motion>
+FaultOffset offset_at(Motion const& motion, double fault_throw) {
+  return {.tip = motion.tip, .foot = -motion.left().y() * fault_throw, .hanging = -motion.right().y() * fault_throw};
+}
+
+/// \throws InputError when no corner of the bottom lies at the tip of a fault
+template <class Element>
+SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
+  auto const lines = detail::corners_along(mesh, "bottom");
+  double nearest = std::numeric_limits<double>::infinity();
+  for (double const line : lines) {
+    if (std::abs(line - tip) < std::abs(nearest - tip)) nearest = line;
+  }
+  if (std::abs(nearest - tip) <= detail::StepAtTip::same_place * (lines.back() - lines.front())) return;
+  refuse(
+      "the fault tip is at x = {} m (the nearest corner of the mesh's bottom is at {} m): put a node there or move the "
+      "tip",
+      tip, nearest);
+}
+
+/// The sides "left" and "right" of a mesh and its "bottom" move with the two sides of a fault, by course(load factor)
+/// in units of throw; in between, at the tip, the bottom takes the step as detail::StepAtTip says. The first axis is
+/// horizontal, the last vertical; in space the fault strikes along the second, where nothing moves on "front", "back"
+/// and the prescribed sides. A motion that changes along its strike moves each node by its share there.
+/// \throws InputError for parameters that the motion refuses, a tip outside the bottom, or a mesh without these
+/// boundaries
+template <BedrockMotion Motion, class Element>
+SCARP_EXPORT Constraints bedrock_constraints(Mesh<Element> const& mesh, Motion const& motion, int extra_dofs = 0,
+                                             TimeFunction const& course = {}) {
+  constexpr int dim = Element::dim;
+  Vector<2> const left = motion.left();
+  Vector<2> const right = motion.right();
+  detail::StepAtTip const step(mesh, motion.tip);
+  Constraints constraints(mesh, extra_dofs);
+  auto const move = [&](int node, double share) {
+    Vector<2> rate = left + share * (right - left);
+    if constexpr (dim == 3 && ChangesAlongStrike<Motion>)
+      rate *= motion.share_along(mesh.nodes[detail::index(node)](1));
+    constraints.move(node, 0, rate.x(), course);
+    constraints.move(node, dim - 1, rate.y(), course);
+    if constexpr (dim == 3) constraints.fix(node, 1);
+  };
+  for (int const node : boundary_nodes(mesh, "left")) move(node, 0.0);
+  for (int const node : boundary_nodes(mesh, "right")) move(node, 1.0);
+  for (int const node : boundary_nodes(mesh, "bottom")) move(node, step.share_at(mesh.nodes[detail::index(node)](0)));
+  if constexpr (dim == 3) {
+    for (char const* side : {"front", "back"}) {
+      for (int const node : boundary_nodes(mesh, side)) constraints.fix(node, 1);
+    }
+  }
+  return constraints;
+}
+
+namespace detail {
 
 /// Horizontal slip per throw on a plane that dips by so much [rad], 1/tan(dip); exactly zero for a vertical one.
 /// \throws InputError for a dip outside (0, pi/2]
@@ -23,9 +98,7 @@ inline double heave_per_throw(double dip) {
   return std::abs(along) < std::numeric_limits<double>::epsilon() ? 0.0 : along / std::sin(dip);
 }
 
-}  // namespace scarp::detail
-
-namespace scarp {
+}  // namespace detail
 
 /// The hanging wall, right of the tip, slides down the fault plane and away from the footwall, which stays.
 struct NormalFault {

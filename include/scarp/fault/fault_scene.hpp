@@ -1,17 +1,60 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "scarp/bvp/usual_integration.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/element/tri3.hpp"
-#include "scarp/fault/detail/carried_weight.hpp"
-#include "scarp/fault/detail/precompiled_ground.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/scene/scene.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#ifdef SCARP_PRECOMPILED
+#include "scarp/bvp/loads.hpp"
+#include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/fault/fault_mesh.hpp"
+#include "scarp/solver/thread_executor.hpp"
+#endif
+
+namespace scarp::detail {
+
+/// Refuses soil whose vertical stress does not carry the weight that the scene puts on it: ground that begins out of
+/// balance settles or heaves first, and its strength is that of another stress. Of some sites from the shallowest to the
+/// deepest the middle one counts, by its error: packings prepared for a few depths carry too much here and too little there.
+/// unit_weight [N/m3], surcharge [Pa] \throws InputError
+template <ConstitutiveProvider Soil>
+void require_carried(Soil const& soil, std::vector<Site<Soil::dim>> sites, double unit_weight, double surcharge) {
+  constexpr double tolerance = 0.01;  // servos of preparations reach 1e-3
+  constexpr std::size_t looks = 15;
+  struct Look {
+    double depth, carried, weight;
+    double error() const { return carried / weight - 1.0; }
+  };
+  std::ranges::sort(sites, {}, [](auto const& site) { return site.depth; });
+  std::vector<Look> found;
+  for (std::size_t k = 0; k < looks && !sites.empty(); ++k) {
+    auto const& site = sites[k * (sites.size() - 1) / (looks - 1)];
+    double const weight = surcharge + unit_weight * site.depth;
+    if (weight > 0.0) found.push_back({site.depth, -soil.stress(soil.initial_state(site))(Soil::dim - 1), weight});
+  }
+  if (found.empty()) return;
+  auto const middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+  std::ranges::nth_element(found, middle, {}, &Look::error);
+  if (std::abs(middle->error()) <= tolerance) return;
+  refuse(
+      "the soil carries {:.4g} Pa at a depth of {:.4g} m (the scene's surcharge of {:.4g} Pa and unit weight of {:.4g} "
+      "N/m3 weigh {:.4g} Pa there): give both to the soil's initial stress and to the scene alike",
+      middle->carried, middle->depth, surcharge, unit_weight, middle->weight);
+}
+
+}  // namespace scarp::detail
 
 namespace scarp {
 
@@ -187,5 +230,31 @@ FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Execu
   return make_problem(std::move(grid), ground.surface_level(), structure.regions(Region{"soil", soil}),
                       std::move(constraints), std::move(loads), executor, std::move(attached));
 }
+
+#ifdef SCARP_PRECOMPILED
+/// What `scarp::precompiled` has of level ground over a normal fault: meshes and loads of the usual elements, and elastic
+/// ground of triangles as a whole. DECLARE: `extern template`, or `template` in the library.
+#define SCARP_GROUND(DECLARE, ELEMENT)                                                                         \
+  DECLARE Mesh<ELEMENT> FaultMesh::generate<ELEMENT>(std::vector<double> const&) const;                        \
+  DECLARE void require_node_at_tip(Mesh<ELEMENT> const&, double);                                              \
+  DECLARE Constraints bedrock_constraints(Mesh<ELEMENT> const&, NormalFault const&, int, TimeFunction const&); \
+  DECLARE Eigen::VectorXd body_force(UsualGrid<ELEMENT> const&, std::vector<Vector<2>> const&);                \
+  DECLARE Eigen::VectorXd traction(UsualGrid<ELEMENT> const&, std::string_view, Vector<2> const&);             \
+  DECLARE detail::RegionResiduals<2>::RegionResiduals(Mesh<ELEMENT> const&, Constraints const&);
+#define SCARP_ELASTIC_GROUND(DECLARE)                                                 \
+  DECLARE class ProviderField<detail::ElasticGround>;                                 \
+  DECLARE class RegionMaterials<detail::ElasticGround>;                               \
+  DECLARE class PointAnswers<RegionMaterials<detail::ElasticGround>, ThreadExecutor>; \
+  DECLARE class EquilibriumProblem<UsualGrid<Tri3>, RegionMaterials<detail::ElasticGround>, ThreadExecutor>;
+
+namespace detail {
+using ElasticGround = LinearElastic<2, GeostaticStress<2>>;
+}
+SCARP_GROUND(extern template, Tri3)
+SCARP_GROUND(extern template, Tri6)
+SCARP_GROUND(extern template, Quad4)
+SCARP_GROUND(extern template, Quad8)
+SCARP_ELASTIC_GROUND(extern template)
+#endif
 
 }  // namespace scarp

@@ -30,7 +30,11 @@ struct StripFooting {
     require_not_negative("mean pressure below the footing", bearing);
   }
 
-  std::vector<double> edges() const { return {centre - width / 2.0, centre + width / 2.0}; }
+  /// \throws InputError as validate() does
+  std::vector<double> edges() const {
+    validate();
+    return {centre - width / 2.0, centre + width / 2.0};
+  }
 };
 
 /// How a footing has moved from where the mesh has it, and what the ground presses with against its base.

@@ -18,10 +18,7 @@ struct FrictionalFooting {
   Law interface {};  ///< [Pa/m] where grains have [N/m]
 
   /// \throws InputError
-  std::vector<double> edges() const {
-    footing.validate();
-    return footing.edges();
-  }
+  std::vector<double> edges() const { return footing.edges(); }
   template <class Element>
   void put_on(Mesh<Element>& mesh) const {
     mark_footing_base(mesh, footing.centre, footing.width);

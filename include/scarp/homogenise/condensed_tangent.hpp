@@ -18,12 +18,8 @@ namespace scarp {
 template <int Dim>
 VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
   VoigtTangent<Dim> tangent;
-  constexpr auto indices = voigt_indices<Dim>();
   for (int k = 0; k < voigt_size<Dim>; ++k) {
-    auto const [i, j] = indices[detail::index(k)];
-    Tensor<Dim> strain = Tensor<Dim>::Zero();
-    strain(i, j) += 0.5;
-    strain(j, i) += 0.5;
+    Tensor<Dim> const strain = unit_strain<Dim>(k);
     tangent.col(k) = to_voigt_stress<Dim, double>(stress * strain - stress * strain.trace());
   }
   return tangent;
@@ -95,13 +91,8 @@ struct CondensedTangent {
   /// Motion of the second grain of a contact relative to the first in each strain mode.
   template <int Dim>
   static Eigen::Matrix<double, Dim, voigt_size<Dim>> strain_motion(Vector<Dim> const& branch) {
-    Eigen::Matrix<double, Dim, voigt_size<Dim>> motion = Eigen::Matrix<double, Dim, voigt_size<Dim>>::Zero();
-    constexpr auto indices = voigt_indices<Dim>();
-    for (int k = 0; k < voigt_size<Dim>; ++k) {
-      auto const [i, j] = indices[detail::index(k)];
-      motion(i, k) += branch(j) / 2.0;
-      motion(j, k) += branch(i) / 2.0;
-    }
+    Eigen::Matrix<double, Dim, voigt_size<Dim>> motion;
+    for (int k = 0; k < voigt_size<Dim>; ++k) motion.col(k) = unit_strain<Dim>(k) * branch;
     return motion;
   }
 

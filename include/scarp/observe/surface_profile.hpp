@@ -38,9 +38,7 @@ inline double settlement_at(std::vector<SurfacePoint> const& profile, double x_i
   return profile.back().settlement;
 }
 
-}  // namespace scarp
-
-namespace scarp::detail {
+namespace detail {
 
 /// A point and the place that orders it along a line. [m]
 struct Placed {
@@ -90,9 +88,7 @@ inline void require_for_each_node(char const* what, std::size_t positions, std::
   }
 }
 
-}  // namespace scarp::detail
-
-namespace scarp {
+}  // namespace detail
 
 /// Boundaries that make the surface of the ground: "surface", and "footing_base" where the mesh has it.
 template <class Element>

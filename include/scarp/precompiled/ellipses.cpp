@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "scarp/dem/detail/library_kernel.hpp"
 #include "scarp/shape/ellipse.hpp"
 
-#include "scarp/contact/frictionless.hpp"
-#include "scarp/contact/hertz_mindlin.hpp"
-#include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/detail/library_kernel.hpp"
-
 namespace scarp::detail {
-SCARP_KERNEL(Ellipse, Frictionless)
-SCARP_KERNEL(Ellipse, LinearFrictional)
-SCARP_KERNEL(Ellipse, HertzMindlin<>)
+SCARP_KERNELS(Ellipse)
 }  // namespace scarp::detail

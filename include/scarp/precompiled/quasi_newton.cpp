@@ -2,10 +2,5 @@
 #include "scarp/solver/quasi_newton.hpp"
 
 namespace scarp {
-template class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<2>>;
-template class QuasiNewtonSession<QuasiNewton<>, AttachedProblem<2>>;
-template class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<3>>;
-template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<2>>;
-template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, AttachedProblem<2>>;
-template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<3>>;
+SCARP_SESSIONS(template)
 }  // namespace scarp

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "scarp/core/described.hpp"
-#include "scarp/solver/detail/step_start.hpp"
+#include "scarp/solver/detail/linearised_step.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"

@@ -11,9 +11,9 @@
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/solver/detail/attachment_part.hpp"
-#include "scarp/solver/detail/ground_equations.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/detail/point_answers.hpp"
+#include "scarp/solver/free_system.hpp"
 
 namespace scarp {
 

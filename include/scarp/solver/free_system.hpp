@@ -2,18 +2,24 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+
 #include <vector>
 
 #include "scarp/bvp/constraints.hpp"
+#include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/solver/linear_solver.hpp"
 
 namespace scarp {
 
 /// Part of a stiffness matrix that belongs to the free degrees of freedom, and the coupling to prescribed displacements.
 class FreeSystem {
  public:
-  explicit FreeSystem(Constraints const& constraints) : free_dofs_(constraints.free_dofs()) {
-    free_index_.assign(detail::index(constraints.dof_count()), -1);
+  explicit FreeSystem(Constraints const& constraints) : FreeSystem(constraints.free_dofs(), constraints.dof_count()) {}
+
+  /// free_dofs: in increasing order, of `dof_count` in all
+  FreeSystem(std::vector<int> free_dofs, int dof_count)
+      : free_dofs_(std::move(free_dofs)), free_index_(detail::index(dof_count), -1) {
     for (std::size_t k = 0; k < free_dofs_.size(); ++k) free_index_[detail::index(free_dofs_[k])] = static_cast<int>(k);
   }
 
@@ -54,3 +60,34 @@ class FreeSystem {
 };
 
 }  // namespace scarp
+
+namespace scarp::detail {
+
+/// The type of a ground's stiffness.
+template <class Materials>
+struct GroundStiffness {
+  static_assert(!AveragesGradients<Materials>,
+                "scarp: points that see means need `#include \"scarp/solver/wide_equations.hpp\"`, which "
+                "scene/nonlocal_scene.hpp does");
+  using Type = Eigen::SparseMatrix<double>;
+};
+
+/// Equations of the free degrees of freedom for a stiffness of one type, here a sparse matrix that is solved directly.
+template <class Stiffness, LinearSolver Linear>
+class GroundEquations {
+ public:
+  Verdict factorize(FreeSystem const& system, Stiffness const& stiffness) {
+    matrix_ = system.matrix(stiffness);
+    return linear_.factorize(matrix_);
+  }
+  Eigen::VectorXd solve(Eigen::VectorXd const& force) { return linear_.solve(force); }
+  Eigen::VectorXd product(Eigen::VectorXd const& displacement) const { return matrix_ * displacement; }
+  double condition() const { return condition_estimate(matrix_, linear_); }
+  int weakest() const { return weakest_unknown<Linear>(matrix_); }
+
+ private:
+  Linear linear_;
+  SparseMatrix matrix_;
+};
+
+}  // namespace scarp::detail

@@ -137,21 +137,8 @@ struct LoadStepping {
     run.load = load;
     StepReport step;
     step.load = load;
-    auto const started = std::chrono::steady_clock::now();
-    Eigen::VectorXd displacement;
-    step.verdict = session.begin(load);
-    session.describe(step);
-    if (step.verdict.acceptable()) {
-      displacement = session.predict(load, load);
-      session.correct(displacement, step, [&] { return observer.wants_stop(); });
-    }
+    try_step(session, problem, step, run, observer, [&] { return session.predict(load, load); });
     run.verdict = step.verdict;
-    if (step.interrupted()) return run;
-    step.seconds = seconds_since(started);
-    bool const accepted = step.verdict.acceptable();
-    if (accepted) session.accept(displacement);
-    count(run, step, accepted);
-    observer.attempted(problem, step);
     return run;
   }
 
@@ -198,31 +185,18 @@ struct LoadStepping {
     double& increment = state.increment;
     StepReport step;
     step.step = run.steps + 1;
-    auto const started = std::chrono::steady_clock::now();
     step.load = run.load;
-    step.verdict = session.begin(run.load);
-    session.describe(step);
-    if (!step.verdict.acceptable()) {  // tangents or matrix, which no smaller increment mends
-      run.verdict = step.verdict;
-      step.seconds = seconds_since(started);
-      count(run, step, false);
-      observer.attempted(problem, step);
-      return;
-    }
-    Eigen::VectorXd displacement = limited_prediction(session, problem, run.load, to, increment);
-    step.load = end_of(run.load, to, increment);
-    step.load_increment = step.load < to ? increment : to - run.load;
-    session.correct(displacement, step, [&] { return observer.wants_stop(); });
-    if (step.interrupted()) {
+    bool const began = try_step(session, problem, step, run, observer, [&] {
+      Eigen::VectorXd displacement = limited_prediction(session, problem, run.load, to, increment);
+      step.load = end_of(run.load, to, increment);
+      step.load_increment = step.load < to ? increment : to - run.load;
+      return displacement;
+    });
+    if (!began || step.interrupted()) {  // no smaller increment mends tangents or matrix
       run.verdict = step.verdict;
       return;
     }
-    step.seconds = seconds_since(started);
-    bool const accepted = step.verdict.acceptable();
-    if (accepted) session.accept(displacement);
-    count(run, step, accepted);
-    observer.attempted(problem, step);
-    if (accepted) {
+    if (step.verdict.acceptable()) {
       if (step.iterations() <= few) increment *= growth;
       if (step.iterations() > many) increment *= shrinkage;
     } else {
@@ -233,6 +207,30 @@ struct LoadStepping {
       }
     }
     increment = std::min({increment, largest, std::max(to - run.load, smallest)});
+  }
+
+  /// From the committed state at the step's load to equilibrium at what predict() begins with; an interrupted attempt counts
+  /// as never made.
+  /// \return whether the session could begin
+  template <class Session, class Problem, class Observer, class Predict>
+  static bool try_step(Session& session, Problem const& problem, StepReport& step, RunReport& run, Observer& observer,
+                       Predict const& predict) {
+    auto const started = std::chrono::steady_clock::now();
+    Eigen::VectorXd displacement;
+    step.verdict = session.begin(step.load);
+    session.describe(step);
+    bool const began = step.verdict.acceptable();
+    if (began) {
+      displacement = predict();
+      session.correct(displacement, step, [&] { return observer.wants_stop(); });
+      if (step.interrupted()) return true;
+    }
+    step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    bool const accepted = step.verdict.acceptable();
+    if (accepted) session.accept(displacement);
+    count(run, step, accepted);
+    observer.attempted(problem, step);
+    return began;
   }
 
   /// Cuts the increment until the prediction strains no point more than allowed; the prediction is nearly linear in it.
@@ -255,10 +253,6 @@ struct LoadStepping {
   /// Load factor that a step ends at; one that would leave less than the smallest increment goes to the end.
   double end_of(double load, double to, double increment) const {
     return to - load - increment < smallest ? to : load + increment;
-  }
-
-  static double seconds_since(std::chrono::steady_clock::time_point started) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
 
   static void count(RunReport& run, StepReport const& step, bool accepted) {

@@ -1,11 +1,213 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/solver/detail/quasi_newton_session.hpp"
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "scarp/core/described.hpp"
+#include "scarp/core/precompiled.hpp"
+#include "scarp/solver/detail/linearised_step.hpp"
+#include "scarp/solver/incremental_problem.hpp"
 #include "scarp/solver/sparse_lu.hpp"
+#include "scarp/solver/step_report.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 
 namespace scarp {
+
+/// The iteration of a `QuasiNewton` on one problem, which may be an `IncrementalProblem`: factorisation and what the points'
+/// tangents have learned. Its members are defined outside so that a library can keep them.
+template <class Settings, class Problem>
+class SCARP_EXPORT QuasiNewtonSession {
+ public:
+  static constexpr int dim = Problem::dim;
+
+  QuasiNewtonSession(Settings const& settings, Problem& problem)
+      : settings_(detail::validated(settings)), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
+
+  /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
+  Verdict begin(double load);
+  void describe(StepReport& report) const { start_.describe(report); }
+  Eigen::VectorXd predict(double from, double to);
+
+  /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
+  void correct(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop = {});
+
+  /// Commits an increment in equilibrium and keeps what the step has learned.
+  void accept(Eigen::VectorXd const& increment);
+
+  /// What is remembered from step to step.
+  SCARP_MEMBERS_EXCEPT((settings_, problem_, start_, mark_, tangent_seconds_, provider_, working_, last_gradients_,
+                        last_stresses_, growth_),
+                       first_, learned_, motion_)
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Rule = typename Settings::RuleType;
+  using Linear = typename Settings::LinearType;
+
+  void iterate(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop);
+  Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, bool refine);
+  std::vector<VoigtTangent<Problem::dim>> timed_tangents(bool of_trial_states);
+  void learn();
+  void learn_from_answers();
+
+  Settings settings_;
+  Problem& problem_;
+  StepStart<Problem, Linear> start_;
+  Clock::time_point mark_{};                       ///< end of the last answer of the points in this step
+  double tangent_seconds_ = 0.0;                   ///< that no evaluation has been told yet
+  std::vector<VoigtTangent<Problem::dim>> first_;  ///< of the state that the session began with
+  std::vector<VoigtTangent<Problem::dim>> provider_;
+  std::vector<VoigtTangent<Problem::dim>> working_;
+  std::vector<VoigtTangent<Problem::dim>> learned_;
+  std::vector<Gradient<dim>> last_gradients_;
+  std::vector<VoigtStress<dim>> last_stresses_;
+  detail::RepeatedMotion motion_;
+  double growth_ = 0.0;  ///< of the load factor in the last prediction
+};
+
+template <class Settings, class Problem>
+Verdict QuasiNewtonSession<Settings, Problem>::begin(double load) {
+  problem_.aim(load);
+  provider_ = timed_tangents(false);
+  if (first_.empty()) first_ = provider_;
+  if (learned_.empty()) learned_ = provider_;
+  working_.resize(provider_.size());
+  for (std::size_t k = 0; k < working_.size(); ++k) {
+    working_[k] = settings_.rule.template start<dim>(provider_[k], learned_[k]);
+  }
+  return start_.linearise(working_);
+}
+
+template <class Settings, class Problem>
+Eigen::VectorXd QuasiNewtonSession<Settings, Problem>::predict(double from, double to) {
+  growth_ = to - from;
+  if (!motion_.known() || !(growth_ > 0.0)) return start_.predict(from, to);
+  Eigen::VectorXd increment = start_.prescribed(from, to);
+  start_.linearised().system().scatter(motion_.over(growth_), increment);
+  return increment;
+}
+
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, StepReport& report,
+                                                    StopQuestion const& stop) {
+  iterate(increment, report, stop);
+  // What led to a step that is refused is not repeated; one that was interrupted counts as never made.
+  if (!report.verdict.acceptable() && !report.interrupted()) motion_.forget();
+}
+
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, StepReport& report,
+                                                    StopQuestion const& stop) {
+  report.verdict = problem_.plan(increment, &report.worst_point);
+  if (!report.verdict.acceptable()) return;
+  report.largest_gradient = problem_.largest_gradient();
+  mark_ = Clock::now();
+  last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
+  last_stresses_ = problem_.committed_stresses();
+  auto& linearised = start_.linearised();
+  double linear_residual = 0.0;
+  Eigen::VectorXd const no_more = Eigen::VectorXd::Zero(increment.size());
+  for (;;) {
+    report.history.emplace_back();
+    report.history.back().linear_residual = linear_residual;
+    report.history.back().material_seconds = report.history.back().seconds = std::exchange(tangent_seconds_, 0.0);
+    Evaluation evaluation = recorded(report, increment, false);
+    // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
+    for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
+      if (report.stopped(stop)) return;
+      learn();  // before the plan changes the answer, which would pass for stiffness
+      evaluation = recorded(report, increment, true);
+    }
+    if (report.verdict.status == Status::failed) return;
+    learn();
+    if (evaluation.residual <= settings_.tolerance && report.verdict.acceptable()) return;
+    if (report.iterations() >= settings_.most_iterations || evaluation.residual > settings_.hopeless) {
+      if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
+      return;
+    }
+    if (report.stopped(stop)) return;
+    Eigen::VectorXd next = increment;
+    report.verdict = linearised.linearise(increment, evaluation.unbalanced, working_);
+    if (report.verdict.acceptable()) report.verdict = linearised.solve(next, no_more);
+    if (!report.verdict.acceptable()) {
+      report.weak_dof = linearised.weak_dof();
+      return;
+    }
+    linear_residual = linearised.linear_residual();
+    Eigen::VectorXd const correction = next - increment;
+    increment += correction;
+  }
+}
+
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::accept(Eigen::VectorXd const& increment) {
+  problem_.commit(increment);
+  learned_ = working_;
+  if (settings_.repeats_motion && growth_ > 0.0)
+    motion_.remember(start_.linearised().system().gather(increment), growth_);
+}
+
+/// Asks all points and adds what it took to the report.
+template <class Settings, class Problem>
+Evaluation QuasiNewtonSession<Settings, Problem>::recorded(StepReport& report, Eigen::VectorXd const& increment,
+                                                           bool refine) {
+  auto const started = Clock::now();
+  Evaluation evaluation = refine ? problem_.refine(increment) : problem_.evaluate(increment);
+  auto& record = report.history.back();
+  auto const ended = Clock::now();
+  record.residual = evaluation.residual;
+  record.inner_steps += evaluation.inner_steps;
+  record.material_seconds += std::chrono::duration<double>(ended - started).count();
+  record.seconds += std::chrono::duration<double>(ended - mark_).count();
+  mark_ = ended;
+  record.verdict = evaluation.verdict;
+  record.worst_point = evaluation.worst_point;
+  record.points = evaluation.points;
+  report.verdict = evaluation.verdict;
+  report.worst_point = evaluation.worst_point;
+  report.parts = evaluation.parts;
+  return evaluation;
+}
+
+/// The points' tangents; their time belongs to the evaluation that follows.
+template <class Settings, class Problem>
+std::vector<VoigtTangent<Problem::dim>> QuasiNewtonSession<Settings, Problem>::timed_tangents(bool of_trial_states) {
+  auto const started = Clock::now();
+  auto tangents = of_trial_states ? problem_.trial_tangents() : problem_.committed_tangents();
+  tangent_seconds_ += std::chrono::duration<double>(Clock::now() - started).count();
+  return tangents;
+}
+
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::learn() {
+  if constexpr (FollowsTrialTangent<Rule, dim>) {
+    auto const trial = timed_tangents(true);
+    mark_ = Clock::now();
+    for (std::size_t k = 0; k < working_.size(); ++k)
+      working_[k] = settings_.rule.template at_trial<dim>(trial[k], first_[k]);
+  } else {
+    learn_from_answers();
+  }
+}
+
+template <class Settings, class Problem>
+void QuasiNewtonSession<Settings, Problem>::learn_from_answers() {
+  if constexpr (LearnsFromAnswers<Rule, dim>) {
+    for (std::size_t k = 0; k < working_.size(); ++k) {
+      Gradient<dim> const& gradient = problem_.gradients()[k];
+      VoigtStress<dim> const& stress = problem_.responses()[k].stress;
+      auto const change = problem_.turns_stresses()
+                              ? unturned_change<dim>(last_gradients_[k], gradient, last_stresses_[k], stress)
+                              : AnswerChange<dim>{to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
+                                                  stress - last_stresses_[k]};
+      working_[k] = settings_.rule.template update<dim>(working_[k], provider_[k], change.strain, change.stress);
+      last_gradients_[k] = gradient;
+      last_stresses_[k] = stress;
+    }
+  }
+}
 
 /// Newton-type iteration for one load step: the tangent rule says what the points' tangents become on the way. Every iteration
 /// takes the points along the straight path from their committed states to the iterate.
@@ -37,12 +239,15 @@ struct QuasiNewton {
 };
 
 #ifdef SCARP_PRECOMPILED
-extern template class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<2>>;
-extern template class QuasiNewtonSession<QuasiNewton<>, AttachedProblem<2>>;
-extern template class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<3>>;
-extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<2>>;
-extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, AttachedProblem<2>>;
-extern template class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<3>>;
+/// DECLARE: `extern template`, or `template` in the library.
+#define SCARP_SESSIONS(DECLARE)                                                            \
+  DECLARE class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<2>>;                  \
+  DECLARE class QuasiNewtonSession<QuasiNewton<>, AttachedProblem<2>>;                     \
+  DECLARE class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<3>>;                  \
+  DECLARE class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<2>>; \
+  DECLARE class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, AttachedProblem<2>>;    \
+  DECLARE class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<3>>;
+SCARP_SESSIONS(extern template)
 #endif
 
 }  // namespace scarp

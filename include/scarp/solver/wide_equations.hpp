@@ -13,7 +13,7 @@
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/solver/detail/ground_equations.hpp"
+#include "scarp/solver/free_system.hpp"
 #ifdef SCARP_PRECOMPILED
 #include "scarp/solver/quasi_newton.hpp"
 #endif

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "scarp/budget/budget_part.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/constitutive/step_doubling.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "scarp/solver/executor.hpp"
 
 /// What an error budget asks of a point whose answer has just been committed.
 namespace scarp {
@@ -74,6 +79,153 @@ struct PackingSurvey {
   }
 
   SCARP_MEMBERS(looked_at, unbalanced_sum, unbalanced, kinetic_share, inertial_number)
+};
+
+/// Step doubling at sampled points: an accepted increment is answered again with twice the work from the same state. Every other
+/// sample is the most strained point of its step, unless that was taken; the others are spread over all points.
+struct DoubledSamples {
+  std::vector<double> differences{};  ///< of the stress, relative, in the order of the samples
+  long work = 0;                      ///< that they took
+
+  /// After an accepted step. afforded: work that samples may have taken up to now
+  template <class Problem>
+  void sample(Problem const& problem, std::vector<int> const& points, ErrorSampling const& sampling, long afforded) {
+    auto const chosen = choose(problem, points, sampling, afforded);
+    std::vector<double> found(chosen.size());
+    std::vector<long> works(chosen.size());
+    problem.executor().for_each(static_cast<int>(chosen.size()), [&](int task) {
+      auto const k = detail::index(task);
+      problem.materials().visit(chosen[k], [&](auto const& field, int local) {
+        auto const answer = doubled_answer(field, local, problem.gradients()[detail::index(chosen[k])]);
+        found[k] = stress_difference(field.committed_stress(local), answer.response, sampling.loose_pressure);
+        works[k] = answer.work;
+      });
+    });
+    differences.insert(differences.end(), found.begin(), found.end());
+    for (long const one : works) work += one;
+  }
+
+  /// Smallest difference that is not exceeded by a share of the samples; 0 without any.
+  double quantile(double share) const {
+    if (differences.empty()) return 0.0;
+    std::vector<double> sorted = differences;
+    std::sort(sorted.begin(), sorted.end());
+    double const rank = std::ceil(share * static_cast<double>(sorted.size()));
+    return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+  }
+
+  SCARP_MEMBERS(differences, work)
+
+ private:
+  template <class Problem>
+  std::vector<int> choose(Problem const& problem, std::vector<int> const& points, ErrorSampling const& sampling,
+                          long afforded) const {
+    std::vector<int> chosen;
+    auto const room = std::min(detail::index(sampling.most_samples), points.size());
+    for (long planned = work; chosen.size() < room;) {
+      std::size_t turn = differences.size() + chosen.size();
+      int point = turn % 2 == 0 ? most_strained(problem, points) : spread(points, turn);
+      while (std::find(chosen.begin(), chosen.end(), point) != chosen.end()) point = spread(points, ++turn);
+      planned += 2 * std::max(1L, problem.materials().work(point));
+      if (planned > afforded) break;
+      chosen.push_back(point);
+    }
+    return chosen;
+  }
+
+  template <class Problem>
+  static int most_strained(Problem const& problem, std::vector<int> const& points) {
+    auto const size = [&](int point) { return problem.gradients()[detail::index(point)].squaredNorm(); };
+    return *std::max_element(points.begin(), points.end(), [&](int a, int b) { return size(a) < size(b); });
+  }
+
+  /// Multiples of the golden section fill an interval evenly however many there are.
+  static int spread(std::vector<int> const& points, std::size_t number) {
+    constexpr double golden_section = 0.6180339887498949;
+    double const turns = golden_section * static_cast<double>(number);
+    return points[static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(points.size()))];
+  }
+};
+
+/// A point whose increments are answered a second time along the whole run, with twice the work and from the second answer's own
+/// states: how far the two have come apart is what the steps of the point's inner work have added up to on its path.
+struct FollowedPoint {
+  int point = -1;
+  std::string bits{};       ///< second state; empty before the first step, and for a state that names no members
+  double apart = 0.0;       ///< relative difference of the stresses now
+  double farthest = 0.0;    ///< largest so far
+  double square_sum = 0.0;  ///< of the differences after all steps
+
+  SCARP_MEMBERS(point, bits, apart, farthest, square_sum)
+};
+
+struct FollowedPoints {
+  std::vector<FollowedPoint> points{};
+  int steps = 0;
+  long work = 0;  ///< that they took
+
+  /// Spread over the points that this process sees, and those that are named.
+  /// \throws InputError for points that the problem does not have
+  template <class Problem>
+  static FollowedPoints choose(Problem const& problem, std::vector<int> const& seen, ErrorSampling const& sampling) {
+    int const count = problem.materials().point_count();
+    auto const spread = detail::index(std::min(count / sampling.points_per_followed, sampling.most_followed));
+    std::vector<int> chosen;
+    for (std::size_t k = 0; k < spread && !seen.empty(); ++k)
+      chosen.push_back(seen[(2 * k + 1) * seen.size() / (2 * spread)]);
+    for (int const point : sampling.followed) {
+      if (point < 0 || point >= count)
+        refuse("point {} is to be followed (there are points 0 to {}): choose one of these", point, count - 1);
+      if (owns_point(problem.executor(), point)) chosen.push_back(point);
+    }
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    FollowedPoints followed;
+    for (int const point : chosen) followed.points.push_back({.point = point});
+    return followed;
+  }
+
+  /// After an accepted step, the first of which they begin with.
+  template <class Problem>
+  void follow(Problem const& problem, double loose_pressure) {
+    std::vector<long> works(points.size());
+    problem.executor().for_each(detail::count(points), [&](int task) {
+      FollowedPoint& one = points[detail::index(task)];
+      problem.materials().visit(one.point, [&](auto const& field, int local) {
+        auto const answer = followed_answer(field, local, problem.gradients()[detail::index(one.point)], one.bits);
+        one.apart = stress_difference(field.committed_stress(local), answer.response, loose_pressure);
+        one.farthest = worse_of(one.farthest, one.apart);
+        one.square_sum += one.apart * one.apart;
+        works[detail::index(task)] = answer.work;
+      });
+    });
+    for (long const one : works) work += one;
+    ++steps;
+  }
+
+  bool any() const {
+    return std::any_of(points.begin(), points.end(), [](auto const& one) { return !one.bits.empty(); });
+  }
+
+  /// Root mean square of the differences over points and steps.
+  double apart() const {
+    double squares = 0.0;
+    int count = 0;
+    for (auto const& one : points) {
+      if (one.bits.empty()) continue;
+      squares += one.square_sum / steps;
+      ++count;
+    }
+    return count > 0 ? std::sqrt(squares / count) : 0.0;
+  }
+
+  double farthest() const {
+    double farthest = 0.0;
+    for (auto const& one : points) farthest = worse_of(farthest, one.farthest);
+    return farthest;
+  }
+
+  SCARP_MEMBERS(points, steps, work)
 };
 
 }  // namespace scarp

@@ -59,9 +59,9 @@ class MohrCoulombReturn {
     double const size = std::max(trial.cwiseAbs().maxCoeff(), plane(0).limit);
     double const slack = 1e-12 * size;
     if (excess(trial) <= 0.0) return {trial, Vector<3>::Zero(), elastic_stiffness(), 0, true};
-    auto found = with_one_plane(trial, slack);
-    if (!found.found) found = with_two_planes(trial, slack);
-    if (!found.found) found = with_three_planes(trial, slack);
+    auto found = with_planes<1>(trial, slack);
+    if (!found.found) found = with_planes<2>(trial, slack);
+    if (!found.found) found = with_planes<3>(trial, slack);
     // All planes meet at the apex, also where fewer of them lead there: no strain changes the stress.
     if (found.found && found.stress.minCoeff() >= cut_off_ - slack) found.tangent.setZero();
     return found;
@@ -94,27 +94,15 @@ class MohrCoulombReturn {
     return stiffness;
   }
 
-  PrincipalReturn with_one_plane(Vector<3> const& trial, double slack) const {
-    for (int a = 0; a < count_; ++a) {
-      if (auto const found = attempt<1>({a}, trial, slack); found.found) return found;
-    }
-    return {};
-  }
-  PrincipalReturn with_two_planes(Vector<3> const& trial, double slack) const {
-    for (int a = 0; a < count_; ++a) {
-      for (int b = a + 1; b < count_; ++b) {
-        if (auto const found = attempt<2>({a, b}, trial, slack); found.found) return found;
-      }
-    }
-    return {};
-  }
-  PrincipalReturn with_three_planes(Vector<3> const& trial, double slack) const {
-    for (int a = 0; a < count_; ++a) {
-      for (int b = a + 1; b < count_; ++b) {
-        for (int c = b + 1; c < count_; ++c) {
-          if (auto const found = attempt<3>({a, b, c}, trial, slack); found.found) return found;
-        }
-      }
+  /// The first return with so many active planes, of which the first `chosen` are given and the others numbered from `next`.
+  template <int Count>
+  PrincipalReturn with_planes(Vector<3> const& trial, double slack, std::array<int, Count> active = {}, int chosen = 0,
+                              int next = 0) const {
+    if (chosen == Count) return attempt<Count>(active, trial, slack);
+    for (; next < count_; ++next) {
+      active[detail::index(chosen)] = next;
+      auto const found = with_planes<Count>(trial, slack, active, chosen + 1, next + 1);
+      if (found.found) return found;
     }
     return {};
   }

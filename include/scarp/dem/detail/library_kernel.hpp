@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/contact/frictionless.hpp"
+#include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/time_stepping.hpp"
 
 /// Definitions for the sources of a library alone; see core/precompiled.hpp.
@@ -29,7 +32,11 @@ Verdict LibraryKernel<Stepper>::observe(Stepper& stepper, PackingType& packing, 
 
 }  // namespace scarp::detail
 
-/// The kernel of one kind of packing, in namespace scarp::detail: SCARP_KERNEL(Ellipse, LinearFrictional)
+/// The kernels of a shape with all laws of the library, in namespace scarp::detail.
+#define SCARP_KERNELS(SHAPE)            \
+  SCARP_KERNEL(SHAPE, Frictionless)     \
+  SCARP_KERNEL(SHAPE, LinearFrictional) \
+  SCARP_KERNEL(SHAPE, HertzMindlin<>)
 #define SCARP_KERNEL(SHAPE, ...)                                \
   template struct LibraryKernel<StepperOf<SHAPE, __VA_ARGS__>>; \
   SCARP_KERNEL_STEP(nothing, SHAPE, __VA_ARGS__)                \

@@ -67,7 +67,7 @@ class PairResponse {
     ContactMemory<dim, Lanes> memory;
     auto const turn_first = turn(block, Block::spin_first, at);
     auto const turn_second = turn(block, Block::spin_second, at);
-    auto const twist = scaled(mean(turn_first, turn_second), unanswered_);
+    auto const twist = scaled(scaled(sum(turn_first, turn_second), constant<Lanes>(0.5)), unanswered_);
     if constexpr (Law::needs.shear || Law::needs.motion) {
       auto const velocity = block.template read<axes>(Block::velocity, at);
       auto const swing_first = turned_motion(turn_first, touch.arm_first);

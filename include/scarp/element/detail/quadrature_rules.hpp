@@ -134,4 +134,30 @@ auto simplex_rule() {
   }
 }
 
+namespace detail {
+
+/// What all elements on a simplex share.
+template <int Dim>
+struct OnSimplex {
+  static constexpr int dim = Dim;
+
+  template <int Degree>
+  static auto rule() {
+    return simplex_rule<Dim, Degree>();
+  }
+};
+
+/// What all elements on [-1, 1]^Dim share.
+template <int Dim>
+struct OnCube {
+  static constexpr int dim = Dim;
+
+  template <int Degree>
+  static auto rule() {
+    return cube_rule<Dim, Degree>();
+  }
+};
+
+}  // namespace detail
+
 }  // namespace scarp

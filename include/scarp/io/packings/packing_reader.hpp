@@ -152,34 +152,10 @@ inline void refuse_places_in_space(CsvColumns const& table) {
   }
 }
 
-/// Overlap [m] of a listed pair and the smaller of its contact radii [m].
-struct Depth {
-  double overlap;
-  double radius;
-};
-
-template <class PackingType>
-Depth pair_depth(PackingType const& packing, std::size_t pair) {
-  using Shape = typename PackingType::Shape;
-  auto const& pairs = packing.pairs;
-  auto const first = detail::index(pairs.first[pair]);
-  auto const second = detail::index(pairs.second[pair]);
-  auto branch = row_position(packing, second);
-  auto const from = row_position(packing, first);
-  Point<PackingType::dim, double> start{};
-  for (std::size_t a = 0; a < branch.size(); ++a) {
-    branch[a] -= from[a];
-    if constexpr (Shape::remembers_normal) start[a] = static_cast<double>(pairs.normal(pair, static_cast<int>(a)));
-  }
-  auto const pose = row_pose(packing, first);
-  auto const other = row_pose(packing, second);
-  return {settled_touch<Shape>(pose, other, branch, start).overlap,
-          std::min(Shape::contact_radius(pose), Shape::contact_radius(other))};
-}
-
 /// Takes a copy, because making the list of pairs wraps the positions.
 template <class PackingType>
 void refuse_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& ids, std::string const& file) {
+  using Shape = typename PackingType::Shape;
   if (!rebuild_pairs(packing, 0.0).acceptable()) {
     refuse(
         "the grains of '{}' do not fit into their cell (its base vectors must be right-handed and its faces more than "
@@ -188,13 +164,15 @@ void refuse_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& 
         file);
   }
   for (std::size_t p = 0; p < packing.pairs.count(); ++p) {
-    Depth const depth = pair_depth(packing, p);
-    if (depth.overlap <= depth.radius) continue;
+    NearTouch<PackingType> const near(packing, p);
+    double const overlap = near.touch.overlap;
+    double const radius = std::min(Shape::contact_radius(near.first), Shape::contact_radius(near.second));
+    if (overlap <= radius) continue;
     refuse(
         "grains {} and {} of '{}' overlap by {} m (more than the smaller one's radius {}): check cell, units and "
         "repeated grains",
         ids[grain_of_row(packing, detail::index(packing.pairs.first[p]))],
-        ids[grain_of_row(packing, detail::index(packing.pairs.second[p]))], file, depth.overlap, depth.radius);
+        ids[grain_of_row(packing, detail::index(packing.pairs.second[p]))], file, overlap, radius);
   }
 }
 

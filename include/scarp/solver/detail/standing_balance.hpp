@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "scarp/solver/free_system.hpp"
+
 namespace scarp::detail {
 
 /// Where unbalanced forces cease to do work along a straight way: of bodies with a potential the place of the least one. The
@@ -58,14 +60,11 @@ std::optional<double> share_without_work(Work const& work, double most) {
 template <class Problem>
 class StandingBalance {
  public:
-  explicit StandingBalance(Problem& problem) : problem_(problem), length_(problem.length()) {
-    for (int const dof : problem.constraints().free_dofs()) {
-      if (dof >= problem.first_beside()) dofs_.push_back(dof);
-    }
-  }
+  explicit StandingBalance(Problem& problem)
+      : problem_(problem), length_(problem.length()), own_(dofs_beside(problem), problem.dof_count()) {}
 
   /// Whether the contacts of the last question hold it in every direction.
-  bool is_held() const { return dofs_.empty() || factors(problem_.attached_stiffness()).isInvertible(); }
+  bool is_held() const { return own_.free_count() == 0 || factors(problem_.attached_stiffness()).isInvertible(); }
 
   /// Begins the count of questions to the attachment, which are limited: a body that slides without friction, or on springs so
   /// stiff that round-off hides its imbalance, could be asked without end.
@@ -76,10 +75,10 @@ class StandingBalance {
   /// The attachment's trial state then belongs to the increment.
   /// \return whether they balance, to `accuracy` of the loads beside the mesh
   bool settle(Eigen::VectorXd& increment, Eigen::VectorXd const& loads, double accuracy) {
-    if (dofs_.empty()) return true;
-    loads_ = gather(loads);
+    if (own_.free_count() == 0) return true;
+    loads_ = own_.gather(loads);
     double const enough = accuracy * loads_.norm();
-    Eigen::VectorXd place = gather(increment);
+    Eigen::VectorXd place = own_.gather(increment);
     Eigen::VectorXd unbalanced = at(place, increment);
     for (int iteration = 0; iteration < most_iterations && !spent(); ++iteration) {
       if (unbalanced.norm() <= better * enough) break;
@@ -90,6 +89,12 @@ class StandingBalance {
   }
 
  private:
+  static std::vector<int> dofs_beside(Problem const& problem) {
+    auto dofs = problem.constraints().free_dofs();
+    std::erase_if(dofs, [&](int dof) { return dof < problem.first_beside(); });
+    return dofs;
+  }
+
   static constexpr int most_iterations = 100;
   static constexpr int most_questions = 3000;
   static constexpr double better = 1e-3;  ///< of the accuracy asked for, where Newton's method comes that far
@@ -136,29 +141,18 @@ class StandingBalance {
   /// Unbalanced forces [N] with the body at a place.
   Eigen::VectorXd at(Eigen::VectorXd const& place, Eigen::VectorXd& increment) {
     ++asked_;
-    for (std::size_t k = 0; k < dofs_.size(); ++k) increment(dofs_[k]) = place(static_cast<Eigen::Index>(k));
-    return gather(problem_.attached_forces(increment)) - loads_;
-  }
-
-  Eigen::VectorXd gather(Eigen::VectorXd const& all) const {
-    Eigen::VectorXd own(static_cast<Eigen::Index>(dofs_.size()));
-    for (std::size_t k = 0; k < dofs_.size(); ++k) own(static_cast<Eigen::Index>(k)) = all(dofs_[k]);
-    return own;
+    own_.scatter(place, increment);
+    return own_.gather(problem_.attached_forces(increment)) - loads_;
   }
 
   /// Of the part of a stiffness beside the mesh.
   Eigen::FullPivLU<Eigen::MatrixXd> factors(Eigen::SparseMatrix<double> const& all) const {
-    auto const size = static_cast<Eigen::Index>(dofs_.size());
-    Eigen::MatrixXd own(size, size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      for (Eigen::Index k = 0; k < size; ++k)
-        own(i, k) = all.coeff(dofs_[static_cast<std::size_t>(i)], dofs_[static_cast<std::size_t>(k)]);
-    return Eigen::FullPivLU<Eigen::MatrixXd>(own);
+    return Eigen::FullPivLU<Eigen::MatrixXd>(Eigen::MatrixXd(own_.matrix(all)));
   }
 
   Problem& problem_;
-  double length_;          ///< of the body [m]
-  std::vector<int> dofs_;  ///< free ones beside the mesh
+  double length_;   ///< of the body [m]
+  FreeSystem own_;  ///< beside the mesh
   Eigen::VectorXd loads_;
   int asked_ = 0;
 };

@@ -73,7 +73,7 @@ inline std::vector<GmshPick> pick_gmsh_elements(GmshContent const& content, int 
       nodes += block.type.nodes;
     }
   }
-  std::stable_sort(picks.begin(), picks.end(), [](auto const& a, auto const& b) { return a.tag < b.tag; });
+  std::ranges::stable_sort(picks, {}, &GmshPick::tag);
   return picks;
 }
 
@@ -81,23 +81,21 @@ inline std::vector<GmshPick> pick_gmsh_elements(GmshContent const& content, int 
 class GmshNumbering {
  public:
   GmshNumbering(GmshContent const& content, std::vector<GmshPick> const& picks, int nodes_each)
-      : file_(content.file), nodes_(content.nodes) {
-    auto const by_tag = [](auto const& a, auto const& b) { return a.tag < b.tag; };
-    std::stable_sort(nodes_.begin(), nodes_.end(), by_tag);
-    auto const twice =
-        std::adjacent_find(nodes_.begin(), nodes_.end(), [](auto const& a, auto const& b) { return a.tag == b.tag; });
+      : nodes_(content.nodes) {
+    std::ranges::stable_sort(nodes_, {}, &GmshNode::tag);
+    auto const twice = std::ranges::adjacent_find(nodes_, {}, &GmshNode::tag);
     if (twice != nodes_.end()) {
-      refuse("'{}' lists node {} twice (each node has its own tag): write the file again", file_, twice->tag);
+      refuse("'{}' lists node {} twice (each node has its own tag): write the file again", content.file, twice->tag);
     }
     std::vector<bool> used(nodes_.size(), false);
     for (auto const& pick : picks) {
       for (auto const tag : std::span(pick.nodes, index(nodes_each))) {
-        auto const found = std::lower_bound(nodes_.begin(), nodes_.end(), GmshNode{tag, {}}, by_tag);
-        if (found == nodes_.end() || found->tag != tag) {
-          refuse("element {} of '{}' names node {} (the file has no such node): write the file again", pick.tag, file_,
-                 tag);
+        int const node = (*this)(tag);
+        if (node < 0) {
+          refuse("element {} of '{}' names node {} (the file has no such node): write the file again", pick.tag,
+                 content.file, tag);
         }
-        used[detail::index(found - nodes_.begin())] = true;
+        used[index(node)] = true;
       }
     }
     std::size_t kept = 0;
@@ -111,8 +109,7 @@ class GmshNumbering {
 
   /// \return -1 for a node that no element uses
   int operator()(std::int64_t tag) const {
-    auto const found = std::lower_bound(nodes_.begin(), nodes_.end(), tag,
-                                        [](GmshNode const& node, std::int64_t wanted) { return node.tag < wanted; });
+    auto const found = std::ranges::lower_bound(nodes_, tag, {}, &GmshNode::tag);
     return found == nodes_.end() || found->tag != tag ? -1 : static_cast<int>(found - nodes_.begin());
   }
 
@@ -125,7 +122,6 @@ class GmshNumbering {
   }
 
  private:
-  std::string file_;
   std::vector<GmshNode> nodes_;
 };
 
@@ -148,21 +144,19 @@ class ElementSides {
         sides_.push_back({sorted(side), side});
       }
     }
-    std::sort(sides_.begin(), sides_.end(), [](auto const& a, auto const& b) { return a.key < b.key; });
+    std::ranges::sort(sides_, {}, &Entry::key);
   }
 
   /// Turns the nodes so that the outward normal of an element is theirs; between two elements the given sense stays.
   /// \return false when no element has such a side
   bool orient(Side& side) const {
     auto const key = sorted(side);
-    auto const first = std::lower_bound(sides_.begin(), sides_.end(), key,
-                                        [](Entry const& entry, Side const& wanted) { return entry.key < wanted; });
-    if (first == sides_.end() || first->key != key) return false;
-    for (auto entry = first; entry != sides_.end() && entry->key == key; ++entry) {
-      if (same_winding<typename Element::Facet>(side, entry->nodes)) return true;
+    auto const same = std::ranges::equal_range(sides_, key, {}, &Entry::key);
+    for (Entry const& entry : same) {
+      if (same_winding<typename Element::Facet>(side, entry.nodes)) return true;
     }
-    side = first->nodes;
-    return true;
+    if (!same.empty()) side = same.front().nodes;
+    return !same.empty();
   }
 
  private:
