@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""[slow] fault_slab: a slab whose fault is the same along the strike tells one answer for any number of elements there, on packings of
+"""[nightly] fault_slab: a slab whose fault is the same along the strike tells one answer for any number of elements there, on packings of
 spheres too; one that dies out tells a smaller settlement towards its end; a stopped run goes on with the same results.
 Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
