@@ -2,18 +2,40 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "scarp/core/precompiled.hpp"
 #include "scarp/element/tri3.hpp"
-#include "scarp/fault/detail/grid_slab.hpp"
 #include "scarp/fault/detail/layer_checks.hpp"
+#include "scarp/mesh/box_mesh.hpp"
 #include "scarp/mesh/graded_lines.hpp"
 #include "scarp/mesh/jittered_grid.hpp"
+#include "scarp/mesh/pattern_grid.hpp"
 
 namespace scarp {
+namespace detail {
+
+/// A slab over a grid in the plane: x stays, the strike becomes y, the plane's y becomes z. Boundaries
+/// as BoxMesh names them.
+/// nodes: of the plane grid [m]; strike: thickness [m], in so many cells
+template <ReferenceElement Element>
+Mesh<Element> grid_slab(std::vector<Vector<2>> const& nodes, GridNumbers const& numbers, double strike, int cells) {
+  static_assert(Element::dim == 3 && !HasMidSides<Element>);
+  auto const to_place = [&](Vector<3> const& counted) -> Vector<3> {  // counted in cells along x and z
+    auto const line = [&](int axis) { return static_cast<int>(std::lround(counted(axis))); };
+    Vector<2> const place = nodes[index(numbers(line(0), line(2)))];
+    return {place.x(), counted.y(), place.y()};
+  };
+  return BoxMesh<Element>{.lengths = Vector<3>(numbers.columns(), strike, numbers.rows()),
+                          .cells = {numbers.columns(), cells, numbers.rows()},
+                          .map = to_place}
+      .generate();
+}
+
+}  // namespace detail
 
 /// Soil layer over a fault: height 0 is bedrock level, `depth` the ground surface, the fault meets bedrock at (tip, 0).
 /// The last axis is vertical. A grid, finest in the band where the shear band and its outcrop are expected; a line

@@ -7,7 +7,7 @@
 #include "scarp/fault/fault_scene.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
-#include "scarp/mesh/straight_facets.hpp"
+#include "scarp/mesh/facets.hpp"
 
 namespace scarp {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/mesh/outer_facets.hpp"
+#include "scarp/mesh/facets.hpp"
 
 namespace scarp::detail {
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "scarp/mesh/mesh.hpp"
@@ -42,6 +44,25 @@ std::vector<ElementSide<Element>> outer_facets(Mesh<Element> const& mesh) {
   }
   std::stable_sort(outer.begin(), outer.end(), [](auto const& a, auto const& b) { return a.element < b.element; });
   return outer;
+}
+
+/// The facets of a plane mesh's boundary as straight pieces between neighbouring nodes, in the direction of the
+/// facets; one with a node in its middle gives two.
+/// \throws InputError for an unknown name, listing the known ones
+template <class Element>
+  requires(Element::dim == 2)
+std::vector<std::array<int, 2>> straight_facets(Mesh<Element> const& mesh, std::string_view name) {
+  std::vector<std::array<int, 2>> pieces;
+  for (auto const& facet : boundary(mesh, name)) {
+    if constexpr (Element::facet_nodes == 2) {
+      pieces.push_back(facet);
+    } else {
+      static_assert(Element::facet_nodes == 3, "facets with one node in the middle at most");
+      pieces.push_back({facet[0], facet[2]});
+      pieces.push_back({facet[2], facet[1]});
+    }
+  }
+  return pieces;
 }
 
 }  // namespace scarp

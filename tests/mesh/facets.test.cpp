@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/mesh/straight_facets.hpp"
+#include "scarp/mesh/facets.hpp"
 
 #include <doctest/doctest.h>
 
