@@ -37,7 +37,10 @@ Companion turned_mesh(Choice choice) {
     choice.aspect = aspect;
     options.emplace_back("aspect", fmt::format("{:g}", aspect));
   }
-  if (choice.triangles == 0) {
+  if (choice.strip_width > 0.0) {
+    options.emplace_back("size", fmt::format("{}", choice.size));
+    options.emplace_back("strip-width", fmt::format("{}", choice.strip_width));
+  } else if (choice.triangles == 0) {
     auto const size = fmt::format("{:.3g}", factor * choice.size);
     choice.size = std::stod(size);  // as it would be given
     options.emplace_back("size", size);

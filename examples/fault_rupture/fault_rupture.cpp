@@ -104,11 +104,19 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
                           ->description("a mesh of the study's size, 7563 triangles; other options still apply")
                           ->configurable(false)
                           ->disable_flag_override();
-  app.add_option("--size", choice.size, "width of a mesh cell in the band [m]")->check(number_from(0.0, false, 25.0));
-  for (char const* other : {"--quick", "--size"}) study->excludes(app.get_option(other));
+  app.add_option("--size", choice.size,
+                 "width of a mesh cell in the band [m]; with --strip-width size of the elements in the strip")
+      ->check(number_from(0.0, false, 25.0));
+  app.add_option(
+         "--strip-width", choice.strip_width,
+         "width at bedrock of the strip of small elements along the expected rupture [m]; 0 for none; a --length "
+         "below 6 m chooses it, and --size")
+      ->check(number_from(0.0, true, 1e3));
+  for (char const* other : {"--quick", "--size", "--strip-width"}) study->excludes(app.get_option(other));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
       ->check(CLI::Range(100, 1'000'000))
-      ->excludes("--size");
+      ->excludes("--size")
+      ->excludes("--strip-width");
   app.add_option("--element", element, "compiled in: examples/run builds and runs the program of the one that is named")
       ->check(CLI::IsMember({"tri3", "tri6", "quad4", "quad8"}));
   add_named<MeshPattern>(
@@ -125,7 +133,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   auto* const file =
       app.add_option("--mesh", choice.mesh, "Gmsh file: region soil; boundaries left, right, bottom, surface")
           ->check(CLI::ExistingFile);
-  for (char const* made_mesh : {"--size", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
+  for (char const* made_mesh : {"--size", "--strip-width", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
   file->excludes(study);
   app.add_option("--length", choice.length,
@@ -256,6 +264,9 @@ int main(int argc, char** argv) {
     fault_rupture::give_up(2);
   }
   try {
+    bool const is_uniform = app.count("--strip-width") > 0 && choice.strip_width == 0.0;
+    if (app.count("--size") == 0 && choice.triangles == 0 && choice.mesh.empty() && !is_uniform)
+      fault_rupture::choose_strip<fault_rupture::Element>(choice);
     if (app.count("--estimate") > 0) {
       if (fault_rupture::rank() == 0) print_estimate(choice, seeds.size());
       return 0;

@@ -15,6 +15,7 @@
 #include "scarp/observe/floor_share.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
+#include "scarp/observe/surface_mean.hpp"
 #include "team.hpp"
 
 namespace fault_rupture {
@@ -130,6 +131,10 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
   json["element"] = element_name;
   json["elements"] = grid.mesh().elements.size();
+  if (choice.strip_width > 0.0) {
+    json["strip_size"] = choice.size;
+    json["strip_width"] = choice.strip_width;
+  }
   if (choice.soil == Soil::dem) {
     json["grains_per_rve"] = choice.grains;
     json["seed"] = choice.seed;
@@ -145,6 +150,9 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   }
   json["vertical_stress_error"] = rest.vertical_error;
   add_rupture(json, survey, offset.tip - survey.depth / std::tan(scene.fault.dip));
+  auto const mean = scarp::surface_mean(grid.mesh(), ground, grid.positions(), offset);
+  json["surface_mean"] = mean.surface_mean;
+  json["dilated_area"] = mean.dilated_area;
   json["settlement_foot_over_throw"] =
       offset.share(scarp::settlement_at(profile, profile.front().x_initial + from_side));
   json["settlement_hanging_over_throw"] =
@@ -195,6 +203,10 @@ inline std::string table(nlohmann::ordered_json const& json) {
   row("surface_x50 [m]: half of the throw has passed", fmt::format("{:.2f}", number("surface_x50")), block.c_str());
   row("surface_x05, surface_x95 [m]", fmt::format("{:.2f}, {:.2f}", number("surface_x05"), number("surface_x95")),
       "a sharp band: both at surface_x50");
+  row("surface_mean [m]: mean of the settlement profile", fmt::format("{:.2f}", number("surface_mean")),
+      "follows from the next line alone (docs/grounds.md)");
+  row("dilated_area [m2]: growth of the ground's area", fmt::format("{:.2f}", number("dilated_area")),
+      "moves the mean by itself over the throw");
   row("steepest slope of the surface [degrees]", fmt::format("{:.1f}", degrees(std::atan(number("surface_slope_max")))),
       "not reported");
   row("mid_line_dip [degrees]: tip to surface_x50", fmt::format("{:.1f}", degrees(number("mid_line_dip"))),

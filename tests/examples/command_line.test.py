@@ -154,6 +154,7 @@ def check_warnings():
             expect(told in said if told else "warning" not in said, f"{title}: said\n{said}")
     check_refusal(FAULT, "negative length", "--length", "-1", "--length")
     check_refusal(FAULT, "NaN length", "--length", "nan", "--length")
+    check_refusal(FAULT, "strip of negative width", "--strip-width", "-1", "--strip-width")
 
 
 def check_materials():

@@ -23,7 +23,8 @@ struct Choice {
   Soil soil = Soil::dem;
   Base base = Base::sticking;
   bool quick = false;                  ///< looser defaults of tolerance and load steps with packings
-  double size = 2.5;                   ///< [m], cell width in the band
+  double size = 2.5;                   ///< [m], cell width in the band, or size of the elements in the strip
+  double strip_width = 0.0;            ///< [m], at bedrock, of the strip with small elements; 0 for a uniform mesh
   int triangles = 0;                   ///< wanted number of elements instead of `size`; 0 for none
   std::optional<MeshPattern> pattern;  ///< crossed, or quads where elements are quadrilaterals
   double aspect = 1.0;                 ///< height of a cell over its width
@@ -81,6 +82,7 @@ struct Choice {
     visit("footing", self.base);
     visit("quick", self.quick);
     visit("size", self.size);
+    visit("strip-width", self.strip_width);
     visit("triangles", self.triangles);
     visit("pattern", self.pattern);
     visit("aspect", self.aspect);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "chosen_ground.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include "../tell.hpp"
 #include "scarp/fault/given_ground.hpp"
 
@@ -8,7 +11,9 @@ namespace fault_rupture {
 
 template <class E>
 scarp::Mesh<E> ChosenGround<E>::mesh(std::vector<double> const& edges) const {
-  return given ? scarp::GivenGround<E>{*given}.mesh(edges) : layer.generate<E>(edges);
+  if (given) return scarp::GivenGround<E>{*given}.mesh(edges);
+  if (strip) return scarp::RefinedGround{scarp::LayeredGround<E>{layer}, *strip}.mesh(edges);
+  return layer.generate<E>(edges);
 }
 
 template <class E>
@@ -19,6 +24,46 @@ double ChosenGround<E>::surface_level() const {
 template <class E>
 double ChosenGround<E>::depth() const {
   return given ? scarp::surface_level(*given) - scarp::bottom_level(*given) : layer.depth;
+}
+
+namespace {
+
+constexpr double largest_size = 5.0;  ///< [m], far from the strip
+
+/// Along the line from the tip on which dilating sand ruptures, as measured: 3.4 degrees steeper than a normal fault.
+scarp::StripSize strip_of(Choice const& choice) {
+  double const steeper = choice.reverse ? -3.4 : 3.4;
+  return {.tip = choice.tip,
+          .dip = (choice.dip + steeper) * std::numbers::pi / 180.0,
+          .half_width = choice.strip_width / 2.0,
+          .fine = choice.size,
+          .coarse = std::max(choice.size, largest_size)};
+}
+
+/// Cells whose elements have the size itself after whole bisections.
+void make_coarse(scarp::FaultMesh& layer, double size) {
+  while (size * std::numbers::sqrt2 <= largest_size) size *= std::numbers::sqrt2;
+  bool const diagonals = layer.pattern == scarp::Pattern::left || layer.pattern == scarp::Pattern::right;
+  layer.size = is_triangle ? (diagonals ? size / std::numbers::sqrt2 : size) : 2.0 * size;
+  layer.coarsening = 1.0;
+}
+
+}  // namespace
+
+template <class E>
+void choose_strip(Choice& choice) {
+  constexpr double shortest = 0.25;  // [m], some hundred thousand triangles
+  // As many points within the length for all elements; quadratic triangles have three.
+  double const size = (E::nodes == 6 ? 0.71 : 0.41) * choice.length;
+  if (!(choice.length > 0.0 && size < Choice{}.size)) return;
+  if (choice.length < shortest) {
+    scarp::refuse(
+        "--length is {} m (from {} m on the mesh is made for it): choose a longer one, or give --size for a uniform "
+        "mesh",
+        choice.length, shortest);
+  }
+  choice.size = size;
+  if (choice.strip_width == 0.0) choice.strip_width = 4.0 * std::sqrt(choice.length);
 }
 
 template <class E>
@@ -43,10 +88,13 @@ ChosenGround<E> ground_of(Choice const& choice) {
       break;
   }
   if (choice.triangles > 0) layer = layer.with_about<E>(choice.triangles);
-  return {.layer = layer};
+  if (choice.strip_width == 0.0) return {.layer = layer};
+  make_coarse(layer, choice.size);
+  return {.layer = layer, .strip = strip_of(choice)};
 }
 
 template struct ChosenGround<Element>;
+template void choose_strip<Element>(Choice&);
 template ChosenGround<Element> ground_of(Choice const&);
 
 }  // namespace fault_rupture

@@ -8,6 +8,7 @@
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/fault_mesh.hpp"
+#include "scarp/fault/refined_ground.hpp"
 
 namespace fault_rupture {
 
@@ -23,18 +24,25 @@ constexpr char const* element_name = Element::nodes == 3   ? "tri3"
                                                            : "quad8";
 constexpr bool is_triangle = Element::nodes % 3 == 0;
 
-/// A layer in a mesh of its own, or the mesh of a file. Defined in chosen_ground.cpp for one element.
+/// A layer in a mesh of its own, refined in a strip where there is one, or the mesh of a file. Defined in chosen_ground.cpp for one element.
 template <class ElementType>
 struct ChosenGround {
   using Element = ElementType;
 
   scarp::FaultMesh layer{};
+  std::optional<scarp::StripSize> strip{};
   std::optional<scarp::Mesh<Element>> given{};
 
   scarp::Mesh<Element> mesh(std::vector<double> const& edges) const;
   double surface_level() const;
   double depth() const;
 };
+
+/// Size of the elements and, unless it is chosen already, width of the strip that a length asks for where it is too short
+/// for the usual mesh.
+/// \throws scarp::InputError for a length that asks for too many elements
+template <class ElementType>
+void choose_strip(Choice& choice);
 
 /// \throws scarp::InputError for choices that do not fit together
 template <class ElementType>

@@ -79,6 +79,39 @@ void name_boundaries(Mesh<typename Element::Linear> const& linear, Mesh<Element>
 template <class Element>
 using LinearOf = typename detail::CornerElement<Element>::Type;
 
+/// The mesh of the corners alone, in their order; regions and boundaries keep their names.
+template <ReferenceElement Element>
+Mesh<LinearOf<Element>> corner_mesh(Mesh<Element> const& mesh) {
+  using Linear = LinearOf<Element>;
+  if constexpr (std::is_same_v<Linear, Element>) {
+    return mesh;
+  } else {
+    static_assert(detail::facets_agree<Element>(), "the facets of both elements must be in the same order");
+    Mesh<Linear> linear{{}, {}, mesh.element_region, mesh.regions, {}};
+    std::vector<int> number_of(mesh.nodes.size(), -1);
+    for (auto const& element : mesh.elements) {
+      for (std::size_t a = 0; a < Linear::nodes; ++a) number_of[detail::index(element[a])] = 0;
+    }
+    for (std::size_t n = 0; n < number_of.size(); ++n) {
+      if (number_of[n] < 0) continue;
+      number_of[n] = detail::count(linear.nodes);
+      linear.nodes.push_back(mesh.nodes[n]);
+    }
+    auto const corners_of = [&](auto const& all, auto corners) {
+      for (std::size_t a = 0; a < corners.size(); ++a) corners[a] = number_of[detail::index(all[a])];
+      return corners;
+    };
+    for (auto const& element : mesh.elements) {
+      linear.elements.push_back(corners_of(element, std::array<int, Linear::nodes>{}));
+    }
+    for (auto const& [name, facets] : mesh.boundaries) {
+      auto& named = linear.boundaries[name];
+      for (auto const& facet : facets) named.push_back(corners_of(facet, std::array<int, Linear::facet_nodes>{}));
+    }
+    return linear;
+  }
+}
+
 /// The mesh with one more node in the middle of every edge, shared by the elements there; edges stay straight. Corners
 /// keep their numbers, regions and boundaries their names.
 /// \throws InputError for an invalid mesh

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "scarp/fault/ground.hpp"
+#include "scarp/mesh/refined.hpp"
+
+namespace scarp {
+
+/// Small elements in a strip around the line along which a rupture is expected, from the fault's tip upwards and, for a
+/// dip below 90 degrees, to the left; the size grows linearly beside the strip.
+struct StripSize {
+  double tip = 0.0;          ///< x [m]
+  double bedrock = 0.0;      ///< height of the tip [m]
+  double dip = 1.107;        ///< of the line [rad]; in dilating sand above the dip of a normal fault
+  double half_width = 4.0;   ///< along x, at the tip [m]
+  double widening = 0.16;    ///< of half the width over the height
+  double fine = 1.25;        ///< size inside [m]
+  double coarse = 5.0;       ///< size from `transition` outside on [m]
+  double transition = 14.0;  ///< along x [m]
+
+  double size(Vector<2> const& place) const {
+    double const height = place.y() - bedrock;
+    double const from_line = std::abs(place.x() - tip + height / std::tan(dip));
+    double const outside = from_line - half_width - widening * height;
+    return fine + (coarse - fine) * std::clamp(outside / transition, 0.0, 1.0);
+  }
+};
+
+/// Any plane ground with the elements of its mesh refined where a field wants them smaller, see `refined`. The ground's
+/// own mesh is as coarse as the field's largest size; the directions of its sides, its jitter and its seed carry over.
+template <CheckedGround GroundType, SizeField Field = StripSize>
+  requires(GroundType::Element::dim == 2)
+struct RefinedGround {
+  using Element = typename GroundType::Element;
+
+  GroundType ground{};
+  Field field{};
+
+  /// edges: x [m] where a structure needs corner nodes on the surface
+  Mesh<Element> mesh(std::vector<double> const& edges) const { return refined(ground.mesh(edges), field); }
+
+  double surface_level() const { return ground.surface_level(); }  ///< along the last axis [m]
+};
+
+template <class GroundType, class Field>
+RefinedGround(GroundType, Field) -> RefinedGround<GroundType, Field>;
+
+static_assert(Ground<RefinedGround<LayeredGround<>>>);
+
+}  // namespace scarp

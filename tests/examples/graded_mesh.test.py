@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSL-1.0
+"""[slow] Graded meshes of fault_rupture: a short --length refines a strip along the rupture, --size and --strip-width override it, meshes of
+other directions agree. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
+program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
+if not program.is_file():
+    print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
+    sys.exit(77)
+
+
+def run(folder, *options):
+    return subprocess.run([program.resolve(), "--soil", "mohr_coulomb", "--frames", "1", "--overwrite", "--output", "out", *options],
+                          cwd=folder, capture_output=True, text=True)
+
+
+def told(folder, *options):
+    done = run(folder, *options)
+    expect(done.returncode == 0, f"{options}: ended with {done.returncode}: {done.stderr[-500:]}")
+    return json.loads(pathlib.Path(folder, "out", "summary.json").read_text()) if done.returncode == 0 else {}
+
+
+BEGINNING = ("--throw-over-depth", "0.002")
+with tempfile.TemporaryDirectory() as scratch:
+    graded = told(scratch, "--length", "4")
+    expect(graded["strip_size"] == 0.41 * 4.0 and graded["strip_width"] == 8.0, f"a length chooses the strip: {graded}")
+    expect(graded["elements"] < 1000, f"far elements stay large: {graded['elements']}")
+    expect(graded["vertical_stress_error"] < 1e-2, "the ground at rest carries its weight")
+    turned = told(scratch, "--length", "4", "--pattern", "right")
+    # Bound of the error budget's part "mesh": 4 % of the depth.
+    expect(abs(graded["surface_x50"] - turned["surface_x50"]) < 1.0, f"x50 {graded['surface_x50']} and {turned['surface_x50']}")
+    expect(graded["bands"][1]["band_width"] < 9.0, f"the band is of the length, not of the coarse mesh: {graded['bands']}")
+
+    for options in (("--length", "8"), ("--length", "4", "--size", "2.5"), ("--length", "4", "--strip-width", "0")):
+        even = told(scratch, *options, *BEGINNING)
+        expect("strip_size" not in even and even["elements"] == 960, f"{options}: uniform, {even['elements']} elements")
+    wide = told(scratch, "--length", "4", "--strip-width", "16", *BEGINNING)
+    expect(wide["elements"] > graded["elements"] and wide["strip_size"] == graded["strip_size"], "a wider strip has more elements")
+    own = told(scratch, "--size", "1", "--strip-width", "4", *BEGINNING)
+    expect(own["strip_size"] == 1.0 and own["strip_width"] == 4.0, "a strip of any size and width")
+    for options in (("--reverse", "--dip", "45"), ("--case", "heavy"), ("--case", "light", "--footing", "frictional")):
+        expect(told(scratch, "--length", "4", *options, *BEGINNING)["strip_size"] > 0.0, f"{options}: refined too")
+
+    done = run(scratch, "--length", "0.1")
+    expect(done.returncode > 0 and "--length is 0.1 m" in done.stderr and "--size" in done.stderr, f"too short a length: {done.stderr}")
+finish()
