@@ -106,6 +106,13 @@ def check_streams(folder, expected):
         expect(code == 0, f"{title}: ended with {code}\n{said[-1000:]}")
         expect(tables(here) == expected, f"{title}: other tables than those of an undisturbed run")
         expect((here / "out/summary.json").exists(), f"{title}: no summary")
+    for program in ("fault_rupture", "rve_lab", "rve_biaxial", "biaxial_specimen", "retaining_wall"):
+        for word, redirection, codes in (("--help", ">/dev/full", (1,)), ("--help", ">&- 2>&-", (0,)),
+                                         ("--no-such-option", "2>/dev/full", range(1, 128))):
+            title = f"{program} {word} {redirection}"
+            code, said = run(["sh", "-c", f'exec "$@" {redirection}', "sh", FAULT.with_name(program), word], folder)
+            expect(code in codes, f"{title}: ended with {code}\n{said[-1000:]}")
+            expect(redirection != ">/dev/full" or "cannot be written" in said, f"{title}: {said[-1000:]}")
 
 
 def check_signals(folder, expected):
