@@ -54,10 +54,11 @@ def draw_settlement(fig, axes, grid, path, alpha=1.0):
     triangles = np.vstack([grid.cells[:, [0, k, k + 1]] for k in range(1, corners - 1)])
     high = max(settlement.max(), 1e-6)
     levels = MaxNLocator(10).tick_values(settlement.min() if settlement.min() < -0.02 * high else 0.0, high)
+    levels = levels[np.abs(levels) > 1e-6 * high] if levels[0] < 0.0 else levels  # zero is where nothing happens
     settlement = np.clip(settlement, levels[0], levels[-1])
     mesh = Triangulation(*grid.points.T, triangles)
     filled = axes.tricontourf(mesh, settlement, levels=levels, cmap="Blues", alpha=alpha)
-    lines = [level for level in levels if settlement.min() < level < settlement.max()]
+    lines = [level for level in levels if 1e-6 * high < abs(level) and settlement.min() < level < settlement.max()]
     if lines:
         axes.tricontour(mesh, settlement, levels=lines, colors=BLACK, linewidths=0.4)
     fig.colorbar(filled, ax=axes, label="settlement [m]", aspect=14)

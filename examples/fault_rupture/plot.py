@@ -143,6 +143,7 @@ def surface_profiles(table):
 def outcrop_marks(axes, summary):
     marks = [(figures.finite(summary.get("outcrop_x")), VERMILION, "-", "outcrop here, last throw"),
              (figures.finite(summary.get("steepest_x")), GREEN, "-.", "steepest slope here, last throw"),
+             (figures.finite(summary.get("surface_mean")), GREEN, "-", "mean of the profile, last throw"),
              *((figures.finite(summary.get(f"surface_x{share}")), BLUE, line, f"{int(share)} % of the throw has passed here")
                for share, line in (("05", ":"), ("50", "-"), ("95", ":"))),
              (STUDY_OUTCROP, BLACK, "--", "study's text, surface starts to deflect"),

@@ -15,6 +15,8 @@ NUMBERS = (
     page.Number("surface_x50", "half of the throw has passed at x", "m", ".2f"),
     page.Number("surface_x05", "5 % of the throw has passed at x", "m", ".2f"),
     page.Number("surface_x95", "95 % of the throw has passed at x", "m", ".2f"),
+    page.Number("surface_mean", "mean of the settlement profile, at x", "m", ".2f"),
+    page.Number("dilated_area", "dilated area of the ground", "m2", ".2f"),
     page.Number("block_x50", "the fault's own line comes out at x", "m", ".2f"),
     page.Number("mid_line_dip", "dip from the tip to the middle", "degrees", ".1f", DEGREES),
     page.Number("surface_slope_max", "steepest slope of the surface", "%", ".1f", 100.0),
@@ -39,7 +41,8 @@ FIGURES = {
     "rupture": ("The rupture", "Deviatoric strain on the deforming mesh, from rest to the last throw."),
     "deformation": ("Deformed ground", "Deviatoric strain with the probes, and settlement with the middle of the band, at the last throw."),
     "strain_development": ("How the band grows", "Deviatoric strain at an eighth, a quarter, half and the whole of the throw."),
-    "surface": ("Surface", "Settlement of the surface at several throws, and where the rupture comes out."),
+    "surface": ("Surface", "Settlement of the surface at several throws, and where the rupture comes out. The mean of the profile differs "
+                "from the place where the fault's own line comes out by the dilated area over the throw."),
     "stress_crosses": ("Principal stresses", "Crosses along the principal directions at the last throw, over the settlement."),
     "probes": ("Response at the probes", "Deviatoric stress and volumetric strain against deviatoric strain."),
     "fabric": ("Fabric at the probes", "Anisotropy of contact normals and long axes against deviatoric strain."),
