@@ -103,12 +103,16 @@ def deformation(folder):
             upper.plot(*place, "o", markersize=5, color="white", markeredgecolor=PROBES[name], markeredgewidth=1.6)
             upper.annotate(name, place, xytext=(6, 4), textcoords="offset points", color=PROBES[name], weight="bold",
                            path_effects=[withStroke(linewidth=2.0, foreground="white")])
+    summary, depth = figures.read_summary(folder), layer_depth(folder)
+    for number, edge in enumerate(zip(*summary.get("strip_edges", []))):
+        upper.plot(edge, [0.0, depth], "--", color=GREY, linewidth=0.9, label=None if number else "strip of small elements")
+        upper.legend(loc="lower left", fontsize=7)
     upper.set_ylabel("y [m]")
     upper.set_title(f"Deformed mesh at h/H = {throw:.3g}", loc="left")
     upper.set_title(f"largest strain {np.nanmax(strain):.3g} %{status_note(grid)}", loc="right", fontsize=7.5)
     draw_settlement(fig, lower, grid, path)
     lower.set(xlabel="x [m]", ylabel="y [m]")
-    draw_bands(lower, figures.read_summary(folder), layer_depth(folder))
+    draw_bands(lower, summary, depth)
     lower.set_title("Vertical displacement", loc="left")
     return fig
 

@@ -118,6 +118,20 @@ inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const
   }
 }
 
+/// The strip of small elements: its edges from bedrock to the surface, and the least distance between them and the band,
+/// which has gone from 5 to 95 % of the offset. [m]
+inline void add_strip(nlohmann::ordered_json& json, scarp::StripSize const& strip, scarp::RuptureSurvey const& survey) {
+  json["strip_size"] = strip.fine;
+  json["strip_width"] = 2.0 * strip.half_width;
+  json["strip_edges"] = {strip.edges(0.0), strip.edges(survey.depth)};
+  double spare = std::numeric_limits<double>::infinity();
+  for (auto const& band : survey.bands) {
+    auto const [left, right] = strip.edges(band.height);
+    spare = std::min(spare, (right - left - band.band_width) / 2.0 - std::abs(band.band_x50 - (left + right) / 2.0));
+  }
+  json["strip_spare"] = spare;
+}
+
 template <class Problem, class SceneType>
 nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Problem const& problem, AtRest const& rest,
                                scarp::RunReport const& run, examples::RunUsage const& used) {
@@ -131,10 +145,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
   json["element"] = element_name;
   json["elements"] = grid.mesh().elements.size();
-  if (choice.strip_width > 0.0) {
-    json["strip_size"] = choice.size;
-    json["strip_width"] = choice.strip_width;
-  }
+  if (scene.ground.strip) add_strip(json, *scene.ground.strip, survey);
   if (choice.soil == Soil::dem) {
     json["grains_per_rve"] = choice.grains;
     json["seed"] = choice.seed;
@@ -217,6 +228,9 @@ inline std::string table(nlohmann::ordered_json const& json) {
         fmt::format("{:.1f}, {:.1f}, {:.0f}", of_band("band_x50"), of_band("band_width"), degrees(of_band("band_dip"))),
         "as the line above; across, the width of a shear band");
   }
+  if (json.contains("strip_spare"))
+    row("strip of small elements beside the band, least [m]", fmt::format("{:.1f}", number("strip_spare")),
+        "below 0 the band leaves it: give a wider --strip-width");
   row("settlement of the far foot wall / throw", fmt::format("{:.4f}", number("settlement_foot_over_throw")), "0");
   row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_over_throw")),
       "1");

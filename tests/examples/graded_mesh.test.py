@@ -32,6 +32,8 @@ BEGINNING = ("--throw-over-depth", "0.002")
 with tempfile.TemporaryDirectory() as scratch:
     graded = told(scratch, "--length", "4")
     expect(graded["strip_size"] == 0.41 * 4.0 and graded["strip_width"] == 8.0, f"a length chooses the strip: {graded}")
+    (left, right), (above_left, above_right) = graded["strip_edges"]
+    expect((left, right) == (-4.0, 4.0) and abs(above_right - above_left - (8.0 + 2 * 0.16 * 25.0)) < 1e-12, f"the edges: {graded['strip_edges']}")
     expect(graded["elements"] < 1000, f"far elements stay large: {graded['elements']}")
     expect(graded["vertical_stress_error"] < 1e-2, "the ground at rest carries its weight")
     turned = told(scratch, "--length", "4", "--pattern", "right")
@@ -42,6 +44,9 @@ with tempfile.TemporaryDirectory() as scratch:
     for options in (("--length", "8"), ("--length", "4", "--size", "2.5"), ("--length", "4", "--strip-width", "0")):
         even = told(scratch, *options, *BEGINNING)
         expect("strip_size" not in even and even["elements"] == 960, f"{options}: uniform, {even['elements']} elements")
+    narrow = told(scratch, "--length", "4", "--strip-width", "0.5")
+    expect(narrow["strip_spare"] < 0.0 < told(scratch, "--length", "4", "--strip-width", "24")["strip_spare"],
+           "a band that is wider than its strip leaves it")
     wide = told(scratch, "--length", "4", "--strip-width", "16", *BEGINNING)
     expect(wide["elements"] > graded["elements"] and wide["strip_size"] == graded["strip_size"], "a wider strip has more elements")
     own = told(scratch, "--size", "1", "--strip-width", "4", *BEGINNING)

@@ -57,6 +57,8 @@ TEST_CASE("the strip is fine along its line, coarse far away and grows between")
   CHECK(strip.size({-7.0 - 3.0 - 5.0, -10.0}) == samples::Approx(2.5));  // halfway through the transition
   CHECK(strip.size({-7.0 + 3.0 + 10.0, -10.0}) == samples::Approx(4.5));
   CHECK(strip.size({300.0, -10.0}) == 4.5);
+  CHECK(strip.edges(0.0)[0] == 1.0);
+  CHECK(strip.edges(10.0)[1] == samples::Approx(-7.0 + 3.0));
 }
 
 TEST_CASE_TEMPLATE("a layer is refined along the strip, with the nodes that structures ask for", Element, scarp::Tri3,

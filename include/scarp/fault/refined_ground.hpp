@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scarp/fault/ground.hpp"
@@ -21,10 +22,16 @@ struct StripSize {
   double coarse = 5.0;       ///< size from `transition` outside on [m]
   double transition = 14.0;  ///< along x [m]
 
+  /// Left and right edge of the strip at a height above bedrock [m].
+  std::array<double, 2> edges(double height) const {
+    double const middle = tip - height / std::tan(dip);
+    double const half = half_width + widening * height;
+    return {middle - half, middle + half};
+  }
+
   double size(Vector<2> const& place) const {
-    double const height = place.y() - bedrock;
-    double const from_line = std::abs(place.x() - tip + height / std::tan(dip));
-    double const outside = from_line - half_width - widening * height;
+    auto const [left, right] = edges(place.y() - bedrock);
+    double const outside = std::max(left - place.x(), place.x() - right);
     return fine + (coarse - fine) * std::clamp(outside / transition, 0.0, 1.0);
   }
 };
