@@ -151,12 +151,13 @@ class ElementSides {
   /// \return false when no element has such a side
   bool orient(Side& side) const {
     auto const key = sorted(side);
-    auto const same = std::ranges::equal_range(sides_, key, {}, &Entry::key);
-    for (Entry const& entry : same) {
-      if (same_winding<typename Element::Facet>(side, entry.nodes)) return true;
+    auto const first = std::ranges::lower_bound(sides_, key, {}, &Entry::key);
+    bool const is_side = first != sides_.end() && first->key == key;
+    for (auto entry = first; entry != sides_.end() && entry->key == key; ++entry) {
+      if (same_winding<typename Element::Facet>(side, entry->nodes)) return true;
     }
-    if (!same.empty()) side = same.front().nodes;
-    return !same.empty();
+    if (is_side) side = first->nodes;
+    return is_side;
   }
 
  private:
