@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Carries the precompiled headers that the examples share, and looks at the standard output when a program ends.
+// Looks at the standard output when a program ends; part of every example.
 #include <cstdio>
 #include <cstdlib>
 
