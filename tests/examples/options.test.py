@@ -56,7 +56,8 @@ with tempfile.TemporaryDirectory() as scratch:
                     expect(code > 0, f"{what}: ended with {code}\n{said[-500:]}")
                     # Where others are required, these are named before any file is looked for.
                     asks_first = kind.startswith("TEXT") and "is required" in said
-                    expect(option.lstrip("-") in said or option in TEXTS or value in said or asks_first, f"{what}: the message does not name it\n{said[-500:]}")
+                    is_named = option.lstrip("-") in said or option in TEXTS or value in said or asks_first
+                    expect(is_named, f"{what}: the message does not name it\n{said[-500:]}")
     expect(not list(pathlib.Path(scratch).iterdir()), f"files are left: {list(pathlib.Path(scratch).iterdir())}")
 expect(len(tried) >= 5 * ("fault_rupture" in built), "the help lists no options in the form that this test looks for")
 print(f"{len(tried)} options of {len(built)} programs")
