@@ -98,12 +98,12 @@ def check_full_disk_and_resume(folder, expected):
 
 def check_streams(folder, expected):
     """Nobody reads what the run says: it computes and writes the same."""
-    for title, words in (("an error stream on a full disk", "2>/dev/full"), ("closed streams", ">&- 2>&-"),
-                         ("an error stream that is closed", "2>&-")):
+    for title, words, ending in (("an error stream on a full disk", "2>/dev/full", 0), ("closed streams", ">&- 2>&-", 0),
+                                 ("an error stream that is closed", "2>&-", 0), ("both streams on a full disk", ">/dev/full 2>&1", 1)):
         here = folder / title.replace(" ", "_")
         here.mkdir()
         code, said = run(["sh", "-c", f'exec "$@" {words}', "sh", *SCENE], here)
-        expect(code == 0, f"{title}: ended with {code}\n{said[-1000:]}")
+        expect(code == ending, f"{title}: ended with {code}\n{said[-1000:]}")
         expect(tables(here) == expected, f"{title}: other tables than those of an undisturbed run")
         expect((here / "out/summary.json").exists(), f"{title}: no summary")
     for program in ("fault_rupture", "rve_lab", "rve_biaxial", "biaxial_specimen", "retaining_wall"):
