@@ -7,8 +7,8 @@
 
 #include "scarp/core/error.hpp"
 #include "scarp/mesh/detail/place_index.hpp"
-#include "scarp/mesh/mid_side_nodes.hpp"
 #include "scarp/mesh/facets.hpp"
+#include "scarp/mesh/mid_side_nodes.hpp"
 
 namespace scarp {
 
