@@ -41,8 +41,8 @@ FIGURES = {
     "rupture": ("The rupture", "Deviatoric strain on the deforming mesh, from rest to the last throw."),
     "deformation": ("Deformed ground", "Deviatoric strain with the probes, and settlement with the middle of the band, at the last throw."),
     "strain_development": ("How the band grows", "Deviatoric strain at an eighth, a quarter, half and the whole of the throw."),
-    "surface": ("Surface", "Settlement of the surface at several throws, and where the rupture comes out. The mean of the profile differs "
-                "from the place where the fault's own line comes out by the dilated area over the throw."),
+    "surface": ("Surface", "Settlement of the surface at several throws, and where the rupture comes out. Without dilation "
+                "the mean of the profile would lie on the fault's line at the mean height of both sides; the dilated area over the throw shifts it."),
     "stress_crosses": ("Principal stresses", "Crosses along the principal directions at the last throw, over the settlement."),
     "probes": ("Response at the probes", "Deviatoric stress and volumetric strain against deviatoric strain."),
     "fabric": ("Fabric at the probes", "Anisotropy of contact normals and long axes against deviatoric strain."),

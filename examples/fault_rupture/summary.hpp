@@ -124,12 +124,12 @@ inline void add_strip(nlohmann::ordered_json& json, scarp::StripSize const& stri
   json["strip_size"] = strip.fine;
   json["strip_width"] = 2.0 * strip.half_width;
   json["strip_edges"] = {strip.edges(0.0), strip.edges(survey.depth)};
-  double spare = std::numeric_limits<double>::infinity();
+  double margin = std::numeric_limits<double>::infinity();
   for (auto const& band : survey.bands) {
     auto const [left, right] = strip.edges(band.height);
-    spare = std::min(spare, (right - left - band.band_width) / 2.0 - std::abs(band.band_x50 - (left + right) / 2.0));
+    margin = std::min(margin, (right - left - band.band_width) / 2.0 - std::abs(band.band_x50 - (left + right) / 2.0));
   }
-  json["strip_spare"] = spare;
+  json["strip_margin"] = margin;
 }
 
 template <class Problem, class SceneType>
@@ -215,9 +215,9 @@ inline std::string table(nlohmann::ordered_json const& json) {
   row("surface_x05, surface_x95 [m]", fmt::format("{:.2f}, {:.2f}", number("surface_x05"), number("surface_x95")),
       "a sharp band: both at surface_x50");
   row("surface_mean [m]: mean of the settlement profile", fmt::format("{:.2f}", number("surface_mean")),
-      "follows from the next line alone (docs/grounds.md)");
+      "follows from the dilated area (docs/grounds.md)");
   row("dilated_area [m2]: growth of the ground's area", fmt::format("{:.2f}", number("dilated_area")),
-      "moves the mean by itself over the throw");
+      "0 for a rigid hanging wall; over the throw: shift of the mean");
   row("steepest slope of the surface [degrees]", fmt::format("{:.1f}", degrees(std::atan(number("surface_slope_max")))),
       "not reported");
   row("mid_line_dip [degrees]: tip to surface_x50", fmt::format("{:.1f}", degrees(number("mid_line_dip"))),
@@ -228,9 +228,9 @@ inline std::string table(nlohmann::ordered_json const& json) {
         fmt::format("{:.1f}, {:.1f}, {:.0f}", of_band("band_x50"), of_band("band_width"), degrees(of_band("band_dip"))),
         "as the line above; across, the width of a shear band");
   }
-  if (json.contains("strip_spare"))
-    row("strip of small elements beside the band, least [m]", fmt::format("{:.1f}", number("strip_spare")),
-        "below 0 the band leaves it: give a wider --strip-width");
+  if (json.contains("strip_margin"))
+    row("least distance of the band from the strip's edges [m]", fmt::format("{:.1f}", number("strip_margin")),
+        "below 0 the band leaves the strip: give a wider --strip-width");
   row("settlement of the far foot wall / throw", fmt::format("{:.4f}", number("settlement_foot_over_throw")), "0");
   row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_over_throw")),
       "1");

@@ -45,7 +45,7 @@ with tempfile.TemporaryDirectory() as scratch:
         even = told(scratch, *options, *BEGINNING)
         expect("strip_size" not in even and even["elements"] == 960, f"{options}: uniform, {even['elements']} elements")
     narrow = told(scratch, "--length", "4", "--strip-width", "0.5")
-    expect(narrow["strip_spare"] < 0.0 < told(scratch, "--length", "4", "--strip-width", "24")["strip_spare"],
+    expect(narrow["strip_margin"] < 0.0 < told(scratch, "--length", "4", "--strip-width", "24")["strip_margin"],
            "a band that is wider than its strip leaves it")
     wide = told(scratch, "--length", "4", "--strip-width", "16", *BEGINNING)
     expect(wide["elements"] > graded["elements"] and wide["strip_size"] == graded["strip_size"], "a wider strip has more elements")

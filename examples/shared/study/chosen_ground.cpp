@@ -30,7 +30,8 @@ namespace {
 
 constexpr double largest_size = 5.0;  ///< [m], far from the strip
 
-/// Along the line from the tip on which dilating sand ruptures, as measured: 3.4 degrees steeper than a normal fault.
+/// Along the line from the tip on which dilating sand ruptures: measured 3.4 degrees steeper than a normal fault, assumed
+/// as much less steep for a reverse one.
 scarp::StripSize strip_of(Choice const& choice) {
   double const steeper = choice.reverse ? -3.4 : 3.4;
   return {.tip = choice.tip,

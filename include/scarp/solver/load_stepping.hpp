@@ -192,7 +192,7 @@ struct LoadStepping {
       step.load_increment = step.load < to ? increment : to - run.load;
       return displacement;
     });
-    if (!began || step.interrupted()) {  // no smaller increment mends tangents or matrix
+    if (!began || step.interrupted()) {  // a smaller increment cannot correct tangents or matrix
       run.verdict = step.verdict;
       return;
     }
