@@ -73,7 +73,7 @@ def write_table(name, rows, said, key=()):
     path = data_folder() / f"{name}.csv"
     if key:
         new = {tuple(row[column] for column in key) for row in rows}
-        rows = [row for row in read_table(path) if tuple(row[column] for column in key) not in new] + rows
+        rows = [row for row in read_table(path) if tuple(row.get(column, "") for column in key) not in new] + rows
     if not rows:
         sys.exit(f"{path}: there are no rows (nothing was run)")
     columns = [column for column in dict.fromkeys(column for row in rows for column in row) if any(row.get(column) for row in rows)]
@@ -114,12 +114,13 @@ def summaries(folder):
     return {file.parent.name: json.loads(file.read_text()) for file in sorted(folder.glob("*/summary.json"))}
 
 
-def run_once(command, folder):
-    """Runs an example unless it has been; its result is its summary, also where it stopped early."""
+def run_once(command, folder, *how):
+    """Runs an example unless it has been; its result is its summary, also where it stopped early.
+    how: options for a folder that is there, --overwrite without any"""
     if summary_of(folder):
         return
     folder.parent.mkdir(parents=True, exist_ok=True)
-    command = [*map(str, command), "--output", str(folder), "--overwrite"]
+    command = [*map(str, command), "--output", str(folder), *map(str, how or ["--overwrite"])]
     done = subprocess.run(command, capture_output=True, text=True)
     if not (summary := summary_of(folder)):
         sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stderr[-2000:]}")

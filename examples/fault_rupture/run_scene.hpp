@@ -14,6 +14,7 @@
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
+#include "scarp/observe/generalised_reaction.hpp"
 #include "scarp/observe/packing_series.hpp"
 #include "scarp/observe/probe.hpp"
 #include "scarp/observe/progress.hpp"
@@ -183,12 +184,14 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   stages.stage([&] {
     auto const placed = scene.place(problem, stages);
     rest.ground = scarp::ground_at_rest(problem);  // a checkpoint of this stage comes back here
+    notes.reaction_at_rest = scarp::generalised_reaction(problem);
     return placed;
   });
   stages.stage([&] { return scene.rupture(problem, stages); });
   auto const& report = stages.report();
   bool const sound = !stages.stopped();  // all could be written
   if (!report.verdict.acceptable() && sound) observers.ended(problem, report.load);
+  double const reaction = scarp::generalised_reaction(problem) - notes.reaction_at_rest;
   on_first_rank(problem, [&] {
     takeover->take();  // also when nothing was left to do
     if (!sound) {
@@ -196,7 +199,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       begun.folder->end(stages.trouble());
       examples::say(stderr, "{}{}\n", begun.name, stages.trouble());
     }
-    auto json = summary(choice, scene, problem, rest, report, notes.used);
+    auto json = summary(choice, scene, problem, notes, reaction, report);
     json["run"] = examples::json_of(begun.folder->record());
     auto const written = [&](CompanionAnswers const& companions) {
       auto parts = budget.parts();

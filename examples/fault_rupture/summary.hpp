@@ -37,9 +37,10 @@ struct AtRest {
 /// What a run that goes on remembers of the processes before it.
 struct RunNotes {
   AtRest rest{};
+  double reaction_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< see generalised_reaction [N]
   examples::RunUsage used;
 
-  SCARP_MEMBERS(rest, used)
+  SCARP_MEMBERS(rest, reaction_at_rest, used)
 };
 
 template <class Problem, class SceneType>
@@ -132,9 +133,11 @@ inline void add_strip(nlohmann::ordered_json& json, scarp::StripSize const& stri
   json["strip_margin"] = margin;
 }
 
+/// reaction: of the moving bedrock, less that at rest [N]
 template <class Problem, class SceneType>
-nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Problem const& problem, AtRest const& rest,
-                               scarp::RunReport const& run, examples::RunUsage const& used) {
+nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Problem const& problem,
+                               RunNotes const& notes, double reaction, scarp::RunReport const& run) {
+  auto const& rest = notes.rest;
   auto const& grid = problem.discretisation();
   auto const& ground = rest.ground.of(grid.mesh());
   auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
@@ -164,6 +167,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   auto const mean = scarp::surface_mean(grid.mesh(), ground, grid.positions(), offset);
   json["surface_mean"] = mean.surface_mean;
   json["dilated_area"] = mean.dilated_area;
+  json["reaction"] = reaction;
   json["settlement_foot_over_throw"] =
       offset.share(scarp::settlement_at(profile, profile.front().x_initial + from_side));
   json["settlement_hanging_over_throw"] =
@@ -181,9 +185,9 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["share_of_time_outside_rves"] = 1.0 - json["share_of_time_in_rves"].get<double>();
   json["threads"] = threads_of(problem.executor());
   if (ranks() > 1) json["ranks"] = ranks();
-  json["cpu_seconds"] = used.cpu_seconds();
-  json["wall_seconds"] = used.wall_seconds();
-  json["peak_memory_bytes"] = used.peak_memory_bytes();
+  json["cpu_seconds"] = notes.used.cpu_seconds();
+  json["wall_seconds"] = notes.used.wall_seconds();
+  json["peak_memory_bytes"] = notes.used.peak_memory_bytes();
   return json;
 }
 

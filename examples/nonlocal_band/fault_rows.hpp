@@ -5,22 +5,12 @@
 #include "../shared/tell.hpp"
 #include "fault.hpp"
 #include "scarp/fault/free_field_fault.hpp"
+#include "scarp/observe/generalised_reaction.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_measures.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
 
 namespace nonlocal_band {
-
-/// Work [N] that the moving bedrock does on the ground per metre of throw; at rest the weight of the ground above it.
-template <class Problem>
-double reaction(Problem& problem) {
-  auto const unbalanced = problem.evaluate_committed().unbalanced;
-  auto const& moved = problem.constraints();
-  double work = 0.0;
-  for (std::size_t k = 0; k < moved.rates().size(); ++k)
-    work += moved.rates()[k] * unbalanced(moved.prescribed_dofs()[k]);
-  return work;
-}
 
 /// A row for each length and mesh. scene_on(size) is the scene on a mesh of that size, whose soil is `Nonlocal`; a length of zero
 /// makes it local, bit for bit.
@@ -41,7 +31,7 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
       auto problem = scene.problem(executor);
       scarp::NoObserver nobody;
       auto const settled = scene.settle(problem, nobody);
-      double const at_rest = reaction(problem);
+      double const at_rest = scarp::generalised_reaction(problem);
       auto const rest = scarp::ground_at_rest(problem);
       auto const run = settled.verdict.acceptable() ? scene.rupture(problem, nobody) : settled;
       auto const& grid = problem.discretisation();
@@ -49,8 +39,8 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
           scarp::outcrop(scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions()), run.load);
       examples::say(stdout, "{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
                     grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
-                    reaction(problem) - at_rest, run.steps, run.refused, run.iterations, watch.seconds(),
-                    run.verdict.acceptable() ? "" : name(run.last_failure));
+                    scarp::generalised_reaction(problem) - at_rest, run.steps, run.refused, run.iterations,
+                    watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
       std::fflush(stdout);
     }
   }

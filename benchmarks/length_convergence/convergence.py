@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: BSL-1.0
+"""What the runs of length_convergence come to at the length of a real shear band: columns of a run, fits over the length, intervals, figures.
+
+The mean of the settlement profile is a constant plus the dilated area over the throw h (docs/grounds.md). A part of this area is from before
+localisation. That of the band is its volume, proportional to the length L, times its volumetric strain, which grows with its shear strain, proportional
+to h / L, to the critical state. With a volumetric strain that fades as an exponential this is the form `band`,
+    A / h = a + b u (1 - exp(-1 / u)), u = L / L0:
+linear in L for L << L0, where all of the band is critical, and independent of L for L >> L0. `power`, a + b L^p, and `line`, a + b L through the
+shortest lengths alone, assume less. Edges and median of the profile are apart from its mean by widths of the band and have the same forms.
+"""
+import math
+
+import numpy as np
+import scarp_figures as figures
+from common import ROOT, data_folder, measures
+from scarp_figures import plt
+
+DEPTH, DIP = 25.0, math.radians(60.0)  # [m], of the scene
+LIMITS = {0.3: "centrifuge", 0.1: "ten grains"}  # lengths [m] of real bands
+DRAWS, SEED = 500, 1
+PLACES = {"x05 [m]": figures.BLUE, "x50 [m]": figures.VERMILION, "x95 [m]": figures.GREEN, "mean [m]": figures.BLACK}
+AREA = "dilated area over throw [m]"
+QUANTITIES = [*PLACES, AREA, "mid-line dip [deg]", "reaction [MN/m]"]
+WIDTHS = [f"width at {level} of the height [m]" for level in ("1/4", "1/2", "3/4")]
+CRITICAL = ["critical strain [%]", "critical volume [%]"]
+SOILS = {"sand": "Sand", "mohr_coulomb": "Mohr-Coulomb"}
+FORMS = {"band": lambda x: (u := x / np.geomspace(0.2, 200.0, 61)[:, None]) * (1.0 - np.exp(-1.0 / u)),
+         "power": lambda x: x ** np.linspace(0.25, 1.5, 26)[:, None],
+         "line": lambda x: x[None, :]}
+# Least and largest number of the shortest lengths that a form is fitted to: one more than it has parameters, and where it
+# holds for short lengths alone two.
+TAKEN = {"band": (4, 100), "power": (4, 5), "line": (3, 4)}
+
+
+def critical_state(folder):
+    """Deviatoric strain and growth of volume [%] where the volume at probe A has grown by 95 % of its most; none where it has not levelled off well
+    before the end of the run."""
+    table = figures.read_csv(folder / "probe_A.csv", ["throw_over_depth", "eps_q", "eps_v"])
+    since = table["throw_over_depth"] >= 0.0
+    strain, growth = (factor * (values[since] - values[since][0]) for factor, values in ((100.0, table["eps_q"]), (-100.0, table["eps_v"])))
+    at = int(np.argmax(growth >= 0.95 * growth.max()))
+    return (strain[at], growth.max()) if growth.max() > 0.0 and strain[at] < 0.7 * strain[-1] else (None, None)
+
+
+def columns_of(folder, summary):
+    known = {"triangles": summary["elements"], **measures(summary)}
+    if summary["status"] == "ok":
+        known |= {"mean [m]": summary["surface_mean"], AREA: summary["dilated_area"] / (DEPTH * summary["throw_over_depth"]),
+                  "reaction [MN/m]": 1e-6 * summary["reaction"] if "reaction" in summary else None, "strip margin [m]": summary.get("strip_margin"),
+                  **dict(zip(WIDTHS, (band["band_width"] for band in summary["bands"]))), **dict(zip(CRITICAL, critical_state(folder)))}
+    return {name: known.get(name) for name in ("triangles", "h/H", *QUANTITIES, *WIDTHS, "strip margin [m]", *CRITICAL, "steps", "refused", "iterations",
+                                               "DEM steps [million]", "CPU time [s]", "memory [MB]", "status", "error budget", "commit")}
+
+
+def fit(form, lengths, values, weights):
+    """Least squares of a + b g(L) over the g of a form. \\return the fitted function"""
+    share = weights / weights.sum()
+    basis = FORMS[form](lengths)
+    shift, mean = basis @ share, values @ share
+    centred = basis - shift[:, None]
+    slope = centred @ (share * (values - mean)) / (centred**2 @ share)
+    best = int(np.argmin((values - mean - slope[:, None] * centred) ** 2 @ share))
+    return lambda at: mean + slope[best] * (FORMS[form](np.asarray(at, float))[best] - shift[best])
+
+
+def drawn(lengths, values, factors, at):
+    """What the quantity may be at other lengths, shape (draws, lengths). values: of a length, plus deviations by seed and mesh, plus the rest
+    factors: seed and mesh of each run. Each draw takes the values at the lengths by their scatter, a deviation of seeds and meshes that all lengths
+    share (Student's t), one of the forms, and how many of the lengths it is fitted to.
+    """
+    random = np.random.default_rng(SEED)
+    there = np.unique(lengths)
+    coded = [np.eye(int(level.max()) + 1)[level] for level in (np.unique(factor, return_inverse=True)[1] for factor in factors)]
+    design = np.hstack([lengths[:, None] == there, *(one[:, :-1] - one[:, -1:] for one in coded)]).astype(float)
+    inverse = np.linalg.pinv(design.T @ design)
+    found = inverse @ design.T @ values
+    free = len(values) - np.linalg.matrix_rank(design)
+    variance = np.sum((values - design @ found) ** 2) / free if free else 0.0
+    start = len(there)
+    scatter = math.sqrt(variance) * np.linalg.cholesky(inverse[:start, :start])
+    taken = found[:start] + random.standard_normal((DRAWS, start)) @ scatter.T
+    for count in (one.shape[1] for one in coded if one.shape[1] > 1):
+        deviations = found[start : start + count - 1]
+        start += count - 1
+        error = np.std([*deviations, -deviations.sum()], ddof=1) / math.sqrt(count)
+        taken += (error * random.standard_t(count - 1, DRAWS))[:, None]
+    result = np.full((DRAWS, len(at)), np.nan)
+    for one, values_there in zip(result, taken):
+        form = random.choice(list(FORMS))
+        least, most = (min(bound, len(there)) for bound in TAKEN[form])
+        n = int(random.integers(least, most + 1))
+        if n > 2:
+            one[:] = fit(form, there[:n], values_there[:n], 1.0 / np.diag(inverse)[:n])(at)
+    return result
+
+
+def grains_agree(rows):
+    """Whether the mean with 100 grains is that with 400 within two deviations of the difference, at all lengths with seeds of both on the crossed mesh."""
+    seen = []
+    for length in {row["length [m]"] for row in rows}:
+        of = {grains: [float(row["mean [m]"]) for row in rows if (row["length [m]"], row["mesh"], row.get("grains")) == (length, "crossed", grains)]
+              for grains in ("100", "400")}
+        if min(map(len, of.values())) > 1:
+            apart = abs(np.mean(of["100"]) - np.mean(of["400"]))
+            seen.append(apart <= 2.0 * math.sqrt(sum(np.var(values, ddof=1) / len(values) for values in of.values())))
+    return bool(seen) and all(seen)
+
+
+def usable(rows, soil):
+    """Rows of runs that reached the throw; with 100 grains only where these respond as 400 do, or there are no others."""
+    rows = [row for row in rows if row["soil"] == soil and row["status"] == "ok"]
+    return rows if grains_agree(rows) else [row for row in rows if row.get("grains", "") != "100"] or rows
+
+
+def column(rows, name):
+    return np.array([figures.number(row.get(name, "")) for row in rows])
+
+
+def of_rows(rows, name, at):
+    rows = [row for row in rows if row.get(name)]
+    if not rows:
+        return np.full((1, len(at)), np.nan)
+    return drawn(column(rows, "length [m]"), column(rows, name), [[row.get(factor, "") for row in rows] for factor in ("seed", "mesh")], at)
+
+
+def limits(rows):
+    """Median and 95 % interval of each quantity at the lengths of real bands."""
+    found = []
+    for soil in SOILS:
+        known = usable(rows, soil)
+        for name in QUANTITIES if known else []:
+            for at, values in zip(LIMITS, of_rows(known, name, list(LIMITS)).T):
+                low, middle, high = map(float, np.percentile(values, [2.5, 50.0, 97.5]))
+                found.append({"soil": soil, "quantity": name, "length [m]": at, "value": middle, "low": low, "high": high, "runs": len(known),
+                              "lengths": len({row["length [m]"] for row in known}), "seeds": len({row.get("seed", "") for row in known}),
+                              "meshes": len({row["mesh"] for row in known})})
+    return found
+
+
+def page(rows):
+    """Rows of the table of docs/length.md: means over seeds and meshes, with the deviation of the mean place."""
+    shown = [*PLACES, AREA, WIDTHS[1], "mid-line dip [deg]", "CPU time [s]"]
+    digits = [1, 1, 1, 2, 2, 1, 1, 0]
+    for soil, title in SOILS.items():
+        known = usable(rows, soil)
+        for length in [length for length in ("8", "4", "2", "1") if any(row["length [m]"] == length for row in known)]:
+            here = [row for row in known if row["length [m]"] == length]
+            cells = [f"{np.nanmean(column(here, name)):.{n}f}" for name, n in zip(shown, digits)]
+            if len(here) > 1:
+                cells[3] += f" +- {np.std(column(here, 'mean [m]'), ddof=1):.2f}"
+            yield f"| {title} | {length} | {len(here)} | " + " | ".join(cells) + " |"
+        extrapolated = {(row["quantity"], row["length [m]"]): row for row in limits(known)}
+        for at in LIMITS if known else []:
+            cells = [f"{row['value']:.{n}f} ({row['low']:.{n}f} to {row['high']:.{n}f})" if (row := extrapolated.get((name, at))) else "-"
+                     for name, n in zip(shown, digits)]
+            yield f"| {title} | {at:g}, extrapolated | - | " + " | ".join(cells) + " |"
+
+
+def over_length(rows):
+    """For each soil a column: places, and widths of the band."""
+    soils = [soil for soil in SOILS if usable(rows, soil)]
+    of_places, axes = plt.subplots(1, len(soils), figsize=(5.4 * len(soils), 4.2), sharey=True, squeeze=False)
+    of_widths, width_axes = plt.subplots(1, len(soils), figsize=(4.4 * len(soils), 3.6), sharey=True, squeeze=False)
+    grid = np.geomspace(min(LIMITS), 8.0, 40)
+    for soil, axis, width_axis in zip(soils, axes[0], width_axes[0]):
+        known = usable(rows, soil)
+        lengths, throw = column(known, "length [m]"), DEPTH * column(known, "h/H").mean()
+        for name, colour in PLACES.items():
+            low, middle, high = np.percentile(of_rows(known, name, grid), [2.5, 50.0, 97.5], axis=0)
+            axis.plot(lengths, column(known, name), "o", color=colour, markersize=3.5, alpha=0.7)
+            axis.plot(grid, middle, color=colour, label=name.removesuffix(" [m]"))
+            axis.fill_between(grid, low, high, color=colour, alpha=0.15, linewidth=0)
+        axis.axhline(-(DEPTH - throw / 2.0) / math.tan(DIP), color=figures.GREY, linestyle="--", label="mean without dilation: the fault's own line")
+        for at, what in LIMITS.items():
+            axis.axvline(at, color=figures.PALE, zorder=0)
+            axis.annotate(what, (at, 0.02), (2, 0), xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=7, rotation=90)
+        axis.set(xscale="log", title=SOILS[soil], xlabel="nonlocal length [m]")
+        for name, colour in zip(WIDTHS, (figures.BLUE, figures.VERMILION, figures.GREEN)):
+            width_axis.plot(lengths, column(known, name), "o", color=colour, markersize=3.5, label=name.removesuffix(" [m]"))
+        width_axis.plot(grid, grid, color=figures.GREY, linestyle="--", label="the length itself")
+        width_axis.set(xscale="log", yscale="log", title=SOILS[soil], xlabel="nonlocal length [m]", xlim=(0.4, 10.0), ylim=(0.4, 40.0))
+    axes[0][0].set(ylabel="x at the surface [m]; the tip is at 0", ylim=(-27.0, 9.0))
+    width_axes[0][0].set(ylabel="width of the band along a level [m]")
+    axes[0][-1].legend(loc="upper left")
+    width_axes[0][-1].legend(loc="upper left")
+    return of_places, of_widths
+
+
+def write_figures(rows):
+    folder = ROOT / "docs" / "figures" if data_folder() == ROOT / "docs" / "data" else data_folder()
+    for name, figure in zip(("length_places", "length_widths"), over_length(rows)):
+        figures.save(figure, folder / f"{name}.png")
+        print(folder / f"{name}.png")

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+namespace scarp {
+
+/// Work of the reactions at prescribed displacements per unit of the load factor [N], in the plane per metre of thickness:
+/// \f$ R = \sum_k \dot u_k r_k \f$ with the rate of each prescribed displacement and the nodal force of the stresses in the
+/// committed state. Loads on these nodes are not subtracted: of a fault, whose load factor is the throw, the
+/// difference to the ground at rest is what moving bedrock works against. On all ranks at once.
+template <class Problem>
+double generalised_reaction(Problem const& problem) {
+  auto const& grid = problem.discretisation();
+  Eigen::VectorXd forces;
+  grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem.balanced_stresses(), forces);
+  auto const& held = problem.constraints();
+  double work = 0.0;
+  for (std::size_t k = 0; k < held.rates().size(); ++k) {
+    int const dof = held.prescribed_dofs()[k];
+    if (dof < forces.size()) work += held.rates()[k] * forces(dof);  // bodies beside the mesh come after its nodes
+  }
+  return work;
+}
+
+}  // namespace scarp
