@@ -156,15 +156,23 @@ def page(rows):
             yield f"| {title} | {at:g}, extrapolated | - | " + " | ".join(cells) + " |"
 
 
+def ticks(axes, name, places):
+    """A logarithmic axis with these."""
+    axis = {"x": axes.xaxis, "y": axes.yaxis}[name]
+    axes.set(**{f"{name}scale": "log"})
+    axis.set_ticks(places, labels=[f"{place:g}" for place in places])
+    axis.set_ticks([], minor=True)
+
+
 def over_length(rows):
     """For each soil a column: places, and widths of the band."""
     soils = [soil for soil in SOILS if usable(rows, soil)]
     of_places, axes = plt.subplots(1, len(soils), figsize=(5.4 * len(soils), 4.2), sharey=True, squeeze=False)
     of_widths, width_axes = plt.subplots(1, len(soils), figsize=(4.4 * len(soils), 3.6), sharey=True, squeeze=False)
-    grid = np.geomspace(min(LIMITS), 8.0, 40)
     for soil, axis, width_axis in zip(soils, axes[0], width_axes[0]):
         known = usable(rows, soil)
         lengths, throw = column(known, "length [m]"), DEPTH * column(known, "h/H").mean()
+        grid = np.geomspace(min(LIMITS), np.unique(lengths)[:4][-1], 40)  # as far as all forms are fitted
         for name, colour in PLACES.items():
             low, middle, high = np.percentile(of_rows(known, name, grid), [2.5, 50.0, 97.5], axis=0)
             axis.plot(lengths, column(known, name), "o", color=colour, markersize=3.5, alpha=0.7)
@@ -174,11 +182,14 @@ def over_length(rows):
         for at, what in LIMITS.items():
             axis.axvline(at, color=figures.PALE, zorder=0)
             axis.annotate(what, (at, 0.02), (2, 0), xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=7, rotation=90)
-        axis.set(xscale="log", title=SOILS[soil], xlabel="nonlocal length [m]")
+        ticks(axis, "x", [0.1, 0.3, 1, 2, 4, 8])
+        axis.set(title=SOILS[soil], xlabel="nonlocal length [m]")
         for name, colour in zip(WIDTHS, (figures.BLUE, figures.VERMILION, figures.GREEN)):
             width_axis.plot(lengths, column(known, name), "o", color=colour, markersize=3.5, label=name.removesuffix(" [m]"))
-        width_axis.plot(grid, grid, color=figures.GREY, linestyle="--", label="the length itself")
-        width_axis.set(xscale="log", yscale="log", title=SOILS[soil], xlabel="nonlocal length [m]", xlim=(0.4, 10.0), ylim=(0.4, 40.0))
+        width_axis.plot([0.5, 8.0], [0.5, 8.0], color=figures.GREY, linestyle="--", label="the length itself")
+        ticks(width_axis, "x", [0.5, 1, 2, 4, 8])
+        ticks(width_axis, "y", [0.5, 1, 2, 5, 10, 20])
+        width_axis.set(title=SOILS[soil], xlabel="nonlocal length [m]")
     axes[0][0].set(ylabel="x at the surface [m]; the tip is at 0", ylim=(-27.0, 9.0))
     width_axes[0][0].set(ylabel="width of the band along a level [m]")
     axes[0][-1].legend(loc="upper left")
