@@ -45,6 +45,7 @@ SceneSize size_of(Choice const& choice, SceneType const& scene, std::vector<scar
   size.nodes = static_cast<double>(mesh.nodes.size());
   size.width = right->x() - left->x();
   size.depth = scene.ground.depth();
+  if (scene.ground.strip) size.least_area = scene.ground.strip->fine * scene.ground.strip->fine / (is_triangle ? 4 : 1);
   return size;
 }
 

@@ -11,6 +11,7 @@
 #include "ensemble_runs.hpp"
 #include "estimate.hpp"
 #include "own_folders.hpp"
+#include "pilot.hpp"
 #include "run_scene.hpp"
 
 namespace {
@@ -109,8 +110,8 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, false, 25.0));
   app.add_option(
          "--strip-width", choice.strip_width,
-         "width at bedrock of the strip of small elements along the expected rupture [m]; 0 for none; a --length "
-         "below 6 m chooses it, and --size")
+         "of small elements around what a pilot run strains, frictional ground on a coarse mesh [m]; 0 for a uniform "
+         "mesh; a --length below 6 m chooses it, and --size")
       ->check(number_from(0.0, true, 1e3));
   for (char const* other : {"--quick", "--size", "--strip-width"}) study->excludes(app.get_option(other));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
@@ -267,6 +268,7 @@ int main(int argc, char** argv) {
     bool const is_uniform = app.count("--strip-width") > 0 && choice.strip_width == 0.0;
     if (app.count("--size") == 0 && choice.triangles == 0 && choice.mesh.empty() && !is_uniform)
       fault_rupture::choose_strip<fault_rupture::Element>(choice);
+    if (choice.strip_width > 0.0) fault_rupture::run_pilot(choice);
     if (app.count("--estimate") > 0) {
       if (fault_rupture::rank() == 0) print_estimate(choice, seeds.size());
       return 0;

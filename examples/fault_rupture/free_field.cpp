@@ -3,4 +3,5 @@
 
 namespace fault_rupture {
 template int run(Choice const&, Scene<scarp::BareGround> const&, Start const&);
+template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::BareGround> const&);
 }  // namespace fault_rupture

@@ -105,7 +105,7 @@ def deformation(folder):
                            path_effects=[withStroke(linewidth=2.0, foreground="white")])
     summary, depth = figures.read_summary(folder), layer_depth(folder)
     for number, edge in enumerate(zip(*summary.get("strip_edges", []))):
-        upper.plot(edge, [0.0, depth], "--", color=GREY, linewidth=0.9, label=None if number else "strip of small elements")
+        upper.plot(np.array(edge, dtype=float), np.linspace(0.0, depth, len(edge)), "--", color=GREY, linewidth=0.9, label=None if number else "strip of small elements")
         upper.legend(loc="lower left", fontsize=7)
     upper.set_ylabel("y [m]")
     upper.set_title(f"Deformed mesh at h/H = {throw:.3g}", loc="left")

@@ -12,6 +12,7 @@
 #include "../shared/tell.hpp"
 #include "companions.hpp"
 #include "scarp/budget/error_budget.hpp"
+#include "scarp/fault/pilot_size.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/generalised_reaction.hpp"
@@ -230,9 +231,30 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   return report.verdict.reason == scarp::Reason::interrupted ? interrupted : 3;
 }
 
+/// Runs a scene without writing anything.
+/// \return places that it strains most \throws scarp::InputError for a run that ends before the fault moves
+template <class SceneType>
+std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const& scene) {
+  constexpr double share = 0.7;  // of the strain
+  scarp::ThreadExecutor threads(threads_of_a_process(choice.threads));
+  decltype(auto) executor = make_team(threads);
+  auto problem = scene.problem(executor);
+  NoFooting nobody;
+  auto report = scene.settle(problem, nobody);
+  if (report.verdict.acceptable()) report = scene.place(problem, nobody);
+  if (report.verdict.acceptable()) report = scene.rupture(problem, nobody);
+  if (!report.verdict.acceptable() && !(report.load > 0.0))
+    scarp::refuse("the pilot run ended before the fault moved ({}): choose --strip-width 0",
+                  name(report.verdict.reason));
+  return scarp::strained_places(problem, share);
+}
+
 // Each structure's scene is compiled in a source of its own.
 extern template int run(Choice const&, Scene<scarp::BareGround> const&, Start const&);
+extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::BareGround> const&);
 extern template int run(Choice const&, Scene<scarp::StickingFooting> const&, Start const&);
+extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::StickingFooting> const&);
 extern template int run(Choice const&, Scene<RigidFooting> const&, Start const&);
+extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<RigidFooting> const&);
 
 }  // namespace fault_rupture

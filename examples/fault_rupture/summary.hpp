@@ -119,12 +119,13 @@ inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const
   }
 }
 
-/// The strip of small elements: its edges from bedrock to the surface, and the least distance between them and the band,
-/// which has gone from 5 to 95 % of the offset. [m]
-inline void add_strip(nlohmann::ordered_json& json, scarp::StripSize const& strip, scarp::RuptureSurvey const& survey) {
+/// The strip of small elements: its edges, evenly from bedrock to the surface, and the least distance between them and
+/// the band, which has gone from 5 to 95 % of the offset. [m]
+inline void add_strip(nlohmann::ordered_json& json, scarp::PilotSize const& strip, scarp::RuptureSurvey const& survey) {
+  constexpr int levels = 25;
   json["strip_size"] = strip.fine;
-  json["strip_width"] = 2.0 * strip.half_width;
-  json["strip_edges"] = {strip.edges(0.0), strip.edges(survey.depth)};
+  json["strip_width"] = 2.0 * strip.margin;
+  for (int k = 0; k <= levels; ++k) json["strip_edges"].push_back(strip.edges(survey.depth * k / levels));
   double margin = std::numeric_limits<double>::infinity();
   for (auto const& band : survey.bands) {
     auto const [left, right] = strip.edges(band.height);

@@ -31,9 +31,11 @@ def told(folder, *options):
 BEGINNING = ("--throw-over-depth", "0.002")
 with tempfile.TemporaryDirectory() as scratch:
     graded = told(scratch, "--length", "4")
-    expect(graded["strip_size"] == 0.41 * 4.0 and graded["strip_width"] == 8.0, f"a length chooses the strip: {graded}")
-    (left, right), (above_left, above_right) = graded["strip_edges"]
-    expect((left, right) == (-4.0, 4.0) and abs(above_right - above_left - (8.0 + 2 * 0.16 * 25.0)) < 1e-12, f"the edges: {graded['strip_edges']}")
+    expect(graded["strip_size"] == 0.41 * 4.0 and graded["strip_width"] == 10.0, f"a length chooses the strip: {graded}")
+    (left, right), *_, (above_left, above_right) = graded["strip_edges"]
+    expect(left < 0.0 < right, f"the tip lies in the strip: {graded['strip_edges']}")
+    expect(above_left < graded["surface_x50"] < above_right, f"and the outcrop: {graded['strip_edges']}")
+    expect(graded["strip_margin"] > 0.0, f"the band stays in the strip: {graded['strip_margin']}")
     expect(graded["elements"] < 1000, f"far elements stay large: {graded['elements']}")
     expect(graded["vertical_stress_error"] < 1e-2, "the ground at rest carries its weight")
     turned = told(scratch, "--length", "4", "--pattern", "right")
@@ -51,9 +53,10 @@ with tempfile.TemporaryDirectory() as scratch:
     expect(wide["elements"] > graded["elements"] and wide["strip_size"] == graded["strip_size"], "a wider strip has more elements")
     own = told(scratch, "--size", "1", "--strip-width", "4", *BEGINNING)
     expect(own["strip_size"] == 1.0 and own["strip_width"] == 4.0, "a strip of any size and width")
-    for options in (("--reverse", "--dip", "45"), ("--case", "heavy"), ("--case", "light", "--footing", "frictional")):
-        expect(told(scratch, "--length", "4", *options, *BEGINNING)["strip_size"] > 0.0, f"{options}: refined too")
-
+    for options in (("--reverse", "--dip", "45"), ("--dip", "75"), ("--case", "heavy"), ("--case", "light", "--footing", "frictional")):
+        found = told(scratch, "--length", "4", *options)
+        (left, right), *_, (above_left, above_right) = found["strip_edges"]
+        expect(left < 0.0 < right and above_left < found["surface_x50"] < above_right, f"{options}: the strip follows, {found}")
     done = run(scratch, "--length", "0.1")
     expect(done.returncode > 0 and "--length is 0.1 m" in done.stderr and "--size" in done.stderr, f"too short a length: {done.stderr}")
 finish()

@@ -97,3 +97,14 @@ TEST_CASE("a strip without sense is refused") {
   CHECK_REFUSED(refine({.fine = -1.0}), "is -");
   CHECK_REFUSED(refine({.dip = std::nan("")}), "is nan m");
 }
+
+TEST_CASE("a strip that is none is refused before anything is refined") {
+  auto const refused = [](scarp::StripSize const& strip) {
+    return samples::message_of([&] { scarp::RefinedGround{scarp::LayeredGround<>{layer}, strip}.mesh({}); });
+  };
+  CHECK(refused({.dip = 0.0}) == samples::Naming({"dip of the strip", "0"}));
+  CHECK(refused({.half_width = -1.0}) == samples::Naming({"half width of the strip", "-1"}));
+  CHECK(refused({.fine = 0.0}) == samples::Naming({"size of elements in the strip", "0"}));
+  CHECK(refused({.fine = 2.0, .coarse = 1.0}) == samples::Naming({"far from the strip", "1"}));
+  CHECK(refused({.transition = 0.0}) == samples::Naming({"transition beside the strip", "0"}));
+}

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scarp/core/tensor.hpp"
+
 namespace fault_rupture {
 
 // Of the study's ground.
@@ -22,10 +24,10 @@ struct Choice {
   Case scene = Case::free;
   Soil soil = Soil::dem;
   Base base = Base::sticking;
-  bool quick = false;                  ///< looser defaults of tolerance and load steps with packings
-  double size = 2.5;                   ///< [m], cell width in the band, or size of the elements in the strip
-  double strip_width = 0.0;            ///< [m], at bedrock, of the strip with small elements; 0 for a uniform mesh
-  int triangles = 0;                   ///< wanted number of elements instead of `size`; 0 for none
+  bool quick = false;        ///< looser defaults of tolerance and load steps with packings
+  double size = 2.5;         ///< [m], cell width in the band, or size of the elements in the strip
+  double strip_width = 0.0;  ///< [m], twice the margin around `strained` with small elements; 0 for a uniform mesh
+  int triangles = 0;         ///< wanted number of elements instead of `size`; 0 for none
   std::optional<MeshPattern> pattern;  ///< crossed, or quads where elements are quadrilaterals
   double aspect = 1.0;                 ///< height of a cell over its width
   std::uint64_t mesh_seed = 1;         ///< of the jittered mesh
@@ -73,6 +75,7 @@ struct Choice {
   std::string checkpoint;           ///< folder; empty: nothing is saved
   double checkpoint_every = 600.0;  ///< [s]
   bool resume = false;
+  std::vector<scarp::Vector<2>> strained;  ///< places around which a mesh with a strip is refined, see run_pilot
 
   /// What the results depend on.
   template <class Self, class Visit>

@@ -30,17 +30,6 @@ namespace {
 
 constexpr double largest_size = 5.0;  ///< [m], far from the strip
 
-/// Along the line from the tip on which dilating sand ruptures: measured 3.4 degrees steeper than a normal fault, assumed
-/// as much less steep for a reverse one.
-scarp::StripSize strip_of(Choice const& choice) {
-  double const steeper = choice.reverse ? -3.4 : 3.4;
-  return {.tip = choice.tip,
-          .dip = (choice.dip + steeper) * std::numbers::pi / 180.0,
-          .half_width = choice.strip_width / 2.0,
-          .fine = choice.size,
-          .coarse = std::max(choice.size, largest_size)};
-}
-
 /// Cells whose elements have the size itself after whole bisections.
 void make_coarse(scarp::FaultMesh& layer, double size) {
   while (size * std::numbers::sqrt2 <= largest_size) size *= std::numbers::sqrt2;
@@ -64,7 +53,7 @@ void choose_strip(Choice& choice) {
         choice.length, shortest);
   }
   choice.size = size;
-  if (choice.strip_width == 0.0) choice.strip_width = 4.0 * std::sqrt(choice.length);
+  if (choice.strip_width == 0.0) choice.strip_width = 2.0 + 2.0 * choice.length;
 }
 
 template <class E>
@@ -89,9 +78,14 @@ ChosenGround<E> ground_of(Choice const& choice) {
       break;
   }
   if (choice.triangles > 0) layer = layer.with_about<E>(choice.triangles);
-  if (choice.strip_width == 0.0) return {.layer = layer};
+  if (choice.strained.empty()) return {.layer = layer};
   make_coarse(layer, choice.size);
-  return {.layer = layer, .strip = strip_of(choice)};
+  return {.layer = layer,
+          .strip = scarp::PilotSize{.strained = choice.strained,
+                                    .margin = choice.strip_width / 2.0,
+                                    .fine = choice.size,
+                                    .coarse = std::max(choice.size, largest_size),
+                                    .transition = 8.0}};
 }
 
 template struct ChosenGround<Element>;

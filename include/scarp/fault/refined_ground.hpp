@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "scarp/fault/ground.hpp"
 #include "scarp/mesh/refined.hpp"
@@ -29,6 +30,18 @@ struct StripSize {
     return {middle - half, middle + half};
   }
 
+  /// \throws InputError for parameters that make no strip
+  void validate() const {
+    require_finite("tip of the strip", tip);
+    require_finite("height of the strip's tip", bedrock);
+    require_between("dip of the strip", dip, 1e-3, std::numbers::pi - 1e-3);
+    require_not_negative("half width of the strip", half_width);
+    require_finite("widening of the strip", widening);
+    require_positive("size of elements in the strip", fine);
+    require_at_least("size of elements far from the strip", coarse, fine);
+    require_positive("transition beside the strip", transition);
+  }
+
   double size(Vector<2> const& place) const {
     auto const [left, right] = edges(place.y() - bedrock);
     double const outside = std::max(left - place.x(), place.x() - right);
@@ -47,7 +60,10 @@ struct RefinedGround {
   Field field{};
 
   /// edges: x [m] where a structure needs corner nodes on the surface
-  Mesh<Element> mesh(std::vector<double> const& edges) const { return refined(ground.mesh(edges), field); }
+  /// \throws InputError for a ground or a field that cannot be used
+  Mesh<Element> mesh(std::vector<double> const& edges) const {
+    return refined(ground.mesh(edges), detail::validated(field));
+  }
 
   double surface_level() const { return ground.surface_level(); }  ///< along the last axis [m]
 };

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "scarp/core/error.hpp"
+#include "scarp/core/geo.hpp"
+#include "scarp/core/index.hpp"
+#include "scarp/mesh/refined.hpp"
+#include "scarp/observe/deformation.hpp"
+
+namespace scarp {
+
+/// Small elements where a pilot run on a coarse mesh has strained the ground; the size grows linearly beside these.
+struct PilotSize {
+  std::vector<Vector<2>> strained;  ///< [m], see strained_places
+  double margin = 4.0;              ///< around each of them [m], at least the size of the pilot run's elements
+  double fine = 1.25;               ///< size up to the margin [m]
+  double coarse = 5.0;              ///< size from `transition` beyond the margin on [m]
+  double transition = 14.0;         ///< [m]
+
+  /// Outermost edges of the small elements at a height of the mesh [m]; not finite where it has none.
+  std::array<double, 2> edges(double height) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<double, 2> found{infinity, -infinity};
+    for (auto const& place : strained) {
+      double const square = margin * margin - (place.y() - height) * (place.y() - height);
+      if (square < 0.0) continue;
+      found = {std::min(found[0], place.x() - std::sqrt(square)), std::max(found[1], place.x() + std::sqrt(square))};
+    }
+    return found;
+  }
+
+  /// \throws InputError for parameters that say nothing of sizes
+  void validate() const {
+    if (strained.empty()) refuse("the pilot run has strained 0 places: take more of its strain");
+    require_not_negative("margin around strained places", margin);
+    require_positive("size of elements near strained places", fine);
+    require_at_least("size of elements far from strained places", coarse, fine);
+    require_positive("transition beside strained places", transition);
+  }
+
+  double size(Vector<2> const& place) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (auto const& other : strained) nearest = std::min(nearest, (other - place).squaredNorm());
+    return fine + (coarse - fine) * std::clamp((std::sqrt(nearest) - margin) / transition, 0.0, 1.0);
+  }
+};
+
+/// Where a run has strained the ground most: centres [m], on its mesh before anything moved, of the elements with the
+/// largest deviatoric strains that together have the share of the sum of deviatoric strain over volume.
+/// share: 1 takes all elements that are strained
+/// \throws InputError for a share outside of 0 to 1, and for ground that has no strain
+template <class Problem>
+  requires(std::remove_cvref_t<decltype(std::declval<Problem const&>().discretisation())>::dim == 2)
+std::vector<Vector<2>> strained_places(Problem const& problem, double share) {
+  require_between("share of the strain", share, 0.0, 1.0);
+  auto const& grid = problem.discretisation();
+  using Grid = std::remove_cvref_t<decltype(grid)>;
+  auto const& mesh = grid.mesh();
+  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  struct Part {
+    double strain = 0.0;  // times volume
+    double volume = 0.0;
+    Vector<2> centre = Vector<2>::Zero();
+  };
+  std::vector<Part> parts(mesh.elements.size());
+  double all = 0.0;
+  for (int point = 0; point < grid.point_count(); ++point) {
+    auto& part = parts[detail::index(point / Grid::points_per_element)];
+    double const volume = volumes[detail::index(point)];
+    double const strain = volume * geo::plane_strain(total_deformation(grid, point)).deviatoric;
+    part.volume += volume;
+    part.strain += strain;
+    all += strain;
+  }
+  if (!(all > 0.0)) refuse("the strain of the pilot run is {} (nothing has moved): let the fault move", all);
+  for (std::size_t e = 0; e < parts.size(); ++e) {
+    for (int const node : mesh.elements[e]) parts[e].centre += mesh.nodes[detail::index(node)];
+    parts[e].centre /= static_cast<double>(mesh.elements[e].size());
+  }
+  std::ranges::stable_sort(parts, std::ranges::greater{}, [](Part const& part) { return part.strain / part.volume; });
+  std::vector<Vector<2>> places;
+  double sum = 0.0;
+  for (auto const& part : parts) {
+    if (sum >= share * all) break;
+    sum += part.strain;
+    places.push_back(part.centre);
+  }
+  return places;
+}
+
+static_assert(SizeField<PilotSize>);
+
+}  // namespace scarp

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <type_traits>
+
+#include "scarp/constitutive/material_field.hpp"
+#include "scarp/element/map.hpp"
+
+namespace scarp {
+
+/// Gradient of the committed with respect to the initial position at a point; what its material sees may differ, see
+/// MeanDilatation.
+template <class DiscretisationType>
+Tensor<DiscretisationType::dim> total_deformation(DiscretisationType const& discretisation, int point) {
+  using Element = typename std::remove_cvref_t<decltype(discretisation.mesh())>::ElementType;
+  constexpr int dim = DiscretisationType::dim;
+  constexpr int per_element = DiscretisationType::points_per_element;
+  auto const& nodes = discretisation.mesh().elements[static_cast<std::size_t>(point / per_element)];
+  auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, discretisation.mesh().nodes),
+                                            DiscretisationType::local_point(point));
+  return corners<Element, dim>(nodes, discretisation.positions()).transpose().lazyProduct(shape.gradients);
+}
+
+/// The same as the material of a point sees it: where increments are averaged, the mean around the point.
+template <class Problem>
+auto seen_deformation(Problem const& problem, int point) {
+  auto const& grid = problem.discretisation();
+  auto const& materials = problem.materials();
+  if constexpr (AveragesGradients<std::remove_cvref_t<decltype(materials)>>) {
+    using Grid = std::remove_cvref_t<decltype(grid)>;
+    Tensor<Grid::dim> mean = Tensor<Grid::dim>::Zero();
+    for (auto const& share : materials.mean().of(point)) mean += share.weight * total_deformation(grid, share.point);
+    return mean;
+  } else {
+    return total_deformation(grid, point);
+  }
+}
+
+}  // namespace scarp
