@@ -26,8 +26,9 @@ struct Relaxing {
 
   int steps = 4;
   int most_steps = 1000;
+  double start = 0.0;
 
-  State initial_state(scarp::Site<2> const&) const { return {}; }
+  State initial_state(scarp::Site<2> const&) const { return {start}; }
   scarp::VoigtStress<2> stress(State const& state) const { return {state.s, state.s, 0.0}; }
   scarp::VoigtTangent<2> tangent(State const&) const { return scarp::VoigtTangent<2>::Identity(); }
   Plan plan(State const&, scarp::Gradient<2> const&) const { return steps; }
@@ -123,6 +124,22 @@ TEST_CASE("the budget finds the known error of a law's steps in single increment
     CHECK(budget.followed().points[0].point == 7);
     CHECK(budget.followed().points[0].apart == samples::Approx(1.0 - twice / once).epsilon(1e-10));
   }
+}
+
+TEST_CASE("points that have lost most of their stress are compared with what they carried at the beginning") {
+  constexpr double start = 100.0;
+  Points points(Relaxing{.start = start}, 50);
+  scarp::ErrorBudget budget(points, {}, {.share = 1.0, .points_per_followed = 100, .followed = {7}});
+  constexpr double large = 0.5;
+  constexpr int increments = 8;
+  for (int k = 0; k < increments; ++k) points.strain(large, budget);
+  // The deviation from 1 falls by this factor in an increment of four and of eight steps.
+  double const once = std::pow(1.0 - large / 4.0, 4);
+  double const twice = std::pow(1.0 - large / 8.0, 8);
+  double const before_last = (start - 1.0) * std::pow(once, increments - 1);
+  CHECK(budget.samples().differences.back() == samples::Approx(before_last * (twice - once) / start).epsilon(1e-10));
+  double const followed = (start - 1.0) * once * (std::pow(twice, increments - 1) - std::pow(once, increments - 1));
+  CHECK(budget.followed().points[0].apart == samples::Approx(followed / start).epsilon(1e-10));
 }
 
 TEST_CASE("an elastic law has no error of its steps beyond the third order of the strain") {

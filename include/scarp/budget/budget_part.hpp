@@ -98,7 +98,8 @@ struct ErrorSampling {
   int points_per_followed = 40;  ///< one of so many points is followed through the run,
   int most_followed = 24;        ///< at most so many,
   std::vector<int> followed{};   ///< and these
-  double loose_pressure = 0.0;   ///< [Pa]; stresses below that of this pressure count as large as it
+  double loose_pressure =
+      0.0;  ///< [Pa]; stresses that were below this pressure from the beginning count as large as it
 
   /// \throws InputError for numbers that are negative or not finite
   void validate() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <vector>
@@ -53,7 +55,9 @@ struct WorkBalanceOf<Problem> {
 }  // namespace detail
 
 /// Observer that estimates the errors of a run from cheap checks on the way: balance of the packings, residuals, work, answers
-/// with twice the work to single increments (samples) and along the whole paths of a few points. It changes nothing.
+/// with twice the work to single increments (samples) and along the whole paths of a few points. Differences of stress are
+/// relative to a point's stress, now or when the budget was made, whichever is larger: soil that has lost its pressure
+/// carries nothing that its error could be compared with. It changes nothing.
 /// Where points are shared out among processes it looks at those of the first.
 /// \code
 /// ErrorBudget budget(problem, {.residual = 1e-3}, {.loose_pressure = 2e3});
@@ -71,8 +75,12 @@ class ErrorBudget : public NeverStops {
     bounds.validate();
     sampling.validate();
     int const points = problem.materials().point_count();
+    at_rest_.resize(detail::index(points));
+    double const least = sampling.loose_pressure * std::sqrt(static_cast<double>(dim));
     for (int point = 0; point < points; ++point) {
-      if (owns_point(problem.executor(), point)) seen_.push_back(point);
+      if (!owns_point(problem.executor(), point)) continue;
+      seen_.push_back(point);
+      at_rest_[detail::index(point)] = std::max(stress_size<dim>(problem.materials().committed_stress(point)), least);
     }
     followed_ = FollowedPoints::choose(problem, seen_, sampling);
   }
@@ -88,9 +96,9 @@ class ErrorBudget : public NeverStops {
     residual_ = worse_of(residual_, report.residual());
     balance_.attempted(problem, report);
     packings_.look(problem, seen_);
-    followed_.follow(problem, sampling_.loose_pressure);
+    followed_.follow(problem, at_rest_);
     auto const affordable = static_cast<long>(sampling_.share * static_cast<double>(all_work()));
-    samples_.sample(problem, seen_, sampling_, affordable - followed_.work);
+    samples_.sample(problem, seen_, at_rest_, sampling_, affordable - followed_.work);
   }
 
   /// What came out so far; parts without anything to look at are left out.
@@ -132,8 +140,8 @@ class ErrorBudget : public NeverStops {
   DoubledSamples const& samples() const { return samples_; }
   FollowedPoints const& followed() const { return followed_; }
 
-  SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, seen_), balance_, packings_, samples_, followed_,
-                       residual_, linear_residual_, condition_, work_, answers_)
+  SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, seen_, at_rest_), balance_, packings_, samples_,
+                       followed_, residual_, linear_residual_, condition_, work_, answers_)
 
  private:
   long all_work() const { return work_ > 0 ? work_ : answers_; }
@@ -146,7 +154,8 @@ class ErrorBudget : public NeverStops {
   ErrorBounds bounds_;
   ErrorSampling sampling_;
   bool iterates_equations_;
-  std::vector<int> seen_;  ///< points of this process
+  std::vector<int> seen_;        ///< points of this process
+  std::vector<double> at_rest_;  ///< [Pa], size of each point's stress when the run began
   typename detail::WorkBalanceOf<Problem>::Type balance_;
   PackingSurvey packings_;
   DoubledSamples samples_;

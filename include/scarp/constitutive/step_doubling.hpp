@@ -51,14 +51,19 @@ DoubledAnswer<Provider::dim> answer_with_double_work(Provider const& provider, t
   }
 }
 
-/// Difference of two stresses over the size of the one that counts, Frobenius norms; stresses below that of a loose pressure
-/// [Pa] count as large as it. Infinite for an answer that failed.
+/// Frobenius norm of a stress [Pa].
 template <int Dim>
-double stress_difference(VoigtStress<Dim> const& stress, Response<Dim> const& other, double loose_pressure) {
-  Tensor<Dim> const first = from_voigt_stress<Dim, double>(stress);
-  double const apart = (from_voigt_stress<Dim, double>(other.stress) - first).norm();
+double stress_size(VoigtStress<Dim> const& stress) {
+  return from_voigt_stress<Dim, double>(stress).norm();
+}
+
+/// Size of the difference of two stresses over that of the first one, which counts as `least` [Pa] where it is below it.
+/// Infinite for a response that failed.
+template <int Dim>
+double stress_difference(VoigtStress<Dim> const& stress, Response<Dim> const& other, double least) {
+  double const apart = stress_size<Dim>(other.stress - stress);
   if (other.verdict.status == Status::failed || !std::isfinite(apart)) return std::numeric_limits<double>::infinity();
-  return apart == 0.0 ? 0.0 : apart / std::max(first.norm(), loose_pressure * std::sqrt(static_cast<double>(Dim)));
+  return apart == 0.0 ? 0.0 : apart / std::max(stress_size<Dim>(stress), least);
 }
 
 }  // namespace scarp

@@ -87,9 +87,11 @@ struct DoubledSamples {
   std::vector<double> differences{};  ///< of the stress, relative, in the order of the samples
   long work = 0;                      ///< that they took
 
-  /// After an accepted step. afforded: work that samples may have taken up to now
+  /// After an accepted step. at_rest [Pa]: sizes of all points' stresses when the run began; afforded: work that samples
+  /// may have taken up to now
   template <class Problem>
-  void sample(Problem const& problem, std::vector<int> const& points, ErrorSampling const& sampling, long afforded) {
+  void sample(Problem const& problem, std::vector<int> const& points, std::vector<double> const& at_rest,
+              ErrorSampling const& sampling, long afforded) {
     auto const chosen = choose(problem, points, sampling, afforded);
     std::vector<double> found(chosen.size());
     std::vector<long> works(chosen.size());
@@ -97,7 +99,7 @@ struct DoubledSamples {
       auto const k = detail::index(task);
       problem.materials().visit(chosen[k], [&](auto const& field, int local) {
         auto const answer = doubled_answer(field, local, problem.gradients()[detail::index(chosen[k])]);
-        found[k] = stress_difference(field.committed_stress(local), answer.response, sampling.loose_pressure);
+        found[k] = stress_difference(field.committed_stress(local), answer.response, at_rest[detail::index(chosen[k])]);
         works[k] = answer.work;
       });
     });
@@ -185,15 +187,17 @@ struct FollowedPoints {
     return followed;
   }
 
-  /// After an accepted step, the first of which they begin with.
+  /// After an accepted step, the first of which they begin with. at_rest [Pa]: sizes of all points' stresses when the run
+  /// began
   template <class Problem>
-  void follow(Problem const& problem, double loose_pressure) {
+  void follow(Problem const& problem, std::vector<double> const& at_rest) {
     std::vector<long> works(points.size());
     problem.executor().for_each(detail::count(points), [&](int task) {
       FollowedPoint& one = points[detail::index(task)];
       problem.materials().visit(one.point, [&](auto const& field, int local) {
         auto const answer = followed_answer(field, local, problem.gradients()[detail::index(one.point)], one.bits);
-        one.apart = stress_difference(field.committed_stress(local), answer.response, loose_pressure);
+        one.apart =
+            stress_difference(field.committed_stress(local), answer.response, at_rest[detail::index(one.point)]);
         one.farthest = worse_of(one.farthest, one.apart);
         one.square_sum += one.apart * one.apart;
         works[detail::index(task)] = answer.work;
