@@ -10,13 +10,13 @@ SIZES = [220, 480, 960, 1900, 3800, 7616, 15000, 30000]  # triangles asked for
 # Open MPI otherwise refuses more ranks than cores, and the root user of a container.
 ON_RANKS = {**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 GRAINS = [100, 200, 400, 800, 1600]
-SAND = ["--grains", 100]
+SAND = ["--grains", 100, "--preload", 1]
 
 
 def of_sizes():
     """Packings of 100 grains. Fine meshes end after a few load steps, with a quarter of the least DEM steps and fewer columns."""
     for triangles in SIZES:
-        mesh = ["--triangles", triangles] if triangles != 960 else []  # the usual mesh
+        mesh = ["--triangles", triangles] if triangles != 960 else ["--size", 2.5]
         if triangles <= 960:
             yield f"length-{triangles}", [*SAND, *mesh, "--throw-over-depth", 0.006]
             yield f"local-{triangles}", ["--local", *SAND, *mesh, "--throw-over-depth", 0.002]

@@ -18,10 +18,15 @@ namespace {
 
 using fault_rupture::Choice;
 
-/// Beside the study's scene: a length, so that the answer is not the mesh's, many packings, so that it is not one packing's
-/// (docs/notes/objectivity.md), and half of the DEM steps, which give the same places (docs/notes/profile.md).
+constexpr double short_length = 2.83;  ///< [m], where the mesh is made for it
+constexpr double long_length = 8.0;    ///< [m], of coarser meshes
+
+/// Beside the study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
+/// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and half of the DEM steps, which give the
+/// same places (docs/notes/profile.md).
 void make_objective(Choice& choice) {
-  choice.length = 8.0;
+  choice.length = short_length;
+  choice.preload = 1.25;
   choice.packings = 16;
   choice.mirrored_packings = true;
   choice.strain_per_step = 2e-5;
@@ -31,6 +36,7 @@ void make_objective(Choice& choice) {
 /// No length and copies of one packing, as the study has it.
 void make_local(Choice& choice) {
   choice.length = 0.0;
+  choice.preload = 1.0;
   choice.packings = 1;
   choice.mirrored_packings = false;
   choice.strain_per_step = 1e-5;
@@ -137,8 +143,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   for (char const* made_mesh : {"--size", "--strip-width", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
   file->excludes(study);
-  app.add_option("--length", choice.length,
-                 "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study")
+  app.add_option(
+         "--length", choice.length,
+         "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study; 8 unless it is "
+         "given with --quick, --study, --size, --triangles, --mesh or --strip-width 0")
       ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--packings", choice.packings,
@@ -213,6 +221,21 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   examples::declare_config(app);
 }
 
+/// What follows from the options that are given; recorded as if it were the default.
+void choose_length_and_sizes(CLI::App& app, Choice& choice) {
+  bool const is_uniform = app.count("--strip-width") > 0 && choice.strip_width == 0.0;
+  bool const has_mesh = app.count("--size") > 0 || choice.triangles > 0 || !choice.mesh.empty() || is_uniform;
+  bool const has_length = app.count("--length") > 0 || choice.length == 0.0;
+  if ((has_mesh || app.count("--quick") > 0) && !has_length) choice.length = long_length;
+  if (!has_mesh) fault_rupture::choose_strip<fault_rupture::Element>(choice);
+  auto const record = [&](char const* option, double value) {
+    app.get_option(option)->default_str(fmt::format("{:g}", value));
+  };
+  record("--length", choice.length);
+  record("--size", choice.size);
+  record("--strip-width", choice.strip_width);
+}
+
 double largest_gradient(fault_rupture::AnyScene const& scene) {
   return std::visit([](auto const& chosen) { return chosen.stepping.largest_gradient; }, scene);
 }
@@ -265,9 +288,7 @@ int main(int argc, char** argv) {
     fault_rupture::give_up(2);
   }
   try {
-    bool const is_uniform = app.count("--strip-width") > 0 && choice.strip_width == 0.0;
-    if (app.count("--size") == 0 && choice.triangles == 0 && choice.mesh.empty() && !is_uniform)
-      fault_rupture::choose_strip<fault_rupture::Element>(choice);
+    choose_length_and_sizes(app, choice);
     if (choice.strip_width > 0.0) fault_rupture::run_pilot(choice);
     if (app.count("--estimate") > 0) {
       if (fault_rupture::rank() == 0) print_estimate(choice, seeds.size());

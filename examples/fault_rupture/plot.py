@@ -91,6 +91,16 @@ def draw_bands(axes, summary, depth):
     axes.legend(loc="lower left", fontsize=7)
 
 
+def draw_fault(axes, summary, depth):
+    """The fault's own line through the soil, along which a rigid hanging wall would rupture it, from the tip at rest."""
+    tip = float(summary.get("run", {}).get("options", {}).get("tip", 0.0))
+    block = figures.finite(summary.get("block_x50"))
+    if block is not None:
+        axes.plot([tip, block], [0.0, depth], ":", color=BLACK, linewidth=1.3, label="line of the fault",
+                  path_effects=[withStroke(linewidth=2.6, foreground="white")])
+    axes.plot(tip, 0.0, "^", color="white", markeredgecolor=BLACK, markersize=7, label="tip of the fault in bedrock", clip_on=False, zorder=5)
+
+
 def deformation(folder):
     throw, grid, path = read_steps(folder, [1.0])[0]
     strain = deviatoric_percent(grid, path)
@@ -106,9 +116,10 @@ def deformation(folder):
     summary, depth = figures.read_summary(folder), layer_depth(folder)
     for number, edge in enumerate(zip(*summary.get("strip_edges", []))):
         upper.plot(np.array(edge, dtype=float), np.linspace(0.0, depth, len(edge)), "--", color=GREY, linewidth=0.9, label=None if number else "strip of small elements")
-        upper.legend(loc="lower left", fontsize=7)
+    draw_fault(upper, summary, depth)
+    upper.legend(loc="lower left", fontsize=7)
     upper.set_ylabel("y [m]")
-    upper.set_title(f"Deformed mesh at h/H = {throw:.3g}", loc="left")
+    upper.set_title(f"Deformed mesh at h/H = {throw:.3g}, displacements to scale", loc="left")
     upper.set_title(f"largest strain {np.nanmax(strain):.3g} %{status_note(grid)}", loc="right", fontsize=7.5)
     draw_settlement(fig, lower, grid, path)
     lower.set(xlabel="x [m]", ylabel="y [m]")

@@ -45,7 +45,7 @@ with tempfile.TemporaryDirectory() as scratch:
     small, said = estimate(scratch)
     expect(is_empty(scratch), "an estimate writes nothing")
     expect("commit" in said and "uncertainty" in said, f"it says where its numbers come from, and how wrong they may be: {said}")
-    for options in (["--triangles", "4000"], ["--grains", "800"], ["--length", "4"], ["--strain-per-step", "1e-6"], ["--tolerance", "1e-5"], ["--packings", "200"]):
+    for options in (["--triangles", "4000"], ["--grains", "800"], ["--length", "2"], ["--strain-per-step", "1e-6"], ["--tolerance", "1e-5"], ["--packings", "200"]):
         expect(estimate(scratch, *options)[0]["work"] > small["work"], f"{options} take more time")
     for options in (["--triangles", "4000"], ["--grains", "800"]):
         expect(estimate(scratch, *options)[0]["memory"] > small["memory"], f"{options} take more memory")

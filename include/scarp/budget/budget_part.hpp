@@ -73,9 +73,9 @@ struct ErrorBounds {
   double kinetic_share = 1e-2;    ///< largest, of a packing's pressure
   double inertial_number = 1e-2;  ///< largest of an answer
   double held_stress = 1e-2;      ///< of a single packing: missing from what a servo holds, root mean square
-  double doubling_median = 5e-3;  ///< of the samples: stress with twice the work against the accepted one
+  double doubling_median = 1e-2;  ///< of the samples: stress with twice the work against the accepted one
   double doubling_95 = 5e-2;      ///< of nineteen samples in twenty
-  double accumulated = 0.1;       ///< root of the mean square over the followed points, of their whole paths
+  double accumulated = 0.05;      ///< of the followed points together, on their whole paths
   double mesh = 4e-2;             ///< against a companion on another mesh
   double load_step = 2e-2;        ///< against a companion with smaller load steps
 

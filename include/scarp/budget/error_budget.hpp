@@ -129,8 +129,9 @@ class ErrorBudget : public NeverStops {
       add("doubling_largest", samples_.quantile(1.0), none, "of one sample");
     }
     if (followed_.any()) {
-      add("accumulated", followed_.apart(), bounds_.accumulated,
-          "the same when all increments of a point take it, root mean square");
+      add("accumulated", followed_.together(), bounds_.accumulated,
+          "the same of the sum of points' stresses when all increments take it, root mean square over the steps");
+      add("accumulated_apart", followed_.apart(), none, "the same of single points");
       add("accumulated_largest", followed_.farthest(), none, "of one followed point at any time");
     }
     add("work_of_checks", share_of_checks(), none, "what the last ones took, over the points' work of the run");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -164,7 +165,8 @@ struct FollowedPoint {
 struct FollowedPoints {
   std::vector<FollowedPoint> points{};
   int steps = 0;
-  long work = 0;  ///< that they took
+  long work = 0;            ///< that they took
+  double square_sum = 0.0;  ///< over all steps, see together()
 
   /// Spread over the points that this process sees, and those that are named.
   /// \throws InputError for points that the problem does not have
@@ -191,13 +193,21 @@ struct FollowedPoints {
   /// began
   template <class Problem>
   void follow(Problem const& problem, std::vector<double> const& at_rest) {
+    constexpr int dim = Problem::dim;
     std::vector<long> works(points.size());
+    std::vector<VoigtStress<dim>> differences(points.size());
+    std::vector<double> carried(points.size());
     problem.executor().for_each(detail::count(points), [&](int task) {
       FollowedPoint& one = points[detail::index(task)];
       problem.materials().visit(one.point, [&](auto const& field, int local) {
         auto const answer = followed_answer(field, local, problem.gradients()[detail::index(one.point)], one.bits);
-        one.apart =
-            stress_difference(field.committed_stress(local), answer.response, at_rest[detail::index(one.point)]);
+        auto const stress = field.committed_stress(local);
+        double const least = at_rest[detail::index(one.point)];
+        one.apart = stress_difference(stress, answer.response, least);
+        differences[detail::index(task)] = std::isfinite(one.apart)
+                                               ? VoigtStress<dim>(answer.response.stress - stress)
+                                               : VoigtStress<dim>::Constant(std::numeric_limits<double>::infinity());
+        carried[detail::index(task)] = std::max(stress_size<dim>(stress), least);
         one.farthest = worse_of(one.farthest, one.apart);
         one.square_sum += one.apart * one.apart;
         works[detail::index(task)] = answer.work;
@@ -205,11 +215,23 @@ struct FollowedPoints {
     });
     for (long const one : works) work += one;
     ++steps;
+    VoigtStress<dim> sum = VoigtStress<dim>::Zero();
+    double all = 0.0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k].bits.empty()) continue;
+      sum += differences[k];
+      all += carried[k];
+    }
+    if (double const apart = stress_size<dim>(sum); apart != 0.0) square_sum += apart * apart / (all * all);
   }
 
   bool any() const {
     return std::any_of(points.begin(), points.end(), [](auto const& one) { return !one.bits.empty(); });
   }
+
+  /// Size of the sum of the points' differences over the sum of what they carry, root mean square over the steps. What
+  /// differs by chance from point to point, as between two packings of one sand, cancels.
+  double together() const { return steps > 0 ? std::sqrt(square_sum / steps) : 0.0; }
 
   /// Root mean square of the differences over points and steps.
   double apart() const {
@@ -229,7 +251,7 @@ struct FollowedPoints {
     return farthest;
   }
 
-  SCARP_MEMBERS(points, steps, work)
+  SCARP_MEMBERS(points, steps, work, square_sum)
 };
 
 }  // namespace scarp
