@@ -37,7 +37,7 @@ class Different(Exception):
 
 
 def build(targets):
-    in_shell('configure release g++ -D SCARP_BUILD_BENCHMARKS=ON > /dev/null && '
+    in_shell('configure release g++ -D SCARP_BUILD_BENCHMARKS=ON -D SCARP_BUILD_VERIFICATION=ON > /dev/null && '
              f'cmake --build "$repository/build/release" --target {targets} --parallel "$jobs"')
 
 

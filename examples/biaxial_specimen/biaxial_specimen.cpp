@@ -105,8 +105,15 @@ int run_mesh(Choice choice) {
   examples::tell(file.notes());
   choice.mesh_file = &file;
   switch (file.element_type()) {
+#ifdef BIAXIAL_SPECIMEN_EVERY_ELEMENT
     case scarp::Tri6::gmsh_type: return run<scarp::Tri6>(choice);
     case scarp::Quad4::gmsh_type: return run<scarp::Quad4>(choice);
+#else
+    case scarp::Tri6::gmsh_type:
+    case scarp::Quad4::gmsh_type:
+      scarp::refuse("'{}' holds Tri6 or Quad4; expected Tri3 or Quad8. Configure with -D SCARP_BUILD_VERIFICATION=ON.",
+                    choice.mesh);
+#endif
     case scarp::Quad8::gmsh_type: return run<scarp::Quad8>(choice);
     default: return run<scarp::Tri3>(choice);  // says what is wrong with other elements
   }
