@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "chosen_ground.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <numbers>
+#include <string>
 
 #include "../tell.hpp"
 #include "scarp/fault/given_ground.hpp"
@@ -44,7 +47,8 @@ template <class E>
 void choose_strip(Choice& choice) {
   constexpr double shortest = 0.25;  // [m], some hundred thousand triangles
   // As many points within the length for all elements; quadratic triangles have three.
-  double const size = (E::nodes == 6 ? 0.71 : 0.41) * choice.length;
+  auto const size =
+      std::stod(fmt::format("{:.3g}", (E::nodes == 6 ? 0.71 : 0.41) * choice.length));  // as it may be given
   if (!(choice.length > 0.0 && size < Choice{}.size)) return;
   if (choice.length < shortest) {
     scarp::refuse(
