@@ -25,7 +25,8 @@ POISSON = 0.25  # of the scene's ground without packings
 def run(output):
     """The tests, and the scene's ground at rest, unless they have been.
     output: folder of all runs of the benchmark, as below"""
-    run_once([fault_rupture(), "--grains", GRAINS, "--throw-over-depth", 1e-5, "--frames", 1, "--threads", 1], output / "calibration" / "at_rest")
+    run_once([fault_rupture(), "--grains", GRAINS, "--length", 8, "--preload", 1, "--throw-over-depth", 1e-5, "--frames", 1, "--threads", 1],
+             output / "calibration" / "at_rest")
     folder = output / "calibration" / "biaxial"
     if not (folder / "summary.json").exists():
         command = [example("rve_biaxial"), "--grains", GRAINS, "--seeds", SEEDS, "--pressure", PRESSURE, "--preparation-friction", PREPARATION_FRICTION,

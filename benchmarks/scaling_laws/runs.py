@@ -29,7 +29,7 @@ def of_sizes():
 
 def of_grains():
     for grains in GRAINS:
-        yield f"grains-{grains}", ["--triangles", 220, "--packings", 2, "--grains", grains, "--throw-over-depth", 0.001]
+        yield f"grains-{grains}", ["--preload", 1, "--triangles", 220, "--packings", 2, "--grains", grains, "--throw-over-depth", 0.001]
 
 
 def whole():

@@ -114,10 +114,9 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_option("--size", choice.size,
                  "width of a mesh cell in the band [m]; with --strip-width size of the elements in the strip")
       ->check(number_from(0.0, false, 25.0));
-  app.add_option(
-         "--strip-width", choice.strip_width,
-         "of small elements around what a pilot run strains, frictional ground on a coarse mesh [m]; 0 for a uniform "
-         "mesh; a --length below 6 m chooses it, and --size")
+  app.add_option("--strip-width", choice.strip_width,
+                 "width of the strip of small elements around what a pilot run strains, frictional ground on a coarse "
+                 "mesh [m]; 0 for a uniform mesh; a --length below 6 m chooses it, and --size")
       ->check(number_from(0.0, true, 1e3));
   for (char const* other : {"--quick", "--size", "--strip-width"}) study->excludes(app.get_option(other));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
@@ -143,10 +142,9 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   for (char const* made_mesh : {"--size", "--strip-width", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
   file->excludes(study);
-  app.add_option(
-         "--length", choice.length,
-         "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study; 8 unless it is "
-         "given with --quick, --study, --size, --triangles, --mesh or --strip-width 0")
+  app.add_option("--length", choice.length,
+                 "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study; where it is "
+                 "not given 8 with --quick, --study, --size, --triangles, --mesh or --strip-width 0")
       ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--packings", choice.packings,

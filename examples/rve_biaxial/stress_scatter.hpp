@@ -11,8 +11,8 @@
 namespace rve_biaxial {
 
 /// How far two packings of one recipe are apart in stress on the same path: norm of the difference of axial and lateral
-/// stress over that of the first, root mean square over all rows and pairs. The norm of `accumulated` in an error budget,
-/// whose bound comes from here. NaN for a single packing.
+/// stress over that of the first, root mean square over all rows and pairs. The norm of `accumulated_apart` in an error
+/// budget. NaN for a single packing.
 inline double stress_scatter(std::span<Result const> packings) {
   double squares = 0.0;
   long count = 0;

@@ -3,7 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <numbers>
+#include <algorithm>
+#include <cmath>
 
 #include "scarp/bvp/usual_integration.hpp"
 #include "scarp/element/quad8.hpp"
