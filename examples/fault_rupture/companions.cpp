@@ -38,6 +38,7 @@ Companion turned_mesh(Choice choice) {
     options.emplace_back("aspect", fmt::format("{:g}", aspect));
   }
   if (choice.strip_width > 0.0) {
+    options.emplace_back("length", fmt::format("{}", choice.length));
     options.emplace_back("size", fmt::format("{}", choice.size));
     options.emplace_back("strip-width", fmt::format("{}", choice.strip_width));
   } else if (choice.triangles == 0) {

@@ -227,7 +227,7 @@ void choose_length_and_sizes(CLI::App& app, Choice& choice) {
   if ((has_mesh || app.count("--quick") > 0) && !has_length) choice.length = long_length;
   if (!has_mesh) fault_rupture::choose_strip<fault_rupture::Element>(choice);
   auto const record = [&](char const* option, double value) {
-    app.get_option(option)->default_str(fmt::format("{:g}", value));
+    if (app.count(option) == 0) app.get_option(option)->default_str(fmt::format("{:g}", value));
   };
   record("--length", choice.length);
   record("--size", choice.size);

@@ -21,6 +21,8 @@ void run_pilot(Choice& choice) {
   pilot.soil = Soil::mohr_coulomb;
   pilot.size = Choice{}.size;
   pilot.strip_width = 0.0;
+  pilot.pattern.reset();  // one strip for meshes of all directions
+  pilot.aspect = Choice{}.aspect;
   pilot.length = pilot_length;
   pilot.tolerance = 1e-3;
   pilot.largest_gradient.reset();
@@ -29,6 +31,8 @@ void run_pilot(Choice& choice) {
   pilot.peak_dilation = 9.0;
   pilot.residual_friction.reset();
   pilot.strain_to_residual = 0.5;
+  pilot.young_modulus = Choice{}.young_modulus;
+  pilot.k0 = Choice{}.k0;
   pilot.throw_over_depth = std::max(choice.throw_over_depth, Choice{}.throw_over_depth);  // before it, no band
   auto const scene = make_scene(pilot, ranks());
   choice.strained = std::visit([&](auto const& one) { return strained_by(pilot, one); }, scene);

@@ -246,6 +246,9 @@ std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const&
   if (!report.verdict.acceptable() && !(report.load > 0.0))
     scarp::refuse("the pilot run ended before the fault moved ({}): choose --strip-width 0",
                   name(report.verdict.reason));
+  if (!report.verdict.acceptable() && is_first_rank(executor))
+    examples::say(stderr, "warning: the pilot run ended at a throw of {:.3g} m ({}): the strip may be too short\n",
+                  report.load, name(report.verdict.reason));
   return scarp::strained_places(problem, share);
 }
 

@@ -129,7 +129,11 @@ inline void add_strip(nlohmann::ordered_json& json, scarp::PilotSize const& stri
   double margin = std::numeric_limits<double>::infinity();
   for (auto const& band : survey.bands) {
     auto const [left, right] = strip.edges(band.height);
-    margin = std::min(margin, (right - left - band.band_width) / 2.0 - std::abs(band.band_x50 - (left + right) / 2.0));
+    bool const has_strip = left < right;
+    double const distance =
+        has_strip ? (right - left - band.band_width) / 2.0 - std::abs(band.band_x50 - (left + right) / 2.0)
+                  : -band.band_width;
+    margin = std::min(margin, distance);
   }
   json["strip_margin"] = margin;
 }
