@@ -5,7 +5,8 @@ The mean of the settlement profile is a constant plus the dilated area over the 
 localisation. That of the band is its volume, proportional to the length L, times its volumetric strain, which grows with its shear strain, proportional
 to h / L, to the critical state. With a volumetric strain that fades as an exponential this is the form `band`,
     A / h = a + b u (1 - exp(-1 / u)), u = L / L0:
-linear in L for L << L0, where all of the band is critical, and independent of L for L >> L0. `power`, a + b L^p, and `line`, a + b L through the
+linear in L for L << L0, where all of the band is critical, and independent of L for L >> L0. L0 is at least 1 m, where the band, some two lengths wide,
+has a shear strain near 1, more than any soil here needs to become critical. `power`, a + b L^p with p from 0.5 to 1.5, and `line`, a + b L, through the
 shortest lengths alone, assume less. Edges and median of the profile are apart from its mean by widths of the band and have the same forms.
 """
 import math
@@ -24,8 +25,8 @@ QUANTITIES = [*PLACES, AREA, "mid-line dip [deg]", "reaction [MN/m]"]
 WIDTHS = [f"width at {level} of the height [m]" for level in ("1/4", "1/2", "3/4")]
 CRITICAL = ["critical strain [%]", "critical volume [%]"]
 SOILS = {"sand": "Sand", "mohr_coulomb": "Mohr-Coulomb"}
-FORMS = {"band": lambda x: (u := x / np.geomspace(0.2, 200.0, 61)[:, None]) * (1.0 - np.exp(-1.0 / u)),
-         "power": lambda x: x ** np.linspace(0.25, 1.5, 26)[:, None],
+FORMS = {"band": lambda x: (u := x / np.geomspace(1.0, 200.0, 93)[:, None]) * (1.0 - np.exp(-1.0 / u)),
+         "power": lambda x: x ** np.linspace(0.5, 1.5, 21)[:, None],
          "line": lambda x: x[None, :]}
 # Least and largest number of the shortest lengths that a form is fitted to: one more than it has parameters, and where it
 # holds for short lengths alone two.

@@ -41,7 +41,7 @@ def apart(form, law, lengths=LENGTHS):
 expect(apart("line", lambda x: 2.0 - 3.0 * x) < 1e-9, "a line")
 expect(apart("power", lambda x: 2.0 + 3.0 * x**0.75) < 1e-9, "a power that is among those looked at")
 expect(apart("power", lambda x: 2.0 - 3.0 * x) < 1e-9, "the power one")
-# The lengths L0 that are looked at lie 12 % apart.
+# The lengths L0 that are looked at lie 6 % apart, which is at most 3 % of the 0.6 m by which the limit changes with log L0.
 expect(apart("band", band) < 0.02, f"the band's law, {apart('band', band)} m off")
 expect(apart("line", band) > 0.3, "a line through a law that bends is off")
 # Concave: a line through the shortest lengths is too high, a power, whose slope at no length has no bound, too low.
