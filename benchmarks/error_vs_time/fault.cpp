@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "../../examples/shared/study/typed_scenes.hpp"
-#include "scarp/constitutive/lazy.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
 #include "scarp/scene/nonlocal_scene.hpp"
@@ -19,7 +18,7 @@ namespace {
 using fault_rupture::MeshPattern;
 using fault_rupture::SandFreeField;
 
-struct Sand : scarp::Lazy<scarp::DemRve<fault_rupture::Grains, fault_rupture::Columns>> {};
+struct Sand : scarp::DemRve<fault_rupture::Grains, fault_rupture::Columns> {};
 struct NonlocalSand : scarp::Nonlocal<Sand> {};
 
 struct FaultSettings {
@@ -35,7 +34,6 @@ struct FaultSettings {
   int least_steps = 20;
   double inertial_number = 5e-3;
   double unbalanced = 0.1;
-  double lazy = 0.0;             ///< tolerance of predicted responses; 0 evaluates always
   double most_seconds = 2000.0;  ///< CPU time
 };
 
@@ -84,7 +82,7 @@ Eigen::VectorXd settlements(std::vector<scarp::SurfacePoint> const& profile, dou
 Measured sand_fault(FaultSettings const& settings, int repetition) {
   auto const& study = prepared(settings, repetition + 1);
   scarp::FreeFieldFault<NonlocalSand, scarp::QuasiNewton<>> scene;
-  auto& sand = scene.soil.provider.provider;
+  auto& sand = scene.soil.provider;
   sand.law = study.soil.provider.law;
   sand.source = study.soil.provider.source;
   sand.strain_per_step = settings.strain_per_step;
@@ -92,8 +90,6 @@ Measured sand_fault(FaultSettings const& settings, int repetition) {
   sand.inertial_number = settings.inertial_number;
   sand.unbalanced_tolerance = settings.unbalanced;
   sand.loose_pressure = study.soil.provider.loose_pressure;
-  scene.soil.provider.tolerance = settings.lazy;
-  scene.soil.provider.loose_pressure = study.soil.provider.loose_pressure;
   scene.soil.length = settings.length;
   scene.ground.layer = study.ground.layer;
   scene.fault = study.fault;
@@ -145,7 +141,6 @@ SweepTable fault(Options const& options) {
   sweep.vary("unbalanced ratio", &FaultSettings::unbalanced, {0.025, 0.05, 0.2});
   sweep.vary("force tolerance", &FaultSettings::tolerance, {1e-2, 3e-3, 3e-4});
   sweep.vary("gradient of a load step", &FaultSettings::largest_gradient, {0.02, 0.01, 0.0025});
-  sweep.vary("Lazy tolerance", &FaultSettings::lazy, {0.003, 0.01, 0.03});
   auto both = base;
   both.tolerance = 3e-3;
   both.largest_gradient = 2.0 * base.largest_gradient;

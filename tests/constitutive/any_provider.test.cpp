@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/lazy.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"

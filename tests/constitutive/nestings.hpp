@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "scarp/constitutive/any_provider.hpp"
-#include "scarp/constitutive/lazy.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
@@ -91,14 +90,6 @@ struct Varied {
                                              }};
   }
 };
-struct Predicted {
-  static constexpr char const* name = "Lazy";
-  template <class Provider>
-  static auto around(Provider provider) {
-    return scarp::Lazy<Provider>{
-        .provider = std::move(provider), .tolerance = 0.3, .largest_strain = 3e-4, .learning_strain = 1e-9};
-  }
-};
 struct Hidden {
   static constexpr char const* name = "AnyProvider";
   template <class Provider>
@@ -110,7 +101,7 @@ struct Hidden {
 /// visit(adaptor) for each.
 template <class Visit>
 void for_each_adaptor(Visit const& visit) {
-  visit(Floored{}), visit(Varied{}), visit(Predicted{}), visit(Hidden{});
+  visit(Floored{}), visit(Varied{}), visit(Hidden{});
 }
 
 /// visit(name, provider) for each adaptor around each, another one of its own kind too.

@@ -3,7 +3,6 @@
 
 #include "scarp/constitutive/any_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/lazy.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
@@ -67,19 +66,6 @@ struct Sample<scarp::VariedParameters<scarp::LinearElastic<2>>> : AdaptedElastic
   }
 };
 
-/// A point whose tangent is known to be right: all of its answers are predictions.
-template <>
-struct Sample<scarp::Lazy<scarp::LinearElastic<2>>> : AdaptedElastic {
-  static scarp::Lazy<Inner> provider() { return {.provider = inner(), .largest_strain = 1e-2}; }
-  static auto state(scarp::Lazy<Inner> const& provider) {
-    auto state = AdaptedElastic::state(provider);
-    state.stress = state.own.stress;
-    state.missed = 0.0;
-    return state;
-  }
-  static bool same(auto const& a, auto const& b) { return a.stress == b.stress && a.skipped == b.skipped; }
-};
-
 template <>
 struct Sample<scarp::StiffnessFloor<scarp::LinearElastic<2>>> : AdaptedElastic {
   static scarp::StiffnessFloor<Inner> provider() { return {inner()}; }
@@ -124,10 +110,9 @@ using ElasticInPlane = scarp::LinearElastic<2>;
 using ElasticInSpace = scarp::LinearElastic<3>;
 using RveOfDiscs = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>;
 using RveOfEllipses = scarp::DemRve<samples::Ellipses, scarp::SamePacking<samples::Ellipses>>;
-#define EVERY_PROVIDER                                                                                             \
-  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses,         \
-      scarp::VariedParameters<ElasticInPlane>, scarp::Lazy<ElasticInPlane>, scarp::StiffnessFloor<ElasticInPlane>, \
-      scarp::AnyProvider<2>
+#define EVERY_PROVIDER                                                                                     \
+  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses, \
+      scarp::VariedParameters<ElasticInPlane>, scarp::StiffnessFloor<ElasticInPlane>, scarp::AnyProvider<2>
 
 TEST_CASE_TEMPLATE("every provider: committed state is never touched", Provider, EVERY_PROVIDER) {
   provider_laws::committed_state_is_never_touched<Provider>();

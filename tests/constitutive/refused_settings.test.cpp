@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/lazy.hpp"
 #include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/nonlocal_materials.hpp"
@@ -127,16 +126,6 @@ TEST_CASE("parameters of elastic and plastic ground that cannot be are refused")
 }
 
 TEST_CASE("settings of adaptors that cannot be are refused") {
-  using Lazy = scarp::Lazy<Elastic>;
-  check_table<Lazy>(
-      {.provider = elastic()},
-      {
-          {[](Lazy& lazy) { lazy.tolerance = not_a_number; }, "tolerance of a predicted stress is nan"},
-          {[](Lazy& lazy) { lazy.largest_strain = 0.0; }, "largest strain that is predicted is 0"},
-          {[](Lazy& lazy) { lazy.loose_pressure = -1.0; }, "loose pressure is -1"},
-          {[](Lazy& lazy) { lazy.learning_strain = 0.0; }, "strain from which a tangent learns is 0"},
-          {[](Lazy& lazy) { lazy.memory = -0.5; }, "share of an earlier error that is remembered is -0.5"},
-      });
   using Floor = scarp::StiffnessFloor<Elastic>;
   check_table<Floor>(
       {.provider = elastic()},

@@ -7,7 +7,6 @@
 #include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
-#include "scarp/solver/dynamic_relaxation.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "support/refusals.hpp"
@@ -93,8 +92,8 @@ TEST_CASE("a body that a fluid presses from all sides converges, though there ar
   is_pressed(problem);
 }
 
-TEST_CASE_TEMPLATE("a law is tested on one element all of whose nodes are moved", Solver, scarp::QuasiNewton<>, Newton,
-                   scarp::DynamicRelaxation<>) {
+TEST_CASE_TEMPLATE("a law is tested on one element all of whose nodes are moved", Solver, scarp::QuasiNewton<>,
+                   Newton) {
   scarp::SerialExecutor serial;
   Grid grid(scarp::RectangleMesh{.columns = 1, .rows = 1}.generate());
   scarp::Constraints constraints(grid.mesh());

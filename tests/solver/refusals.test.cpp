@@ -6,7 +6,6 @@
 
 #include <limits>
 
-#include "scarp/solver/dynamic_relaxation.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 
@@ -47,11 +46,6 @@ TEST_CASE("solvers refuse settings with which no step could be accepted") {
   refuses(&Newton::most_iterations, {0, -1}, "most iterations of a load step");
   refuses(&Newton::hopeless, {not_a_number, 0.0, 1e-3}, "residual beyond which a step is given up");
   refuses(&Newton::most_refinements, {-1}, "most refinements of an iteration");
-  using Relaxation = scarp::DynamicRelaxation<>;
-  refuses(&Relaxation::tolerance, {not_a_number, infinity, 0.0, -1e-3}, "tolerance of the force residual");
-  refuses(&Relaxation::most_iterations, {0, -1}, "most motions of a load step");
-  refuses(&Relaxation::hopeless, {not_a_number, 1e-3}, "residual beyond which a step is given up");
-  refuses(&Relaxation::mass, {not_a_number, infinity, 0.0, -1.0}, "mass relative to the least stable one");
 }
 
 TEST_CASE("tangent rules refuse shares outside of their range, also within a solver") {

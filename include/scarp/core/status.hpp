@@ -29,7 +29,6 @@ enum class Reason : std::uint8_t {
   cell_collapsed,    ///< the periodic cell is inverted or thinner than a grain's diameter and the skin
   lost_grain,        ///< a grain lies so many cells away that its place in the cell is round-off
   element_inverted,  ///< an element's Jacobian is not positive
-  extrapolated,      ///< a predicted answer went further than its prediction is trusted
   no_return,         ///< no admissible stress was found for a trial stress
   iterations_spent,  ///< the iteration limit was reached above the asked residual
   singular_system,   ///< the linear system could not be factorised
@@ -70,7 +69,6 @@ constexpr std::string_view name(Reason reason) {
     case Reason::cell_collapsed: return "cell_collapsed";
     case Reason::lost_grain: return "lost_grain";
     case Reason::element_inverted: return "element_inverted";
-    case Reason::extrapolated: return "extrapolated";
     case Reason::no_return: return "no_return";
     case Reason::iterations_spent: return "iterations_spent";
     case Reason::singular_system: return "singular_system";
