@@ -17,7 +17,7 @@ enum class Status : std::uint8_t {
   failed          ///< no meaningful answer exists (NaN, exploded, impossible input)
 };
 
-/// Why a status is not `ok`.
+/// Why a status is not `ok`. Checkpoints hold the numbers.
 enum class Reason : std::uint8_t {
   none,
   no_contacts,
@@ -29,7 +29,7 @@ enum class Reason : std::uint8_t {
   cell_collapsed,    ///< the periodic cell is inverted or thinner than a grain's diameter and the skin
   lost_grain,        ///< a grain lies so many cells away that its place in the cell is round-off
   element_inverted,  ///< an element's Jacobian is not positive
-  no_return,         ///< no admissible stress was found for a trial stress
+  no_return = 11,    ///< no admissible stress was found for a trial stress
   iterations_spent,  ///< the iteration limit was reached above the asked residual
   singular_system,   ///< the linear system could not be factorised
   step_too_small,    ///< cutting the load step went below its smallest size

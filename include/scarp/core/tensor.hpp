@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
+
 #include "scarp/core/one_version.hpp"
 
 namespace scarp {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 
 #include <vector>
