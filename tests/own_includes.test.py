@@ -18,8 +18,8 @@ DEFINITIONS = (r"\b(?:class|struct|enum|concept)\s+(?:SCARP_\w+\s+)?(\w+)\b(?!\s
                r"\b(?:constexpr|const|inline)\b[^()=]*?\b([A-Za-z_]\w*)\s*(?:=|$)")
 NO_TYPES = set("""static inline constexpr const return else explicit virtual noexcept requires throw new operator template public private
 case and or not if mutable final override""".split())
-# A name, perhaps in a namespace of scarp, that is no member.
-NAMES = re.compile(r"(?<![\w.:])(?<!->)(?:scarp::|detail::|lanes::)*([A-Za-z_]\w*)\b")
+# A name that is no member, after its namespaces within scarp.
+NAMES = re.compile(r"(?<![\w.:])(?<!->)((?:scarp::|detail::|lanes::)*)([A-Za-z_]\w*)\b")
 BY_ARGUMENTS = {("scarp/run/visit_point.hpp", "state_elsewhere")}  # of an executor that shares points, by its own header
 FOREIGN = {
     r"std::(?:vector)\b": "vector", r"std::(?:string|to_string)\b": "string", r"std::string_view\b": "string_view", r"std::array\b": "array",
@@ -58,7 +58,7 @@ def definitions(text):
             found = re.search(pattern, piece)
             if found and not (end == ";" and re.search(rf"\b(?:class|struct|enum)\s+{found.group(1)}$", piece)):
                 yield found.group(1)
-        function = re.search(r"[\w>&*\]]\s+[&*]?([a-z]\w*_\w*)\s*\(", piece)
+        function = re.search(r"[\w>&*\]]\s+[&*]?([a-z]\w*)\s*\(", piece)
         if function:
             yield function.group(1)
 
@@ -90,8 +90,10 @@ def main(root):
 
     for header, text in sorted(code.items()):
         read, own = read_by(header), introduced(text)
-        for name in sorted(set(NAMES.findall(text)) - own):
-            if name in homes and (name[0].isupper() or "_" in name) and (header, name) not in BY_ARGUMENTS:
+        for space, name in sorted(set(NAMES.findall(text))):
+            # A short name without its namespace may be anything.
+            certain = space or (name not in own and (name[0].isupper() or "_" in name))
+            if name in homes and certain and (header, name) not in BY_ARGUMENTS:
                 expect(homes[name] & read, f"{header} names {name} and does not include {' or '.join(sorted(homes[name]))}")
         for pattern, wanted in FOREIGN.items():
             # Eigen/Dense and its kind hold others.

@@ -14,6 +14,7 @@
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/fault/pilot_size.hpp"
 #include "scarp/observe/convergence_log.hpp"
+#include "scarp/observe/distortion.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/generalised_reaction.hpp"
 #include "scarp/observe/packing_series.hpp"
@@ -171,6 +172,13 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
         packings_of("B", at(choice.probe_b_x, choice.probe_b_y)),
         footing_log(folder, scene.structure, to, profiles, depth, start),
         scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth, begun.name),
+        scarp::DistortionWarning<2>([&](auto const& worst) {
+          examples::say(
+              stderr,
+              "{}warning: element {} at ({:.2f}, {:.2f}) is sheared by {:.0f} % (mean ratio {:.2f}; 1 is regular, "
+              "0 inverted): compare with another --pattern, or take a longer --length or less throw\n",
+              begun.name, worst.element, worst.place.x(), worst.place.y(), 100.0 * worst.shear, worst.mean_ratio);
+        }),
         scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
   });
 
@@ -211,9 +219,12 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);
       if (begun.companions) text += companion_lines(companions);
       if (!report.verdict.acceptable()) {
-        text = fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n",
-                           report.load / depth, name(report.verdict.reason), name(report.last_failure),
-                           report.worst_point) +
+        auto const worst = scarp::largest_distortion(grid);
+        text = fmt::format(
+                   "INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {}); the most "
+                   "distorted element, {}, is sheared by {:.0f} %\n",
+                   report.load / depth, name(report.verdict.reason), name(report.last_failure), report.worst_point,
+                   worst.element, 100.0 * worst.shear) +
                text;
       }
       scarp::write_file(folder / "summary.txt", text);

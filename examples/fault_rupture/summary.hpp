@@ -12,6 +12,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/io/atomic_file.hpp"
+#include "scarp/observe/distortion.hpp"
 #include "scarp/observe/floor_share.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
@@ -154,6 +155,12 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["element"] = element_name;
   json["elements"] = grid.mesh().elements.size();
   if (scene.ground.strip) add_strip(json, *scene.ground.strip, survey);
+  auto const distorted = scarp::largest_distortion(grid);
+  json["distorted_element"] = {{"number", distorted.element},
+                               {"x", distorted.place.x()},
+                               {"y", distorted.place.y()},
+                               {"shear", distorted.shear},
+                               {"mean_ratio", distorted.mean_ratio}};
   if (choice.soil == Soil::dem) {
     json["grains_per_rve"] = choice.grains;
     json["seed"] = choice.seed;
@@ -240,6 +247,10 @@ inline std::string table(nlohmann::ordered_json const& json) {
   if (json.contains("strip_margin"))
     row("least distance of the band from the strip's edges [m]", fmt::format("{:.1f}", number("strip_margin")),
         "below 0 the band leaves the strip: give a wider --strip-width");
+  auto const& distorted = json["distorted_element"];
+  row("most distorted element: shear [%], mean ratio",
+      fmt::format("{:.0f}, {:.2f}", 100.0 * distorted["shear"].get<double>(), distorted["mean_ratio"].get<double>()),
+      "0, 1 for regular elements");
   row("settlement of the far foot wall / throw", fmt::format("{:.4f}", number("settlement_foot_over_throw")), "0");
   row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_over_throw")),
       "1");

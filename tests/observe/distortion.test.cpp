@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/observe/distortion.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "scarp/bvp/discretisation.hpp"
+#include "scarp/bvp/usual_integration.hpp"
+#include "scarp/element/quad4.hpp"
+#include "scarp/element/quad8.hpp"
+#include "scarp/element/tet4.hpp"
+#include "scarp/element/tri3.hpp"
+#include "scarp/element/tri6.hpp"
+#include "scarp/mesh/box_mesh.hpp"
+#include "scarp/solver/step_report.hpp"
+#include "support/approx.hpp"
+#include "support/refusals.hpp"
+
+namespace {
+
+using samples::Approx;
+using scarp::Corners;
+using scarp::mean_ratio;
+using scarp::Vector;
+
+/// A grid alone, as an observer sees it.
+template <class Grid>
+struct Ground {
+  Grid grid;
+  Grid const& discretisation() const { return grid; }
+};
+
+auto unit_squares() {
+  return scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::UsualIntegration<scarp::Quad4>>(
+      scarp::BoxMesh<scarp::Quad4>{.lengths = {2.0, 1.0}, .cells = {2, 1}}.generate());
+}
+
+/// Simple shear of all of it.
+template <class Grid>
+void shear(Grid& grid, double by) {
+  Eigen::VectorXd increment = Eigen::VectorXd::Zero(grid.dof_count());
+  for (int node = 0; node < grid.node_count(); ++node)
+    increment(2 * node) = by * grid.mesh().nodes[static_cast<std::size_t>(node)].y();
+  grid.commit(increment);
+}
+
+}  // namespace
+
+TEST_CASE("the mean ratio is that of closed forms") {
+  // Analytic: regular cells have 1 whatever their size; a half square |A|^2 = 8 / 3, det A = 2 / sqrt(3).
+  Corners<scarp::Tri3, 2> triangle;
+  triangle << 0.0, 0.0, 3.0, 0.0, 1.5, 1.5 * std::sqrt(3.0);
+  CHECK(mean_ratio<scarp::Tri3>(triangle, Vector<2>(0.2, 0.3)) == Approx(1.0).epsilon(1e-14));
+  triangle << 0.0, 0.0, 1.0, 0.0, 0.0, 1.0;
+  CHECK(mean_ratio<scarp::Tri3>(triangle, Vector<2>(0.2, 0.3)) == Approx(std::sqrt(3.0) / 2.0).epsilon(1e-14));
+  triangle << 0.0, 0.0, 0.0, 1.0, 1.0, 0.0;
+  CHECK(mean_ratio<scarp::Tri3>(triangle, Vector<2>(0.2, 0.3)) == 0.0);  // inside out
+  Corners<scarp::Quad4, 2> square;
+  square << 0.0, 0.0, 2.0, 0.0, 2.0, 2.0, 0.0, 2.0;
+  CHECK(mean_ratio<scarp::Quad4>(square, Vector<2>(0.1, 0.7)) == Approx(1.0).epsilon(1e-14));
+  Corners<scarp::Tet4, 3> tetrahedron;
+  tetrahedron << 1, 1, 1, 1, -1, -1, -1, -1, 1, -1, 1, -1;
+  CHECK(mean_ratio<scarp::Tet4>(tetrahedron, Vector<3>(0.2, 0.2, 0.2)) == Approx(1.0).epsilon(1e-14));
+}
+
+TEST_CASE_TEMPLATE("elements of a regular mesh have the mean ratio of their linear ones", Element, scarp::Tri6,
+                   scarp::Quad8) {
+  using Linear = typename Element::Linear;
+  auto const ratio_of = []<class Cell>(scarp::BoxMesh<Cell> const& mesh) {
+    scarp::Discretisation<Cell, scarp::UpdatedLagrangian, scarp::UsualIntegration<Cell>> const grid(mesh.generate());
+    return scarp::largest_distortion(grid).mean_ratio;
+  };
+  CHECK(ratio_of(scarp::BoxMesh<Element>{.cells = {2, 2}}) ==
+        Approx(ratio_of(scarp::BoxMesh<Linear>{.cells = {2, 2}})).epsilon(1e-12));
+}
+
+TEST_CASE("distortion follows the simple shear of a block, and is told once for each halving") {
+  auto ground = Ground<decltype(unit_squares())>{unit_squares()};
+  std::vector<double> told;
+  scarp::DistortionWarning<2> warning([&](scarp::Distortion<2> const& worst) { told.push_back(worst.shear); });
+  double sheared = 0.0;
+  for (double const more : {1.0, 1.5, 0.5, 0.1, 2.0}) {
+    shear(ground.grid, more);
+    sheared += more;
+    auto const worst = scarp::largest_distortion(ground.grid);
+    // Analytic: det F = 1, |F|^2 = 2 + shear^2.
+    CHECK(worst.mean_ratio == Approx(2.0 / (2.0 + sheared * sheared)).epsilon(1e-12));
+    CHECK(worst.shear == Approx(sheared).epsilon(1e-12));
+    warning.attempted(ground, scarp::StepReport{.verdict = {scarp::Status::failed, scarp::Reason::not_finite}});
+    warning.attempted(ground, scarp::StepReport{});
+  }
+  // Below 0.2 at 3.0 (0.18), not again at 3.1, below half of it at 5.1.
+  REQUIRE(told.size() == 2);
+  CHECK(told[0] == Approx(3.0).epsilon(1e-12));
+  CHECK(told[1] == Approx(5.1).epsilon(1e-12));
+}
+
+TEST_CASE("a limit that is no ratio is refused") {
+  CHECK(samples::message_of([] { scarp::DistortionWarning<2>([](auto const&) {}, -0.1); }) ==
+        samples::Naming{"mean ratio that is warned of", "-0.1"});
+}
