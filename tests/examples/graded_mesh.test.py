@@ -38,6 +38,9 @@ with tempfile.TemporaryDirectory() as scratch:
     expect(graded["strip_margin"] > 0.0, f"the band stays in the strip: {graded['strip_margin']}")
     expect(graded["elements"] < 1000, f"far elements stay large: {graded['elements']}")
     expect(graded["vertical_stress_error"] < 1e-2, "the ground at rest carries its weight")
+    expect(graded["distorted_element"]["mean_ratio"] > 0.2, f"no element is distorted: {graded['distorted_element']}")
+    far = run(scratch, "--length", "4", "--throw-over-depth", "0.25")
+    expect("warning: element" in far.stderr and "is sheared by" in far.stderr, f"an element that gets thin is told: {far.stderr[-300:]}")
     turned = told(scratch, "--length", "4", "--pattern", "right")
     # Bound of the error budget's part "mesh": 4 % of the depth.
     expect(abs(graded["surface_x50"] - turned["surface_x50"]) < 1.0, f"x50 {graded['surface_x50']} and {turned['surface_x50']}")
