@@ -95,22 +95,9 @@ def drawn(lengths, values, factors, at):
     return result
 
 
-def grains_agree(rows):
-    """Whether the mean with 100 grains is that with 400 within two deviations of the difference, at all lengths with seeds of both on the crossed mesh."""
-    seen = []
-    for length in {row["length [m]"] for row in rows}:
-        of = {grains: [float(row["mean [m]"]) for row in rows if (row["length [m]"], row["mesh"], row.get("grains")) == (length, "crossed", grains)]
-              for grains in ("100", "400")}
-        if min(map(len, of.values())) > 1:
-            apart = abs(np.mean(of["100"]) - np.mean(of["400"]))
-            seen.append(apart <= 2.0 * math.sqrt(sum(np.var(values, ddof=1) / len(values) for values in of.values())))
-    return bool(seen) and all(seen)
-
-
 def usable(rows, soil):
-    """Rows of runs that reached the throw; with 100 grains only where these respond as 400 do, or there are no others."""
-    rows = [row for row in rows if row["soil"] == soil and row["status"] == "ok"]
-    return rows if grains_agree(rows) else [row for row in rows if row.get("grains", "") != "100"] or rows
+    """Rows of runs that reached the throw."""
+    return [row for row in rows if row["soil"] == soil and row["status"] == "ok"]
 
 
 def column(rows, name):
