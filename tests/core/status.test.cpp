@@ -34,6 +34,7 @@ TEST_CASE("every status and every reason has a name of its own") {
   }
   int const last_reason = static_cast<int>(Reason::interrupted);
   for (int k = 0; k <= last_reason; ++k) {
+    if (k == 10) continue;  // a former reason; checkpoints hold the numbers of the others
     names.insert(name(static_cast<Reason>(k)));
     ++count;
   }
