@@ -48,9 +48,12 @@ PackingType grid(int columns, int rows, std::uint64_t seed, double spacing = 9e-
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
       double const size = random.uniform(4e-3, 6e-3);
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", spacing * (i + random.uniform(-0.05, 0.05)),
-                          spacing * (j + random.uniform(-0.05, 0.05)), spacing * random.uniform(0.0, 0.2), size, size,
-                          0.75 * size, 0.55 * size, random.uniform(0.0, std::numbers::pi));
+      // One after the other: compilers evaluate arguments in an order of their own.
+      double const x = spacing * (i + random.uniform(-0.05, 0.05));
+      double const y = spacing * (j + random.uniform(-0.05, 0.05));
+      double const z = spacing * random.uniform(0.0, 0.2);
+      double const angle = random.uniform(0.0, std::numbers::pi);
+      text += fmt::format("{},{},{},{},{},{},{},{}\n", x, y, z, size, size, 0.75 * size, 0.55 * size, angle);
     }
   }
   scarp::Vector<dim> sides = scarp::Vector<dim>::Constant(3.0 * spacing);
