@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -88,13 +89,31 @@ TEST_CASE("distortion follows the simple shear of a block, and is told once for 
     // Analytic: det F = 1, |F|^2 = 2 + shear^2.
     CHECK(worst.mean_ratio == Approx(2.0 / (2.0 + sheared * sheared)).epsilon(1e-12));
     CHECK(worst.shear == Approx(sheared).epsilon(1e-12));
+    auto const before = told.size();
     warning.attempted(ground, scarp::StepReport{.verdict = {scarp::Status::failed, scarp::Reason::not_finite}});
+    CHECK(told.size() == before);
     warning.attempted(ground, scarp::StepReport{});
   }
   // Below 0.2 at 3.0 (0.18), not again at 3.1, below half of it at 5.1.
   REQUIRE(told.size() == 2);
   CHECK(told[0] == Approx(3.0).epsilon(1e-12));
   CHECK(told[1] == Approx(5.1).epsilon(1e-12));
+}
+
+TEST_CASE("the most distorted element is found, with its place now") {
+  auto grid = unit_squares();
+  CHECK(scarp::largest_distortion(grid).mean_ratio == Approx(1.0).epsilon(1e-14));
+  Eigen::VectorXd increment = Eigen::VectorXd::Zero(grid.dof_count());
+  for (int node = 0; node < grid.node_count(); ++node) {
+    auto const& place = grid.mesh().nodes[static_cast<std::size_t>(node)];
+    if (place.x() > 1.5) increment(2 * node + 1) = 0.8;  // the right side goes up
+  }
+  grid.commit(increment);
+  auto const worst = scarp::largest_distortion(grid);
+  auto const& nodes = grid.mesh().elements[static_cast<std::size_t>(worst.element)];
+  CHECK(std::any_of(nodes.begin(), nodes.end(), [&](int node) { return increment(2 * node + 1) > 0.0; }));
+  CHECK(worst.mean_ratio == Approx(2.0 / (2.0 + 0.8 * 0.8)).epsilon(1e-12));  // analytic: simple shear
+  CHECK((worst.place - Vector<2>(1.5, 0.9)).norm() < 1e-12);
 }
 
 TEST_CASE("a limit that is no ratio is refused") {
