@@ -89,6 +89,18 @@ TEST_CASE("a rigid footing on springs settles and tilts as Winkler's bed") {
   CHECK(body.rotation() == samples::Approx(moment / (k * 8.0 / 12.0)).epsilon(1e-6));
 }
 
+TEST_CASE("the part of a footing that overhangs the ground carries nothing") {
+  Bed bed{.rigid_ground = true, .width = 8.0};  // a metre beyond both ends of the block
+  double const k = 50e6;
+  scarp::LinearFrictional const springs{.normal_stiffness = k, .tangential_stiffness = k, .friction = 0.5};
+  double const force = 200e3;
+  auto problem = bed.problem(springs, {0.0, -force}, 0.0);
+  scarp::NoObserver nobody;
+  REQUIRE(one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody).verdict.acceptable());
+  // Analytic: Winkler's bed over the 6 m of the block.
+  CHECK(2.0 - problem.attached().body().body().reference().y() == samples::Approx(force / (k * 6.0)).epsilon(1e-6));
+}
+
 TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle, none is negative, forces balance") {
   Bed bed{.rigid_ground = true, .columns = 96};
   double const k = 50e6;
