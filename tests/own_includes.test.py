@@ -22,7 +22,7 @@ case and or not if mutable final override""".split())
 NAMES = re.compile(r"(?<![\w.:])(?<!->)((?:scarp::|detail::|lanes::)*)([A-Za-z_]\w*)\b")
 BY_ARGUMENTS = {("scarp/run/visit_point.hpp", "state_elsewhere")}  # of an executor that shares points, by its own header
 FOREIGN = {
-    r"std::(?:vector)\b": "vector", r"std::(?:string|to_string)\b": "string", r"std::string_view\b": "string_view", r"std::array\b": "array",
+    r"std::vector\b": "vector", r"std::(?:string|to_string)\b": "string", r"std::string_view\b": "string_view", r"std::array\b": "array",
     r"std::map\b": "map", r"std::set\b": "set", r"std::unordered_map\b": "unordered_map", r"std::optional\b|std::nullopt\b": "optional",
     r"std::variant\b": "variant", r"std::function\b": "functional", r"std::(?:unique|shared|weak)_ptr\b|std::make_(?:unique|shared)\b": "memory",
     r"std::span\b": "span", r"std::tuple\b|std::tie\b": "tuple", r"std::atomic\b": "atomic", r"std::thread\b": "thread", r"std::chrono\b": "chrono",
@@ -96,7 +96,6 @@ def main(root):
             if name in homes and certain and (header, name) not in BY_ARGUMENTS:
                 expect(homes[name] & read, f"{header} names {name} and does not include {' or '.join(sorted(homes[name]))}")
         for pattern, wanted in FOREIGN.items():
-            # Eigen/Dense and its kind hold others.
             if re.search(pattern, text):
                 expect(wanted in read, f"{header} names {re.search(pattern, text).group()} and does not include <{wanted}>")
     finish()

@@ -176,7 +176,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
           examples::say(
               stderr,
               "{}warning: element {} at ({:.2f}, {:.2f}) is sheared by {:.0f} % (mean ratio {:.2f}; 1 is regular, "
-              "0 inverted): compare with another --pattern, or take a longer --length or less throw\n",
+              "0 without area): compare with another --pattern, or take a longer --length or less throw\n",
               begun.name, worst.element, worst.place.x(), worst.place.y(), 100.0 * worst.shear, worst.mean_ratio);
         }),
         scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
@@ -219,12 +219,9 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);
       if (begun.companions) text += companion_lines(companions);
       if (!report.verdict.acceptable()) {
-        auto const worst = scarp::largest_distortion(grid);
-        text = fmt::format(
-                   "INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {}); the most "
-                   "distorted element, {}, is sheared by {:.0f} %\n",
-                   report.load / depth, name(report.verdict.reason), name(report.last_failure), report.worst_point,
-                   worst.element, 100.0 * worst.shear) +
+        text = fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n",
+                           report.load / depth, name(report.verdict.reason), name(report.last_failure),
+                           report.worst_point) +
                text;
       }
       scarp::write_file(folder / "summary.txt", text);

@@ -248,9 +248,10 @@ inline std::string table(nlohmann::ordered_json const& json) {
     row("least distance of the band from the strip's edges [m]", fmt::format("{:.1f}", number("strip_margin")),
         "below 0 the band leaves the strip: give a wider --strip-width");
   auto const& distorted = json["distorted_element"];
-  row("most distorted element: shear [%], mean ratio",
-      fmt::format("{:.0f}, {:.2f}", 100.0 * distorted["shear"].get<double>(), distorted["mean_ratio"].get<double>()),
-      "0, 1 for regular elements");
+  row("most distorted element: number, shear [%], mean ratio",
+      fmt::format("{}, {:.0f}, {:.2f}", distorted["number"].get<int>(), 100.0 * distorted["shear"].get<double>(),
+                  distorted["mean_ratio"].get<double>()),
+      "a regular element has shear 0 and mean ratio 1");
   row("settlement of the far foot wall / throw", fmt::format("{:.4f}", number("settlement_foot_over_throw")), "0");
   row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_over_throw")),
       "1");

@@ -42,6 +42,15 @@ TEST_CASE("negative numbers are refused by name and value") {
                        scarp::InputError);
 }
 
+TEST_CASE("a number outside of its range is refused, its ends are not") {
+  for (double const value : {0.99, 2.01, infinity, -infinity, not_a_number})
+    CHECK_REFUSED(scarp::require_between("damping", value, 1.0, 2.0), fmt::format("damping is {}", value), "1 and 2");
+  CHECK(scarp::require_between("damping", 1.0, 1.0, 2.0) == 1.0);
+  CHECK(scarp::require_between("damping", 2.0, 1.0, 2.0) == 2.0);
+  CHECK_REFUSED(scarp::require_at_least("steps", 2, 3), "steps is 2", "at least 3");
+  CHECK(scarp::require_at_least("steps", 3, 3) == 3);
+}
+
 TEST_CASE("infinity and NaN are refused everywhere") {
   for (double const value : {infinity, -infinity, not_a_number}) {
     CAPTURE(value);

@@ -93,6 +93,10 @@ with tempfile.TemporaryDirectory() as scratch:
     for length in ("8", "5.66", "4", "2.83", "2"):
         count = sum(line.startswith(f"sand-{length}m-") for line in every)
         expect(count == 9, f"three seeds on three meshes with {length} m, not {count}")
+    chosen = run("--list", "sand-4m-*", "mohr_coulomb-2m-right").splitlines()
+    expect(len(chosen) == 11, f"nine runs of sand, one of Mohr-Coulomb ground and a sum, not {len(chosen)}")
+    unknown = subprocess.run([sys.executable, script, "--list", "sand-3m-*"], cwd=scratch, capture_output=True, text=True)
+    expect(unknown.returncode == 2 and "no run matches sand-3m-*" in unknown.stderr, f"names of no run are refused: {unknown.stderr}")
     costs = [float(line.split()[1]) for line in every[:-1]]
     expect(costs == sorted(costs) and costs[-1] > 1000.0, "the cheapest come first")
 

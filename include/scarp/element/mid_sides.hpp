@@ -33,6 +33,24 @@ concept PlacesNodes = ReferenceCell<Element> && ReferenceCell<typename Element::
 
 namespace detail {
 
+template <class Element>
+struct CornerElement {
+  using Type = Element;
+};
+template <class Element>
+  requires(HasMidSides<Element> || PlacesNodes<Element>)
+struct CornerElement<Element> {
+  using Type = typename Element::Linear;
+};
+
+}  // namespace detail
+
+/// The element of the corners alone; a straight element itself.
+template <class Element>
+using LinearOf = typename detail::CornerElement<Element>::Type;
+
+namespace detail {
+
 /// Quadratic shapes of a simplex from its linear ones L: \f$ N_a = L_a (2 L_a - 1) \f$ at the corners and
 /// \f$ N_m = 4 L_a L_b \f$ in the middle between two.
 template <class Element>

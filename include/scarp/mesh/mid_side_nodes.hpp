@@ -14,16 +14,6 @@ namespace scarp {
 
 namespace detail {
 
-template <class Element>
-struct CornerElement {
-  using Type = Element;
-};
-template <class Element>
-  requires(HasMidSides<Element> || PlacesNodes<Element>)
-struct CornerElement<Element> {
-  using Type = typename Element::Linear;
-};
-
 /// For each facet of a mesh, by its sorted nodes: an element that has it, and which of that element's facets it is.
 template <class Element>
 std::map<std::array<int, Element::facet_nodes>, std::pair<int, int>> facet_owners(Mesh<Element> const& mesh) {
@@ -74,10 +64,6 @@ void name_boundaries(Mesh<typename Element::Linear> const& linear, Mesh<Element>
 }
 
 }  // namespace detail
-
-/// The element of the corners alone; a straight element itself.
-template <class Element>
-using LinearOf = typename detail::CornerElement<Element>::Type;
 
 /// The mesh of the corners alone, in their order; regions and boundaries keep their names.
 template <ReferenceElement Element>

@@ -13,6 +13,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/element/map.hpp"
+#include "scarp/element/mid_sides.hpp"
 #include "scarp/observe/deformation.hpp"
 #include "scarp/observe/observers.hpp"
 
@@ -32,10 +33,7 @@ struct Distortion {
 template <class Cell>
 double mean_ratio(Corners<Cell, Cell::dim> const& corners, Vector<Cell::dim> const& xi) {
   constexpr int dim = Cell::dim;
-  constexpr bool is_simplex = [] {
-    if constexpr (requires { Cell::Linear::nodes; }) return Cell::Linear::nodes == dim + 1;
-    return Cell::nodes == dim + 1;
-  }();
+  constexpr bool is_simplex = LinearOf<Cell>::nodes == dim + 1;
   Tensor<dim> const map = jacobian<Cell, dim>(corners, xi);
   // Scalar products of the edges of a regular cell: of unit length, in simplices at 60 degrees.
   Tensor<dim> edges = Tensor<dim>::Identity();

@@ -240,7 +240,7 @@ class RepeatedMotion {
 };
 }  // namespace detail
 
-/// What a load step begins with, however it is iterated afterwards: the system linearised about the committed state, what is
+/// What a load step begins with: the system linearised about the committed state, what is
 /// known of it, and the first guess that follows from it.
 template <class Problem, LinearSolver Linear>
 class StepStart {
