@@ -10,6 +10,9 @@ COLOURS = {"free": BLUE, "light": GREEN, "heavy": VERMILION}
 DEPTH = 25.0           # [m]
 FOOTING_THROW = 1.99 / DEPTH  # of the study's fig. 4
 THROWS = [0.028, 0.057, 0.085]
+SHOWN = "2 m"          # length of the runs in the figures
+OTHERS = {"1 m": "-.", "4 m": ":", "8 m": "--"}  # beside it in the free field
+MOST_STRAIN = 120.0    # of the colours [%]
 
 
 def saved(drawn, path):
@@ -50,21 +53,16 @@ def mark(axes, points, level):
 
 def free_field(sets, level):
     """After the study's fig. 3."""
-    one = sets["8 m"]
+    one = sets[SHOWN]
     frames = one.runs["free"].frames
     drawn, (top, low) = plt.subplots(2, 1, figsize=(7.6, 6.2), height_ratios=[1.0, 1.1])
-    cells = draw_strain(top, frames[-1], 60.0)
+    cells = draw_strain(top, frames[-1], MOST_STRAIN)
     mark(top, one.points, level)
     drawn.colorbar(cells, ax=top, label="deviatoric strain [%]", extend="max", aspect=14)
     top.set(title="free field, h/H = 0.085", xlabel="x [m]", ylabel="y [m]")
     for throw, colour in zip(THROWS, (GREY, ORANGE, BLUE)):
-        low.plot(*surface(frames, throw), color=colour, label=f"8 m, h/H = {nearest(frames, throw).throw:.3f}")
-    members = [surface(run.frames, THROWS[-1]) for name, found in sets.items() if name.startswith("seed") and (run := found.runs.get("free"))]
-    if len(members) > 1:
-        x = members[0][0]
-        mean, scatter = np.mean([y for _, y in members], axis=0), np.std([y for _, y in members], axis=0, ddof=1)
-        low.fill_between(x, mean - 2 * scatter, mean + 2 * scatter, color=BLUE, alpha=0.2, linewidth=0, label="three seeds, +- two deviations (1904 triangles)")
-    for name, style in (("5.66 m", "--"), ("4 m", ":")):
+        low.plot(*surface(frames, throw), color=colour, label=f"{SHOWN}, h/H = {nearest(frames, throw).throw:.3f}")
+    for name, style in OTHERS.items():
         if "free" in sets[name].runs:
             low.plot(*surface(sets[name].runs["free"].frames, THROWS[-1]), style, color=BLACK, linewidth=1.0, label=f"{name}, h/H = 0.085")
     low.axvline(-12.5, color=GREEN, linewidth=0.8, label="the study's outcrop, -12.5 m")
@@ -76,12 +74,12 @@ def free_field(sets, level):
 
 def footings(sets, level):
     """After the study's fig. 4."""
-    one = sets["8 m"]
+    one = sets[SHOWN]
     cases = [case for case in ("heavy", "light") if case in one.runs]
     drawn, rows = plt.subplots(len(cases), 1, figsize=(7.6, 3.0 * len(cases)), squeeze=False)
     for axes, case in zip(rows[:, 0], cases):
         frame = nearest(one.runs[case].frames, FOOTING_THROW)
-        cells = draw_strain(axes, frame, 60.0)
+        cells = draw_strain(axes, frame, MOST_STRAIN)
         mark(axes, one.points, level)
         axes.plot([-15.5, -5.5], [DEPTH + 0.6] * 2, color=COLOURS[case], linewidth=3, solid_capstyle="butt")
         drawn.colorbar(cells, ax=axes, label="deviatoric strain [%]", extend="max", aspect=14)
@@ -91,7 +89,7 @@ def footings(sets, level):
 
 def over_strain(sets, quantities):
     """A row for each of (name, label, factor), columns A and B: means of the packings around each point, and one deviation among them."""
-    one = sets["8 m"]
+    one = sets[SHOWN]
     drawn, rows = plt.subplots(len(quantities), 2, figsize=(7.6, 2.7 * len(quantities)), sharex="col", squeeze=False)
     for column, point in zip(rows.T, ("A", "B")):
         for axes, (name, label, factor) in zip(column, quantities):
@@ -111,6 +109,6 @@ def over_strain(sets, quantities):
 
 def write(folder, sets, level):
     saved(free_field(sets, level), folder / "study_free.png")
-    if len(sets["8 m"].runs) > 1:
+    if len(sets[SHOWN].runs) > 1:
         saved(footings(sets, level), folder / "study_footings.png")
     saved(over_strain(sets, [("q", "q [kPa]", 1e-3), ("eps_v", "volumetric strain [%]", 100.0)]), folder / "study_stress.png")

@@ -21,11 +21,13 @@ CASES = ["free", "heavy", "light"]
 SEEDS = [1, 2, 3]
 # Height of the points A and B above bedrock [m], 4 m below the surface.
 LEVEL = 21.0
-SETS = {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_medium_{case}_5.66" for case in CASES},
+SETS = {"1 m": {"free": "study_free_1"}, "2 m": {case: f"study_{case}_2" for case in CASES},
+        "8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_medium_{case}_5.66" for case in CASES},
         "4 m": {case: f"study_{case}_4" for case in CASES}}
 SETS |= {f"seed {seed}": {case: f"study_medium_{case}/seed_{seed}" for case in CASES} for seed in SEEDS}
 # The same with a rigid base that may slide and lift in the place of one that sticks.
-FRICTIONAL = {"8 m": {case: f"study_{case}_frictional" for case in ("heavy", "light")}}
+FRICTIONAL = {"2 m": {case: f"study_{case}_frictional_2" for case in ("heavy", "light")},
+              "8 m": {case: f"study_{case}_frictional" for case in ("heavy", "light")}}
 FRICTIONAL |= {f"seed {seed}": {case: f"study_medium_{case}_frictional/seed_{seed}" for case in ("heavy", "light")} for seed in SEEDS}
 
 
@@ -48,6 +50,7 @@ class CaseSet:
     """Three cases with the same packings, mesh and length; A and B are those of this set."""
 
     def __init__(self, names):
+        self.cases = names.keys()
         self.runs = {case: run for case, name in names.items() if (run := run_of(name)) is not None}
         self.points = {}
         for point, case in (("A", "free"), ("B", "heavy")):
@@ -149,9 +152,9 @@ def kept(lines, before):
     return [{column: said.get(line["measure"], {}).get(column) if value is None else value for column, value in line.items()} for line in lines]
 
 
-def column(sets, names, cases, measure, digits):
+def column(sets, names, measure, digits):
     """Mean, and of several sets the deviation, of a measure; None where one of these sets has not run all of its cases."""
-    if not all(set(cases) <= set(sets[name].runs) for name in names):
+    if not all(sets[name].cases == sets[name].runs.keys() for name in names):
         return None
     known = [value for value in (measure(sets[name]) for name in names) if not math.isnan(value)]
     if not known:
@@ -164,8 +167,9 @@ SEED_SETS = [f"seed {seed}" for seed in SEEDS]
 
 def numbers(sets):
     """Lines of the comparison with the study."""
-    columns = {"8 m": ["8 m"], "4 m": ["4 m"], "8 m, 1904 triangles: three seeds": SEED_SETS, "5.66 m, 1904 triangles": ["5.66 m"]}
-    return [{"measure": what, "study": said, **{title: column(sets, names, CASES, measure, digits) for title, names in columns.items()}}
+    columns = {**{name: [name] for name in ("1 m", "2 m", "4 m", "8 m")}, "8 m, 1904 triangles: three seeds": SEED_SETS,
+               "5.66 m, 1904 triangles": ["5.66 m"]}
+    return [{"measure": what, "study": said, **{title: column(sets, names, measure, digits) for title, names in columns.items()}}
             for what, said, digits, measure in rows()]
 
 
@@ -181,9 +185,10 @@ def base_rows(case):
 
 def bases(sticking, frictional):
     """Lines of both kinds of bases."""
-    columns = {"8 m": (sticking, ["8 m"]), "8 m, frictional": (frictional, ["8 m"]), "8 m, 1904 triangles: three seeds": (sticking, SEED_SETS),
+    columns = {**{f"{name}{base}": (of_base, [name]) for name in ("2 m", "8 m") for base, of_base in (("", sticking), (", frictional", frictional))},
+               "8 m, 1904 triangles: three seeds": (sticking, SEED_SETS),
                "8 m, frictional, 1904 triangles: three seeds": (frictional, SEED_SETS)}
-    return [{"measure": f"base, {case}: {what}", **{title: column(sets, names, ["heavy", "light"], measure, digits)
+    return [{"measure": f"base, {case}: {what}", **{title: column(sets, names, measure, digits)
                                                     for title, (sets, names) in columns.items()}}
             for case in ("heavy", "light") for what, digits, measure in base_rows(case)]
 
@@ -197,7 +202,7 @@ def main():
             for name, one in group.items() for case, run in one.runs.items()]
     if runs:
         write_table("study_runs", runs, said, key=("run",))
-    if "free" in sets["8 m"].runs:
+    if "free" in sets["2 m"].runs:
         case_figures.write(FIGURES, sets, LEVEL)
 
 

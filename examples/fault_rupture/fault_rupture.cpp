@@ -52,7 +52,8 @@ void make_quick(Choice& choice) {
   choice.quick = true;
 }
 
-void make_study(Choice& choice) { choice.triangles = 7563; }
+/// About as many triangles as the study has, most of them around the rupture.
+void make_study(Choice& choice) { choice.length = 1.0; }
 
 void declare_materials(CLI::App& app, Choice& choice) {
   using examples::number_from;
@@ -108,7 +109,9 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->configurable(false)
       ->disable_flag_override();
   auto* const study = app.add_flag("--study")
-                          ->description("a mesh of the study's size, 7563 triangles; other options still apply")
+                          ->description(
+                              "a length of 1 m: about as many triangles as the study's 7563, most of them around the "
+                              "rupture; other options still apply")
                           ->configurable(false)
                           ->disable_flag_override();
   app.add_option("--size", choice.size,
@@ -118,9 +121,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
                  "width of the strip of small elements around what a pilot run strains, frictional ground on a coarse "
                  "mesh [m]; 0 for a uniform mesh; a --length below 6 m chooses it, and --size")
       ->check(number_from(0.0, true, 1e3));
-  for (char const* other : {"--quick", "--size", "--strip-width"}) study->excludes(app.get_option(other));
+  for (char const* other : {"--quick", "--local", "--size", "--strip-width"}) study->excludes(app.get_option(other));
   app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
       ->check(CLI::Range(100, 1'000'000))
+      ->excludes(study)
       ->excludes("--size")
       ->excludes("--strip-width");
   app.add_option("--element", element, "compiled in: examples/run builds and runs the program of the one that is named")
@@ -144,7 +148,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   file->excludes(study);
   app.add_option("--length", choice.length,
                  "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study; where it is "
-                 "not given 8 with --quick, --study, --size, --triangles, --mesh or --strip-width 0")
+                 "not given 1 with --study, 8 with --quick, --size, --triangles, --mesh or --strip-width 0")
       ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--packings", choice.packings,

@@ -74,11 +74,11 @@ def status_note(grid):
     return "".join(f", {count} elements {name}" for name, count in counts.items() if count)
 
 
-def draw_bands(axes, summary, depth):
+def draw_bands(axes, summary, bedrock, depth):
     """Where half of the offset has passed at three levels and at the surface, in places before the fault moved; widths across."""
-    places = [(band.get("band_x50"), band["height_over_depth"] * depth, band.get("band_across"))
+    places = [(band.get("band_x50"), bedrock + band["height_over_depth"] * depth, band.get("band_across"))
               for band in summary.get("bands") or []]
-    places.append((summary.get("surface_x50"), depth, None))
+    places.append((summary.get("surface_x50"), bedrock + depth, None))
     places = [place for place in places if figures.finite(place[0]) is not None]
     if not places:
         return
@@ -91,14 +91,14 @@ def draw_bands(axes, summary, depth):
     axes.legend(loc="lower left", fontsize=7)
 
 
-def draw_fault(axes, summary, depth):
+def draw_fault(axes, summary, bedrock, depth):
     """The fault's own line through the soil, along which a rigid hanging wall would rupture it, from the tip at rest."""
     tip = float(summary.get("run", {}).get("options", {}).get("tip", 0.0))
     block = figures.finite(summary.get("block_x50"))
     if block is not None:
-        axes.plot([tip, block], [0.0, depth], ":", color=BLACK, linewidth=1.3, label="line of the fault",
+        axes.plot([tip, block], [bedrock, bedrock + depth], ":", color=BLACK, linewidth=1.3, label="line of the fault",
                   path_effects=[withStroke(linewidth=2.6, foreground="white")])
-    axes.plot(tip, 0.0, "^", color="white", markeredgecolor=BLACK, markersize=7, label="tip of the fault in bedrock", clip_on=False, zorder=5)
+    axes.plot(tip, bedrock, "^", color="white", markeredgecolor=BLACK, markersize=7, label="tip of the fault in bedrock", clip_on=False, zorder=5)
 
 
 def deformation(folder):
@@ -114,16 +114,17 @@ def deformation(folder):
             upper.annotate(name, place, xytext=(6, 4), textcoords="offset points", color=PROBES[name], weight="bold",
                            path_effects=[withStroke(linewidth=2.0, foreground="white")])
     summary, depth = figures.read_summary(folder), layer_depth(folder)
+    bedrock = float(np.min((grid.points[:, :2] - figures.field(grid.at_nodes, "displacement", path)[:, :2])[:, 1]))
     for number, edge in enumerate(zip(*summary.get("strip_edges", []))):
-        upper.plot(np.array(edge, dtype=float), np.linspace(0.0, depth, len(edge)), "--", color=GREY, linewidth=0.9, label=None if number else "strip of small elements")
-    draw_fault(upper, summary, depth)
+        upper.plot(np.array(edge, dtype=float), np.linspace(bedrock, bedrock + depth, len(edge)), "--", color=GREY, linewidth=0.9, label=None if number else "strip of small elements")
+    draw_fault(upper, summary, bedrock, depth)
     upper.legend(loc="lower left", fontsize=7)
     upper.set_ylabel("y [m]")
     upper.set_title(f"Deformed mesh at h/H = {throw:.3g}, displacements to scale", loc="left")
     upper.set_title(f"largest strain {np.nanmax(strain):.3g} %{status_note(grid)}", loc="right", fontsize=7.5)
     draw_settlement(fig, lower, grid, path)
     lower.set(xlabel="x [m]", ylabel="y [m]")
-    draw_bands(lower, summary, depth)
+    draw_bands(lower, summary, bedrock, depth)
     lower.set_title("Vertical displacement", loc="left")
     return fig
 

@@ -10,6 +10,7 @@
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "scarp/shape/clump.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 
@@ -23,6 +24,8 @@ using scarp::Tensor;
 using scarp::Vector;
 using scarp::Verdict;
 
+using Dumbbells = scarp::Packing<scarp::Clump<scarp::DumbbellTemplate>, scarp::LinearFrictional>;
+
 /// Lower grain, higher grain, gap.
 using Meeting = std::tuple<std::size_t, std::size_t, double>;
 
@@ -33,7 +36,8 @@ void add_meeting(std::vector<Meeting>& meetings, std::size_t i, std::size_t j, d
 /// Every pair of a grain with every image of another within several cells, found by trying all: each pair once.
 template <class PackingType>
 std::vector<Meeting> all_meetings(PackingType const& packing, double skin) {
-  constexpr int cells = 5;
+  constexpr int cells = 8;
+  constexpr std::size_t parts = scarp::part_count<typename PackingType::Shape>();
   std::vector<Meeting> meetings;
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {
     for (std::size_t j = i; j < packing.grain_count(); ++j) {
@@ -41,15 +45,17 @@ std::vector<Meeting> all_meetings(PackingType const& packing, double skin) {
         for (int v = -cells; v <= cells; ++v) {
           if (i == j && (u < 0 || (u == 0 && v <= 0))) continue;
           Vector<2> const shift = packing.cell * Vector<2>(u, v);
-          auto const from = scarp::row_position(packing, i);
-          auto const to = scarp::row_position(packing, j);
+          auto const from = scarp::row_position(packing, i * parts);
+          auto const to = scarp::row_position(packing, j * parts);
           scarp::Point<2, double> const branch{to[0] + shift(0) - from[0], to[1] + shift(1) - from[1]};
           double const distance = std::hypot(branch[0], branch[1]);
           if (distance > 2.0 * packing.population->largest_radius() + skin) continue;
-          auto const touch = scarp::settled_touch<typename PackingType::Shape>(
-              scarp::grain_pose(packing, i), scarp::grain_pose(packing, j), branch,
-              {branch[0] / distance, branch[1] / distance});
-          if (-touch.overlap <= skin) add_meeting(meetings, i, j, -touch.overlap);
+          for (std::size_t k = 0; k < parts * parts; ++k) {
+            auto const touch = scarp::settled_touch<typename PackingType::Shape>(
+                scarp::row_pose(packing, i * parts + k / parts), scarp::row_pose(packing, j * parts + k % parts),
+                branch, {branch[0] / distance, branch[1] / distance});
+            if (-touch.overlap <= skin) add_meeting(meetings, i, j, -touch.overlap);
+          }
         }
       }
     }
@@ -136,7 +142,7 @@ TEST_CASE_TEMPLATE(
   CHECK(longer == std::pair{wider.pairs.first, wider.pairs.second});
 }
 
-TEST_CASE_TEMPLATE("the list holds every near pair of all images once", PackingType, Discs, Ellipses) {
+TEST_CASE_TEMPLATE("the list holds every near pair of all images once", PackingType, Discs, Ellipses, Dumbbells) {
   scarp::Random random(17);
   auto const law = samples::study_law();
   for (double const ratio : {1.0, 3.0, 10.0}) {

@@ -319,7 +319,9 @@ TEST_CASE_TEMPLATE("every facet is the element's shape on its side", Element, AL
 }
 
 TEST_CASE("Gmsh's local nodes lie between the corners that Gmsh's manual gives them") {
-  // Gmsh reference manual, "Node ordering": edges of Tetrahedron10 and Hexahedron20 in the order of their nodes.
+  // Gmsh reference manual, "Node ordering": edges in the order of their nodes.
+  constexpr int triangle[3][2] = {{0, 1}, {1, 2}, {0, 2}};
+  constexpr int quadrangle[4][2] = {{0, 1}, {1, 2}, {2, 3}, {0, 3}};
   constexpr int tetrahedron[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}};
   constexpr int hexahedron[12][2] = {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
                                      {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
@@ -332,6 +334,8 @@ TEST_CASE("Gmsh's local nodes lie between the corners that Gmsh's manual gives t
       CHECK(std::minmax(own[m][0], own[m][1]) == std::minmax(edge[0], edge[1]));
     }
   };
+  check(scarp::Tri6::mid_sides(), scarp::Tri6::gmsh_order, triangle, 3);
+  check(scarp::Quad8::mid_sides(), scarp::Quad8::gmsh_order, quadrangle, 4);
   check(scarp::Tet10::mid_sides(), scarp::Tet10::gmsh_order, tetrahedron, 4);
   check(scarp::Hex20::mid_sides(), scarp::Hex20::gmsh_order, hexahedron, 8);
 }

@@ -106,6 +106,7 @@ def check_bad_input():
     check_refusal(FAULT, "negative threads", "--threads", "-2", "--threads")
     check_refusal(FAULT, "a value for a flag", "--quick=false", None, "quick was given", without=["--quick"])
     check_refusal(FAULT, "two sizes at once", "--study", None, "--study")
+    check_refusal(FAULT, "a length and none", "--study", None, "--local excludes --study", without=["--quick"], also={"--local": None})
     # These pass the command line; the scene refuses them.
     check_refusal(FAULT, "tip outside the domain", "--tip", "100", "fault tip is at x = 100 m")
     check_refusal(FAULT, "tip close to the side", "--tip", "22.9", "22.9")

@@ -46,9 +46,9 @@ void make_coarse(scarp::FaultMesh& layer, double size) {
 template <class E>
 void choose_strip(Choice& choice) {
   constexpr double shortest = 0.25;  // [m], some hundred thousand triangles
-  // As many points within the length for all elements; quadratic triangles have three.
-  auto const size =
-      std::stod(fmt::format("{:.3g}", (E::nodes == 6 ? 0.71 : 0.41) * choice.length));  // as it may be given
+  // Quadratic elements may be larger (docs/error-against-time.md).
+  constexpr double share = E::nodes == 6 ? 0.71 : E::nodes == 8 ? 0.58 : 0.41;
+  auto const size = std::stod(fmt::format("{:.3g}", share * choice.length));  // as it may be given
   if (!(choice.length > 0.0 && size < Choice{}.size)) return;
   if (choice.length < shortest) {
     scarp::refuse(
