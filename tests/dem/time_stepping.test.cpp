@@ -183,6 +183,25 @@ struct Reluctant : scarp::Disc {
 
 }  // namespace
 
+TEST_CASE("a disc that spins in place does not wear out the list, an ellipse does by how far its ends move") {
+  auto const law = samples::study_law();
+  auto const spun = [&]<class PackingType>(PackingType packing) {
+    auto stepper = undamped<PackingType>();
+    REQUIRE(stepper.refresh(packing, law).acceptable());
+    packing.spin(0, 0) = 10.0;  // [1/s]
+    REQUIRE(stepper.step(packing, law, Tensor<2>::Zero()).acceptable());
+    return packing;
+  };
+  Tensor<2> const cell = 20.0 * Tensor<2>::Identity();
+  std::vector<Vector<2>> const places{{5.0, 5.0}, {15.0, 15.0}};  // apart
+  CHECK(spun(samples::place<Discs>(cell, {{1.0}, {1.0}}, places)).pairs.drift == 0.0);
+  auto const ellipses = spun(samples::place<samples::Ellipses>(cell, {{2.0, 1.0}, {2.0, 1.0}}, places, {0.0, 0.0}));
+  double const half = ellipses.orientation(0, 1) / (1.0 + ellipses.orientation(0, 0));  // tangent of half the turn
+  REQUIRE(half > 0.0);
+  // Analytic: twice the way of the fastest end, since two grains may approach each other.
+  CHECK(ellipses.pairs.drift == samples::Approx(2.0 * 2.0 * half * ellipses.population->largest_eccentricity()));
+}
+
 TEST_CASE("a packing whose list of pairs fails stays as it was") {
   using Grains = scarp::Packing<Reluctant, scarp::LinearFrictional>;
   constexpr double radius = 5e-3;

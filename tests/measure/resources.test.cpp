@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <limits>
+
 #include "support/refusals.hpp"
 
 TEST_CASE("more memory than is left is refused with both numbers and a way out") {
@@ -13,6 +15,19 @@ TEST_CASE("more memory than is left is refused with both numbers and a way out")
   CHECK_REFUSED(scarp::require_memory("a mesh", 6.94e9, "choose a coarser one", memory), "a mesh", "6.9 GB", "3.0 GB",
                 "the machine's memory", "choose a coarser one");
   CHECK(scarp::memory_text(12.3e6) == "12 MB");
+}
+
+TEST_CASE("the least limit counts, and what is not known limits nothing") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  scarp::FreeMemory memory;
+  for (double const unknown : {infinity, -infinity, infinity - infinity}) memory.at_most(unknown, "nobody");
+  CHECK(memory.bytes == infinity);
+  memory.at_most(3e9, "one");
+  memory.at_most(4e9, "another");
+  CHECK(memory.bytes == 3e9);
+  CHECK(memory.limit == "one");
+  memory.at_most(-1.0, "what is taken already");
+  CHECK(memory.bytes == 0.0);
 }
 
 TEST_CASE("what is left is known on this machine, and never more than the limit of address space leaves") {

@@ -224,6 +224,16 @@ TEST_CASE("quadrilaterals of jittered ones keep angles from 20 to 165 degrees") 
   CHECK(worst.largest < 165.0);
 }
 
+TEST_CASE("two triangles become one quadrilateral unless it has a corner of more than 160 degrees") {
+  auto const parts = [](Vector<2> const& corner) {
+    scarp::Mesh<scarp::Quad4> const mesh{
+        {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, corner}, {{0, 1, 2, 3}}, {0}, {"soil"}, {}};
+    return scarp::refined(mesh, Everywhere{6.0}).elements.size();
+  };
+  CHECK(parts({0.0, 10.0}) == 4);
+  CHECK(parts({4.8, 5.2}) == 6);  // 175 degrees; analytic: three quadrilaterals in each triangle
+}
+
 TEST_CASE("even refinement divides every element alike") {
   auto const triangles = squares.generate();
   CHECK(scarp::refined(triangles, Everywhere{2.5}).elements.size() == 4 * triangles.elements.size());

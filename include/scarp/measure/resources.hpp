@@ -42,7 +42,7 @@ struct FreeMemory {
   std::string_view limit = "nothing known";
 
   void at_most(double other, std::string_view by) {
-    if (other < bytes) *this = {std::max(0.0, other), by};
+    if (std::isfinite(other) && other < bytes) *this = {std::max(0.0, other), by};
   }
 };
 
@@ -70,12 +70,11 @@ inline FreeMemory free_memory() {
   // What the group's files are kept in memory can be had back.
   double const group = detail::kernel_number("/sys/fs/cgroup/memory.current") -
                        detail::kernel_number("/sys/fs/cgroup/memory.stat", "inactive_file");
-  double const most = detail::kernel_number("/sys/fs/cgroup/memory.max");
-  if (std::isfinite(most) && std::isfinite(group)) memory.at_most(most - group, "the limit of the process's group");
+  memory.at_most(detail::kernel_number("/sys/fs/cgroup/memory.max") - group, "the limit of the process's group");
 #if __has_include(<sys/resource.h>)
   double const taken = kilobyte * detail::kernel_number("/proc/self/status", "VmSize:");
   rlimit space{};
-  if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY && std::isfinite(taken))
+  if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
     memory.at_most(static_cast<double>(space.rlim_cur) - taken, "the limit of address space (ulimit -v)");
 #endif
   return memory;
