@@ -216,6 +216,7 @@ TEST_CASE("rows that were written after the last checkpoint vanish when a killed
     ScratchFolder const folder;
     scarp::CheckpointSettings settings{.folder = folder / "states", .every_seconds = 1e9, .every_attempts = 4};
     CHECK_THROWS_AS(pull(folder, {settings, scene}, {.die_after = last}), Killed);
+    CHECK(resumed(folder).resumes() == (last > 4));
     // One cut off in the middle is no obstacle either.
     std::ofstream(folder / "log.csv", std::ios::app) << "99,0.0";
     check_same(pull(folder, resumed(folder), {}), undisturbed());
