@@ -9,6 +9,7 @@ linear in L for L << L0, where all of the band is critical, and independent of L
 has a shear strain near 1, more than any soil here needs to become critical. `power`, a + b L^p with p from 0.5 to 1.5, and `line`, a + b L, through the
 shortest lengths alone, assume less. Edges and median of the profile are apart from its mean by widths of the band and have the same forms.
 """
+import itertools
 import math
 
 import numpy as np
@@ -122,6 +123,21 @@ def limits(rows):
                 found.append({"soil": soil, "quantity": name, "length [m]": at, "value": middle, "low": low, "high": high, "runs": len(known),
                               "lengths": len({row["length [m]"] for row in known}), "seeds": len({row.get("seed", "") for row in known}),
                               "meshes": len({row["mesh"] for row in known})})
+    return found
+
+
+def held_out(rows):
+    """What the fits without the runs of the shortest length give there, beside the mean of these runs."""
+    found = []
+    for soil, name in itertools.product(SOILS, [*PLACES, AREA]):
+        known = [row for row in usable(rows, soil) if row.get(name)]
+        lengths = column(known, "length [m]")
+        others = [row for row, length in zip(known, lengths) if length > lengths.min()]
+        if not others:
+            continue
+        low, middle, high = map(float, np.percentile(of_rows(others, name, [lengths.min()])[:, 0], [2.5, 50.0, 97.5]))
+        found.append({"soil": soil, "quantity": name, "length [m]": lengths.min(), "value": middle, "low": low, "high": high,
+                      "of the runs": float(np.mean(column(known, name)[lengths == lengths.min()])), "runs": len(others)})
     return found
 
 

@@ -75,6 +75,11 @@ inside = sum(np.all((low < band(LIMITS)) & (band(LIMITS) < high)) for low, _, hi
 expect(inside >= 6, f"the truth is in {inside} of 8 intervals")
 widths = [np.mean(high - low) for low, _, high in trials]
 expect(np.mean(widths) < 3.0, f"intervals of {widths} m say nothing about a quantity of 1.4 to 5 m")
+rows = table(0.15, 0.1, 0.1, 1)
+checks = convergence.held_out(rows)
+expect([(row["quantity"], row["length [m]"]) for row in checks] == [("mean [m]", 1.0), (AREA, 1.0)], f"what is there, at the shortest length: {checks}")
+of_runs = np.mean([float(row[AREA]) for row in rows if row["length [m]"] == "1"])
+expect(checks[1]["of the runs"] == of_runs and checks[1]["low"] < of_runs < checks[1]["high"], f"{of_runs} is held out and foreseen: {checks[1]}")
 exact = limits_of(table(0.0, 0.0, 0.0, 1))
 expect(np.mean(exact[2] - exact[0]) < 0.8 * np.mean(widths), f"seeds and meshes widen what the forms leave open: {exact} of {widths}")
 expect(np.all(exact[2] - exact[0] > 0.1), "the forms alone leave something open")
