@@ -48,7 +48,7 @@ expect(cases.kept([{"measure": "new", "study": "-", "8 m": None}, {"measure": "x
        == [{"measure": "new", "study": "-", "8 m": None}, {"measure": "x", "study": "-", "8 m": "2"}],
        "a value without a run stays as the data file has it, and the rows are the program's")
 empty = {name: cases.CaseSet({case: "no such run" for case in cases.CASES}) for name in cases.SETS}
-expect(all(list(line.values())[2:] == [None] * 4 for line in cases.numbers(empty)), "without runs nothing is told")
+expect(all(set(list(line.values())[2:]) == {None} for line in cases.numbers(empty)), "without runs nothing is told")
 
 near = around([rest], np.array([3.0, 5.0]))
 centres = rest.places[rest.cells[near]].mean(axis=1)
