@@ -41,7 +41,7 @@ def frames(folder):
 def steepest_place(last, first, height, over=4.0):
     """x [m] in the middle of the stretch of a level over which it has settled most unevenly since the first frame: where the rupture crosses it.
 
-    height [m] above bedrock in the initial ground; over [m], the stretch: half of the default's length, since neighbouring packings differ
+    height [m] above bedrock in the initial ground; over [m], the stretch: two widths of the band with a length of 2 m, since neighbouring packings differ
     """
     x = np.linspace(first.places[:, 0].min(), first.places[:, 0].max(), 2001)
     corners = Triangulation(*last.places.T, last.cells)
