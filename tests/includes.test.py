@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
-"""A program reads only the headers of what it names: linear elasticity no discrete elements, a scene without observer no files and
-no fabric. What a compiler reads for them is limited too, so that growth is noticed. Environment: see compiled_symbols.py."""
+"""A program reads only the headers of what it names: linear elasticity no discrete elements, a scene without observer no files (but
+the bits of states, which points that hide their types can always tell). What a compiler reads for them is limited too, so that growth is noticed. Environment: see compiled_symbols.py."""
 import concurrent.futures
 import pathlib
 import re
@@ -16,7 +16,8 @@ from expectations import expect, finish
 GRAINS = {"scarp/dem/", "scarp/shape/", "scarp/contact/", "scarp/homogenise/", "nanoflann"}
 COMPOSED = {"boost/hana"}
 FILES = {"scarp/io/"}
-OBSERVED = {"scarp/homogenise/fabric", "scarp/observe/field_series", "scarp/io/vtu"}
+FILES_OF_A_RUN = {"scarp/io/(?!state_bits)"}
+OBSERVED = {"scarp/observe/field_series", "scarp/io/vtu"}
 ELASTIC = '#include "scarp/constitutive/linear_elastic.hpp"\n'
 SCENE = '#include "scarp/fault/free_field_fault.hpp"\n'
 SAND = """#include "scarp/constitutive/dem_rve.hpp"
@@ -30,8 +31,8 @@ SERIES = '#include "scarp/observe/field_series.hpp"\n'
 PROGRAMS = {
     "an elastic point": (ELASTIC, GRAINS | COMPOSED | FILES | OBSERVED, set(), 130000),
     "a packing": (SAND, COMPOSED | OBSERVED, GRAINS, 153000),
-    "an elastic scene": (ELASTIC + SCENE, GRAINS | FILES | OBSERVED, COMPOSED, 178000),
-    "a scene of packings": (SAND + SCENE, OBSERVED, GRAINS | COMPOSED, 186000),
+    "an elastic scene": (ELASTIC + SCENE, GRAINS | FILES_OF_A_RUN | OBSERVED, COMPOSED, 178000),
+    "a scene of packings": (SAND + SCENE, FILES_OF_A_RUN | OBSERVED, GRAINS | COMPOSED, 186000),
     "an observed scene": (SAND + SCENE + SERIES, set(), GRAINS | COMPOSED | FILES | OBSERVED, 195000),
 }
 
@@ -53,7 +54,7 @@ with tempfile.TemporaryDirectory() as scratch:
         for (name, (_, without, wanted, most)), (headers, lines) in zip(PROGRAMS.items(), pool.map(read, sources)):
             print(f"{name}: {lines} lines")
             for part in sorted(without):
-                found = sorted(header for header in headers if part in header)
+                found = sorted(header for header in headers if re.search(part, header))
                 expect(not found, f"{name} reads {', '.join(found[:3])}, which it does not name")
             for part in sorted(wanted):
                 expect(any(part in header for header in headers), f"{name} reads no {part}: a name in this script is out of date")

@@ -7,8 +7,8 @@ import sys
 
 # From the bottom to the top: a room may include those before it.
 ROOMS = ["core", "element", "shape", "contact", "mesh", "dem", "homogenise", "io", "io/gmsh", "io/packings", "measure",
-         "constitutive", "bvp", "solver", "run", "scene", "observe", "budget", "fault"]
-COMPOSES = {"scene", "observe", "budget", "fault"}
+         "constitutive", "points", "bvp", "solver", "run", "scene", "observe", "budget", "fault"]
+COMPOSES = {"points", "scene", "observe", "budget", "fault"}
 FOLDER = pathlib.Path(__file__).resolve().parents[1] / "include" / "scarp"
 
 

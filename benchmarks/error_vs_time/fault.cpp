@@ -7,7 +7,7 @@
 #include "../../examples/shared/study/typed_scenes.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
-#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "subjects.hpp"
 #include "sweep.hpp"
 

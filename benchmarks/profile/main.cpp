@@ -14,7 +14,7 @@
 #include "scarp/measure/resources.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_survey.hpp"
-#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace {
@@ -66,12 +66,11 @@ double timed(Call const& call) {
 /// What one iteration does beside the points' answers, each timed alone in the last state.
 template <class Problem>
 void add_parts_of_an_iteration(Problem& problem, Table& table) {
-  using Stiffness = typename Problem::GroundStiffness;
   Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
   auto const tangents = problem.committed_tangents();
   scarp::FreeSystem const system(problem.constraints());
-  Stiffness stiffness;
-  scarp::detail::GroundEquations<Stiffness, scarp::SparseLu> equations;
+  scarp::GroundStiffness stiffness;
+  scarp::detail::GroundEquations<scarp::SparseLu> equations;
   auto const add = [&](char const* what, auto const& call) {
     table.add("one iteration, last state", fmt::format("{}, wall time [ms]", what), 1e3 * timed(call));
   };
@@ -80,7 +79,8 @@ void add_parts_of_an_iteration(Problem& problem, Table& table) {
   Eigen::VectorXd const force = equations.product(Eigen::VectorXd::Random(system.free_count()));
   add("GMRES", [&] { equations.solve(force); });
   auto gradients = problem.own_gradients();
-  add("means of all gradients", [&] { problem.materials().mean().means(gradients, problem.executor()); });
+  auto const* means = problem.points().means();
+  if (means) add("means of all gradients", [&] { means->mean().means(gradients, problem.executor()); });
   add("sum of forces", [&] { problem.evaluate_committed(); });
   add("tangents of all points", [&] { problem.committed_tangents(); });
 }

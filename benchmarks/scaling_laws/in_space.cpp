@@ -17,7 +17,7 @@
 #include "scarp/measure/resources.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/shape/sphere.hpp"
-#include "scarp/solver/executor.hpp"
+#include "scarp/core/executor.hpp"
 
 namespace {
 

@@ -106,7 +106,7 @@ scarp::Mesh<Element> slanted(double degrees, double aspect) {
 /// A block of crossed triangles that is pressed to nothing and beyond.
 struct Pressed {
   using Grid = scarp::Discretisation<scarp::Tri3>;
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor>;
+  using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
 
   static Problem make(scarp::SerialExecutor& executor) {
     Grid grid(scarp::RectangleMesh{.columns = 2, .rows = 2}.generate());
@@ -134,7 +134,7 @@ struct Refusals {
     ++attempts;
     if (report.verdict.reason != scarp::Reason::element_inverted) return;
     ++inverted;
-    named += report.worst_point >= 0 && report.worst_point < problem.materials().point_count() ? 1 : 0;
+    named += report.worst_point >= 0 && report.worst_point < problem.points().size() ? 1 : 0;
   }
   bool wants_stop() const { return attempts > 2000; }
 };

@@ -6,7 +6,7 @@
 
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/loads.hpp"
-#include "scarp/constitutive/material_field.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/element/tri3.hpp"
@@ -33,7 +33,7 @@ struct Block {
   enum class Top { pressed, loaded };
 
   using Grid = scarp::Discretisation<scarp::Tri3>;
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<SofteningSoil>, scarp::SerialExecutor>;
+  using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
 
   SofteningSoil material = ground();
   Top top = Top::pressed;

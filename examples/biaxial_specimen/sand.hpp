@@ -2,7 +2,7 @@
 #pragma once
 
 #include "choice.hpp"
-#include "scarp/constitutive/any_provider.hpp"
+#include "scarp/points/any_provider.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace biaxial_specimen {

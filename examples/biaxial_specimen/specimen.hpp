@@ -12,7 +12,7 @@
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/following_pressure.hpp"
-#include "scarp/constitutive/material_field.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/field_series.hpp"
@@ -30,7 +30,7 @@ class Specimen {
   using Grid = scarp::Discretisation<Element>;
   using Lateral = scarp::FollowingPressure<typename Element::Facet>;
   using Problem =
-      scarp::EquilibriumProblem<Grid, scarp::ProviderField<scarp::AnyProvider<2>>, scarp::ThreadExecutor, Lateral>;
+      scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor, Lateral>;
 
   /// \throws InputError, PreparationError
   Specimen(Choice const& choice, scarp::Mesh<Element> mesh, scarp::ThreadExecutor& executor)
@@ -46,7 +46,7 @@ class Specimen {
     scarp::VoigtStress<2> sum = scarp::VoigtStress<2>::Zero();
     double volume = 0.0;
     for (std::size_t k = 0; k < volumes.size(); ++k) {
-      sum += volumes[k] * problem_.materials().committed_stress(static_cast<int>(k));
+      sum += volumes[k] * problem_.points().committed_stress(static_cast<int>(k));
       volume += volumes[k];
     }
     return sum / volume;
@@ -72,11 +72,11 @@ class Specimen {
     for (int const node : sides_.top) constraints.move(node, 1, -sides_.height);
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, sides_.top_level));
-    scarp::ProviderField<scarp::AnyProvider<2>> materials(
+    scarp::MaterialPoints<2> points(
         sand(choice.grains, choice.confining, grid.point_count(), executor), sites);
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
     Lateral lateral(sides_.lateral, choice.confining, choice.grains.thickness);
-    return {std::move(grid), std::move(materials), std::move(constraints), std::move(loads),
+    return {std::move(grid), std::move(points), std::move(constraints), std::move(loads),
             executor,        std::move(lateral)};
   }
 
@@ -88,7 +88,7 @@ class Specimen {
 template <class Budget>
 struct Watch : scarp::NeverStops {
   Budget& budget;
-  std::optional<scarp::FieldSeries<scarp::RveQuantities>> series{};
+  std::optional<scarp::FieldSeries> series{};
   int iterations = 0;
   double residual = 0.0;  ///< of the last accepted attempt
 
@@ -170,7 +170,7 @@ int run(Choice const& choice) {
   Specimen<Element> specimen(choice, make_mesh<Element>(choice), executor);
   examples::say(stderr, "{:.6g} m x {:.6g} m, {} elements, {} packings, {} threads\n", specimen.sides().width,
                 specimen.sides().height, specimen.problem().discretisation().mesh().elements.size(),
-                specimen.problem().materials().point_count(), executor.threads());
+                specimen.problem().points().size(), executor.threads());
   scarp::ErrorBudget budget(specimen.problem(), examples::error_bounds(choice.budget),
                             {.loose_pressure = choice.confining / 100.0});
   auto const report = compress(choice, specimen, budget);

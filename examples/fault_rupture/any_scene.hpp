@@ -5,7 +5,7 @@
 
 #include "../shared/study/any_soil.hpp"
 #include "../shared/study/scenes.hpp"
-#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "scene_size.hpp"
 
 namespace fault_rupture {

@@ -139,7 +139,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     if (files.resumes()) examples::say(stderr, "{}going on from '{}'\n", begun.name, files.newest().string());
     examples::say(stderr, "{}{} {} elements, {} threads, ground made after {:.1f} s\n", begun.name,
                   problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
-    if (choice.length > 0.0 && problem.materials().mean().is_local()) {
+    if (choice.length > 0.0 && problem.points().means() == nullptr) {
       examples::say(stderr,
                     "warning: a --length of {} m reaches no neighbour of any point, so that the soil has none: take a "
                     "longer one or a smaller --size\n",
@@ -164,7 +164,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnFirstRank observers(executor, [&] {
     return scarp::Observers(
-        scarp::Borrowed(*takeover), scarp::FieldSeries<scarp::RveQuantities>(folder, to, choice.frames, depth),
+        scarp::Borrowed(*takeover), scarp::FieldSeries(folder, to, choice.frames, depth),
         scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
         scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),

@@ -8,7 +8,7 @@
 
 #include "../shared/process_usage.hpp"
 #include "any_scene.hpp"
-#include "scarp/constitutive/rve_quantities.hpp"
+#include "scarp/constitutive/unwrap.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/io/atomic_file.hpp"
@@ -63,8 +63,8 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
     rest.k0_max = std::max(rest.k0_max, ratio);
     double const overburden = scene.surcharge + scene.unit_weight * site.depth;
     rest.vertical_error = std::max(rest.vertical_error, std::abs(-stress(1) / overburden - 1.0));
-    visit_point(problem, point, [&](auto const& provider, auto const& state) {
-      for (auto const& [quantity, value] : scarp::RveQuantities{}(provider, state)) {
+    visit_point(problem, point, [&](auto const& of, int number) {
+      for (auto const& [quantity, value] : of.quantities(number)) {
         if (quantity != "void_ratio") continue;
         ++packings;
         rest.void_ratio += value;

@@ -14,17 +14,16 @@ inline std::array<double, 2> top_force(Problem const& problem) {
   auto const& grid = problem.discretisation();
   auto const still = Eigen::VectorXd::Zero(grid.dof_count()).eval();
   auto const volumes = grid.volumes(still);
-  auto stresses = problem.committed_stresses();
+  auto const stresses = problem.committed_stresses();
+  auto const balanced = problem.balanced_stresses();
   double unseen = 0.0;
   double all = 0.0;
   for (std::size_t k = 0; k < stresses.size(); ++k) {
-    scarp::VoigtStress<2> const extra = problem.materials().added_stresses()[k];
-    unseen += volumes[k] * extra.norm();
+    unseen += volumes[k] * (balanced[k] - stresses[k]).norm();
     all += volumes[k] * stresses[k].norm();
-    stresses[k] += extra;
   }
   Eigen::VectorXd forces;
-  grid.internal_force(still, stresses, forces);
+  grid.internal_force(still, balanced, forces);
   double force = 0.0;
   for (int const node : scarp::boundary_nodes(grid.mesh(), "top")) force -= forces(2 * node + 1);
   return {force, unseen / all};

@@ -8,7 +8,7 @@
 #include "scarp/observe/generalised_reaction.hpp"
 #include "scarp/observe/ground_at_rest.hpp"
 #include "scarp/observe/rupture_measures.hpp"
-#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/points/nonlocal.hpp"
 
 namespace nonlocal_band {
 

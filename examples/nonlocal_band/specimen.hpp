@@ -7,20 +7,18 @@
 #include "../shared/convergence_table.hpp"
 #include "../shared/plane_strain.hpp"
 #include "scarp/bvp/loads.hpp"
-#include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/solver/thread_executor.hpp"
-#include "scarp/solver/wide_equations.hpp"
+#include "scarp/points/nonlocal.hpp"
 
 namespace nonlocal_band {
 
 using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength>;
 using Varied = scarp::VariedParameters<Soil>;
 using Grid = examples::PlaneGrid<scarp::Quad8, scarp::ReducedIntegration>;
-using Materials = scarp::NonlocalMaterials<scarp::ProviderField<Varied>>;
-using Problem = scarp::EquilibriumProblem<Grid, Materials, scarp::ThreadExecutor>;
+using Problem = scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor>;
 
 inline constexpr double pressure = 100e3;  ///< that confines the specimen [Pa]
 inline constexpr double width = 1.0;       ///< [m]
@@ -55,10 +53,10 @@ inline Problem specimen(int cells, scarp::Neighbourhood neighbourhood, scarp::Th
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, height));
   auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
-  std::vector<scarp::Neighbourhood> const neighbourhoods(sites.size(), neighbourhood);
-  Materials materials({soil(), sites}, sites, volumes, neighbourhoods);
+  scarp::Nonlocal<Varied> const nonlocal{soil(), neighbourhood.length, neighbourhood.stiffness, neighbourhood.fading};
+  scarp::MaterialPoints<2> points(nonlocal, sites, volumes);
   auto loads = scarp::traction(grid, "right", scarp::Vector<2>(-pressure, 0.0));
-  return {std::move(grid), std::move(materials), std::move(constraints), scarp::LoadHistory(loads), executor};
+  return {std::move(grid), std::move(points), std::move(constraints), scarp::LoadHistory(loads), executor};
 }
 
 }  // namespace nonlocal_band

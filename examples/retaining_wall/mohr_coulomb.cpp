@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "run.hpp"
-#include "scarp/solver/executor.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 

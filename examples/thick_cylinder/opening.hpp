@@ -101,7 +101,7 @@ Excavated excavate(Opening const& opening, int cells) {
   for (int point = 0; point < done.point_count(); ++point) {
     auto const& place = places[static_cast<std::size_t>(point)];
     double const from_centre = place.norm();
-    plastic_shear.emplace_back(from_centre, problem.materials().committed(point).plastic_shear);
+    plastic_shear.emplace_back(from_centre, problem.points().template state<Rock::State>(point).plastic_shear);
     if (from_centre > 3.0 * opening.radius) continue;
     PolarStress const found(stresses[static_cast<std::size_t>(point)], place);
     PolarStress const exact = opening.stress(from_centre);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scarp/bvp/loads.hpp"
-#include "scarp/constitutive/material_field.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
@@ -78,7 +78,7 @@ ColumnResult column_test(Packing const& packing, Choice const& choice) {
 
   Sand const sand{.law = contact_law(), .source = {packing}};
   scarp::ThreadExecutor executor;
-  scarp::EquilibriumProblem<Grid, scarp::ProviderField<Sand>, scarp::ThreadExecutor> problem(
+  scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor> problem(
       std::move(grid), {sand, sites}, std::move(constraints), std::move(confining), executor);
   result.rows.push_back(Watch::row(problem, 0.0));
   Watch watch{result.rows};

@@ -23,7 +23,7 @@ using Tied = scarp::CohesiveBond<scarp::LinearFrictional>;
 template <class Law>
 using Footed = scarp::Interface<Law, scarp::RigidFooting>;
 template <class Law>
-using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor, Footed<Law>>;
+using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Footed<Law>>;
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -62,9 +62,9 @@ struct Bed {
     loads.add(load, course);
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
-    scarp::ProviderField<Soil> field(Soil::from_young_poisson(young, 0.3), sites);
+    scarp::MaterialPoints<2> points(Soil::from_young_poisson(young, 0.3), sites);
     Footed<Law> interface(law, footing, ground, mesh.nodes);
-    return {std::move(grid),  std::move(field), std::move(constraints),
+    return {std::move(grid),  std::move(points), std::move(constraints),
             std::move(loads), executor,         std::move(interface)};
   }
 };
@@ -143,7 +143,7 @@ TEST_CASE("a block slides when the tangential load passes friction, not before")
   loads.add(push, {});
   auto grid = problem.discretisation();
   scarp::SerialExecutor executor;
-  Problem<scarp::LinearFrictional> sliding(grid, problem.materials(), problem.constraints(), loads, executor,
+  Problem<scarp::LinearFrictional> sliding(grid, problem.points(), problem.constraints(), loads, executor,
                                            problem.attached());
   scarp::NoObserver nobody;
   scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-7, .largest_gradient = 1.0};
@@ -282,7 +282,7 @@ TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whe
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
     scarp::SerialExecutor executor;
-    scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor, Contact> problem(
+    scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Contact> problem(
         grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, loads, executor, interface);
     scarp::NoObserver nobody;
     auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);

@@ -3,12 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/core/correlated_field.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/io/packings/packing_file.hpp"
+#include "scarp/points/material_points.hpp"
 #include "support/approx.hpp"
 #include "support/files.hpp"
 #include "support/packings.hpp"
@@ -155,6 +155,8 @@ TEST_CASE("pulled apart, a packing becomes a fluid without stress") {
   auto const answer = provider.respond(committed, 0.2 * Gradient<2>::Identity(), trial);
   CHECK(answer.verdict == Verdict{Status::fluid, Reason::no_contacts});
   CHECK(answer.stress.isZero(0.0));
+  CHECK(provider.balance(committed).has_packing);
+  CHECK_FALSE(provider.balance(trial).has_packing);
 }
 
 TEST_CASE("a cell pressed flat fails as collapsed and an inverted increment as not finite") {
@@ -290,17 +292,48 @@ TEST_CASE("points take the packing of the nearest depth") {
   CHECK(chosen(100.0) == samples::Approx(20.0));
 }
 
-TEST_CASE("a field of packings plans once for a load step and commits all points together") {
+TEST_CASE("points with packings plan once for a load step and commit all together") {
   std::vector<scarp::Site<2>> const sites(3);
-  scarp::ProviderField<Rve> field(rve(60), sites);
-  static_assert(scarp::MaterialField<scarp::ProviderField<Rve>>);
-  REQUIRE(field.point_count() == 3);
-  auto const before = field.committed_stress(1);
-  for (int point = 0; point < 3; ++point) field.plan(point, shear_increment(1e-3));
-  CHECK(field.work(1) == field.provider().plan(field.committed(1), shear_increment(1e-3)));
-  auto const answer = field.respond(1, shear_increment(1e-3));
-  CHECK(field.committed_stress(1) == before);
-  field.commit();
-  CHECK(field.committed_stress(1) == answer.stress);
-  CHECK(field.committed_stress(0) == before);
+  scarp::MaterialPoints<2> points(rve(60), sites);
+  scarp::SerialExecutor serial;
+  REQUIRE(points.size() == 3);
+  auto const before = points.committed_stress(1);
+  CHECK(points.work(1) == 0);
+  auto const planned = points.provider<Rve>(1).plan(points.state<Rve::State>(1), shear_increment(1e-3));
+  for (double const part : {1.0, 0.5}) {
+    points.gradient(1) = part * shear_increment(1e-3);
+    CHECK(points.respond(serial, 0).inner_steps == planned + 2 * points.provider<Rve>(0).least_steps);
+    CHECK(points.work(1) == planned);
+    CHECK(points.committed_stress(1) == before);
+  }
+  points.commit();
+  CHECK(points.committed_stress(1) == points.responses()[1].stress);
+  CHECK(points.committed_stress(1) != before);
+  CHECK(points.committed_stress(0) == points.committed_stress(2));  // the same packing, strained alike
+}
+
+TEST_CASE("a packing tells its quantities, its picture and its balance, a loose one by its share of the pressure") {
+  std::vector<scarp::Site<2>> const sites(1);
+  auto const provider = rve(80);
+  scarp::MaterialPoints<2> const points(provider, sites);
+  auto const& state = points.state<Rve::State>(0);
+  auto const quantities = points.quantities(0);
+  std::vector<std::string_view> names;
+  for (auto const& [name, value] : quantities) names.push_back(name);
+  CHECK(names == std::vector<std::string_view>{"void_ratio", "contact_fabric", "coordination", "unbalanced_ratio",
+                                               "particle_fabric"});
+  CHECK(quantities[0].second == state.packing.void_ratio());
+  CHECK(quantities[3].second == state.unbalanced_ratio);
+  auto const picture = points.picture<scarp::PackingPicture>(0);
+  REQUIRE(picture);
+  CHECK(picture->grains.size() == 80);
+  CHECK_FALSE(points.picture<int>(0));
+
+  auto const balance = points.packing_balance(0);
+  CHECK(balance.has_packing);
+  CHECK(balance.unbalanced_ratio == state.unbalanced_ratio);
+  auto loose = provider;
+  loose.loose_pressure = -2.0 * state.stress.head<2>().sum();  // four times the pressure
+  CHECK(loose.balance(state).unbalanced_ratio == samples::Approx(0.25 * state.unbalanced_ratio));
+  CHECK(loose.balance(state).kinetic_share == samples::Approx(0.25 * state.kinetic_share));
 }

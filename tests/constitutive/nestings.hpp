@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "scarp/constitutive/any_provider.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
+#include "scarp/constitutive/unwrap.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 
 /// Every adaptor around every adaptor, for the laws of what is saved.
@@ -29,15 +29,15 @@ struct Loosening {
   };
 
   scarp::IsotropicElasticity elasticity{6e6, 4e6};
+  int refinement = 2;  ///< of a plan, as a factor
 
   State initial_state(scarp::Site<2> const&) const { return {.strain = {-1e-3, -1e-3, 0.0}}; }
-  double weight_of(State const&) const { return 1.0; }
   scarp::VoigtTangent<2> tangent(State const& state) const { return (1.0 + state.path) * elasticity.stiffness<2>(); }
   scarp::VoigtStress<2> stress(State const& state) const { return tangent(state) * state.strain; }
   Plan plan(State const& committed, scarp::Gradient<2> const& increment) const {
     return 3 + static_cast<int>(1e4 * (increment.norm() + committed.path));
   }
-  Plan refined(Plan plan) const { return 2 * plan; }
+  Plan refined(Plan plan) const { return refinement * plan; }
   scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
     return respond(committed, increment, trial, plan(committed, increment));
   }
@@ -51,6 +51,13 @@ struct Loosening {
     trial.inertial_number = increment.norm() / plan;
     trial.verdict = wider ? scarp::Verdict{scarp::Status::fluid, scarp::Reason::no_contacts} : scarp::Verdict{};
     return {stress(trial), trial.verdict};
+  }
+  scarp::Quantities quantities(State const& state) const {
+    return {{"path", state.path}, {"shear_modulus", elasticity.shear_modulus}};
+  }
+  scarp::PackingBalance balance(State const& state) const {
+    if (state.verdict.status == scarp::Status::fluid) return {};
+    return {true, state.unbalanced_ratio, state.kinetic_share, state.inertial_number};
   }
 };
 
@@ -90,18 +97,11 @@ struct Varied {
                                              }};
   }
 };
-struct Hidden {
-  static constexpr char const* name = "AnyProvider";
-  template <class Provider>
-  static scarp::AnyProvider<2> around(Provider provider) {
-    return provider;
-  }
-};
 
 /// visit(adaptor) for each.
 template <class Visit>
 void for_each_adaptor(Visit const& visit) {
-  visit(Floored{}), visit(Varied{}), visit(Hidden{});
+  visit(Floored{}), visit(Varied{});
 }
 
 /// visit(name, provider) for each adaptor around each, another one of its own kind too.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "constitutive/provider_laws.hpp"
 
-#include "scarp/constitutive/any_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
@@ -91,19 +90,6 @@ struct Sample<scarp::DemRve<PackingType, scarp::SamePacking<PackingType>>> {
   }
 };
 
-/// A packing of discs whose type is hidden.
-template <>
-struct Sample<scarp::AnyProvider<2>> : Sample<scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>> {
-  using Inner = Sample<scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>>;
-  using State = scarp::AnyState<2>;
-
-  static scarp::AnyProvider<2> provider() { return Inner::provider(); }
-  static State state(scarp::AnyProvider<2> const& provider) { return provider.initial_state({}); }
-  static bool same(State const& a, State const& b) {
-    return Inner::same(a.as<typename Inner::State>(), b.as<typename Inner::State>());
-  }
-};
-
 }  // namespace provider_laws
 
 using ElasticInPlane = scarp::LinearElastic<2>;
@@ -112,7 +98,7 @@ using RveOfDiscs = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Dis
 using RveOfEllipses = scarp::DemRve<samples::Ellipses, scarp::SamePacking<samples::Ellipses>>;
 #define EVERY_PROVIDER                                                                                     \
   ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses, \
-      scarp::VariedParameters<ElasticInPlane>, scarp::StiffnessFloor<ElasticInPlane>, scarp::AnyProvider<2>
+      scarp::VariedParameters<ElasticInPlane>, scarp::StiffnessFloor<ElasticInPlane>
 
 TEST_CASE_TEMPLATE("every provider: committed state is never touched", Provider, EVERY_PROVIDER) {
   provider_laws::committed_state_is_never_touched<Provider>();

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/material_field.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
@@ -79,16 +79,16 @@ TEST_CASE("every point gets a packing of its own that follows from seed and numb
 
 TEST_CASE("a field of points starts from random packings at the prepared pressure") {
   std::vector<Site<2>> const sites{point(5), point(2), point(9)};
-  scarp::ProviderField<Rve> const field(Rve{.law = samples::study_law(), .source = {recipe(), 7}}, sites);
+  scarp::MaterialPoints<2> const points(Rve{.law = samples::study_law(), .source = {recipe(), 7}}, sites);
   for (int k = 0; k < 3; ++k) {
     CAPTURE(k);
-    CHECK(field.committed(k).verdict.acceptable());
+    CHECK(points.state<Rve::State>(k).verdict.acceptable());
     // The servo's tolerance for the largest stress is 1e-4 of the target; the answer is read a step later.
-    CHECK(field.committed_stress(k)(0) == samples::Approx(-samples::pressure).epsilon(1e-3));
-    CHECK(field.committed_stress(k)(1) == samples::Approx(-samples::pressure).epsilon(1e-3));
+    CHECK(points.committed_stress(k)(0) == samples::Approx(-samples::pressure).epsilon(1e-3));
+    CHECK(points.committed_stress(k)(1) == samples::Approx(-samples::pressure).epsilon(1e-3));
   }
-  CHECK(field.committed(0).packing.position == Source{recipe(), 7}.at(point(5)).position);
-  CHECK(field.committed_stress(0) != field.committed_stress(1));
+  CHECK(points.state<Rve::State>(0).packing.position == Source{recipe(), 7}.at(point(5)).position);
+  CHECK(points.committed_stress(0) != points.committed_stress(1));
 }
 
 TEST_CASE("points draw from a pool, alike with any number of threads") {

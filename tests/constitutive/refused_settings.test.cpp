@@ -6,14 +6,14 @@
 #include <limits>
 
 #include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/perturbation_tangent.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
+#include "scarp/points/material_points.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 
@@ -143,18 +143,31 @@ TEST_CASE("settings of adaptors that cannot be are refused") {
 }
 
 TEST_CASE("means over neighbours that cannot be are refused") {
-  using Field = scarp::ProviderField<Elastic>;
   std::vector<scarp::Site<2>> const sites(2);
   std::vector<double> const volumes{1.0, 1.0};
-  auto const make = [&](scarp::Neighbourhood const& second, std::span<double const> of = {}) {
-    return scarp::NonlocalMaterials<Field>(Field(elastic(), sites), sites, of.empty() ? volumes : of,
-                                           std::vector<scarp::Neighbourhood>{{}, second});
+  std::vector<scarp::VoigtTangent<2>> const initial(2, elastic().tangent({}));
+  auto const means = [&](scarp::Neighbourhood const& second) {
+    return scarp::point_means<2>(sites, volumes, std::vector<scarp::Neighbourhood>{{}, second}, initial);
   };
-  CHECK_NOTHROW(make({.length = 2.0}));
-  CHECK_REFUSED(make({.length = not_a_number}), "length that increments are averaged over is nan");
-  CHECK_REFUSED(make({.stiffness = -1.0}), "stiffness against unseen strain is -1");
-  CHECK_REFUSED(make({.fading = 0.0}), "strain after which unseen stress has faded is 0");
-  CHECK_REFUSED(make({}, std::vector{1.0}), "2 sites, 1 volumes and 2 neighbourhoods are given for 2 points");
+  CHECK_NOTHROW(means({.length = 2.0}));
+  CHECK_REFUSED(means({.length = not_a_number}), "length that increments are averaged over is nan");
+  CHECK_REFUSED(means({.stiffness = -1.0}), "stiffness against unseen strain is -1");
+  CHECK_REFUSED(means({.fading = 0.0}), "strain after which unseen stress has faded is 0");
+  std::vector<scarp::Neighbourhood> const one(1);
+  CHECK_REFUSED(scarp::point_means<2>(sites, volumes, one, initial), "2 volumes and 1 lengths are given for 2 points");
+  CHECK_REFUSED(scarp::point_means<2>(sites, volumes, std::vector<scarp::Neighbourhood>(2), {}),
+                "2 neighbourhoods and 0 initial tangents are given for 2 points");
+
+  auto const make = [&](scarp::Neighbourhood const& of, std::span<double const> weights) {
+    return scarp::MaterialPoints<2>(scarp::Nonlocal<Elastic>{elastic(), of.length, of.stiffness, of.fading}, sites,
+                                    weights);
+  };
+  CHECK_NOTHROW(make({.length = 2.0}, volumes));
+  CHECK_REFUSED(make({.length = not_a_number}, volumes), "length that increments are averaged over is nan");
+  CHECK_REFUSED(make({.stiffness = -1.0}, volumes), "stiffness against unseen strain is -1");
+  CHECK_REFUSED(make({.fading = 0.0}, volumes), "strain after which unseen stress has faded is 0");
+  CHECK_REFUSED(make({}, std::vector{1.0}), "1 volumes and 2 lengths are given for 2 points");
+  CHECK_REFUSED(make({.length = 2.0}, {}), "0 volumes and 2 lengths are given for 2 points");
 }
 
 TEST_CASE("depths of packings that are not in order are refused") {

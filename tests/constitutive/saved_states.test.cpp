@@ -8,16 +8,17 @@
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/nonlocal_materials.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/io/state_bits.hpp"
-#include "scarp/solver/executor.hpp"
+#include "scarp/points/any_provider.hpp"
+#include "scarp/points/material_points.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 
@@ -97,35 +98,54 @@ void what_is_saved_comes_back(Provider const& provider, double size = 2e-4) {
   CHECK(bits_of(state) != start);
 }
 
-/// Points of a field, each read by a field that has none of them.
-template <class Provider>
-void a_field_comes_back(Provider const& provider) {
+/// Points, read where there are none of their states, at once and one by one.
+template <class Material>
+void points_come_back(Material const& material) {
   std::vector<Site<2>> sites(6);
   for (int k = 0; k < 6; ++k)
     sites[static_cast<std::size_t>(k)] = {.index = k, .position = {0.5 * k, 1.0}, .depth = k + 1.0};
-  scarp::ProviderField<Provider> field(provider, sites);
+  scarp::MaterialPoints<2> points(material, sites);
   auto const increment = provider_laws::ordinary_increment<2>(3e-4);
   auto const answer = [&](auto& asked, double part) {
+    scarp::SerialExecutor serial;
+    for (int point = 0; point < asked.size(); ++point) asked.gradient(point) = part * increment;
+    static_cast<void>(asked.respond(serial));
+    auto after = asked;
+    after.commit();
     std::string bits;
-    for (int point = 0; point < asked.point_count(); ++point) {
-      asked.plan(point, part * increment);
-      auto const response = asked.respond(point, part * increment);
-      bits += bits_of(response.stress) + bits_of(response.verdict) + bits_of(asked.trial(point));
+    for (int point = 0; point < asked.size(); ++point) {
+      auto const& response = asked.responses()[static_cast<std::size_t>(point)];
+      bits += bits_of(response.stress) + bits_of(response.verdict) + after.pack(point);
     }
     return bits;
   };
-  static_cast<void>(answer(field, 1.0));
-  field.commit();
-  scarp::ProviderField<Provider> elsewhere(provider, sites, [](int) { return false; });
-  CHECK(bits_of(elsewhere) != bits_of(field));
-  read(bits_of(field), elsewhere);
-  CHECK(bits_of(elsewhere) == bits_of(field));
-  CHECK(answer(elsewhere, 0.5) == answer(field, 0.5));
-  for (int point = 0; point < field.point_count(); ++point) {
-    auto sent = elsewhere.blank_state(point);
-    read(bits_of(field.committed(point)), sent);
-    CHECK(field.provider().stress(sent) == field.committed_stress(point));
+  static_cast<void>(answer(points, 1.0));
+  points.commit();
+  auto const nobody = [](int) { return false; };
+  scarp::MaterialPoints<2> elsewhere(material, sites, {}, nobody);
+  CHECK(bits_of(elsewhere) != bits_of(points));
+  read(bits_of(points), elsewhere);
+  CHECK(bits_of(elsewhere) == bits_of(points));
+  scarp::MaterialPoints<2> sent(material, sites, {}, nobody);
+  scarp::MaterialPoints<2> loaded(material, sites);
+  for (int point = 0; point < points.size(); ++point) {
+    sent.unpack(point, points.pack(point));
+    CHECK(sent.committed_stress(point) == points.committed_stress(point));
+    auto const alone = sent.alone(point, points.pack(point));
+    CHECK(alone.committed_stress(0) == points.committed_stress(point));
+    CHECK(alone.committed_tangent(0) == points.committed_tangent(point));
+    CHECK(alone.quantities(0) == points.quantities(point));
+    loaded.unpack(point, elsewhere.pack(point));
   }
+  CHECK(answer(loaded, 0.5) == answer(points, 0.5));
+  scarp::MaterialPoints<2> other(material, sites);
+  static_cast<void>(answer(other, -1.0));
+  other.commit();
+  read(bits_of(elsewhere), other);
+  CHECK(answer(other, 0.5) == answer(points, 0.5));
+  points.forget(2);
+  read(bits_of(elsewhere), points);
+  CHECK(bits_of(points) == bits_of(elsewhere));
 }
 
 using Discs = samples::Discs;
@@ -187,47 +207,43 @@ TEST_CASE("what is saved comes back: every adaptor around every adaptor") {
   });
 }
 
-TEST_CASE("what is saved comes back: fields, also where there was no state of a point") {
+TEST_CASE("what is saved comes back: points, also where there was no state of one") {
   nestings::for_each([](std::string const& name, auto const& provider) {
     CAPTURE(name);
-    a_field_comes_back(provider);
+    points_come_back(provider);
+    points_come_back(scarp::AnyProvider<2>(provider));
   });
 }
 
 TEST_CASE("what is saved comes back: points that see means of their neighbours") {
-  using Field = scarp::ProviderField<nestings::Loosening>;
   std::vector<Site<2>> sites(6);
   for (int k = 0; k < 6; ++k)
     sites[static_cast<std::size_t>(k)] = {.index = k, .position = {0.5 * k, 1.0}, .depth = 1.0};
   std::vector<double> const volumes(6, 0.25);
-  std::vector<scarp::Neighbourhood> const wide(6, {.length = 1.2});
-  auto const made = [&](std::vector<scarp::Neighbourhood> const& each) {
-    return scarp::NonlocalMaterials<Field>(Field({}, sites), sites, volumes, each);
+  auto const made = [&](scarp::Neighbourhood const& wide) {
+    return scarp::MaterialPoints<2>(scarp::Nonlocal<nestings::Loosening>{{}, wide.length, wide.stiffness, wide.fading},
+                                    sites, volumes);
   };
-  auto const make = [&] { return made(wide); };
-  auto const answer = [&](auto& field, double part) {
-    std::vector<Gradient<2>> gradients;
-    for (int k = 0; k < 6; ++k) gradients.push_back(provider_laws::ordinary_increment<2>(part * 1e-4 * (k % 3)));
+  auto const answer = [&](auto& points, double part) {
+    for (int k = 0; k < 6; ++k) points.gradient(k) = provider_laws::ordinary_increment<2>(part * 1e-4 * (k % 3));
     scarp::SerialExecutor serial;
-    field.average(gradients, serial);
-    std::string bits = bits_of(field.added_stresses());
-    for (int k = 0; k < 6; ++k) {
-      field.plan(k, gradients[static_cast<std::size_t>(k)]);
-      bits += bits_of(field.respond(k, gradients[static_cast<std::size_t>(k)]).stress);
-    }
+    static_cast<void>(points.respond(serial));
+    std::string bits = bits_of(points.means()->added_stresses());
+    for (auto const& response : points.responses()) bits += bits_of(response.stress);
     return bits;
   };
-  auto field = make();
-  static_cast<void>(answer(field, 1.0));
-  field.commit();
-  auto loaded = make();
-  read(bits_of(field), loaded);
-  CHECK(bits_of(loaded) == bits_of(field));
-  CHECK(answer(loaded, 0.5) == answer(field, 0.5));
+  scarp::Neighbourhood const wide{.length = 1.2};
+  auto points = made(wide);
+  static_cast<void>(answer(points, 1.0));
+  points.commit();
+  auto loaded = made(wide);
+  read(bits_of(points), loaded);
+  CHECK(bits_of(loaded) == bits_of(points));
+  CHECK(answer(loaded, 0.5) == answer(points, 0.5));
   // Stresses against unseen strain belong to the means that they came from.
   for (auto const& other : {scarp::Neighbourhood{.length = 0.9}, scarp::Neighbourhood{.length = 1.2, .stiffness = 0.5},
                             scarp::Neighbourhood{.length = 1.2, .fading = 2e-3}}) {
-    auto elsewhere = made(std::vector<scarp::Neighbourhood>(6, other));
-    CHECK_REFUSED(read(bits_of(field), elsewhere), "points that see other means");
+    auto elsewhere = made(other);
+    CHECK_REFUSED(read(bits_of(points), elsewhere), "points that see other means");
   }
 }

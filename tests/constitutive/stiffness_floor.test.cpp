@@ -27,24 +27,26 @@ struct Fluidised {
   struct State {
     bool loose = false;
     bool fluid = false;
-    Elastic::State own;
+    Elastic::State elastic;
+
+    SCARP_MEMBERS(loose, fluid, elastic)
   };
 
   double height = 1.0;  ///< [m]
 
   State initial_state(scarp::Site<2> const& site) const { return {site.position.y() > height, false, {}}; }
-  scarp::VoigtStress<2> stress(State const& state) const { return state.own.stress; }
+  scarp::VoigtStress<2> stress(State const& state) const { return state.elastic.stress; }
   scarp::VoigtTangent<2> tangent(State const& state) const { return (state.fluid ? 0.0 : 1.0) * ground().tangent({}); }
   scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
     trial = committed;
     trial.fluid = committed.loose;
     if (trial.fluid) return {scarp::VoigtStress<2>::Zero(), {scarp::Status::fluid, scarp::Reason::no_contacts}};
-    return ground().respond(committed.own, increment, trial.own);
+    return ground().respond(committed.elastic, increment, trial.elastic);
   }
 };
 
 using Floor = scarp::StiffnessFloor<Fluidised>;
-using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Floor>, scarp::SerialExecutor>;
+using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
 
 /// A column of four elements between smooth walls, whose foot moves up by the load factor [m]; its upper half is loose.
 Problem column(double share, scarp::SerialExecutor& executor) {
@@ -86,7 +88,7 @@ TEST_CASE("nodes with nothing but fluid points around them are held by the floor
   CHECK(run.verdict.acceptable());
   CHECK(run.load == 1e-3);
   int fluid = 0;
-  for (int point = 0; point < 16; ++point) fluid += problem.materials().committed(point).fluid ? 1 : 0;
+  for (int point = 0; point < 16; ++point) fluid += problem.points().state<Floor::State>(point).fluid ? 1 : 0;
   CHECK(fluid == 8);
   // The free top follows the middle: the floor has next to nothing to hold.
   CHECK(scarp::floor_share(problem) < 1e-3);

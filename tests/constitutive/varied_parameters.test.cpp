@@ -3,9 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include "constitutive/nestings.hpp"
+#include "constitutive/provider_laws.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/correlated_field.hpp"
+#include "scarp/core/executor.hpp"
+#include "scarp/points/material_points.hpp"
 #include "support/approx.hpp"
 
 namespace {
@@ -33,15 +36,18 @@ TEST_CASE("every point answers with the parameters of its own place") {
   std::vector<scarp::Site<2>> sites;
   for (int k = 0; k < 50; ++k) sites.push_back(place(k, 3.0 * k, 0.1 * k));
   auto const soil = random_soil();
-  scarp::ProviderField<Varied> points(soil, sites);
+  scarp::MaterialPoints<2> points(soil, sites);
   scarp::Gradient<2> stretch = scarp::Gradient<2>::Zero();
   stretch(1, 1) = -1e-4;
+  for (int k = 0; k < points.size(); ++k) points.gradient(k) = stretch;
+  scarp::SerialExecutor serial;
+  static_cast<void>(points.respond(serial));
   double softest = 1e300;
   double stiffest = 0.0;
-  for (int k = 0; k < points.point_count(); ++k) {
+  for (int k = 0; k < points.size(); ++k) {
     auto const own = soil.vary({}, sites[static_cast<std::size_t>(k)]);
     auto alone = own.initial_state({});
-    CHECK(points.respond(k, stretch).stress == own.respond(alone, stretch, alone).stress);
+    CHECK(points.stress(k) == own.respond(alone, stretch, alone).stress);
     CHECK(points.committed_tangent(k) == own.tangent(alone));
     softest = std::min(softest, own.elasticity.shear_modulus);
     stiffest = std::max(stiffest, own.elasticity.shear_modulus);
@@ -63,4 +69,12 @@ TEST_CASE("copies of a state share its provider") {
   auto trial = soil.initial_state(place(1, 70.0, 2.0));
   static_cast<void>(soil.respond(state, scarp::Gradient<2>::Zero(), trial));
   CHECK(trial.provider == state.provider);
+}
+
+TEST_CASE("points of varied providers refine their plans by their own provider") {
+  using nestings::Loosening;
+  scarp::VariedParameters<Loosening> const varied{{.refinement = 2},
+                                                  [](auto const&, auto const&) { return Loosening{.refinement = 3}; }};
+  auto const plan = varied.plan(varied.initial_state({}), provider_laws::ordinary_increment<2>(2e-4));
+  CHECK(static_cast<long>(varied.refined(plan)) == 3 * static_cast<long>(plan));
 }

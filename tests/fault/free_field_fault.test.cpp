@@ -44,9 +44,8 @@ Outcome run_sand(scarp::ThreadExecutor& executor, Observer& observer) {
   REQUIRE(scene.settle(problem, observer).verdict == Verdict{});
   Outcome outcome{
       scene.rupture(problem, observer), problem.discretisation().positions(), problem.committed_stresses(), {}};
-  for (int point = 0; point < problem.materials().point_count(); ++point) {
-    problem.materials().visit(
-        point, [&](auto const& field, int local) { outcome.packings.push_back(field.committed(local).packing); });
+  for (int point = 0; point < problem.points().size(); ++point) {
+    outcome.packings.push_back(problem.points().template state<samples::Sand::State>(point).packing);
   }
   return outcome;
 }
@@ -110,7 +109,7 @@ TEST_CASE("elastic ground starts in balance with the given stress ratio and the 
   CHECK(rest.verdict == Verdict{});
   CHECK(rest.iterations == 1);
   for (int point = 0; point < problem.discretisation().point_count(); ++point) {
-    auto const stress = problem.materials().committed_stress(point);
+    auto const stress = problem.points().committed_stress(point);
     double const depth = problem.discretisation().site(point, scene.ground.layer.depth).depth;
     double const overburden = scene.surcharge + scene.unit_weight * depth;
     CHECK(stress(1) == samples::Approx(-overburden).epsilon(1e-12));  // round-off of the settling solve
@@ -192,7 +191,7 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
   FilesAreWhole whole;
   whole.folder = folder.path();
   whole.seen = &files;
-  scarp::Observers observers(scarp::FieldSeries<scarp::RveQuantities>(folder.path(), scene.throw_to, 4, unit),
+  scarp::Observers observers(scarp::FieldSeries(folder.path(), scene.throw_to, 4, unit),
                              scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, 4, unit),
                              scarp::RveProbe(folder / "probe.csv", 3, unit),
                              scarp::PackingSeries(folder.path(), "probe", 3, scene.throw_to, {0.0, 0.5, 1.0}, unit),
@@ -216,7 +215,7 @@ TEST_CASE("an element with one packing is that packing driven by the same gradie
   auto problem = scarp::make_problem(grid, 5.0, boost::hana::make_tuple(scarp::Region{"soil", scene.soil}), constraints,
                                      Eigen::VectorXd::Zero(6), executor);
   auto alone = scene.soil.initial_state(site);
-  CHECK(problem.materials().committed_stress(0) == alone.stress);
+  CHECK(problem.points().committed_stress(0) == alone.stress);
   scarp::Gradient<2> gradient;
   gradient << 0.0, 0.0078125, -0.001953125, -0.00390625;  // powers of two: exact in the element's arithmetic
   for (int step = 0; step < 3; ++step) {
@@ -236,7 +235,6 @@ TEST_CASE("an element with one packing is that packing driven by the same gradie
     CHECK((step > 0 || answer.stress != alone.stress));
     alone = trial;
     problem.commit(increment);
-    problem.materials().visit(
-        0, [&](auto const& field, int local) { CHECK(field.committed(local).packing == alone.packing); });
+    CHECK(problem.points().state<samples::Sand::State>(0).packing == alone.packing);
   }
 }

@@ -8,7 +8,7 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 
 namespace {

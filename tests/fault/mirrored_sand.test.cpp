@@ -8,7 +8,7 @@
 #include "scarp/dem/mirrored.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
-#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "support/packings.hpp"
 
 namespace {

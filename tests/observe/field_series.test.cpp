@@ -16,11 +16,10 @@ namespace {
 
 using Soil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
 
-/// The depth of a point's start, read from its stress; only of points in the upper half of an element.
-struct UpperDepth {
-  double unit_weight;
-  scarp::Quantities operator()(Soil const&, Soil::State const& state) const {
-    double const depth = -state.stress(1) / unit_weight;
+/// Tells the depth of a point's start, read from its stress; only of points in the upper half of an element.
+struct UpperDepth : Soil {
+  scarp::Quantities quantities(Soil::State const& state) const {
+    double const depth = -state.stress(1) / initial.unit_weight;
     double const within = depth - std::floor(depth);
     if (within > 0.5) return {};
     return {{"depth", depth}};
@@ -36,11 +35,11 @@ TEST_CASE("an element's stress is the mean over its points, and so is a quantity
   scarp::Discretisation<scarp::Quad4> grid(
       scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, 3.0}, .cells = {1, 3}}.generate());
   scarp::Constraints constraints(grid.mesh());
-  auto const soil = Soil::from_young_poisson(1e6, 0.3, {.unit_weight = weight, .k0 = 0.5});
+  UpperDepth const soil{Soil::from_young_poisson(1e6, 0.3, {.unit_weight = weight, .k0 = 0.5})};
   auto const region = grid.mesh().regions.front();
   auto problem = scarp::make_problem(grid, 3.0, boost::hana::make_tuple(scarp::Region{region, soil}),
                                      std::move(constraints), scarp::LoadHistory(), serial);
-  auto const fields = scarp::detail::element_fields(problem, UpperDepth{weight});
+  auto const fields = scarp::detail::element_fields(problem);
   REQUIRE(fields.stress.size() == 9);
   for (std::size_t e = 0; e < 3; ++e) {
     double const middle = 2.5 - static_cast<double>(e);  // cells from the bottom up
@@ -71,8 +70,9 @@ TEST_CASE("in space strains are those of the whole tensor, and stress has its si
   auto const region = grid.mesh().regions.front();
   auto problem = scarp::make_problem(grid, 1.0, boost::hana::make_tuple(scarp::Region{region, soil}),
                                      std::move(constraints), scarp::LoadHistory(), serial);
-  auto const fields = scarp::detail::element_fields(problem, scarp::NoQuantities());
+  auto const fields = scarp::detail::element_fields(problem);
   REQUIRE(fields.stress.size() == 12);
+  CHECK(fields.quantities.empty());
   for (std::size_t e = 0; e < 2; ++e) {
     CHECK(std::abs(fields.volumetric[e] + std::log(1.1 * 0.9)) < 1e-12);
     CHECK(std::abs(fields.deviatoric[e] - std::log(1.1 / 0.9)) < 1e-12);
@@ -83,13 +83,12 @@ TEST_CASE("in space strains are those of the whole tensor, and stress has its si
 
 namespace {
 
-/// A quantity with a name.
-struct Named {
-  std::string_view name = "status";
-  scarp::Quantities operator()(Soil const&, Soil::State const&) const { return {{name, 1.0}}; }
+/// Tells a quantity with a name.
+struct Named : Soil {
+  scarp::Quantities quantities(Soil::State const&) const { return {{"status", 1.0}}; }
 };
-struct Volumetric : Named {
-  scarp::Quantities operator()(Soil const&, Soil::State const&) const { return {{"volumetric_strain", 1.0}}; }
+struct Volumetric : Soil {
+  scarp::Quantities quantities(Soil::State const&) const { return {{"volumetric_strain", 1.0}}; }
 };
 
 }  // namespace
@@ -101,11 +100,11 @@ TEST_CASE_TEMPLATE("an own quantity with the name of a field is refused before a
       scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, 1.0}, .cells = {1, 1}}.generate());
   scarp::Constraints constraints(grid.mesh());
   auto const region = grid.mesh().regions.front();
-  auto problem =
-      scarp::make_problem(grid, 1.0, boost::hana::make_tuple(scarp::Region{region, Soil::from_young_poisson(1e6, 0.3)}),
-                          std::move(constraints), scarp::LoadHistory(), serial);
+  auto problem = scarp::make_problem(
+      grid, 1.0, boost::hana::make_tuple(scarp::Region{region, Own{Soil::from_young_poisson(1e6, 0.3)}}),
+      std::move(constraints), scarp::LoadHistory(), serial);
   samples::ScratchFolder const folder;
-  scarp::FieldSeries<Own> series(folder.path(), 1.0, 2, 1.0);
+  scarp::FieldSeries series(folder.path(), 1.0, 2, 1.0);
   auto const name = std::is_same_v<Own, Named> ? "'status'" : "'volumetric_strain'";
   CHECK_REFUSED(series.attempted(problem, {}), "own quantity", name);
   CHECK_FALSE(std::filesystem::exists(folder / "fields/step_0000.vtu"));
@@ -114,7 +113,7 @@ TEST_CASE_TEMPLATE("an own quantity with the name of a field is refused before a
 TEST_CASE("a series' end, number of frames and unit that cannot be are refused") {
   samples::ScratchFolder const folder;
   auto const series = [&](double to, int frames, double unit) {
-    return scarp::FieldSeries<>(folder.path(), to, frames, unit);
+    return scarp::FieldSeries(folder.path(), to, frames, unit);
   };
   CHECK_REFUSED(series(0.0, 4, 25.0), "end of the load is 0");
   CHECK_REFUSED(series(-1.0, -4, 25.0), "end of the load is -1");

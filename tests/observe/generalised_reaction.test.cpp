@@ -8,6 +8,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
@@ -18,8 +19,7 @@ using Soil = scarp::LinearElastic<2>;
 using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
 
 /// Of a square of 1 m between rough plates, whose upper one goes down by the load.
-template <class Field>
-double reaction(Grid grid, Field field, double rate, double load) {
+double reaction(Grid grid, scarp::MaterialPoints<2> points, double rate, double load) {
   scarp::Constraints constraints(grid.mesh());
   for (int node = 0; node < grid.node_count(); ++node) {
     double const height = grid.mesh().nodes[static_cast<std::size_t>(node)].y();
@@ -28,8 +28,8 @@ double reaction(Grid grid, Field field, double rate, double load) {
     if (height == 1.0) constraints.move(node, 1, rate);
   }
   scarp::SerialExecutor serial;
-  scarp::EquilibriumProblem<Grid, Field, scarp::SerialExecutor> problem(std::move(grid), std::move(field),
-                                                                        std::move(constraints), {}, serial);
+  scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(std::move(grid), std::move(points),
+                                                                 std::move(constraints), {}, serial);
   scarp::NoObserver nobody;
   CHECK(scarp::generalised_reaction(problem) == 0.0);
   CHECK(scarp::LoadStepping{}.run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0, load, nobody).verdict ==
@@ -44,11 +44,11 @@ TEST_CASE("the generalised reaction of a pressed square is modulus times strain,
   Grid const grid(scarp::RectangleMesh{.columns = 3, .rows = 3}.generate());
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
-  scarp::ProviderField<Soil> const field{soil, sites};
+  scarp::MaterialPoints<2> const points(soil, sites);
   // Analytic: uniaxial compression, to the strain's square.
   double const modulus = soil.elasticity.lame_lambda + 2.0 * soil.elasticity.shear_modulus;
   constexpr double load = 1e-4;
-  CHECK(std::abs(reaction(grid, field, -1.0, load) / (load * modulus) - 1.0) < 2.0 * load);
+  CHECK(std::abs(reaction(grid, points, -1.0, load) / (load * modulus) - 1.0) < 2.0 * load);
   // Twice the motion: twice the force, on twice the way.
-  CHECK(std::abs(reaction(grid, field, -2.0, load) / (4.0 * load * modulus) - 1.0) < 4.0 * load);
+  CHECK(std::abs(reaction(grid, points, -2.0, load) / (4.0 * load * modulus) - 1.0) < 4.0 * load);
 }

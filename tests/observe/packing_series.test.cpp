@@ -3,13 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/constitutive/any_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "scarp/points/any_provider.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/approx.hpp"
 #include "support/files.hpp"
@@ -24,15 +25,16 @@ using Rve = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>;
 using Any = scarp::AnyProvider<2>;
 
 /// As much of a problem as the series looks at: one point.
-template <class Provider>
-struct OnePoint {
-  static constexpr int dim = 2;
-  scarp::SerialExecutor serial{};
-  scarp::ProviderField<Provider> field;
+class OnePoint {
+ public:
+  template <class Material>
+  explicit OnePoint(Material const& material) : points_(material, std::vector<scarp::Site<2>>(1)) {}
+  auto const& executor() const { return serial_; }
+  auto const& points() const { return points_; }
 
-  explicit OnePoint(Provider const& provider) : field(provider, std::vector<scarp::Site<2>>(1)) {}
-  auto const& executor() const { return serial; }
-  auto const& materials() const { return field; }
+ private:
+  scarp::SerialExecutor serial_{};
+  scarp::MaterialPoints<2> points_;
 };
 
 Rve sand() { return {.law = samples::study_law(), .source = {samples::consolidated<samples::Discs>(80).packing}}; }
@@ -45,10 +47,10 @@ std::vector<double> throws_in(std::filesystem::path const& list) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("packings are written at the first steps that have come to the shares", Provider,
+TEST_CASE_TEMPLATE("packings are written at the first steps that have come to the shares", Material,
                    scarp::StiffnessFloor<Rve>, Any) {
   ScratchFolder const folder;
-  OnePoint<Provider> const problem(Provider(scarp::StiffnessFloor<Rve>{.provider = sand()}));
+  OnePoint const problem(Material(scarp::StiffnessFloor<Rve>{.provider = sand()}));
   scarp::PackingSeries series(folder.path(), "A", 0, 2.0, {0.0, 0.25, 0.3, 0.5, 1.0}, 8.0);
   series.attempted(problem, accepted(-1.0));
   CHECK_FALSE(std::filesystem::exists(folder / "packings"));
@@ -84,7 +86,7 @@ TEST_CASE_TEMPLATE("packings are written at the first steps that have come to th
 
 TEST_CASE("a series that goes on from a checkpoint has the packings before it in its list") {
   ScratchFolder const folder;
-  OnePoint<Rve> const problem(sand());
+  OnePoint const problem(sand());
   scarp::StateWriter saved;
   {
     scarp::PackingSeries series(folder.path(), "B", 0, 1.0, {0.0, 0.5, 1.0}, 1.0);
@@ -101,7 +103,7 @@ TEST_CASE("a series that goes on from a checkpoint has the packings before it in
 
 TEST_CASE("a point without a packing leaves nothing behind") {
   ScratchFolder const folder;
-  OnePoint<Any> const problem(Any(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3)));
+  OnePoint const problem(Any(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3)));
   scarp::PackingSeries series(folder.path(), "A", 0, 1.0, {0.0, 1.0}, 1.0);
   series.attempted(problem, accepted(0.0));
   series.ended(problem, 0.5);
@@ -115,7 +117,7 @@ TEST_CASE("shares, ends, units and points that cannot be are refused") {
                   fmt::format("share {} of the load", shares.back()));
   CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, std::nan(""), {0.5}, 1.0), "end of the load is nan");
   CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, 1.0, {0.5}, 0.0), "unit of the load is 0");
-  OnePoint<Rve> const problem(sand());
+  OnePoint const problem(sand());
   for (int const point : {-1, 1}) {
     scarp::PackingSeries series(folder.path(), "A", point, 1.0, {0.0}, 1.0);
     CHECK_REFUSED(series.attempted(problem, accepted(0.0)), fmt::format("point {} is to be observed", point));

@@ -12,7 +12,7 @@
 
 #include "scarp/observe/observers.hpp"
 #include "scarp/run/checkpointed_run.hpp"
-#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/rank_executor.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/ground.hpp"
@@ -58,17 +58,15 @@ void rupture(Scene const& scene, int threads_of_a_rank, scarp::CheckpointFiles f
   for (auto const& stress : stresses) take(stress);
   for (auto const& tangent : tangents) take(tangent);
   int packings = 0;
-  for (int point = 0; point < problem.materials().point_count(); ++point) {
-    problem.materials().visit(point, [&](auto const& field, int local) {
-      if (field.committed(local).packing.population != nullptr) ++packings;
-    });
+  for (int point = 0; point < problem.points().size(); ++point) {
+    if (problem.points().template state<samples::Sand::State>(point).packing.population != nullptr) ++packings;
   }
   if (executor.rank() == 0) {
     fmt::print("{} hash {:016x} iterations {} DEM steps {}\n", scarp::name(run.verdict.status), hash, run.iterations,
                run.inner_steps);
   }
   fmt::print(stderr, "rank {} of {} holds {} of {} packings, waited {:.3f} s\n", executor.rank(), executor.ranks(),
-             packings, problem.materials().point_count(), executor.seconds_sharing());
+             packings, problem.points().size(), executor.seconds_sharing());
   if (resumes) fmt::print(stderr, "rank {} went on from a checkpoint\n", executor.rank());
 }
 

@@ -11,7 +11,6 @@
 #include "constitutive/nestings.hpp"
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/bvp/discretisation.hpp"
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
@@ -19,6 +18,8 @@
 #include "scarp/observe/packing_series.hpp"
 #include "scarp/observe/probe.hpp"
 #include "scarp/observe/surface_log.hpp"
+#include "scarp/points/any_provider.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/quasi_newton.hpp"
@@ -27,12 +28,11 @@
 /// A block whose top is pulled until it is fluid, seen by all observers that remember something, on one process or several.
 namespace watched {
 
-template <class Provider, class Executor>
-using Problem = scarp::EquilibriumProblem<scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>,
-                                          scarp::ProviderField<Provider>, Executor>;
+template <class Executor>
+using Problem = scarp::EquilibriumProblem<scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>, Executor>;
 
 template <class Provider, class Executor>
-Problem<Provider, Executor> block(Provider const& provider, Executor& executor) {
+Problem<Executor> block(Provider const& provider, Executor& executor) {
   auto mesh = scarp::RectangleMesh{.columns = 2, .rows = 2}.generate();
   mesh.boundaries["surface"] = mesh.boundaries.at("top");
   scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> grid(std::move(mesh));
@@ -41,9 +41,9 @@ Problem<Provider, Executor> block(Provider const& provider, Executor& executor) 
   for (int const node : scarp::boundary_nodes(grid.mesh(), "top")) constraints.move(node, 1, 1.0);
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
-  scarp::ProviderField<Provider> field(provider, sites, [&](int point) { return scarp::owns_point(executor, point); });
+  scarp::MaterialPoints<2> points(provider, sites, {}, [&](int point) { return scarp::owns_point(executor, point); });
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(grid.dof_count());
-  return {std::move(grid), std::move(field), std::move(constraints), std::move(loads), executor};
+  return {std::move(grid), std::move(points), std::move(constraints), std::move(loads), executor};
 }
 
 struct Stop {
@@ -102,7 +102,7 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
   scarp::ErrorBudget budget(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 3});
   std::filesystem::create_directories(folder / "fields");
   scarp::OnFirstRank observers(executor, [&] {
-    return scarp::Observers(scarp::FieldSeries<scarp::RveQuantities>(folder, to, 3, 1.0),
+    return scarp::Observers(scarp::FieldSeries(folder, to, 3, 1.0),
                             scarp::RveProbe(folder / "probe.csv", 1, 1.0, start),
                             scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, 1.0),
                             scarp::ConvergenceLog(folder / "convergence.csv", 1.0, start),
@@ -123,13 +123,12 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
     scarp::StateWriter positions;
     positions("positions", problem.discretisation().positions());
     outcome.states = positions.bits();
-    for (int point = 0; point < problem.materials().point_count(); ++point) {
-      scarp::visit_point(problem, point, [&](auto const& of, auto const& state) {
-        scarp::StateWriter writer;  // of its own: what points share, copies from other processes do not
-        writer("state", state);
-        writer("stress", of.stress(state));
-        writer("tangent", of.tangent(state));
-        outcome.states += writer.bits();
+    for (int point = 0; point < problem.points().size(); ++point) {
+      scarp::visit_point(problem, point, [&](auto const& points, int k) {
+        scarp::StateWriter writer;
+        writer("stress", points.committed_stress(k));
+        writer("tangent", points.committed_tangent(k));
+        outcome.states += points.pack(k) + writer.bits();
       });
     }
     for (auto const& part : budget.parts()) outcome.budget.push_back(part.value);

@@ -16,7 +16,7 @@ namespace {
 using Soil = scarp::LinearElastic<2>;
 using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
 template <class Attached = scarp::NoAttachment>
-using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor, Attached>;
+using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Attached>;
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 
 constexpr double pressure = 1e4;  // [Pa]
@@ -25,7 +25,7 @@ Soil soil() { return Soil::from_young_poisson(20e6, 0.3); }
 
 Grid square() { return Grid(scarp::RectangleMesh{.columns = 3, .rows = 3}.generate()); }
 
-scarp::ProviderField<Soil> field_on(Grid const& grid) {
+scarp::MaterialPoints<2> points_on(Grid const& grid) {
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
   return {soil(), sites};
@@ -64,8 +64,8 @@ TEST_CASE("a body that is pressed from all sides by dead loads, with reactions o
   auto grid = square();
   auto const loads = on_all_sides(grid);
   auto constraints = held_as_a_body(grid);
-  auto field = field_on(grid);
-  Problem<> problem(std::move(grid), std::move(field), std::move(constraints), loads, serial);
+  auto points = points_on(grid);
+  Problem<> problem(std::move(grid), std::move(points), std::move(constraints), loads, serial);
   scarp::NoObserver nobody;
   auto const run = scarp::LoadStepping{}.settle(Newton{.tolerance = 1e-3}, problem, 0.0, nobody);
   CHECK(run.verdict == scarp::Verdict{});
@@ -82,8 +82,8 @@ TEST_CASE("a body that a fluid presses from all sides converges, though there ar
     facets.insert(facets.end(), of_side.begin(), of_side.end());
   }
   auto constraints = held_as_a_body(grid);
-  auto field = field_on(grid);
-  Problem<scarp::FollowingPressure<>> problem(std::move(grid), std::move(field), std::move(constraints), {}, serial,
+  auto points = points_on(grid);
+  Problem<scarp::FollowingPressure<>> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial,
                                               scarp::FollowingPressure<>(facets, pressure));
   scarp::NoObserver nobody;
   auto const run = scarp::LoadStepping{}.settle(Newton{.tolerance = 1e-3}, problem, 0.0, nobody);
@@ -102,8 +102,8 @@ TEST_CASE_TEMPLATE("a law is tested on one element all of whose nodes are moved"
     constraints.move(node, 1, -grid.mesh().nodes[static_cast<std::size_t>(node)].y());
   }
   REQUIRE(constraints.free_count() == 0);
-  auto field = field_on(grid);
-  Problem<> problem(std::move(grid), std::move(field), std::move(constraints), {}, serial);
+  auto points = points_on(grid);
+  Problem<> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
   scarp::NoObserver nobody;
   auto const run = scarp::LoadStepping{}.run(Solver{}, problem, 0.0, 1e-4, nobody);
   CHECK(run.verdict == scarp::Verdict{});
@@ -119,14 +119,14 @@ TEST_CASE("parts that do not fit together are refused") {
   auto const grid = square();
   auto const constraints = held_as_a_body(grid);
   Grid const smaller(scarp::RectangleMesh{}.generate());
-  auto const make = [&](scarp::ProviderField<Soil> field, scarp::Constraints const& held, scarp::LoadHistory loads) {
-    Problem<> const problem(grid, std::move(field), held, std::move(loads), serial);
+  auto const make = [&](scarp::MaterialPoints<2> points, scarp::Constraints const& held, scarp::LoadHistory loads) {
+    Problem<> const problem(grid, std::move(points), held, std::move(loads), serial);
   };
-  CHECK_REFUSED(make(field_on(smaller), constraints, {}), fmt::format("for {} points", smaller.point_count()),
+  CHECK_REFUSED(make(points_on(smaller), constraints, {}), fmt::format("for {} points", smaller.point_count()),
                 fmt::format("the mesh has {}", grid.point_count()));
-  CHECK_REFUSED(make(field_on(grid), constraints, {Eigen::VectorXd::Zero(7)}), "loads have 7 entries",
+  CHECK_REFUSED(make(points_on(grid), constraints, {Eigen::VectorXd::Zero(7)}), "loads have 7 entries",
                 fmt::format("{} degrees of freedom", grid.dof_count()));
-  CHECK_REFUSED(make(field_on(grid), scarp::Constraints(smaller.mesh()), {}),
+  CHECK_REFUSED(make(points_on(grid), scarp::Constraints(smaller.mesh()), {}),
                 fmt::format("constraints {}", smaller.dof_count()));
 }
 
@@ -134,8 +134,8 @@ TEST_CASE("an increment is committed once, after its own evaluation") {
   scarp::SerialExecutor serial;
   auto grid = square();
   auto constraints = held_as_a_body(grid);
-  auto field = field_on(grid);
-  Problem<> problem(std::move(grid), std::move(field), std::move(constraints), {}, serial);
+  auto points = points_on(grid);
+  Problem<> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
   Eigen::VectorXd const first = Eigen::VectorXd::LinSpaced(problem.dof_count(), 0.0, 1e-4);
   CHECK_REFUSED(problem.commit(first), "increment", "evaluate");
   problem.evaluate(first);

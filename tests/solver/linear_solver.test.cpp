@@ -163,7 +163,7 @@ TEST_CASE("a body that nothing holds is found out: a singular system, and which 
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
   Eigen::VectorXd const load = Eigen::VectorXd::Ones(grid.dof_count());
   scarp::SerialExecutor executor;
-  scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor> problem(
+  scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(
       grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, load, executor);
   scarp::NoObserver nobody;
   auto const run =

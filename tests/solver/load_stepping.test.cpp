@@ -23,8 +23,8 @@ scarp::LoadStepping stepping() { return {.first = 1e-3, .smallest = 1e-6, .large
 
 double largest_strain(SoftBlock::Problem const& problem) {
   double largest = 0.0;
-  for (int k = 0; k < problem.materials().point_count(); ++k) {
-    largest = std::max(largest, problem.materials().committed(k).strain.norm());
+  for (int k = 0; k < problem.points().size(); ++k) {
+    largest = std::max(largest, problem.points().state<Softening::State>(k).strain.norm());
   }
   return largest;
 }
@@ -104,7 +104,7 @@ TEST_CASE("a material that ends somewhere ends the run there, with its reason an
   CHECK(largest_strain(problem) <= limit);
   CHECK(largest_strain(problem) > limit - 1e-5);
   REQUIRE(run.worst_point >= 0);
-  CHECK(problem.materials().committed(run.worst_point).strain.norm() > limit - 1e-5);
+  CHECK(problem.points().state<Softening::State>(run.worst_point).strain.norm() > limit - 1e-5);
 }
 
 TEST_CASE("a stress that is not a number is reported with its point and never committed") {

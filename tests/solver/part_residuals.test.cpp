@@ -8,8 +8,7 @@
 namespace {
 
 using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
-template <class Provider>
-using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Provider>, scarp::SerialExecutor>;
+using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
 
 constexpr double ground_weight = 20e3 * 4.0 * 4.0;  // [N], unit weight times width, height; 1 m thick
 constexpr double footing_weight = 0.1e3 * 4.0 * 1.0;
@@ -17,7 +16,7 @@ constexpr double footing_weight = 0.1e3 * 4.0 * 1.0;
 /// 4 m x 4 m of heavy ground, fixed at its base, below a light block 1 m high that shares its nodes. The load factor places
 /// the block.
 template <class Provider>
-Problem<Provider> ground_with_block(Provider const& provider, scarp::SerialExecutor& executor) {
+Problem ground_with_block(Provider const& provider, scarp::SerialExecutor& executor) {
   auto mesh = scarp::RectangleMesh{.width = 4.0, .height = 5.0, .columns = 4, .rows = 5}.generate();
   mesh.regions.emplace_back("footing");
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {

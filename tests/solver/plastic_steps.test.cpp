@@ -25,7 +25,7 @@ template <class Element>
 using Grid = scarp::Discretisation<Element, scarp::SmallStrain, scarp::UsualIntegration<Element>>;
 
 template <class Element>
-using Problem = scarp::EquilibriumProblem<Grid<Element>, scarp::ProviderField<scarp::MohrCoulomb<Element::dim>>,
+using Problem = scarp::EquilibriumProblem<Grid<Element>,
                                           scarp::SerialExecutor>;
 
 template <class Element, class Hold>
@@ -35,9 +35,9 @@ Problem<Element> distorted_body(int cells, scarp::SerialExecutor& executor, Hold
   hold(grid.mesh(), constraints);
   std::vector<scarp::Site<Element::dim>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
-  scarp::ProviderField<scarp::MohrCoulomb<Element::dim>> field(clayey_sand<Element::dim>(young), sites);
+  scarp::MaterialPoints<Element::dim> points(clayey_sand<Element::dim>(young), sites);
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(grid.dof_count());
-  return {std::move(grid), std::move(field), std::move(constraints), nothing, executor};
+  return {std::move(grid), std::move(points), std::move(constraints), nothing, executor};
 }
 
 /// Moves the outline of a distorted patch affinely, well beyond yielding.
@@ -68,8 +68,8 @@ void check_plastic_patch() {
     soil.respond(before, scarp::SmallStrain::seen<dim>(gradient / steps), state);
   }
   REQUIRE(state.plastic_shear > 1e-3);
-  for (int point = 0; point < problem.materials().point_count(); ++point) {
-    auto const& found = problem.materials().committed(point);
+  for (int point = 0; point < problem.points().size(); ++point) {
+    auto const& found = problem.points().template state<typename scarp::MohrCoulomb<dim>::State>(point);
     CHECK((found.stress - state.stress).norm() <= 1e-10 * state.stress.norm());
     CHECK(found.plastic_shear == samples::Approx(state.plastic_shear).epsilon(1e-10));
   }
@@ -83,10 +83,11 @@ struct SmoothSteps {
 
   template <class AnyProblem>
   void attempted(AnyProblem const& problem, scarp::StepReport const& report) {
+    using State = typename scarp::MohrCoulomb<AnyProblem::dim>::State;
     std::vector<bool> now;
     std::vector<double> shear;
-    for (int point = 0; point < problem.materials().point_count(); ++point) {
-      shear.push_back(problem.materials().committed(point).plastic_shear);
+    for (int point = 0; point < problem.points().size(); ++point) {
+      shear.push_back(problem.points().template state<State>(point).plastic_shear);
       now.push_back(plastic_shear.empty() ? false : shear.back() > plastic_shear[static_cast<std::size_t>(point)]);
     }
     if (now == flowing && report.verdict.acceptable()) steps.push_back(report);

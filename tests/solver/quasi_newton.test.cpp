@@ -123,7 +123,7 @@ TEST_CASE("every point's plan stays what it was at the start of the load step") 
       ++times[call.point];
       work += call.plan;
     }
-    CHECK(static_cast<int>(first.size()) == problem.materials().point_count());
+    CHECK(static_cast<int>(first.size()) == problem.points().size());
     for (auto const& [point, count] : times) CHECK(count == report.iterations());
     long told = 0;
     for (auto const& record : report.history) told += record.inner_steps;
@@ -207,9 +207,9 @@ TEST_CASE("contact is followed within the linear system: material that is linear
   auto const bare = samples::Block<samples::Softening>::make({}, serial);
   auto const& grid = bare.discretisation();
   Wall const wall{.place = 1e-4, .stiffness = 1e9, .nodes = scarp::boundary_nodes(grid.mesh(), "left")};
-  scarp::EquilibriumProblem<samples::Block<samples::Softening>::Grid, scarp::ProviderField<samples::Softening>,
+  scarp::EquilibriumProblem<samples::Block<samples::Softening>::Grid,
                             scarp::SerialExecutor, Wall>
-      problem(grid, bare.materials(), bare.constraints(), bare.loads(), serial, wall);
+      problem(grid, bare.points(), bare.constraints(), bare.loads(), serial, wall);
   scarp::NoObserver nobody;
   // The block is stretched: its left side comes inwards and meets the wall.
   scarp::QuasiNewton<> const newton{.tolerance = 1e-9, .repeats_motion = false};

@@ -21,7 +21,7 @@ namespace {
 using Grid = scarp::Discretisation<scarp::Tri3>;
 using Soil = scarp::LinearElastic<2>;
 using Contact = scarp::Interface<scarp::LinearFrictional, scarp::RigidFooting>;
-using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Soil>, scarp::SerialExecutor, Contact>;
+using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Contact>;
 
 constexpr double friction = 0.5;
 constexpr double stiffness = 1e8;  // [Pa/m]
@@ -48,11 +48,11 @@ Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion, doub
   load(grid.dof_count() + 1) = -weight * scale;
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
-  scarp::ProviderField<Soil> field(Soil::from_young_poisson(20e6, 0.3), sites);
+  scarp::MaterialPoints<2> points(Soil::from_young_poisson(20e6, 0.3), sites);
   double const spring = stiffness / scale;
   Contact contact({.normal_stiffness = spring, .tangential_stiffness = spring, .friction = friction}, footing,
                   scarp::FacetChain(boundary(mesh, "top")), mesh.nodes);
-  return {std::move(grid), std::move(field),  std::move(constraints), scarp::LoadHistory(std::move(load)),
+  return {std::move(grid), std::move(points),  std::move(constraints), scarp::LoadHistory(std::move(load)),
           executor,        std::move(contact)};
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("one poisoned point among good ones is found, named, never committed, 
       CHECK(run.last_failure == reason_of(illness));
       CHECK(run.worst_point == soil.ill_point);
       CHECK(witness.changed_by_refused == 0);
-      double const strain = problem.materials().committed(soil.ill_point).strain.norm();
+      double const strain = problem.points().state<Softening::State>(soil.ill_point).strain.norm();
       if (curable) {
         CHECK(run.verdict == Verdict{});
         CHECK(run.load == 0.012);
@@ -141,8 +141,8 @@ TEST_CASE("external work is the internal work") {
   // Analytic: a linear law stores half of stress times strain, for which the trapezoidal rule is exact.
   double stored = 0.0;
   auto const volumes = linear.discretisation().volumes(Eigen::VectorXd::Zero(linear.dof_count()));
-  for (int k = 0; k < linear.materials().point_count(); ++k) {
-    auto const& state = linear.materials().committed(k);
+  for (int k = 0; k < linear.points().size(); ++k) {
+    auto const& state = linear.points().state<Softening::State>(k);
     stored += volumes[static_cast<std::size_t>(k)] * Softening{}.stress(state).dot(state.strain) / 2.0;
   }
   CHECK(work.internal() == samples::Approx(stored).epsilon(1e-12));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "scarp/bvp/discretisation.hpp"
@@ -122,7 +123,7 @@ static_assert(scarp::ConstitutiveProvider<Softening> && !scarp::PlansWork<Soften
 template <class Provider, class Motion = scarp::SmallStrain>
 struct Block {
   using Grid = scarp::Discretisation<scarp::Tri3, Motion>;
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::ProviderField<Provider>, scarp::SerialExecutor>;
+  using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
 
   static Problem make(Provider provider, scarp::SerialExecutor& executor, bool moved_top = true) {
     Grid grid(scarp::RectangleMesh{.columns = 3, .rows = 2}.generate());
@@ -141,12 +142,11 @@ struct Block {
 /// What must never change unless a step is accepted.
 template <class Problem>
 struct Committed {
-  using State = typename std::remove_cvref_t<decltype(std::declval<Problem>().materials())>::State;
   std::vector<scarp::Vector<2>> positions;
-  std::vector<State> states;
+  std::vector<std::string> states;  ///< their bits
 
   explicit Committed(Problem const& problem) : positions(problem.discretisation().positions()) {
-    for (int k = 0; k < problem.materials().point_count(); ++k) states.push_back(problem.materials().committed(k));
+    for (int k = 0; k < problem.points().size(); ++k) states.push_back(problem.points().pack(k));
   }
   friend bool operator==(Committed const&, Committed const&) = default;
 };

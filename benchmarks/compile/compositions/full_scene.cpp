@@ -16,7 +16,7 @@
 #include "scarp/observe/surface_log.hpp"
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/run/first_rank.hpp"
-#include "scarp/scene/nonlocal_scene.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #if __has_include(<mpi.h>)
@@ -48,7 +48,7 @@ Scene make_scene() {
 auto observers(Scene const& scene, std::filesystem::path const& folder) {
   constexpr int frames = 4;
   double const depth = scene.ground.layer.depth;
-  return scarp::Observers(scarp::FieldSeries<scarp::RveQuantities>(folder, scene.throw_to, frames, depth),
+  return scarp::Observers(scarp::FieldSeries(folder, scene.throw_to, frames, depth),
                           scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, frames, depth),
                           scarp::FootingLog(folder, scene.structure, scene.throw_to, frames, depth),
                           scarp::ConvergenceLog(folder / "convergence.csv", depth));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "choice.hpp"
-#include "scarp/constitutive/any_provider.hpp"
+#include "scarp/points/any_provider.hpp"
 #include "scarp/solver/one_of.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/tangent_rules.hpp"

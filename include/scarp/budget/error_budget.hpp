@@ -9,11 +9,10 @@
 
 #include "scarp/budget/budget_part.hpp"
 #include "scarp/budget/detail/point_checks.hpp"
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "scarp/observe/observers.hpp"
-#include "scarp/solver/executor.hpp"
 #include "scarp/solver/work_balance.hpp"
 
 namespace scarp {
@@ -31,16 +30,6 @@ struct NoWorkBalance {
 template <class Problem>
 inline constexpr bool adds_up_work =
     Problem::is_bare && !SharesPoints<std::remove_cvref_t<decltype(std::declval<Problem const&>().executor())>>;
-
-/// Whether linear systems are iterated and not factorised, as those are whose stiffness couples points of many elements.
-template <class Materials>
-bool iterates_equations(Materials const& materials) {
-  if constexpr (AveragesGradients<Materials>) {
-    return !materials.mean().is_local();
-  } else {
-    return false;
-  }
-}
 
 template <class Problem>
 struct WorkBalanceOf {
@@ -71,16 +60,16 @@ class ErrorBudget : public NeverStops {
 
   /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
   explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
-      : bounds_(bounds), sampling_(sampling), iterates_equations_(detail::iterates_equations(problem.materials())) {
+      : bounds_(bounds), sampling_(sampling), iterates_equations_(problem.points().means() != nullptr) {
     bounds.validate();
     sampling.validate();
-    int const points = problem.materials().point_count();
+    int const points = problem.points().size();
     at_rest_.resize(detail::index(points));
     double const least = sampling.loose_pressure * std::sqrt(static_cast<double>(dim));
     for (int point = 0; point < points; ++point) {
       if (!owns_point(problem.executor(), point)) continue;
       seen_.push_back(point);
-      at_rest_[detail::index(point)] = std::max(stress_size<dim>(problem.materials().committed_stress(point)), least);
+      at_rest_[detail::index(point)] = std::max(stress_size<dim>(problem.points().committed_stress(point)), least);
     }
     followed_ = FollowedPoints::choose(problem, seen_, sampling);
   }
@@ -90,7 +79,7 @@ class ErrorBudget : public NeverStops {
       work_ += record.inner_steps;
       linear_residual_ = worse_of(linear_residual_, record.linear_residual);
     }
-    if (work_ == 0) answers_ += static_cast<long>(report.history.size()) * problem.materials().point_count();
+    if (work_ == 0) answers_ += static_cast<long>(report.history.size()) * problem.points().size();
     condition_ = worse_of(condition_, report.condition);
     if (!report.verdict.acceptable()) return;
     residual_ = worse_of(residual_, report.residual());
@@ -154,7 +143,7 @@ class ErrorBudget : public NeverStops {
 
   ErrorBounds bounds_;
   ErrorSampling sampling_;
-  bool iterates_equations_;
+  bool iterates_equations_;      ///< where points see means: linear systems are not factorised
   std::vector<int> seen_;        ///< points of this process
   std::vector<double> at_rest_;  ///< [Pa], size of each point's stress when the run began
   typename detail::WorkBalanceOf<Problem>::Type balance_;

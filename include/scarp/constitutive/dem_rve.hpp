@@ -5,13 +5,16 @@
 #include <cmath>
 
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/unwrap.hpp"
 #include "scarp/contact/law_checks.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/finite_strain.hpp"
 #include "scarp/core/principal.hpp"
 #include "scarp/dem/drive.hpp"
+#include "scarp/dem/packing_picture.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
+#include "scarp/homogenise/fabric.hpp"
 
 namespace scarp {
 
@@ -122,6 +125,32 @@ struct DemRve {
         std::max(largest / strain_per_step, largest * slowness(committed) / (time_step(committed) * inertial_number));
     return static_cast<int>(
         std::clamp(std::ceil(steps), static_cast<double>(least_steps), static_cast<double>(most_steps)));
+  }
+
+  /// Void ratio, in the plane fabrics, coordination and balance.
+  Quantities quantities(State const& state) const {
+    Quantities quantities{{"void_ratio", state.packing.void_ratio()}};
+    if constexpr (dim == 2)
+      quantities.emplace_back("contact_fabric", fabric_anisotropy(contact_fabric(state.packing, law)));
+    quantities.emplace_back("coordination", coordination(state.packing, law).all);
+    quantities.emplace_back("unbalanced_ratio", state.unbalanced_ratio);
+    if constexpr (requires { particle_fabric(state.packing); })
+      quantities.emplace_back("particle_fabric", fabric_anisotropy(particle_fabric(state.packing)));
+    return quantities;
+  }
+
+  /// The packing as a drawing needs it.
+  auto picture(State const& state) const requires requires { packing_picture(state.packing, law); }
+  { return packing_picture(state.packing, law); }
+
+  /// Packings at less than the loose pressure count by their share of it; of one that is fluid there is nothing.
+  PackingBalance balance(State const& state) const {
+    if (state.verdict.status == Status::fluid) return {};
+    double const weight = weight_of(state);
+    return {.has_packing = true,
+            .unbalanced_ratio = weight * state.unbalanced_ratio,
+            .kinetic_share = weight * state.kinetic_share,
+            .inertial_number = state.inertial_number};
   }
 
   /// How much the balance of a packing counts: all, below the loose pressure by its share of that.

@@ -97,20 +97,6 @@ struct StiffnessFloor {
   }
 };
 
-/// Stress [Pa] of the floor in a state, or in one that it keeps; zero where there is none.
-template <int Dim, class State>
-VoigtStress<Dim> floor_stress_in(State const& state) {
-  if constexpr (requires { state.floor_stress_inside(); }) {
-    return state.floor_stress_inside();
-  } else if constexpr (requires { state.floor_stress; }) {
-    return state.floor_stress;
-  } else if constexpr (requires { state.own; }) {
-    return floor_stress_in<Dim>(state.own);
-  } else {
-    return VoigtStress<Dim>::Zero();
-  }
-}
-
 static_assert(ConstitutiveProvider<StiffnessFloor<LinearElastic<2>>>);
 
 }  // namespace scarp

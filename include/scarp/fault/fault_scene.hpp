@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scarp/bvp/loads.hpp"
 #include "scarp/bvp/usual_integration.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
@@ -16,21 +17,28 @@
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #ifdef SCARP_PRECOMPILED
-#include "scarp/bvp/loads.hpp"
-#include "scarp/constitutive/geostatic_stress.hpp"
-#include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #endif
 
 namespace scarp::detail {
 
+/// A material without its neighbours.
+template <Material Soil>
+auto const& alone(Soil const& soil) {
+  if constexpr (requires { soil.neighbourhood(); }) {
+    return soil.provider;
+  } else {
+    return soil;
+  }
+}
+
 /// Refuses soil whose vertical stress does not carry the weight that the scene puts on it: ground that begins out of
 /// balance settles or heaves first, and its strength is that of another stress. Of some sites from the shallowest to the
 /// deepest the middle one counts, by its error: packings prepared for a few depths carry too much here and too little there.
 /// unit_weight [N/m3], surcharge [Pa] \throws InputError
-template <ConstitutiveProvider Soil>
-void require_carried(Soil const& soil, std::vector<Site<Soil::dim>> sites, double unit_weight, double surcharge) {
+template <Material Soil, int Dim>
+void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, double unit_weight, double surcharge) {
   constexpr double tolerance = 0.01;  // servos of preparations reach 1e-3
   constexpr std::size_t looks = 15;
   struct Look {
@@ -42,7 +50,9 @@ void require_carried(Soil const& soil, std::vector<Site<Soil::dim>> sites, doubl
   for (std::size_t k = 0; k < looks && !sites.empty(); ++k) {
     auto const& site = sites[k * (sites.size() - 1) / (looks - 1)];
     double const weight = surcharge + unit_weight * site.depth;
-    if (weight > 0.0) found.push_back({site.depth, -soil.stress(soil.initial_state(site))(Soil::dim - 1), weight});
+    if (!(weight > 0.0)) continue;
+    MaterialPoints<Dim> const point(alone(soil), std::span(&site, 1));
+    found.push_back({site.depth, -point.committed_stress(0)(Dim - 1), weight});
   }
   if (found.empty()) return;
   auto const middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
@@ -114,17 +124,15 @@ struct ProblemOfFault {
   using Structure = decltype(Scene::structure);
   using Grid = typename Scene::Grid;
   static_assert(CheckedStructure<Structure, Grid>);
-  using Regions = decltype(std::declval<Structure const&>().regions(Region{"soil", std::declval<Scene>().soil}));
   using Attached = decltype(std::declval<Structure const&>().attached(std::declval<Grid const&>()));
-  using Type = decltype(make_problem(std::declval<Grid>(), 0.0, std::declval<Regions>(), std::declval<Constraints>(),
-                                     std::declval<LoadHistory>(), std::declval<Executor&>(), std::declval<Attached>()));
+  using Type = EquilibriumProblem<Grid, Executor, Attached>;
 };
 }  // namespace detail
 
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
-template <CheckedProvider Soil, class Structure, class Solver = QuasiNewton<>,
+template <CheckedMaterial Soil, class Structure, class Solver = QuasiNewton<>,
           CheckedGround GroundType = LayeredGround<Tri3>, BedrockMotion Motion = NormalFault,
           class GridType = UsualGridOf<GroundType>>
 struct SCARP_EXPORT FaultScene {
@@ -195,7 +203,7 @@ struct SCARP_EXPORT FaultScene {
 
 // Outside of the class, so that a library can keep them.
 
-template <CheckedProvider Soil, class Structure, class Solver, CheckedGround GroundType, BedrockMotion Motion,
+template <CheckedMaterial Soil, class Structure, class Solver, CheckedGround GroundType, BedrockMotion Motion,
           class GridType>
 Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::mesh() const {
   static_assert(CheckedStructure<Structure, Grid>);
@@ -207,7 +215,7 @@ Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundTyp
   return made;
 }
 
-template <CheckedProvider Soil, class Structure, class Solver, CheckedGround GroundType, BedrockMotion Motion,
+template <CheckedMaterial Soil, class Structure, class Solver, CheckedGround GroundType, BedrockMotion Motion,
           class GridType>
 template <class Executor>
 typename detail::ProblemOfFault<FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>, Executor>::Type
@@ -232,29 +240,21 @@ FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Execu
 }
 
 #ifdef SCARP_PRECOMPILED
-/// What `scarp::precompiled` has of level ground over a normal fault: meshes and loads of the usual elements, and elastic
-/// ground of triangles as a whole. DECLARE: `extern template`, or `template` in the library.
+/// What `scarp::precompiled` has of level ground over a normal fault: meshes, loads and problems of the usual elements.
+/// DECLARE: `extern template`, or `template` in the library.
 #define SCARP_GROUND(DECLARE, ELEMENT)                                                                         \
   DECLARE Mesh<ELEMENT> FaultMesh::generate<ELEMENT>(std::vector<double> const&) const;                        \
   DECLARE void require_node_at_tip(Mesh<ELEMENT> const&, double);                                              \
   DECLARE Constraints bedrock_constraints(Mesh<ELEMENT> const&, NormalFault const&, int, TimeFunction const&); \
   DECLARE Eigen::VectorXd body_force(UsualGrid<ELEMENT> const&, std::vector<Vector<2>> const&);                \
   DECLARE Eigen::VectorXd traction(UsualGrid<ELEMENT> const&, std::string_view, Vector<2> const&);             \
-  DECLARE detail::RegionResiduals<2>::RegionResiduals(Mesh<ELEMENT> const&, Constraints const&);
-#define SCARP_ELASTIC_GROUND(DECLARE)                                                 \
-  DECLARE class ProviderField<detail::ElasticGround>;                                 \
-  DECLARE class RegionMaterials<detail::ElasticGround>;                               \
-  DECLARE class PointAnswers<RegionMaterials<detail::ElasticGround>, ThreadExecutor>; \
-  DECLARE class EquilibriumProblem<UsualGrid<Tri3>, RegionMaterials<detail::ElasticGround>, ThreadExecutor>;
+  DECLARE detail::RegionResiduals<2>::RegionResiduals(Mesh<ELEMENT> const&, Constraints const&);               \
+  DECLARE class EquilibriumProblem<UsualGrid<ELEMENT>, ThreadExecutor>;
 
-namespace detail {
-using ElasticGround = LinearElastic<2, GeostaticStress<2>>;
-}
 SCARP_GROUND(extern template, Tri3)
 SCARP_GROUND(extern template, Tri6)
 SCARP_GROUND(extern template, Quad4)
 SCARP_GROUND(extern template, Quad8)
-SCARP_ELASTIC_GROUND(extern template)
 #endif
 
 }  // namespace scarp

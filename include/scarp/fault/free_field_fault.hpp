@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/fault/fault_scene.hpp"
 
 namespace scarp {
@@ -32,20 +31,8 @@ struct BareGround {
 };
 
 /// Nothing but ground and fault; by default the study's case.
-template <CheckedProvider Soil, class Solver = QuasiNewton<>, CheckedGround GroundType = LayeredGround<Tri3>,
+template <CheckedMaterial Soil, class Solver = QuasiNewton<>, CheckedGround GroundType = LayeredGround<Tri3>,
           BedrockMotion Motion = NormalFault, class Grid = UsualGridOf<GroundType>>
 using FreeFieldFault = FaultScene<Soil, BareGround, Solver, GroundType, Motion, Grid>;
-
-#ifdef SCARP_PRECOMPILED
-/// The elastic free field as a whole. DECLARE: `extern template`, or `template` in the library.
-#define SCARP_ELASTIC_FREE_FIELD(DECLARE)                                 \
-  DECLARE Mesh<Tri3> FreeFieldFault<detail::ElasticGround>::mesh() const; \
-  DECLARE detail::ElasticProblem FreeFieldFault<detail::ElasticGround>::problem(ThreadExecutor&) const;
-
-namespace detail {
-using ElasticProblem = EquilibriumProblem<UsualGrid<Tri3>, RegionMaterials<ElasticGround>, ThreadExecutor>;
-}
-SCARP_ELASTIC_FREE_FIELD(extern template)
-#endif
 
 }  // namespace scarp

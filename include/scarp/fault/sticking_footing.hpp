@@ -8,7 +8,7 @@
 #include "scarp/fault/fault_scene.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
-#include "scarp/run/visit_point.hpp"
+#include "scarp/run/first_rank.hpp"
 
 namespace scarp {
 

@@ -3,7 +3,6 @@
 
 #include <type_traits>
 
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/element/map.hpp"
 
 namespace scarp {
@@ -23,17 +22,14 @@ Tensor<DiscretisationType::dim> total_deformation(DiscretisationType const& disc
 
 /// The same as the material of a point sees it: where increments are averaged, the mean around the point.
 template <class Problem>
-auto seen_deformation(Problem const& problem, int point) {
+Tensor<Problem::dim> seen_deformation(Problem const& problem, int point) {
   auto const& grid = problem.discretisation();
-  auto const& materials = problem.materials();
-  if constexpr (AveragesGradients<std::remove_cvref_t<decltype(materials)>>) {
-    using Grid = std::remove_cvref_t<decltype(grid)>;
-    Tensor<Grid::dim> mean = Tensor<Grid::dim>::Zero();
-    for (auto const& share : materials.mean().of(point)) mean += share.weight * total_deformation(grid, share.point);
-    return mean;
-  } else {
-    return total_deformation(grid, point);
-  }
+  auto const* means = problem.points().means();
+  if (!means) return total_deformation(grid, point);
+  auto const shares = means->mean().of(point);
+  Tensor<Problem::dim> mean = Tensor<Problem::dim>::Zero();
+  for (auto const& share : shares) mean += share.weight * total_deformation(grid, share.point);
+  return mean;
 }
 
 }  // namespace scarp

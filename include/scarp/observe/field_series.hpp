@@ -8,14 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/geo.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/observe/deformation.hpp"
 #include "scarp/observe/observers.hpp"
-#include "scarp/run/visit_point.hpp"
+#include "scarp/run/first_rank.hpp"
 
 namespace scarp {
 
@@ -41,8 +40,8 @@ struct ElementFields {
 };
 
 /// Means over the elements' points of what is committed, weighted by the points' present volumes.
-template <class Problem, class PointQuantities>
-ElementFields element_fields(Problem const& problem, PointQuantities const& quantities) {
+template <class Problem>
+ElementFields element_fields(Problem const& problem) {
   auto const& grid = problem.discretisation();
   using Grid = std::remove_cvref_t<decltype(grid)>;
   std::size_t const elements = grid.mesh().elements.size();
@@ -69,9 +68,9 @@ ElementFields element_fields(Problem const& problem, PointQuantities const& quan
       strain.volumetric += volume * here.volumetric;
       strain.deviatoric += volume * here.deviatoric;
       worst = std::max(worst, problem.responses()[static_cast<std::size_t>(point)].verdict.status);
-      visit_point(problem, point, [&](auto const& provider, auto const& state) {
-        stress += volume * provider.stress(state);
-        for (auto const& [name, value] : quantities(provider, state)) means[std::string(name)].add(volume, value);
+      visit_point(problem, point, [&](auto const& points, int number) {
+        stress += volume * points.committed_stress(number);
+        for (auto const& [name, value] : points.quantities(number)) means[std::string(name)].add(volume, value);
       });
     }
     stress /= whole;
@@ -93,8 +92,7 @@ ElementFields element_fields(Problem const& problem, PointQuantities const& quan
 /// Writes the fields of a scene as a VTU series: displacement at the nodes; at the elements (the mean of
 /// their points, weighted by volume; the worst status)
 /// Cauchy stress [Pa] tension positive, logarithmic volumetric (contraction positive) and deviatoric strain, status
-/// and the given quantities. Every file is complete when it appears; the PVD's time is load / load_unit.
-template <class PointQuantities = NoQuantities>
+/// and the quantities that the points' providers tell. Every file is complete when it appears; the PVD's time is load / load_unit.
 class FieldSeries : public NeverStops {
  public:
   /// frames: files are written at load 0 and then whenever the load has grown by to / frames
@@ -117,7 +115,7 @@ class FieldSeries : public NeverStops {
     if (schedule_.takes_end(load)) write(problem, load);
   }
 
-  SCARP_MEMBERS_EXCEPT((folder_, quantities_), schedule_, series_, frame_)
+  SCARP_MEMBERS_EXCEPT((folder_), schedule_, series_, frame_)
 
  private:
   template <class Problem>
@@ -130,7 +128,7 @@ class FieldSeries : public NeverStops {
       auto const moved = (grid.positions()[n] - mesh.nodes[n]).eval();
       displacement.insert(displacement.end(), moved.begin(), moved.end());
     }
-    auto const at_elements = detail::element_fields(problem, quantities_);
+    auto const at_elements = detail::element_fields(problem);
     VtuFields fields;
     fields.at_nodes.push_back({"displacement", Grid::dim, std::span<double const>(displacement), {}});
     std::vector<std::string> components{"xx", "yy", "xy"};
@@ -154,7 +152,6 @@ class FieldSeries : public NeverStops {
   std::filesystem::path folder_;
   LoadSchedule schedule_;
   PvdSeries series_;
-  PointQuantities quantities_;
   int frame_ = 0;
 };
 

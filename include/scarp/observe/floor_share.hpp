@@ -3,8 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "scarp/constitutive/stiffness_floor.hpp"
-#include "scarp/run/visit_point.hpp"
+#include "scarp/run/first_rank.hpp"
 
 namespace scarp {
 
@@ -18,9 +17,9 @@ double floor_share(Problem const& problem) {
   double all = 0.0;
   for (int point = 0; point < grid.point_count(); ++point) {
     double const volume = volumes[static_cast<std::size_t>(point)];
-    visit_point(problem, point, [&](auto const& provider, auto const& state) {
-      all += volume * provider.stress(state).norm();
-      floors += volume * floor_stress_in<Problem::dim>(state).norm();
+    visit_point(problem, point, [&](auto const& points, int k) {
+      all += volume * points.committed_stress(k).norm();
+      floors += volume * points.floor_stress(k).norm();
     });
   }
   return floors > 0.0 ? floors / all : 0.0;

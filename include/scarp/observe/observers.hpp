@@ -107,7 +107,7 @@ namespace detail {
 /// \throws InputError for a point that a problem does not have
 template <class Problem>
 int require_point(Problem const& problem, int point) {
-  int const count = problem.materials().point_count();
+  int const count = problem.points().size();
   if (point < 0 || point >= count)
     refuse("point {} is to be observed (there are points 0 to {}): choose one of these", point, count - 1);
   return point;

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/constitutive/rve_quantities.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/dem/packing_picture.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
 #include "scarp/observe/observers.hpp"
-#include "scarp/run/visit_point.hpp"
+#include "scarp/run/first_rank.hpp"
 
 namespace scarp {
 
@@ -61,7 +61,7 @@ class PackingSeries : public NeverStops {
     last_ = load;
     std::optional<PackingPicture> picture;
     visit_point(problem, detail::require_point(problem, point_),
-                [&](auto const& provider, auto const& state) { picture = packing_in(provider, state); });
+                [&](auto const& points, int k) { picture = points.template picture<PackingPicture>(k); });
     if (!picture) return;
     std::filesystem::create_directories(folder_);
     write_packing_tables(folder_, *picture, stem(throws_.size()));

@@ -47,8 +47,8 @@ class RveProbe : public NeverStops {
     double fabric_of_contacts = std::numeric_limits<double>::quiet_NaN();
     double fabric_of_particles = fabric_of_contacts;
     double void_ratio = fabric_of_contacts;
-    visit_point(problem, point_, [&](auto const& provider, auto const& state) {
-      for (auto const& [name, value] : RveQuantities{}(provider, state)) {
+    visit_point(problem, point_, [&](auto const& points, int k) {
+      for (auto const& [name, value] : points.quantities(k)) {
         if (name == "contact_fabric") fabric_of_contacts = value;
         if (name == "particle_fabric") fabric_of_particles = value;
         if (name == "void_ratio") void_ratio = value;

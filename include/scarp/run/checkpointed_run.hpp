@@ -16,9 +16,8 @@ template <class Problem>
 void keep_own_states(Problem& problem) {
   using Executor = std::remove_cvref_t<decltype(problem.executor())>;
   if constexpr (SharesPoints<Executor>) {
-    for (int point = 0; point < problem.materials().point_count(); ++point) {
-      if (problem.executor().owns(point)) continue;
-      problem.visit_field(point, [](auto& field, int local) { field.forget(local); });
+    for (int point = 0; point < problem.points().size(); ++point) {
+      if (!problem.executor().owns(point)) problem.points().forget(point);
     }
   }
 }
@@ -29,11 +28,8 @@ void with_all_states(Problem& problem, Task const& task) {
   using Executor = std::remove_cvref_t<decltype(problem.executor())>;
   on_first_rank(problem, [&] {
     if constexpr (SharesPoints<Executor>) {
-      auto const& executor = problem.executor();
-      for (int point = 0; point < problem.materials().point_count(); ++point) {
-        if (executor.owns(point)) continue;
-        problem.visit_field(
-            point, [&](auto& field, int local) { field.put(local, state_elsewhere(executor, field, point, local)); });
+      for (int point = 0; point < problem.points().size(); ++point) {
+        if (!problem.executor().owns(point)) problem.points().unpack(point, problem.executor().ask(point));
       }
     }
     task();

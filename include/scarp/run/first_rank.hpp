@@ -4,20 +4,29 @@
 #include <optional>
 #include <string>
 
-#include "scarp/io/state_bits.hpp"
-#include "scarp/run/visit_point.hpp"
+#include "scarp/core/described.hpp"
+#include "scarp/core/executor.hpp"
+#include "scarp/core/voigt.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
 
-/// Copy of a point's state, from the process that has it. local: the point's number in its field
-template <SharesPoints Executor, class Field>
-typename Field::State state_elsewhere(Executor const& executor, Field const& field, int point, int local) {
-  auto state = field.blank_state(local);
-  std::string const bytes = executor.ask(point);
-  StateReader reader(bytes);
-  reader("state", state);
-  return state;
+/// Calls visit(points, number) with points of which this one has its committed state. Where points are shared out among processes, this
+/// is for the first one, inside on_first_rank: it gets a copy of what another one has.
+template <class Problem, class Visit>
+void visit_point(Problem const& problem, int point, Visit const& visit) {
+  if constexpr (SharesPoints<std::remove_cvref_t<decltype(problem.executor())>>) {
+    if (!problem.executor().owns(point)) return visit(problem.points().alone(point, problem.executor().ask(point)), 0);
+  }
+  visit(problem.points(), point);
+}
+
+/// Cauchy stress [Pa] of a point's committed state, in the same way.
+template <class Problem>
+VoigtStress<Problem::dim> committed_stress(Problem const& problem, int point) {
+  VoigtStress<Problem::dim> stress;
+  visit_point(problem, point, [&](auto const& points, int k) { stress = points.committed_stress(k); });
+  return stress;
 }
 
 /// Whether this process is the first, or the only one.
@@ -49,11 +58,7 @@ void on_first_rank(Problem const& problem, Task const& task) {
   auto const& executor = problem.executor();
   using Executor = std::remove_cvref_t<decltype(executor)>;
   if constexpr (SharesPoints<Executor>) {
-    executor.on_first(task, [&](int point) {
-      StateWriter writer;
-      visit_point(problem, point, [&](auto const&, auto const& state) { writer("state", state); });
-      return writer.bits();
-    });
+    executor.on_first(task, [&](int point) { return problem.points().pack(point); });
   } else {
     task();
   }

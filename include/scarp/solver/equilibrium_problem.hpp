@@ -9,47 +9,46 @@
 
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/solver/detail/attachment_part.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
-#include "scarp/solver/detail/point_answers.hpp"
 #include "scarp/solver/free_system.hpp"
 
 namespace scarp {
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
-template <class DiscretisationType, MaterialField Materials, ExecutesTasks Executor,
+template <class DiscretisationType, ExecutesTasks Executor,
           AttachmentOrNone<DiscretisationType::dim> Attached = NoAttachment>
 class SCARP_EXPORT EquilibriumProblem final
-    : public detail::AttachmentPart<EquilibriumProblem<DiscretisationType, Materials, Executor, Attached>,
-                                    DiscretisationType::dim, typename detail::GroundStiffness<Materials>::Type,
+    : public detail::AttachmentPart<EquilibriumProblem<DiscretisationType, Executor, Attached>, DiscretisationType::dim,
                                     Attached> {
-  using Stiffness = typename detail::GroundStiffness<Materials>::Type;
-  using Part = detail::AttachmentPart<EquilibriumProblem, DiscretisationType::dim, Stiffness, Attached>;
+  using Part = detail::AttachmentPart<EquilibriumProblem, DiscretisationType::dim, Attached>;
 
  public:
   static constexpr int dim = DiscretisationType::dim;
   static constexpr bool follows_motion = DiscretisationType::follows_motion;
   using Part::is_bare;
   /// What solvers see of it.
-  using Interface = std::conditional_t<is_bare, IncrementalProblem<dim, Stiffness>, AttachedProblem<dim, Stiffness>>;
-  static constexpr bool averages = AveragesGradients<Materials>;
+  using Interface = std::conditional_t<is_bare, IncrementalProblem<dim>, AttachedProblem<dim>>;
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
   /// \throws InputError for sizes that do not fit together
-  EquilibriumProblem(DiscretisationType discretisation, Materials materials, Constraints constraints, LoadHistory loads,
-                     Executor& executor, Attached attached = {})
+  EquilibriumProblem(DiscretisationType discretisation, MaterialPoints<dim> points, Constraints constraints,
+                     LoadHistory loads, Executor& executor, Attached attached = {})
       : Part(std::move(attached)),
         discretisation_(std::move(discretisation)),
-        points_(std::move(materials), executor),
+        points_(std::move(points)),
+        executor_(executor),
         constraints_(std::move(constraints)),
         loads_(std::move(loads)),
         free_dofs_(constraints_.free_dofs()),
         regions_(discretisation_.mesh(), constraints_) {
-    if (points_.materials().point_count() != discretisation_.point_count()) {
-      refuse("materials are given for {} points (the mesh has {}): make one field over all sites",
-             points_.materials().point_count(), discretisation_.point_count());
+    if (points_.size() != discretisation_.point_count()) {
+      refuse("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
+             discretisation_.point_count());
     }
     if (loads_.size() == 0) loads_ = LoadHistory(Eigen::VectorXd::Zero(dof_count()));
     if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count()) {
@@ -77,11 +76,13 @@ class SCARP_EXPORT EquilibriumProblem final
   void aim(double load) override { load_now_ = loads_.at(load); }
 
   DiscretisationType const& discretisation() const { return discretisation_; }
-  Materials const& materials() const { return points_.materials(); }
+  MaterialPoints<dim> const& points() const { return points_; }
+  /// For those that give or take states between load steps.
+  MaterialPoints<dim>& points() { return points_; }
   Constraints const& constraints() const override { return constraints_; }
   std::vector<int> const& free_dofs() const { return free_dofs_; }
   LoadHistory const& loads() const override { return loads_; }
-  Executor& executor() const { return points_.executor(); }
+  Executor& executor() const { return executor_; }
 
   /// Gradients that the points have seen in the last evaluation, and their answers.
   std::vector<Gradient<dim>> const& gradients() const override { return points_.gradients(); }
@@ -90,9 +91,9 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Gradients of the elements in the last plan or evaluation: those that points see, or the ones that they see means of.
   std::vector<Gradient<dim>> const& own_gradients() const { return points_.own_gradients(); }
 
-  std::vector<VoigtStress<dim>> committed_stresses() const override { return points_.committed_stresses(); }
+  std::vector<VoigtStress<dim>> committed_stresses() const override { return points_.committed_stresses(executor_); }
   /// With what a field of means adds: those that balance the loads, after a step has been committed.
-  std::vector<VoigtStress<dim>> balanced_stresses() const { return points_.balanced_stresses(); }
+  std::vector<VoigtStress<dim>> balanced_stresses() const { return points_.balanced_stresses(executor_); }
 
   /// Largest component of all points' gradients in the last plan or evaluation.
   double largest_gradient() const override {
@@ -126,7 +127,7 @@ class SCARP_EXPORT EquilibriumProblem final
       evaluation.verdict = {Status::failed, Reason::element_inverted};
       evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
     } else {
-      points_.respond(evaluation);
+      static_cast<PointAnswers&>(evaluation) = points_.answer(executor_);
       evaluated_ = increment;
       add_up(increment, evaluation);
     }
@@ -136,15 +137,15 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
   /// of the last evaluation.
   Evaluation refine(Eigen::VectorXd const& increment) override {
-    Evaluation evaluation;
-    points_.refine(evaluation);
+    Evaluation evaluation{points_.refine(executor_)};
     add_up(increment, evaluation);
     return evaluation;
   }
 
   /// Forces of the committed state.
   Evaluation evaluate_committed() override {
-    points_.take_committed();
+    points_.rest(executor_);
+    seen_.resize(0);
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
     return evaluation;
@@ -153,12 +154,18 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses. Where points see means it
   /// refers to this problem.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<dim>> const& tangents,
-                        Stiffness& stiffness) const override {
-    if constexpr (averages) {
-      stiffness = Stiffness(discretisation_, of_nodes(increment), points_.stresses(), materials().split(tangents),
-                            points_.means());
+                        GroundStiffness& stiffness) const override {
+    auto const& nodes = of_nodes(increment);
+    stiffness.around = nullptr;
+    if (auto const* means = points_.means()) {
+      auto parts = means->split(tangents);
+      discretisation_.stiffness(nodes, points_.stresses(), parts.by_own, stiffness.own);
+      auto const volumes = discretisation_.volumes(nodes);
+      for (std::size_t k = 0; k < volumes.size(); ++k) parts.by_mean[k] *= volumes[k];
+      stiffness.around = forces_around(discretisation_.strain_operator(nodes), std::move(parts.by_mean));
+      stiffness.iterate = means->iterate();
     } else {
-      discretisation_.stiffness(of_nodes(increment), points_.stresses(), tangents, stiffness);
+      discretisation_.stiffness(nodes, points_.stresses(), tangents, stiffness.own);
     }
     if constexpr (!is_bare) stiffness.conservativeResize(dof_count(), dof_count());
   }
@@ -188,10 +195,10 @@ class SCARP_EXPORT EquilibriumProblem final
   }
 
   /// Tangents of all points' committed states.
-  std::vector<VoigtTangent<dim>> committed_tangents() const override { return points_.committed_tangents(); }
+  std::vector<VoigtTangent<dim>> committed_tangents() const override { return points_.committed_tangents(executor_); }
 
   /// Tangents of all points' trial states, which belong to the last evaluation.
-  std::vector<VoigtTangent<dim>> trial_tangents() const override { return points_.trial_tangents(); }
+  std::vector<VoigtTangent<dim>> trial_tangents() const override { return points_.tangents(executor_); }
 
   /// Makes the increment and the points' trial states the committed ones.
   /// \throws InputError unless the increment is the last one that was evaluated: trial states belong to that one
@@ -204,22 +211,18 @@ class SCARP_EXPORT EquilibriumProblem final
     evaluated_.resize(0);
     if constexpr (!is_bare) this->attached_.commit(discretisation_.positions(), increment);
     discretisation_.commit(of_nodes(increment));
-    points_.materials().commit();
-  }
-
-  /// visit(field, local point) with the field that a point belongs to, which may get or forget its state; between load steps.
-  template <class Visit>
-  void visit_field(int point, Visit&& visit) {
-    points_.materials().visit(point, visit);
+    points_.commit();
+    seen_.resize(0);
   }
 
   /// What evolves from step to step: a problem made anew goes on from these as the one that they were taken from.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     visit("discretisation", self.discretisation_);
-    visit("materials", self.points_.materials());
+    visit("materials", self.points_);
     if constexpr (!is_bare) visit("attached", self.attached_);
   }
+  void after_loading() { seen_.resize(0); }
 
  private:
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {
@@ -237,10 +240,30 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Shows the points an increment.
   /// \return number of the first element that it turns inside out
   std::optional<int> look(Eigen::VectorXd const& increment) {
+    if (seen_.size() == increment.size() && seen_ == increment) return std::nullopt;
     std::vector<Gradient<dim>> gradients(detail::index(discretisation_.point_count()));
     auto const inverted = discretisation_.gradients(of_nodes(increment), gradients);
-    if (!inverted) points_.see(std::move(gradients));
-    return inverted;
+    if (inverted) return inverted;
+    points_.see(std::move(gradients), executor_);
+    seen_ = increment;
+    return std::nullopt;
+  }
+
+  /// Forces [N] of the mesh's degrees of freedom by the means of strains: strains from displacements, and stresses times volume
+  /// [N m] from means.
+  LinearMap forces_around(Eigen::SparseMatrix<double> strains, std::vector<VoigtTangent<dim>> answers) const {
+    return [this, strains = std::move(strains), answers = std::move(answers)](Eigen::VectorXd const& displacement) {
+      Eigen::VectorXd values = strains * displacement.head(strains.cols());
+      auto const of_point = [&](std::size_t k) {
+        constexpr int size = voigt_size<dim>;
+        return values.segment<size>(static_cast<Eigen::Index>(size * k));
+      };
+      std::vector<EngineeringStrain<dim>> means(answers.size());
+      for (std::size_t k = 0; k < answers.size(); ++k) means[k] = of_point(k);
+      means = points_.means()->mean().means(means, executor_);
+      for (std::size_t k = 0; k < answers.size(); ++k) of_point(k) = answers[k] * means[k];
+      return Eigen::VectorXd(strains.transpose() * values);
+    };
   }
 
   void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) {
@@ -262,10 +285,12 @@ class SCARP_EXPORT EquilibriumProblem final
   }
 
   DiscretisationType discretisation_;
-  PointAnswers<Materials, Executor> points_;
+  MaterialPoints<dim> points_;
+  Executor& executor_;
   Constraints constraints_;
   LoadHistory loads_;
   Eigen::VectorXd load_now_;
+  Eigen::VectorXd seen_;       ///< increment whose gradients the points have; empty after a commit
   Eigen::VectorXd evaluated_;  ///< increment that the points' trial states belong to; empty after a commit
   double carried_ = 0.0;       ///< at free degrees of freedom in the last evaluation, squared [N2]
   std::vector<int> free_dofs_;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "scarp/bvp/constraints.hpp"
-#include "scarp/constitutive/material_field.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/solver/ground_stiffness.hpp"
 #include "scarp/solver/linear_solver.hpp"
 
 namespace scarp {
@@ -63,31 +63,42 @@ class FreeSystem {
 
 namespace scarp::detail {
 
-/// The type of a ground's stiffness.
-template <class Materials>
-struct GroundStiffness {
-  static_assert(!AveragesGradients<Materials>,
-                "scarp: points that see means need `#include \"scarp/solver/wide_equations.hpp\"`, which "
-                "scene/nonlocal_scene.hpp does");
-  using Type = Eigen::SparseMatrix<double>;
-};
-
-/// Equations of the free degrees of freedom for a stiffness of one type, here a sparse matrix that is solved directly.
-template <class Stiffness, LinearSolver Linear>
+/// Equations of the free degrees of freedom for a ground's stiffness, solved directly; where it is not assembled as a whole by
+/// an iteration with the factors of what the elements hold alone: that part answers waves shorter than the length, of which there are
+/// many; means see the few that are longer.
+template <LinearSolver Linear>
 class GroundEquations {
  public:
-  Verdict factorize(FreeSystem const& system, Stiffness const& stiffness) {
-    matrix_ = system.matrix(stiffness);
+  Verdict factorize(FreeSystem const& system, GroundStiffness const& stiffness) {
+    matrix_ = system.matrix(stiffness.own);
+    iterate_ = stiffness.around ? stiffness.iterate : nullptr;
+    if (iterate_) {
+      whole_ = [&system, stiffness](Eigen::VectorXd const& displacement) {
+        Eigen::VectorXd all = Eigen::VectorXd::Zero(stiffness.own.cols());
+        system.scatter(displacement, all);
+        return system.gather(stiffness * all);
+      };
+    }
     return linear_.factorize(matrix_);
   }
-  Eigen::VectorXd solve(Eigen::VectorXd const& force) { return linear_.solve(force); }
-  Eigen::VectorXd product(Eigen::VectorXd const& displacement) const { return matrix_ * displacement; }
+  /// As far as an iteration comes; the residual tells.
+  Eigen::VectorXd solve(Eigen::VectorXd const& force) const {
+    if (!iterate_) return linear_.solve(force);
+    return iterate_(
+        whole_, [this](Eigen::VectorXd const& right) -> Eigen::VectorXd { return linear_.solve(right); }, force);
+  }
+  Eigen::VectorXd product(Eigen::VectorXd const& displacement) const {
+    return iterate_ ? whole_(displacement) : Eigen::VectorXd(matrix_ * displacement);
+  }
+  /// Of what the elements hold alone.
   double condition() const { return condition_estimate(matrix_, linear_); }
   int weakest() const { return weakest_unknown<Linear>(matrix_); }
 
  private:
   Linear linear_;
   SparseMatrix matrix_;
+  LinearMap whole_;
+  LinearIteration iterate_ = nullptr;
 };
 
 }  // namespace scarp::detail

@@ -7,16 +7,16 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/solver/ground_stiffness.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
 
 /// What a solver asks of a boundary-value problem in increments, whatever its elements, materials, loads and executor are: a
 /// solver is compiled once for each dimension. `EquilibriumProblem` says what each member means.
-template <int Dim, class Stiffness = Eigen::SparseMatrix<double>>
+template <int Dim>
 class IncrementalProblem {
  public:
-  using GroundStiffness = Stiffness;
   static constexpr int dim = Dim;
   static constexpr bool is_bare = true;
 
@@ -39,7 +39,7 @@ class IncrementalProblem {
   virtual Evaluation refine(Eigen::VectorXd const& increment) = 0;
   virtual Evaluation evaluate_committed() = 0;
   virtual void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<Dim>> const& tangents,
-                                Stiffness& stiffness) const = 0;
+                                GroundStiffness& stiffness) const = 0;
   virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;
   virtual double residual_beside(Eigen::VectorXd const& unbalanced) const = 0;
   virtual void commit(Eigen::VectorXd const& increment) = 0;
@@ -51,8 +51,8 @@ class IncrementalProblem {
 };
 
 /// The same with something attached to the mesh.
-template <int Dim, class Stiffness = Eigen::SparseMatrix<double>>
-class AttachedProblem : public IncrementalProblem<Dim, Stiffness> {
+template <int Dim>
+class AttachedProblem : public IncrementalProblem<Dim> {
  public:
   static constexpr bool is_bare = false;
 

@@ -14,8 +14,8 @@
 
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/solver/executor.hpp"
 
 namespace scarp {
 

@@ -2,15 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
+#include "scarp/points/point_survey.hpp"
 
 namespace scarp {
 
@@ -20,40 +18,11 @@ struct PartResidual {
   double value = 0.0;
 };
 
-/// What the material points of a problem say of an evaluation: how many have which status, and who works most.
-struct PointSurvey {
-  struct Work {
-    int point = -1;
-    long inner_steps = 0;  ///< DEM steps of one response
-    friend bool operator==(Work const&, Work const&) = default;
-  };
-  static constexpr std::size_t most_listed = 5;
-
-  std::array<int, 4> statuses{};  ///< number of points by `Status`
-  std::vector<Work> slowest{};    ///< most work first, equal ones by number; points without any are left out
-
-  int count(Status status) const { return statuses[static_cast<std::size_t>(status)]; }
-
-  /// Points are told in the order of their numbers.
-  void add(int point, Status status, long inner_steps) {
-    ++statuses[static_cast<std::size_t>(status)];
-    if (inner_steps <= 0 || (slowest.size() == most_listed && inner_steps <= slowest.back().inner_steps)) return;
-    auto const after = std::find_if(slowest.begin(), slowest.end(),
-                                    [&](Work const& other) { return other.inner_steps < inner_steps; });
-    slowest.insert(after, {point, inner_steps});
-    if (slowest.size() > most_listed) slowest.pop_back();
-  }
-};
-
-/// Forces that an increment of displacement meets.
-struct Evaluation {
-  Eigen::VectorXd unbalanced;  ///< internal minus external force of all degrees of freedom [N]
-  double residual = 0.0;       ///< see EquilibriumProblem::residual
-  Verdict verdict;             ///< of the worst point
-  int worst_point = -1;        ///< that is not acceptable, -1 for none
-  long inner_steps = 0;        ///< DEM steps of all points
-  PointSurvey points;
-  std::vector<PartResidual> parts;  ///< see EquilibriumProblem::residuals; empty where the whole is the only one
+/// Forces that an increment of displacement meets, and what the points say.
+struct Evaluation : PointAnswers {
+  Eigen::VectorXd unbalanced{};       ///< internal minus external force of all degrees of freedom [N]
+  double residual = 0.0;              ///< see EquilibriumProblem::residual
+  std::vector<PartResidual> parts{};  ///< see EquilibriumProblem::residuals; empty where the whole is the only one
 };
 
 struct IterationRecord {

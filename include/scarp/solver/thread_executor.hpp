@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/solver/executor.hpp"
 
 namespace scarp {
 

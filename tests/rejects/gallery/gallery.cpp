@@ -152,7 +152,7 @@ auto const region = Region{"soil", Wrong{}};
 // also: wants_stop(
 namespace case_19 {
 struct Wrong {};
-void watched(EquilibriumProblem<Grid, ProviderField<Elastic>, SerialExecutor>& problem, Wrong& wrong) {
+void watched(EquilibriumProblem<Grid, SerialExecutor>& problem, Wrong& wrong) {
   LoadStepping{}.settle(QuasiNewton<>{}, problem, 0.0, wrong);
 }
 }  // namespace case_19

@@ -8,50 +8,15 @@
 #include <vector>
 
 #include "scarp/budget/budget_part.hpp"
-#include "scarp/constitutive/material_field.hpp"
-#include "scarp/constitutive/rve_quantities.hpp"
-#include "scarp/constitutive/step_doubling.hpp"
+#include "scarp/constitutive/unwrap.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/worse_of.hpp"
-#include "scarp/io/state_bits.hpp"
-#include "scarp/solver/executor.hpp"
+#include "scarp/points/step_doubling.hpp"
 
 /// What an error budget asks of a point whose answer has just been committed.
 namespace scarp {
-
-/// The committed answer's increment from the state that it began with, with twice the work.
-template <class Provider>
-DoubledAnswer<Provider::dim> doubled_answer(ProviderField<Provider> const& field, int local,
-                                            Gradient<Provider::dim> const& increment) {
-  auto trial = field.replaced(local);
-  return answer_with_double_work(field.provider(), field.replaced(local), increment, field.planned(local), trial);
-}
-
-/// Takes a copy of a point's state, in bits, through the increment with twice the work of the point; without bits it begins
-/// with the point's committed state and answers nothing. States that name no members cannot be followed: bits stay empty.
-template <class Provider>
-DoubledAnswer<Provider::dim> followed_answer(ProviderField<Provider> const& field, int local,
-                                             Gradient<Provider::dim> const& increment, std::string& bits) {
-  using State = typename Provider::State;
-  DoubledAnswer<Provider::dim> answer{{field.provider().stress(field.committed(local)), {}}, 0};
-  if constexpr (Described<State>) {
-    State state = field.committed(local);
-    if constexpr (requires { state.is_described(); }) {
-      if (!state.is_described()) return answer;
-    }
-    if (!bits.empty()) {
-      State from = state;
-      StateReader reader(bits);
-      reader("state", from);
-      answer = answer_with_double_work(field.provider(), from, increment, field.planned(local), state);
-    }
-    StateWriter writer;
-    writer("state", state);
-    bits = std::move(writer.bits());
-  }
-  return answer;
-}
 
 /// How well all packings of a problem were balanced, and how fast they were strained, over its accepted steps.
 struct PackingSurvey {
@@ -67,15 +32,13 @@ struct PackingSurvey {
   template <class Problem>
   void look(Problem const& problem, std::vector<int> const& points) {
     for (int const point : points) {
-      problem.materials().visit(point, [&](auto const& field, int local) {
-        PackingBalance const found = packing_balance(field.provider(), field.committed(local));
-        if (!found.has_packing) return;
-        looked_at += 1.0;
-        unbalanced_sum += found.unbalanced_ratio;
-        unbalanced = worse_of(unbalanced, found.unbalanced_ratio);
-        kinetic_share = worse_of(kinetic_share, found.kinetic_share);
-        inertial_number = worse_of(inertial_number, found.inertial_number);
-      });
+      PackingBalance const found = problem.points().packing_balance(point);
+      if (!found.has_packing) continue;
+      looked_at += 1.0;
+      unbalanced_sum += found.unbalanced_ratio;
+      unbalanced = worse_of(unbalanced, found.unbalanced_ratio);
+      kinetic_share = worse_of(kinetic_share, found.kinetic_share);
+      inertial_number = worse_of(inertial_number, found.inertial_number);
     }
   }
 
@@ -98,11 +61,10 @@ struct DoubledSamples {
     std::vector<long> works(chosen.size());
     problem.executor().for_each(static_cast<int>(chosen.size()), [&](int task) {
       auto const k = detail::index(task);
-      problem.materials().visit(chosen[k], [&](auto const& field, int local) {
-        auto const answer = doubled_answer(field, local, problem.gradients()[detail::index(chosen[k])]);
-        found[k] = stress_difference(field.committed_stress(local), answer.response, at_rest[detail::index(chosen[k])]);
-        works[k] = answer.work;
-      });
+      auto const answer = problem.points().doubled(chosen[k]);
+      found[k] = stress_difference(problem.points().committed_stress(chosen[k]), answer.response,
+                                   at_rest[detail::index(chosen[k])]);
+      works[k] = answer.work;
     });
     differences.insert(differences.end(), found.begin(), found.end());
     for (long const one : works) work += one;
@@ -129,7 +91,7 @@ struct DoubledSamples {
       std::size_t turn = differences.size() + chosen.size();
       int point = turn % 2 == 0 ? most_strained(problem, points) : spread(points, turn);
       while (std::find(chosen.begin(), chosen.end(), point) != chosen.end()) point = spread(points, ++turn);
-      planned += 2 * std::max(1L, problem.materials().work(point));
+      planned += 2 * std::max(1L, problem.points().work(point));
       if (planned > afforded) break;
       chosen.push_back(point);
     }
@@ -172,7 +134,7 @@ struct FollowedPoints {
   /// \throws InputError for points that the problem does not have
   template <class Problem>
   static FollowedPoints choose(Problem const& problem, std::vector<int> const& seen, ErrorSampling const& sampling) {
-    int const count = problem.materials().point_count();
+    int const count = problem.points().size();
     auto const spread = detail::index(std::min(count / sampling.points_per_followed, sampling.most_followed));
     std::vector<int> chosen;
     for (std::size_t k = 0; k < spread && !seen.empty(); ++k)
@@ -199,19 +161,17 @@ struct FollowedPoints {
     std::vector<double> carried(points.size());
     problem.executor().for_each(detail::count(points), [&](int task) {
       FollowedPoint& one = points[detail::index(task)];
-      problem.materials().visit(one.point, [&](auto const& field, int local) {
-        auto const answer = followed_answer(field, local, problem.gradients()[detail::index(one.point)], one.bits);
-        auto const stress = field.committed_stress(local);
-        double const least = at_rest[detail::index(one.point)];
-        one.apart = stress_difference(stress, answer.response, least);
-        differences[detail::index(task)] = std::isfinite(one.apart)
-                                               ? VoigtStress<dim>(answer.response.stress - stress)
-                                               : VoigtStress<dim>::Constant(std::numeric_limits<double>::infinity());
-        carried[detail::index(task)] = std::max(stress_size<dim>(stress), least);
-        one.farthest = worse_of(one.farthest, one.apart);
-        one.square_sum += one.apart * one.apart;
-        works[detail::index(task)] = answer.work;
-      });
+      auto const answer = problem.points().followed(one.point, one.bits);
+      auto const stress = problem.points().committed_stress(one.point);
+      double const least = at_rest[detail::index(one.point)];
+      one.apart = stress_difference(stress, answer.response, least);
+      differences[detail::index(task)] = std::isfinite(one.apart)
+                                             ? VoigtStress<dim>(answer.response.stress - stress)
+                                             : VoigtStress<dim>::Constant(std::numeric_limits<double>::infinity());
+      carried[detail::index(task)] = std::max(stress_size<dim>(stress), least);
+      one.farthest = worse_of(one.farthest, one.apart);
+      one.square_sum += one.apart * one.apart;
+      works[detail::index(task)] = answer.work;
     });
     for (long const one : works) work += one;
     ++steps;

@@ -11,8 +11,8 @@
 namespace scarp::detail {
 
 /// What is attached to the mesh of a problem, as its solver asks for it.
-template <class Problem, int Dim, class Stiffness, class Attached>
-class AttachmentPart : public AttachedProblem<Dim, Stiffness> {
+template <class Problem, int Dim, class Attached>
+class AttachmentPart : public AttachedProblem<Dim> {
  public:
   explicit AttachmentPart(Attached attached) : attached_(std::move(attached)) {}
 
@@ -73,8 +73,8 @@ class AttachmentPart : public AttachedProblem<Dim, Stiffness> {
   }
 };
 
-template <class Problem, int Dim, class Stiffness>
-class AttachmentPart<Problem, Dim, Stiffness, NoAttachment> : public IncrementalProblem<Dim, Stiffness> {
+template <class Problem, int Dim>
+class AttachmentPart<Problem, Dim, NoAttachment> : public IncrementalProblem<Dim> {
  public:
   explicit AttachmentPart(NoAttachment) {}
 

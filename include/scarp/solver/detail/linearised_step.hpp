@@ -67,8 +67,6 @@ class LinearisedStep {
   static constexpr double least_share = 0.1;       ///< of Newton's correction
   static constexpr double longest_share = 1024.0;  ///< of one with all contacts held
 
-  using Stiffness = typename Problem::GroundStiffness;
-
   struct NothingBeside {
     explicit NothingBeside(Problem const&) {}
   };
@@ -103,7 +101,7 @@ class LinearisedStep {
   }
 
   /// Without free degrees of freedom, as in a test of a law on one element, there are no equations.
-  Verdict factorize(Stiffness const& all) {
+  Verdict factorize(GroundStiffness const& all) {
     return system_.free_count() == 0 ? Verdict{} : equations_.factorize(system_, all);
   }
 
@@ -207,8 +205,8 @@ class LinearisedStep {
   FreeSystem system_;
   double accuracy_;
   std::conditional_t<Problem::is_bare, NothingBeside, detail::StandingBalance<Problem>> beside_;
-  Stiffness ground_;
-  detail::GroundEquations<Stiffness, Linear> equations_;  ///< with what is attached
+  GroundStiffness ground_;
+  detail::GroundEquations<Linear> equations_;  ///< with what is attached
   Eigen::VectorXd centre_;
   Eigen::VectorXd ground_forces_;  ///< internal forces of the elements less the loads, at the centre
   double linear_residual_ = 0.0;

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/constitutive/nonlocal_materials.hpp"
+#include "scarp/points/nonlocal.hpp"
 
 #include <doctest/doctest.h>
 
+#include <boost/hana/tuple.hpp>
 #include <random>
 
 #include "scarp/io/state_bits.hpp"
+#include "scarp/points/any_provider.hpp"
+#include "scarp/points/material_points.hpp"
+#include "scarp/scene/scene.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/thread_executor.hpp"
-#include "scarp/solver/wide_equations.hpp"
 #include "scarp/solver/work_balance.hpp"
 #include "support/approx.hpp"
 #include "support/block.hpp"
@@ -18,12 +21,10 @@ namespace {
 
 using Elastic = scarp::LinearElastic<2>;
 using Local = samples::Block<samples::Softening, scarp::UpdatedLagrangian>;
-using Materials = scarp::NonlocalMaterials<scarp::ProviderField<samples::Softening>>;
-using Problem = scarp::EquilibriumProblem<Local::Grid, Materials, scarp::SerialExecutor>;
+using Problem = Local::Problem;
 
-static_assert(scarp::AveragesGradients<Materials>);
-static_assert(!scarp::AveragesGradients<scarp::ProviderField<Elastic>>);
-static_assert(scarp::AsksForMeans<scarp::Nonlocal<Elastic>> && !scarp::AsksForMeans<Elastic>);
+static_assert(scarp::Material<scarp::Nonlocal<Elastic>> && !scarp::ConstitutiveProvider<scarp::Nonlocal<Elastic>>);
+static_assert(!scarp::Material<scarp::Neighbourhood>);
 
 std::vector<scarp::Site<2>> sites(Local::Grid const& grid) {
   std::vector<scarp::Site<2>> all;
@@ -33,16 +34,23 @@ std::vector<scarp::Site<2>> sites(Local::Grid const& grid) {
 
 std::vector<double> volumes(Local::Grid const& grid) { return grid.volumes(Eigen::VectorXd::Zero(grid.dof_count())); }
 
+scarp::Nonlocal<samples::Softening> wide(samples::Softening const& soil, scarp::Neighbourhood const& neighbourhood) {
+  return {soil, neighbourhood.length, neighbourhood.stiffness, neighbourhood.fading};
+}
+
 /// The block of the solvers' tests with points that look around themselves.
 /// alone: every so many points is a local one; 0 for none
 Problem block(scarp::Neighbourhood const& neighbourhood, samples::Softening const& soil,
               scarp::SerialExecutor& executor, std::size_t alone = 0) {
   auto const local = Local::make(soil, executor);
   auto const& grid = local.discretisation();
-  std::vector<scarp::Neighbourhood> all(sites(grid).size(), neighbourhood);
-  for (std::size_t k = 0; alone > 0 && k < all.size(); k += alone) all[k].length = 0.0;
-  return {grid, Materials(local.materials(), sites(grid), volumes(grid), all), local.constraints(), local.loads(),
-          executor};
+  scarp::MaterialPoints<2> points(wide(soil, neighbourhood), sites(grid), volumes(grid));
+  if (alone > 0) {
+    std::vector<scarp::Neighbourhood> all(sites(grid).size(), neighbourhood);
+    for (std::size_t k = 0; k < all.size(); k += alone) all[k].length = 0.0;
+    points.average(scarp::point_means<2>(sites(grid), volumes(grid), all, points.committed_tangents(executor)));
+  }
+  return {grid, std::move(points), local.constraints(), local.loads(), executor};
 }
 
 scarp::SerialExecutor& serial() {
@@ -66,10 +74,10 @@ TEST_CASE("means keep what is even, stay within a region, and are none for a poi
   for (auto& site : where) site.region = site.position.x() < 0.5 ? 0 : 1;
   std::vector<double> lengths(where.size(), 0.6);
   lengths[3] = 0.0;
-  scarp::NeighbourMean<2> const mean(where, volumes(grid), lengths);
+  scarp::NeighbourMean const mean = scarp::neighbour_mean<2>(where, volumes(grid), lengths);
   CHECK_FALSE(mean.is_local());
   std::vector<double> const even(where.size(), 7.0);
-  for (int point = 0; point < mean.point_count(); ++point) {
+  for (int point = 0; point < mean.size(); ++point) {
     auto const k = static_cast<std::size_t>(point);
     CHECK(mean.mean(point, std::span<double const>(even)) == samples::Approx(7.0).epsilon(1e-14));
     CHECK((mean.of(point).size() == 1) == (point == 3));
@@ -85,7 +93,7 @@ TEST_CASE("means keep what is even, stay within a region, and are none for a poi
   }
   CHECK(mean.of(3)[0].weight == 1.0);
   lengths[5] = -1.0;
-  CHECK_REFUSED((scarp::NeighbourMean<2>(where, volumes(grid), lengths)), "length", "is -1");
+  CHECK_REFUSED(scarp::neighbour_mean<2>(where, volumes(grid), lengths), "length", "is -1");
 }
 
 TEST_CASE("a length of zero, or one that reaches no neighbour, gives the local answer bit for bit") {
@@ -110,7 +118,7 @@ TEST_CASE("a length of zero, or one that reaches no neighbour, gives the local a
   CHECK(other.discretisation().positions() != local.discretisation().positions());
 }
 
-TEST_CASE("a field that was saved and loaded goes on with the same bits") {
+TEST_CASE("points that were saved and loaded go on with the same bits") {
   scarp::SerialExecutor executor;
   samples::Softening const soil{.reference_strain = 0.02};
   Problem first = block({.length = 0.6}, soil, executor);
@@ -127,8 +135,8 @@ TEST_CASE("a field that was saved and loaded goes on with the same bits") {
   for (Problem* problem : {&first, &second}) problem->plan(-0.5 * moves);
   auto const one = first.evaluate(-0.5 * moves);
   auto const other = second.evaluate(-0.5 * moves);
-  CHECK(first.materials().added_stresses() == second.materials().added_stresses());
-  CHECK(first.materials().added_stresses()[0].norm() > 0.0);
+  CHECK(first.points().means()->added_stresses() == second.points().means()->added_stresses());
+  CHECK(first.points().means()->added_stresses()[0].norm() > 0.0);
   CHECK(one.unbalanced == other.unbalanced);
 }
 
@@ -141,7 +149,7 @@ TEST_CASE("the wide stiffness is the derivative of the forces, fading and points
   problem.commit(start);
   Eigen::VectorXd const at = uneven(problem.dof_count(), 1e-5);
   problem.evaluate(at);
-  scarp::WideStiffness<2> matrix;
+  scarp::GroundStiffness matrix;
   problem.ground_stiffness(at, problem.trial_tangents(), matrix);
   Eigen::VectorXd const direction = uneven(problem.dof_count(), 1.0).reverse();
   constexpr double step = 1e-8;
@@ -161,7 +169,7 @@ TEST_CASE("equations of a wide stiffness are solved as those of its matrix") {
   Eigen::VectorXd const at = uneven(problem.dof_count(), 2e-3);
   problem.plan(at);
   problem.evaluate(at);
-  scarp::WideStiffness<2> stiffness;
+  scarp::GroundStiffness stiffness;
   problem.ground_stiffness(at, problem.trial_tangents(), stiffness);
   scarp::FreeSystem const system(problem.constraints());
   Eigen::Index const size = system.free_count();
@@ -172,7 +180,7 @@ TEST_CASE("equations of a wide stiffness are solved as those of its matrix") {
     matrix.col(column) = system.gather(stiffness * all);
   }
   CHECK((matrix - matrix.transpose()).norm() > 1e-3 * matrix.norm());
-  scarp::detail::GroundEquations<scarp::WideStiffness<2>, scarp::SparseLu> equations;
+  scarp::detail::GroundEquations<scarp::SparseLu> equations;
   REQUIRE(equations.factorize(system, stiffness).acceptable());
   Eigen::VectorXd const force = uneven(size, 1e3);
   CHECK((equations.product(force) - matrix * force).norm() <= 1e-12 * (matrix * force).norm());
@@ -186,10 +194,8 @@ TEST_CASE("means and what is solved with them are the same bits on any number of
     samples::Softening const soil{.reference_strain = 0.02};
     auto const local = Local::make(soil, serial());
     auto const& grid = local.discretisation();
-    std::vector<scarp::Neighbourhood> const all(sites(grid).size(), scarp::Neighbourhood{.length = 0.5});
-    scarp::EquilibriumProblem<Local::Grid, Materials, std::remove_reference_t<decltype(executor)>> problem(
-        grid, Materials(local.materials(), sites(grid), volumes(grid), all), local.constraints(), local.loads(),
-        executor);
+    scarp::EquilibriumProblem<Local::Grid, std::remove_reference_t<decltype(executor)>> problem(
+        grid, {wide(soil, {.length = 0.5}), sites(grid), volumes(grid)}, local.constraints(), local.loads(), executor);
     scarp::NoObserver nobody;
     auto const run =
         scarp::LoadStepping{.first = 0.005}.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 0.01, nobody);
@@ -214,4 +220,65 @@ TEST_CASE("the work of a problem with a length balances, the stress against unse
   double const coarse = gap(2e-3);
   CHECK(coarse < 2e-3);
   CHECK(gap(5e-4) < 0.3 * coarse);
+}
+
+TEST_CASE("the means of a region, of a material whose type is hidden and of points of their own are the same bits") {
+  scarp::SerialExecutor executor;
+  samples::Softening const soil{.reference_strain = 0.02};
+  auto const local = Local::make(soil, executor);
+  auto const& grid = local.discretisation();
+  scarp::Neighbourhood const around{.length = 0.6, .stiffness = 0.7, .fading = 2e-4};
+  auto const answers = [&](scarp::MaterialPoints<2> points) {
+    REQUIRE(points.means() != nullptr);
+    std::vector<scarp::VoigtStress<2>> stresses;
+    for (double const strain : {1e-3, 2e-3}) {
+      for (int k = 0; k < points.size(); ++k) {
+        points.gradient(k) = scarp::Gradient<2>{{0.1 * strain, 0.0}, {strain, strain * (k % 4)}};
+      }
+      static_cast<void>(points.respond(executor));
+      points.commit();
+      auto const balanced = points.balanced_stresses(executor);
+      CHECK(balanced == points.stresses());
+      CHECK(balanced != points.committed_stresses(executor));
+      stresses.insert(stresses.end(), balanced.begin(), balanced.end());
+    }
+    return stresses;
+  };
+  auto const expected = answers({wide(soil, around), sites(grid), volumes(grid)});
+  scarp::Nonlocal<scarp::AnyProvider<2>> const hidden{soil, around.length, around.stiffness, around.fading};
+  CHECK(answers({hidden, sites(grid), volumes(grid)}) == expected);
+  scarp::MaterialPoints<2> afterwards(soil, sites(grid));
+  afterwards.average(scarp::point_means<2>(sites(grid), volumes(grid), std::vector(sites(grid).size(), around),
+                                           afterwards.committed_tangents(executor)));
+  CHECK(answers(afterwards) == expected);
+  scarp::Region const region{grid.mesh().regions.front(), hidden};
+  CHECK(answers(scarp::make_points(grid, 1.0, boost::hana::make_tuple(region), executor)) == expected);
+}
+
+TEST_CASE("means stay within the regions that ask for them, and over as many points as there are") {
+  scarp::SerialExecutor executor;
+  std::vector<scarp::Site<2>> where(8);
+  for (int k = 0; k < 8; ++k) {
+    where[static_cast<std::size_t>(k)] = {.index = k, .region = k % 2, .position = {0.1 * k, 0.0}};
+  }
+  std::vector<double> const weights(8, 1.0);
+  auto const soil = samples::elastic_soil();
+  std::vector<std::string> const names{"wide", "local"};
+  scarp::MaterialPoints<2> points(
+      boost::hana::make_tuple(scarp::Region{names[1], soil}, scarp::Region{names[0], scarp::Nonlocal{soil, 0.25}}),
+      names, where, weights, [](int) { return true; });
+  for (int k = 0; k < 8; ++k) points.gradient(k)(0, 0) = 1e-4 * k * k;
+  static_cast<void>(points.respond(executor));
+  for (int k = 0; k < 8; ++k) {
+    auto const i = static_cast<std::size_t>(k);
+    CHECK((points.gradients()[i] == points.own_gradients()[i]) == (k % 2 == 1));
+    CHECK(points.means()->mean().of(k).size() == (k % 2 == 1 ? 1 : k == 0 || k == 6 ? 2 : 3));
+  }
+  std::vector<scarp::Neighbourhood> const all(7, {.length = 0.25});
+  CHECK_REFUSED(points.average(scarp::point_means<2>(std::span(where).first(7), std::span(weights).first(7), all,
+                                                     std::vector(7, soil.tangent({})))),
+                "means are over 7 points (there are 8)");
+  points.average(
+      scarp::point_means<2>(where, weights, std::vector<scarp::Neighbourhood>(8), points.committed_tangents(executor)));
+  CHECK(points.means() == nullptr);
 }

@@ -39,9 +39,7 @@ DoubledAnswer<Provider::dim> answer_with_double_work(Provider const& provider, t
       return first;
     return provider.respond(middle, half, trial, work...);
   };
-  if constexpr (requires { provider.answer_with_double_work(from, increment, plan, trial); }) {
-    return provider.answer_with_double_work(from, increment, plan, trial);
-  } else if constexpr (PlansWork<Provider>) {
+  if constexpr (PlansWork<Provider>) {
     auto const refined = provider.refined(plan);
     if (static_cast<long>(refined) > static_cast<long>(plan))
       return {provider.respond(from, increment, trial, refined), static_cast<long>(refined)};

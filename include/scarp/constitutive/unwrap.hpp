@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+
+namespace scarp {
+
+/// Calls visit(provider, state) for what adaptors are around: the provider that keeps no state of another one in its own. An
+/// adaptor's state has a member `own`, and `provider` where every point has another one; else the adaptor itself has that member.
+template <class Provider, class State, class Visit>
+decltype(auto) unwrap(Provider const& provider, State const& state, Visit&& visit) {
+  if constexpr (requires {
+                  *state.provider;
+                  state.own;
+                }) {
+    return unwrap(*state.provider, state.own, std::forward<Visit>(visit));
+  } else if constexpr (requires { state.own; }) {
+    return unwrap(provider.provider, state.own, std::forward<Visit>(visit));
+  } else {
+    return std::forward<Visit>(visit)(provider, state);
+  }
+}
+
+/// Named numbers of a material point, which a provider tells by `Quantities quantities(State const&) const`.
+using Quantities = std::vector<std::pair<std::string_view, double>>;
+
+/// How well the packing of a point is balanced, and how fast its last answer strained it: a provider tells by
+/// `PackingBalance balance(State const&) const`.
+struct PackingBalance {
+  bool has_packing = false;
+  double unbalanced_ratio = 0.0;
+  double kinetic_share = 0.0;
+  double inertial_number = 0.0;
+};
+
+/// Stress [Pa] of a stiffness floor in a state, or in one that it keeps; zero where there is none.
+template <int Dim, class State>
+VoigtStress<Dim> floor_stress_in(State const& state) {
+  if constexpr (requires { state.floor_stress; }) {
+    return state.floor_stress;
+  } else if constexpr (requires { state.own; }) {
+    return floor_stress_in<Dim>(state.own);
+  } else {
+    return VoigtStress<Dim>::Zero();
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <any>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/unwrap.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
+#include "scarp/io/state_bits.hpp"
+#include "scarp/points/step_doubling.hpp"
+
+namespace scarp::detail {
+
+/// Material points of one provider whose type nobody sees: parameters, committed and trial states, plans. Points have numbers of their
+/// own here, beside those among all points.
+template <int Dim>
+class PointBatch {
+ public:
+  virtual ~PointBatch() = default;
+  virtual std::unique_ptr<PointBatch> copy() const = 0;
+  /// The same provider without points.
+  virtual std::unique_ptr<PointBatch> without_points() const = 0;
+
+  /// number: among all points; here: whether this process answers for the point, else it has no state
+  virtual void add(Site<Dim> const& site, int number, bool here) = 0;
+  virtual int size() const = 0;
+  virtual Site<Dim> const& site(int k) const = 0;
+  virtual void forget(int k) = 0;
+
+  virtual void plan(int k, Gradient<Dim> const& increment) = 0;
+  /// \return whether the point has a plan of more work now
+  virtual bool refine(int k) = 0;
+  virtual long work(int k) const = 0;
+  /// increments and responses: of all points by their numbers among these
+  virtual void respond(std::span<int const> own, std::vector<Gradient<Dim>> const& increments,
+                       std::vector<Response<Dim>>& responses) = 0;
+  virtual VoigtStress<Dim> stress(int k) const = 0;
+  virtual VoigtTangent<Dim> tangent(int k) const = 0;
+  virtual VoigtTangent<Dim> trial_tangent(int k) const = 0;
+  virtual VoigtTangent<Dim> initial_tangent(int k) const = 0;
+  virtual void commit() = 0;
+
+  virtual void write(int k, StateWriter& writer) const = 0;
+  virtual void read(int k, StateReader& reader) = 0;
+  virtual void write_all(StateWriter& writer) const = 0;
+  virtual void read_all(StateReader& reader) = 0;
+
+  virtual Quantities quantities(int k) const = 0;
+  virtual PackingBalance balance(int k) const = 0;
+  virtual std::any picture(int k) const = 0;
+  virtual VoigtStress<Dim> floor_stress(int k) const = 0;
+  virtual DoubledAnswer<Dim> doubled(int k, Gradient<Dim> const& increment) const = 0;
+  virtual DoubledAnswer<Dim> followed(int k, Gradient<Dim> const& increment, std::string& bits) const = 0;
+
+  /// The committed state, nothing where it is of another type.
+  virtual void const* state(int k, std::type_info const& type) const = 0;
+  virtual void const* provider(std::type_info const& type) const = 0;
+};
+
+template <CheckedProvider Provider>
+class PointBatchOf final : public PointBatch<Provider::dim> {
+ public:
+  static constexpr int dim = Provider::dim;
+  using State = typename Provider::State;
+
+  explicit PointBatchOf(std::shared_ptr<Provider const> provider) : provider_(std::move(provider)) {}
+
+  std::unique_ptr<PointBatch<dim>> copy() const override { return std::make_unique<PointBatchOf>(*this); }
+  std::unique_ptr<PointBatch<dim>> without_points() const override { return std::make_unique<PointBatchOf>(provider_); }
+
+  void add(Site<dim> const& site, int number, bool here) override {
+    sites_.push_back(site);
+    numbers_.push_back(number);
+    here_.push_back(here);
+    committed_.push_back(here ? provider_->initial_state(site) : no_state());
+    trial_.push_back(committed_.back());
+    plans_.emplace_back();
+  }
+  int size() const override { return count(sites_); }
+  Site<dim> const& site(int k) const override { return sites_[index(k)]; }
+  void forget(int k) override {
+    committed_[index(k)] = trial_[index(k)] = no_state();
+    here_[index(k)] = false;
+  }
+
+  void plan(int k, Gradient<dim> const& increment) override {
+    if constexpr (PlansWork<Provider>) plans_[index(k)] = provider_->plan(committed_[index(k)], increment);
+  }
+  bool refine(int k) override {
+    if constexpr (PlansWork<Provider>) {
+      long const before = work(k);
+      plans_[index(k)] = provider_->refined(plans_[index(k)]);
+      return work(k) != before;
+    } else {
+      return false;
+    }
+  }
+  long work(int k) const override { return static_cast<long>(plans_[index(k)]); }
+
+  void respond(std::span<int const> own, std::vector<Gradient<dim>> const& increments,
+               std::vector<Response<dim>>& responses) override {
+    for (int const one : own) {
+      std::size_t const k = index(one);
+      std::size_t const number = index(numbers_[k]);
+      responses[number] = respond_as_planned(*provider_, committed_[k], increments[number], trial_[k], plans_[k]);
+    }
+  }
+  VoigtStress<dim> stress(int k) const override { return provider_->stress(committed_[index(k)]); }
+  VoigtTangent<dim> tangent(int k) const override { return provider_->tangent(committed_[index(k)]); }
+  VoigtTangent<dim> trial_tangent(int k) const override { return provider_->tangent(trial_[index(k)]); }
+  VoigtTangent<dim> initial_tangent(int k) const override {
+    return provider_->tangent(provider_->initial_state(sites_[index(k)]));
+  }
+  void commit() override { committed_.swap(trial_); }
+
+  void write(int k, StateWriter& writer) const override { described(writer, committed_[index(k)]); }
+  void read(int k, StateReader& reader) override {
+    committed_[index(k)] = scarp::blank_state(*provider_, sites_[index(k)]);
+    described(reader, committed_[index(k)]);
+    trial_[index(k)] = committed_[index(k)];
+    here_[index(k)] = true;
+  }
+  void write_all(StateWriter& writer) const override { described(writer, std::span(committed_), "states"); }
+  void read_all(StateReader& reader) override {
+    for (std::size_t k = 0; k < sites_.size(); ++k) {
+      if (!here_[k]) committed_[k] = scarp::blank_state(*provider_, sites_[k]);
+    }
+    described(reader, std::span(committed_), "states");
+    trial_ = committed_;
+    here_.assign(sites_.size(), true);
+  }
+
+  Quantities quantities(int k) const override {
+    return unwrap(*provider_, committed_[index(k)], [](auto const& inner, auto const& own) -> Quantities {
+      if constexpr (requires { inner.quantities(own); }) return inner.quantities(own);
+      return {};
+    });
+  }
+  PackingBalance balance(int k) const override {
+    return unwrap(*provider_, committed_[index(k)], [](auto const& inner, auto const& own) -> PackingBalance {
+      if constexpr (requires { inner.balance(own); }) return inner.balance(own);
+      return {};
+    });
+  }
+  std::any picture(int k) const override {
+    return unwrap(*provider_, committed_[index(k)], [](auto const& inner, auto const& own) -> std::any {
+      if constexpr (requires { inner.picture(own); }) return inner.picture(own);
+      return {};
+    });
+  }
+  VoigtStress<dim> floor_stress(int k) const override { return floor_stress_in<dim>(committed_[index(k)]); }
+
+  DoubledAnswer<dim> doubled(int k, Gradient<dim> const& increment) const override {
+    State trial = trial_[index(k)];
+    return answer_with_double_work(*provider_, trial_[index(k)], increment, plans_[index(k)], trial);
+  }
+  DoubledAnswer<dim> followed(int k, Gradient<dim> const& increment, std::string& bits) const override {
+    DoubledAnswer<dim> answer{{stress(k), {}}, 0};
+    if constexpr (Described<State>) {
+      State state = committed_[index(k)];
+      if (!bits.empty()) {
+        State from = state;
+        StateReader reader(bits);
+        reader("state", from);
+        answer = answer_with_double_work(*provider_, from, increment, plans_[index(k)], state);
+      }
+      StateWriter writer;
+      writer("state", state);
+      bits = std::move(writer.bits());
+    }
+    return answer;
+  }
+
+  void const* state(int k, std::type_info const& type) const override {
+    return type == typeid(State) ? &committed_[index(k)] : nullptr;
+  }
+  void const* provider(std::type_info const& type) const override {
+    return type == typeid(Provider) ? provider_.get() : nullptr;
+  }
+
+ private:
+  /// Of a point that another process answers for.
+  static State no_state() {
+    if constexpr (std::default_initializable<State>) {
+      return {};
+    } else {
+      refuse(
+          "points are shared out among processes, but their state cannot be left empty (it has no default "
+          "constructor): give it one");
+    }
+  }
+
+  template <class Visit, class Visited>
+  static void described(Visit& visit, Visited&& visited, std::string_view name = "state") {
+    if constexpr (Described<State>) {
+      visit(name, visited);
+    } else {
+      refuse("states of a provider cannot be saved or sent (they name no members): give them a function members");
+    }
+  }
+
+  std::shared_ptr<Provider const> provider_;
+  std::vector<Site<dim>> sites_;
+  std::vector<int> numbers_;  ///< among all points
+  std::vector<bool> here_;    ///< whether this process has the point's state
+  std::vector<State> committed_;
+  std::vector<State> trial_;
+  std::vector<scarp::PlanOf<Provider>> plans_;
+};
+
+}  // namespace scarp::detail

@@ -1,0 +1,479 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <any>
+#include <boost/hana/for_each.hpp>
+#include <boost/hana/tuple.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/core/executor.hpp"
+#include "scarp/core/index.hpp"
+#include "scarp/points/detail/point_batch.hpp"
+#include "scarp/points/point_means.hpp"
+#include "scarp/points/point_survey.hpp"
+
+namespace scarp {
+
+/// What a region may consist of: a ConstitutiveProvider, `AnyProvider`, or `Nonlocal` of one of these.
+template <class Type>
+concept Material = ConstitutiveProvider<Type> || requires(Type const& material) {
+  material.batch();
+} || requires(Type const& material) {
+  material.neighbourhood();
+  material.provider;
+};
+
+/// The same; of a type that is none the compiler names the missing member.
+template <class Type>
+concept CheckedMaterial = Material<Type> || CheckedProvider<Type>;
+
+/// A named region and the material of its points.
+template <CheckedMaterial MaterialType>
+struct Region {
+  std::string name;
+  MaterialType provider;
+};
+
+template <class MaterialType>
+Region(std::string, MaterialType) -> Region<MaterialType>;
+
+/// A batch of material points of one or several providers: parameters, committed and trial states, plans, and means over neighbours
+/// where a region asks for them. The material side of `EquilibriumProblem`, and of any program that has points of its own:
+/// \code
+/// MaterialPoints<2> points(soil, sites);
+/// points.gradient(0) = increment;             // of all points, since the last commit
+/// PointAnswers const answers = points.respond(executor);
+/// if (answers.verdict.acceptable()) points.commit();  // else: another increment, smaller perhaps
+/// \endcode
+/// Gradients are those of the displacement since the last commit by the positions at that time. Where points are shared out among
+/// processes (see SharesPoints), each answers for its own and all know all answers. Types of providers are hidden: what a state
+/// holds is told by name (`quantities`), or by its type (`state`).
+template <int Dim>
+class MaterialPoints {
+ public:
+  static constexpr int dim = Dim;
+  using Gradients = std::vector<Gradient<Dim>>;
+  using Responses = std::vector<Response<Dim>>;
+  using Stresses = std::vector<VoigtStress<Dim>>;
+  using Tangents = std::vector<VoigtTangent<Dim>>;
+
+  MaterialPoints() = default;
+
+  /// Points of several regions; a site's region is the number of its name in `names`.
+  /// volumes [m3]: weights of means, empty where no region asks for means; owned(number of a point): points that are asked here
+  /// \throws InputError for a region that has no name here, is given twice or has no material, and for counts that differ
+  template <class... Materials, std::predicate<int> Owned>
+  MaterialPoints(boost::hana::tuple<Region<Materials>...> const& regions, std::span<std::string const> names,
+                 std::span<Site<Dim> const> sites, std::span<double const> volumes, Owned const& owned) {
+    std::vector<int> numbers(names.size(), -1);
+    boost::hana::for_each(regions, [&](auto const& region) {
+      auto const named = std::ranges::find(names, region.name);
+      if (named == names.end()) {
+        refuse("there is no region '{}' (the mesh has: {}): use one of these names", region.name, listed(names));
+      }
+      int& number = numbers[static_cast<std::size_t>(named - names.begin())];
+      if (number >= 0) refuse("region '{}' is given two providers (only one can answer): leave one out", region.name);
+      number = add_material(region.provider);
+    });
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+      int const region = sites[k].region;
+      if (region < 0 || region >= std::ssize(numbers) || numbers[detail::index(region)] < 0) {
+        refuse("region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
+               region < 0 || region >= std::ssize(names) ? fmt::to_string(region) : names[detail::index(region)], k);
+      }
+    }
+    fill(
+        sites, volumes, [&](Site<Dim> const& site) { return numbers[detail::index(site.region)]; }, owned);
+  }
+
+  /// Points of one material, whatever their regions are; means do not reach across these.
+  /// \throws InputError for counts that differ
+  template <CheckedMaterial MaterialType, std::predicate<int> Owned>
+  MaterialPoints(MaterialType const& material, std::span<Site<Dim> const> sites, std::span<double const> volumes,
+                 Owned const& owned) {
+    int const number = add_material(material);
+    fill(
+        sites, volumes, [&](Site<Dim> const&) { return number; }, owned);
+  }
+  template <CheckedMaterial MaterialType>
+  MaterialPoints(MaterialType const& material, std::span<Site<Dim> const> sites, std::span<double const> volumes = {})
+      : MaterialPoints(material, sites, volumes, [](int) { return true; }) {}
+
+  int size() const { return detail::count(places_); }
+
+  /// Lets the points see means of their gradients from now on; nothing where every mean is the value itself.
+  /// \throws InputError for means over another number of points
+  void average(PointMeans<Dim> means) {
+    if (means.mean().size() != size())
+      refuse("means are over {} points (there are {}): make them of all sites", means.mean().size(), size());
+    means_.reset();
+    if (!means.mean().is_local()) means_ = std::move(means);
+  }
+  /// Means that the points see; null where each sees its own gradient.
+  PointMeans<Dim> const* means() const { return means_ ? &*means_ : nullptr; }
+
+  /// Displacement gradient of a point since the last commit, for `respond`.
+  Gradient<Dim>& gradient(int point) { return own_[detail::index(point)]; }
+
+  /// Answers to the gradients of all points: work is planned at the first answer after a commit, and points that do not converge work
+  /// harder, up to so many times and until the next commit.
+  /// \throws InputError for gradients that are not finite
+  template <ExecutesTasks Executor>
+  PointAnswers respond(Executor& executor, int most_refinements = 4) {
+    for (int point = 0; point < size(); ++point) {
+      if (!own_[detail::index(point)].allFinite())
+        refuse("the displacement gradient of point {} is not finite: take a smaller step", point);
+    }
+    see(own_, executor);
+    if (!is_planned_) plan();
+    PointAnswers answers = answer(executor);
+    for (int k = 0; k < most_refinements && answers.verdict.status == Status::not_converged; ++k)
+      answers = refine(executor);
+    return answers;
+  }
+
+  /// Sets all points' own gradients, and what the points see of them.
+  template <ExecutesTasks Executor>
+  void see(Gradients own, Executor& executor) {
+    own_ = std::move(own);
+    seen_ = means_ ? means_->average(own_, executor) : own_;
+  }
+
+  /// Fixes every point's work from what it sees, so that answers are smooth functions of gradients until the next plan.
+  void plan() {
+    for (int const point : owned_) batch(point).plan(local(point), seen_[detail::index(point)]);
+    is_planned_ = true;
+  }
+
+  /// All points respond from their committed states to what they see, with the work that is planned.
+  template <ExecutesTasks Executor>
+  PointAnswers answer(Executor& executor) {
+    return ask(owned_, executor);
+  }
+
+  /// Points whose last answer is not converged work harder, now and until the next plan; one that cannot would only repeat its answer.
+  template <ExecutesTasks Executor>
+  PointAnswers refine(Executor& executor) {
+    std::vector<int> harder;
+    for (int const point : owned_) {
+      if (responses_[detail::index(point)].verdict.status == Status::not_converged && batch(point).refine(local(point)))
+        harder.push_back(point);
+    }
+    return ask(harder, executor);
+  }
+
+  /// The committed stresses take the place of answers, and no point has moved.
+  template <ExecutesTasks Executor>
+  void rest(Executor& executor) {
+    auto const committed = committed_stresses(executor);
+    for (std::size_t k = 0; k < committed.size(); ++k) responses_[k] = {committed[k], {}};
+    see(Gradients(committed.size(), Gradient<Dim>::Zero()), executor);
+  }
+
+  /// The trial states, of the last answers, become the committed ones.
+  void commit() {
+    for (auto& one : batches_) one->commit();
+    if (means_) means_->commit();
+    is_planned_ = false;
+  }
+
+  Gradients const& own_gradients() const { return own_; }
+  /// What the points see: means where there are some.
+  Gradients const& gradients() const { return seen_; }
+  /// The materials' last answers, without what means add.
+  Responses const& responses() const { return responses_; }
+  /// Cauchy stress [Pa] of a point's last answer, with what means add.
+  VoigtStress<Dim> stress(int point) const {
+    auto const k = detail::index(point);
+    return means_ ? VoigtStress<Dim>(responses_[k].stress + means_->added_stresses()[k]) : responses_[k].stress;
+  }
+  Stresses stresses() const {
+    Stresses values(places_.size());
+    for (int point = 0; point < size(); ++point) values[detail::index(point)] = stress(point);
+    return values;
+  }
+  /// Of the committed states, as the next ones: without what means add.
+  VoigtStress<Dim> committed_stress(int point) const { return batch(point).stress(local(point)); }
+  VoigtTangent<Dim> committed_tangent(int point) const { return batch(point).tangent(local(point)); }
+  template <ExecutesTasks Executor>
+  Stresses committed_stresses(Executor& executor) const {
+    Stresses values(places_.size());
+    for (int const point : owned_) values[detail::index(point)] = committed_stress(point);
+    share(values, executor);
+    return values;
+  }
+  /// Committed stresses with what means add: those that balance the loads after a commit.
+  template <ExecutesTasks Executor>
+  Stresses balanced_stresses(Executor& executor) const {
+    Stresses values = committed_stresses(executor);
+    if (!means_) return values;
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += means_->added_stresses()[k];
+    return values;
+  }
+  /// Tangent [Pa] of a point's trial state.
+  VoigtTangent<Dim> tangent(int point) const { return batch(point).trial_tangent(local(point)); }
+  template <ExecutesTasks Executor>
+  Tangents committed_tangents(Executor& executor) const {
+    return all_tangents(executor, [&](int point) { return committed_tangent(point); });
+  }
+  template <ExecutesTasks Executor>
+  Tangents tangents(Executor& executor) const {
+    return all_tangents(executor, [&](int point) { return tangent(point); });
+  }
+  /// Tangent [Pa] of the state that a point began with, made anew.
+  VoigtTangent<Dim> initial_tangent(int point) const { return batch(point).initial_tangent(local(point)); }
+
+  /// Steps of inner work that one answer of a point takes; a weight for partitioning.
+  long work(int point) const { return batch(point).work(local(point)); }
+
+  /// Named numbers of a committed state; of a packing void ratio, coordination, balance, in the plane fabrics.
+  Quantities quantities(int point) const { return batch(point).quantities(local(point)); }
+  /// How well the packing of a committed state is balanced; nothing of points without one, and of one that is fluid.
+  PackingBalance packing_balance(int point) const { return batch(point).balance(local(point)); }
+  /// What a provider shows of a committed state; nothing where that is no picture.
+  template <class Picture>
+  std::optional<Picture> picture(int point) const {
+    std::any shown = batch(point).picture(local(point));
+    auto* picture = std::any_cast<Picture>(&shown);
+    return picture ? std::optional<Picture>(std::move(*picture)) : std::nullopt;
+  }
+  /// Stress [Pa] of a stiffness floor in a committed state.
+  VoigtStress<Dim> floor_stress(int point) const { return batch(point).floor_stress(local(point)); }
+
+  /// The committed state of a point. \throws InputError unless it is of this type
+  template <class State>
+  State const& state(int point) const {
+    auto const* state = static_cast<State const*>(batch(point).state(local(point), typeid(State)));
+    if (!state) refuse("the state of point {} is asked for as another type: take its provider's State", point);
+    return *state;
+  }
+  /// The provider of a point. \throws InputError unless it is of this type
+  template <class Provider>
+  Provider const& provider(int point) const {
+    auto const* provider = static_cast<Provider const*>(batch(point).provider(typeid(Provider)));
+    if (!provider) refuse("the provider of point {} is asked for as another type: take its own", point);
+    return *provider;
+  }
+
+  /// Right after a commit: the committed answer once more from the state that it began with, with twice the work.
+  DoubledAnswer<Dim> doubled(int point) const {
+    return batch(point).doubled(local(point), seen_[detail::index(point)]);
+  }
+  /// Right after a commit: takes a copy of the point's state, in bits, through the committed increment with twice the work; without
+  /// bits it begins with the committed state and answers nothing. Of states that name no members bits stay empty.
+  DoubledAnswer<Dim> followed(int point, std::string& bits) const {
+    return batch(point).followed(local(point), seen_[detail::index(point)], bits);
+  }
+
+  /// The bits of a point's committed state. \throws InputError for states that name no members
+  std::string pack(int point) const {
+    StateWriter writer;
+    batch(point).write(local(point), writer);
+    return std::move(writer.bits());
+  }
+  /// Another committed state for a point, between load steps. \throws InputError for bits of another state
+  void unpack(int point, std::string_view bits) {
+    StateReader reader(bits);
+    batch(point).read(local(point), reader);
+  }
+  /// The point alone, with the state of these bits.
+  MaterialPoints alone(int point, std::string_view bits) const {
+    MaterialPoints one;
+    one.batches_.emplace_back(batch(point).without_points());
+    one.add(0, batch(point).site(local(point)), false);
+    one.unpack(0, bits);
+    return one;
+  }
+  /// Leaves a point without state, since another process answers for it.
+  void forget(int point) { batch(point).forget(local(point)); }
+
+  /// What evolves: the committed states, and tau of means. Read in, those of all points are here.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(batches_, neighbourhoods_, search_, places_, owned_, own_, seen_, responses_, works_, means_,
+                      is_planned_);
+    using Visitor = std::remove_cvref_t<Visit>;
+    if (self.means_) PointMeans<Dim>::basis_members(*self.means_, visit);
+    for (auto& one : self.batches_) {
+      if constexpr (std::same_as<Visitor, StateWriter>) one->write_all(visit);
+      if constexpr (std::same_as<Visitor, StateReader>) one->read_all(visit);
+    }
+    if (self.means_) visit("means", *self.means_);
+  }
+  void after_loading() { is_planned_ = false; }
+
+ private:
+  struct Place {
+    int batch;
+    int local;
+  };
+  /// A batch that is copied with its points.
+  struct Batch {
+    std::unique_ptr<detail::PointBatch<Dim>> held;
+
+    Batch(std::unique_ptr<detail::PointBatch<Dim>> batch) : held(std::move(batch)) {}
+    Batch(Batch const& other) : held(other.held->copy()) {}
+    Batch(Batch&&) noexcept = default;
+    Batch& operator=(Batch other) noexcept {
+      held = std::move(other.held);
+      return *this;
+    }
+    ~Batch() = default;
+    detail::PointBatch<Dim>* operator->() { return held.get(); }
+    detail::PointBatch<Dim> const* operator->() const { return held.get(); }
+  };
+  using Search = PointMeans<Dim> (*)(std::span<Site<Dim> const>, std::span<double const>,
+                                     std::span<Neighbourhood const>, Tangents const&);
+
+  detail::PointBatch<Dim>& batch(int point) {
+    return *batches_[detail::index(places_[detail::index(point)].batch)].held;
+  }
+  detail::PointBatch<Dim> const& batch(int point) const {
+    return *batches_[detail::index(places_[detail::index(point)].batch)].held;
+  }
+  int local(int point) const { return places_[detail::index(point)].local; }
+
+  /// \return number of its batch
+  template <class MaterialType>
+  int add_material(MaterialType const& material) {
+    static_assert(MaterialType::dim == Dim, "scarp: all materials have the dimension of the points");
+    if constexpr (ConstitutiveProvider<MaterialType>) {
+      batches_.emplace_back(
+          std::make_unique<detail::PointBatchOf<MaterialType>>(std::make_shared<MaterialType const>(material)));
+    } else if constexpr (requires { material.batch(); }) {
+      batches_.emplace_back(material.batch());
+    } else {
+      add_material(material.provider);
+      neighbourhoods_.back() = detail::validated(material.neighbourhood());
+      search_ = MaterialType::means;
+      return detail::count(batches_) - 1;
+    }
+    neighbourhoods_.emplace_back();
+    return detail::count(batches_) - 1;
+  }
+
+  /// Every process makes states for all points where some see means, since the stiffness against unseen strain follows from them.
+  template <class BatchOf, class Owned>
+  void fill(std::span<Site<Dim> const> sites, std::span<double const> volumes, BatchOf const& batch_of,
+            Owned const& owned) {
+    for (int point = 0; point < std::ssize(sites); ++point) {
+      auto const& site = sites[detail::index(point)];
+      add(batch_of(site), site, search_ || owned(point));
+      if (owned(point)) owned_.push_back(point);
+    }
+    own_.assign(places_.size(), Gradient<Dim>::Zero());
+    seen_ = own_;
+    responses_.resize(places_.size());
+    works_.resize(places_.size());
+    if (!search_) return;
+    std::vector<Neighbourhood> neighbourhoods;
+    Tangents initial;
+    for (int point = 0; point < size(); ++point) {
+      neighbourhoods.push_back(neighbourhoods_[detail::index(places_[detail::index(point)].batch)]);
+      initial.push_back(committed_tangent(point));
+    }
+    average(search_(sites, volumes, neighbourhoods, initial));
+    for (int point = 0; point < size(); ++point) {
+      if (!owned(point)) forget(point);
+    }
+  }
+
+  void add(int batch, Site<Dim> const& site, bool here) {
+    auto& among = batches_[detail::index(batch)];
+    places_.push_back({batch, among->size()});
+    among->add(site, size() - 1, here);
+  }
+
+  /// Completes an array over all points by what other processes know.
+  template <class Value, class Executor>
+  static void share(std::vector<Value>& values, Executor& executor) {
+    if constexpr (SharesPoints<Executor>) executor.share(values);
+  }
+
+  /// selected: points of this process
+  template <class Executor>
+  PointAnswers ask(std::vector<int> selected, Executor& executor) {
+    // The longest answers first: one that begins last would keep the other threads waiting.
+    std::ranges::stable_sort(selected, std::ranges::greater{}, [&](int point) { return work(point); });
+    std::vector<int> own;
+    for (int const point : selected) own.push_back(local(point));
+    // Points that work are tasks of their own, others of one batch go together.
+    constexpr int most_together = 64;
+    std::vector<int> first{0};
+    for (int k = 1; k < std::ssize(selected); ++k) {
+      int const point = selected[detail::index(k)];
+      if (work(point) > 0 || k - first.back() == most_together ||
+          &batch(point) != &batch(selected[detail::index(k - 1)]))
+        first.push_back(k);
+    }
+    if (!selected.empty()) first.push_back(detail::count(selected));
+    together(executor, [&] {
+      executor.for_each(detail::count(first) - 1, [&](int task) {
+        auto const from = detail::index(first[detail::index(task)]);
+        auto const count = detail::index(first[detail::index(task + 1)]) - from;
+        batch(selected[from]).respond(std::span(own).subspan(from, count), seen_, responses_);
+      });
+    });
+    constexpr long not_asked = -1;
+    std::vector<long> worked(places_.size(), not_asked);
+    for (int const point : selected) {
+      auto& response = responses_[detail::index(point)];
+      // Prescribed nodes would hide a NaN from the residual of the free ones.
+      if (!response.stress.allFinite()) response.verdict = {Status::failed, Reason::not_finite};
+      worked[detail::index(point)] = work(point);
+    }
+    share(responses_, executor);
+    share(worked, executor);
+    PointAnswers answers;
+    for (int point = 0; point < size(); ++point) {
+      auto const k = detail::index(point);
+      if (worked[k] != not_asked) {
+        works_[k] = worked[k];
+        answers.inner_steps += worked[k];
+      }
+      Verdict const verdict = responses_[k].verdict;
+      answers.points.add(point, verdict.status, works_[k]);
+      if (!verdict.acceptable() && (answers.worst_point < 0 || verdict.status > answers.verdict.status)) {
+        answers.verdict = verdict;
+        answers.worst_point = point;
+      }
+    }
+    return answers;
+  }
+
+  template <class Executor, class TangentOf>
+  Tangents all_tangents(Executor& executor, TangentOf const& tangent_of) const {
+    Tangents values(places_.size());
+    together(executor, [&] {
+      executor.for_each(detail::count(owned_), [&](int task) {
+        int const point = owned_[detail::index(task)];
+        values[detail::index(point)] = tangent_of(point);
+      });
+    });
+    share(values, executor);
+    return values;
+  }
+
+  std::vector<Batch> batches_;
+  std::vector<Neighbourhood> neighbourhoods_;  ///< of the batches
+  Search search_ = nullptr;                    ///< where points see means
+  std::vector<Place> places_;
+  std::vector<int> owned_;  ///< points of this process
+  Gradients own_;
+  Gradients seen_;
+  Responses responses_;
+  std::vector<long> works_;  ///< inner steps of the points' last answers
+  std::optional<PointMeans<Dim>> means_;
+  bool is_planned_ = false;
+};
+
+}  // namespace scarp

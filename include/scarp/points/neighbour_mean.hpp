@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scarp/core/index.hpp"
+
+namespace scarp {
+
+/// Weighted means \f$ \bar x_i = \sum_j w_{ij} x_j \f$ over some points around each of many; points/nonlocal.hpp finds neighbours and weights.
+class NeighbourMean {
+ public:
+  struct Share {
+    int point;
+    double weight;
+  };
+
+  NeighbourMean() = default;
+  /// first: where in `shares` the neighbours of each point begin, and their end; shape (points + 1). Of each point they are in
+  /// increasing order, and their weights add up to one.
+  NeighbourMean(std::vector<std::size_t> first, std::vector<Share> shares)
+      : first_(std::move(first)), shares_(std::move(shares)) {}
+
+  int size() const { return detail::count(first_) - 1; }
+
+  /// Points that take part in the mean of one, in increasing order; weights add up to one.
+  std::span<Share const> of(int point) const {
+    auto const k = detail::index(point);
+    return std::span(shares_).subspan(first_[k], first_[k + 1] - first_[k]);
+  }
+
+  /// Whether every mean is the value itself.
+  bool is_local() const { return shares_.size() + 1 == first_.size(); }
+
+  /// The mean around a point; for a point alone its value, bit for bit.
+  template <class Value>
+  Value mean(int point, std::span<Value const> values) const {
+    auto const shares = of(point);
+    Value sum = shares[0].weight * values[detail::index(shares[0].point)];
+    for (auto const& share : shares.subspan(1)) sum += share.weight * values[detail::index(share.point)];
+    return sum;
+  }
+
+  /// The means around all points, by an executor's for_each; the same bits for any.
+  template <class Value, class Executor>
+  std::vector<Value> means(std::vector<Value> const& values, Executor& executor) const {
+    constexpr int block = 64;
+    std::vector<Value> all(values.size());
+    executor.for_each((size() + block - 1) / block, [&](int part) {
+      for (int point = block * part; point < std::min(block * (part + 1), size()); ++point)
+        all[detail::index(point)] = mean(point, std::span<Value const>(values));
+    });
+    return all;
+  }
+
+ private:
+  std::vector<std::size_t> first_{0};
+  std::vector<Share> shares_;
+};
+
+}  // namespace scarp

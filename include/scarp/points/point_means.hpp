@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/core/finite_strain.hpp"
+#include "scarp/core/index.hpp"
+#include "scarp/core/linear_map.hpp"
+#include "scarp/core/voigt.hpp"
+#include "scarp/points/neighbour_mean.hpp"
+
+namespace scarp {
+
+/// How far a point looks around itself, and what holds the strain that it then does not see.
+struct Neighbourhood {
+  double length = 0.0;     ///< radius [m]; 0: the point is a local one
+  double stiffness = 1.0;  ///< share of the point's initial tangent
+  double fading = 1e-3;    ///< strain after which the stress against unseen strain has faded
+
+  /// \throws InputError for numbers that are negative or not finite, and a fading strain of zero
+  void validate() const {
+    require_not_negative("length that increments are averaged over", length);
+    require_not_negative("stiffness against unseen strain", stiffness);
+    require_positive("strain after which unseen stress has faded", fading);
+  }
+};
+
+/// Tangents [Pa] of points whose stress follows from their own strain and from a mean around them.
+template <int Dim>
+struct SplitTangents {
+  std::vector<VoigtTangent<Dim>> by_own;
+  std::vector<VoigtTangent<Dim>> by_mean;
+};
+
+/// Points that see weighted means of the increments around them instead of their own,
+/// \f$ \bar G_i = \sum_j w_{ij} G_j \f$, with weights of the reference configuration, and a stress that holds what they
+/// do not see:
+/// \f$ \sigma_i = \sigma_{material}(\bar G_i) + \tau_i,\;
+/// \Delta\tau = s\,C^0 (\Delta\varepsilon - \Delta\bar\varepsilon) - \tau\,|\Delta\bar\varepsilon| / \varepsilon_f \f$
+/// (implicit, turned with the mean's rotation). Without tau waves much shorter than the length cost nothing, and bands
+/// become as thin as the mesh: strain \f$ \varepsilon = W^{-1} \bar\varepsilon \f$ belongs to any
+/// \f$ \bar\varepsilon \f$. A local share of what the material sees would not help, since it softens as well. With s =
+/// 1 a uniform elastic body answers as a local one; a tau that did not fade would lock bands, whose strain is never
+/// that of its mean.
+template <int Dim>
+class PointMeans {
+ public:
+  using Gradients = std::vector<Gradient<Dim>>;
+  using Stresses = std::vector<VoigtStress<Dim>>;
+  using Tangents = std::vector<VoigtTangent<Dim>>;
+
+  /// neighbourhoods, and tangents [Pa] of the states that the points begin with: of all points; iteration: solves linear systems of
+  /// stiffnesses that are not assembled
+  /// \throws InputError for numbers that no neighbourhood can have, and counts that differ
+  PointMeans(NeighbourMean mean, std::span<Neighbourhood const> neighbourhoods, Tangents const& initial,
+             LinearIteration iteration)
+      : mean_(std::move(mean)),
+        iterate_(iteration),
+        committed_(neighbourhoods.size(), VoigtStress<Dim>::Zero()),
+        trial_(committed_),
+        by_own_(neighbourhoods.size(), VoigtTangent<Dim>::Zero()),
+        by_mean_(by_own_) {
+    if (detail::index(mean_.size()) != neighbourhoods.size() || initial.size() != neighbourhoods.size()) {
+      refuse("{} neighbourhoods and {} initial tangents are given for {} points: give one of each to every point",
+             neighbourhoods.size(), initial.size(), mean_.size());
+    }
+    for (std::size_t k = 0; k < initial.size(); ++k) {
+      fading_.push_back(detail::validated(neighbourhoods[k]).fading);
+      stiffness_.push_back(neighbourhoods[k].stiffness * initial[k]);
+    }
+  }
+
+  NeighbourMean const& mean() const { return mean_; }
+  LinearIteration iterate() const { return iterate_; }
+
+  /// What the points see of their own gradients; tau belongs to it from then on. The executor has for_each(count, task).
+  template <class Executor>
+  Gradients average(Gradients const& own, Executor& executor) {
+    Gradients seen = mean_.means(own, executor);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (mean_.of(static_cast<int>(k)).size() > 1) hold(k, seen[k], own[k] - seen[k]);
+    }
+    return seen;
+  }
+
+  /// tau [Pa] of all points in the last increment that was averaged.
+  Stresses const& added_stresses() const { return trial_; }
+
+  /// Derivatives [Pa] of the points' whole stresses by their own strains and by the means that they see, in the last increment
+  /// that was averaged; tangents: the materials' by what they see. A point alone has its own strain only.
+  SplitTangents<Dim> split(Tangents tangents) const {
+    SplitTangents<Dim> parts{std::move(tangents), Tangents(by_mean_.size(), VoigtTangent<Dim>::Zero())};
+    for (std::size_t k = 0; k < by_mean_.size(); ++k) {
+      if (mean_.of(static_cast<int>(k)).size() == 1) continue;
+      parts.by_mean[k] = parts.by_own[k] + by_mean_[k];
+      parts.by_own[k] = by_own_[k];
+    }
+    return parts;
+  }
+
+  void commit() { committed_ = trial_; }
+
+  /// What tau depends on: neighbours, their weights and the stiffness against unseen strain, in numbers that tell them from others.
+  /// \throws InputError when it reads those of other means
+  template <class Self, class Visit>
+  static void basis_members(Self& self, Visit&& visit) {
+    auto const own = self.basis();
+    auto saved = own;
+    visit("basis", saved);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (!(std::abs(saved[k] - own[k]) <= 1e-9 * std::abs(own[k])))  // round-off of another compiler
+        refuse(
+            "a saved state is of points that see other means, {} for {} (another mesh, length, stiffness or fading): "
+            "go on with the same ones",
+            saved[k], own[k]);
+    }
+  }
+
+  /// What evolves: tau.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(mean_, iterate_, fading_, stiffness_, committed_, trial_, by_own_, by_mean_);
+    visit("tau", std::span(self.committed_));
+  }
+  void after_loading() { trial_ = committed_; }
+
+ private:
+  std::array<double, 4> basis() const {
+    std::array<double, 4> sums{};
+    for (int point = 0; point < mean_.size(); ++point) {
+      for (auto const& [other, weight] : mean_.of(point)) {
+        sums[0] += 1.0;
+        sums[1] += weight * weight * (1.0 + other);
+      }
+      sums[2] += fading_[detail::index(point)];
+      sums[3] += stiffness_[detail::index(point)].norm();
+    }
+    return sums;
+  }
+
+  /// tau of a point that sees one gradient and does not see another.
+  void hold(std::size_t k, Gradient<Dim> const& seen, Gradient<Dim> const& unseen) {
+    Tensor<Dim> const strain = (seen + seen.transpose()) / 2.0;
+    double const size = strain.norm();
+    double const faded = 1.0 + size / fading_[k];
+    Tensor<Dim> const turn = rotation_factor<Dim, double>(Tensor<Dim>::Identity() + seen);
+    VoigtStress<Dim> const whole = committed_[k] + stiffness_[k] * to_engineering_strain<Dim, double>(unseen);
+    Tensor<Dim> const turned = turn * from_voigt_stress<Dim, double>(whole) * turn.transpose() / faded;
+    trial_[k] = to_voigt_stress<Dim, double>(turned);
+    by_own_[k] = stiffness_[k] / faded;
+    by_mean_[k] = -by_own_[k];
+    if (size > 0.0) {
+      by_mean_[k] -= trial_[k] * to_voigt_stress<Dim, double>(strain).transpose() / (size * fading_[k] * faded);
+    }
+  }
+
+  NeighbourMean mean_;
+  LinearIteration iterate_;
+  std::vector<double> fading_;
+  Tangents stiffness_;
+  Stresses committed_;
+  Stresses trial_;
+  Tangents by_own_;
+  Tangents by_mean_;
+};
+
+}  // namespace scarp
