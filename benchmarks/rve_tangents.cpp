@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
   if (benchmarks::is_quick(argc, argv)) states.resize(2);
   for (auto& state : states) {
     for (double const amplitude : amplitudes) {
-      scarp::PerturbationTangent const exact{.strain = amplitude,
+      scarp::PerturbationTangent<> const exact{.strain = amplitude,
                                              .strain_steps = std::max(20, static_cast<int>(amplitude / 1e-6)),
                                              .unbalanced_tolerance = 0.1 * amplitude,
                                              .most_steps = 200'000};

@@ -10,6 +10,7 @@
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/fault/free_field_fault.hpp"
@@ -17,7 +18,6 @@
 #include "scarp/measure/resources.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/shape/sphere.hpp"
-#include "scarp/core/executor.hpp"
 
 namespace {
 

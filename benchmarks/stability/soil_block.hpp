@@ -6,11 +6,11 @@
 
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/loads.hpp"
-#include "scarp/points/material_points.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 
 namespace stability {

@@ -12,10 +12,10 @@
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/following_pressure.hpp"
-#include "scarp/points/material_points.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/field_series.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
@@ -29,8 +29,7 @@ class Specimen {
  public:
   using Grid = scarp::Discretisation<Element>;
   using Lateral = scarp::FollowingPressure<typename Element::Facet>;
-  using Problem =
-      scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor, Lateral>;
+  using Problem = scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor, Lateral>;
 
   /// \throws InputError, PreparationError
   Specimen(Choice const& choice, scarp::Mesh<Element> mesh, scarp::ThreadExecutor& executor)
@@ -72,12 +71,10 @@ class Specimen {
     for (int const node : sides_.top) constraints.move(node, 1, -sides_.height);
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, sides_.top_level));
-    scarp::MaterialPoints<2> points(
-        sand(choice.grains, choice.confining, grid.point_count(), executor), sites);
+    scarp::MaterialPoints<2> points(sand(choice.grains, choice.confining, grid.point_count(), executor), sites);
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
     Lateral lateral(sides_.lateral, choice.confining, choice.grains.thickness);
-    return {std::move(grid), std::move(points), std::move(constraints), std::move(loads),
-            executor,        std::move(lateral)};
+    return {std::move(grid), std::move(points), std::move(constraints), std::move(loads), executor, std::move(lateral)};
   }
 
   Sides<Element> sides_;

@@ -8,7 +8,6 @@
 
 #include "../shared/process_usage.hpp"
 #include "any_scene.hpp"
-#include "scarp/constitutive/unwrap.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/io/atomic_file.hpp"

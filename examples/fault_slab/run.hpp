@@ -115,10 +115,10 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
   if (!resumes) begin_anew(folder.path());
   double const depth = scene.ground.layer.depth;
   auto const start = resumes ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
-  scarp::Observers observers(
-      scarp::FieldSeries(folder.path(), scene.throw_to, choice.frames, depth),
-      scarp::ConvergenceLog(folder.path() / "convergence.csv", depth, start), scarp::Progress(scene.throw_to, depth),
-      scarp::StopSignal(), scarp::TimeLimit(choice.time_limit, started));
+  scarp::Observers observers(scarp::FieldSeries(folder.path(), scene.throw_to, choice.frames, depth),
+                             scarp::ConvergenceLog(folder.path() / "convergence.csv", depth, start),
+                             scarp::Progress(scene.throw_to, depth), scarp::StopSignal(),
+                             scarp::TimeLimit(choice.time_limit, started));
   RunNotes notes{.used = examples::RunUsage(started)};
   auto& rest = notes.rest;
   scarp::CheckpointedRun stages(files, observers, notes);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "choice.hpp"
-#include "scarp/points/any_provider.hpp"
 #include "scarp/constitutive/dem_rve.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/packings_by_depth.hpp"
@@ -19,6 +18,7 @@
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
+#include "scarp/points/any_provider.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/shape/sphere.hpp"
 

@@ -10,8 +10,8 @@
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/element/quad8.hpp"
-#include "scarp/solver/thread_executor.hpp"
 #include "scarp/points/nonlocal.hpp"
+#include "scarp/solver/thread_executor.hpp"
 
 namespace nonlocal_band {
 

@@ -35,7 +35,8 @@ Friction tested(Choice const& choice, Sand const& sand, Movement movement, scarp
   std::vector<std::vector<TestRow>> tests(packings.size());
   executor.for_each(static_cast<int>(packings.size()), [&](int k) {
     auto const i = static_cast<std::size_t>(k);
-    tests[i] = biaxial_test(packings[i], sand.provider.law, movement, choice.strain, sand.provider.strain_per_step);
+    tests[i] = biaxial_test(packings[i], sand.provider.law, sand.provider.damping, movement, choice.strain,
+                            sand.provider.strain_per_step);
   });
   return friction_of(tests, movement);
 }

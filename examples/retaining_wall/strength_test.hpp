@@ -21,9 +21,9 @@ struct TestRow {
 /// compressed while the horizontal stress is held, for the passive one the other way round; no shear stress, as beside
 /// smooth walls.
 /// \throws PreparationError when the packing cannot follow
-template <class PackingType>
-std::vector<TestRow> biaxial_test(PackingType packing, typename PackingType::Law const& law, Movement movement,
-                                  double strain, double strain_per_step) {
+template <class PackingType, class Damping>
+std::vector<TestRow> biaxial_test(PackingType packing, typename PackingType::Law const& law, Damping const& damping,
+                                  Movement movement, double strain, double strain_per_step) {
   constexpr double strain_per_row = 2.5e-4;
   int const axis = movement == Movement::active ? 1 : 0;
   scarp::Tensor<2> const start = scarp::balance(packing, law).stress;
@@ -31,7 +31,8 @@ std::vector<TestRow> biaxial_test(PackingType packing, typename PackingType::Law
   loading.gradient_per_step(axis, axis) = -strain_per_step;
   loading.controls = {scarp::component_control<2>(1 - axis, start(1 - axis, 1 - axis)),
                       scarp::component_control<2>(2, 0.0)};
-  scarp::TimeStepper<PackingType> stepper;
+  scarp::TimeStepper<PackingType, Damping> stepper;
+  stepper.damping = damping;
   scarp::Drive<PackingType> drive(packing, law, loading);
   std::vector<TestRow> rows{{0.0, -start(0, 0), -start(1, 1)}};
   long const steps_per_row = std::lround(strain_per_row / strain_per_step);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "scarp/bvp/loads.hpp"
-#include "scarp/points/material_points.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "scarp/points/material_points.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
@@ -78,8 +78,8 @@ ColumnResult column_test(Packing const& packing, Choice const& choice) {
 
   Sand const sand{.law = contact_law(), .source = {packing}};
   scarp::ThreadExecutor executor;
-  scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor> problem(
-      std::move(grid), {sand, sites}, std::move(constraints), std::move(confining), executor);
+  scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor> problem(std::move(grid), {sand, sites}, std::move(constraints),
+                                                                 std::move(confining), executor);
   result.rows.push_back(Watch::row(problem, 0.0));
   Watch watch{result.rows};
   scarp::QuasiNewton<> const solver{.tolerance = choice.tolerance};

@@ -31,7 +31,7 @@ inline std::vector<Row> rve_test(Packing packing, Choice const& choice) {
   constexpr double rate = 1e-6;  // axial strain of one DEM step
   constexpr long steps_per_row = 100;
   auto const law = contact_law();
-  scarp::TimeStepper<Packing> stepper;
+  scarp::TimeStepper<Packing, decltype(Sand::damping)> stepper;
   scarp::Tensor<3> deformation = scarp::Tensor<3>::Identity();
   scarp::Drive<Packing> drive(packing, law, column_path(rate, choice.pressure, deformation));
   std::vector<Row> rows{{0.0, choice.pressure, 0.0, 0.0}};

@@ -65,7 +65,7 @@ struct Bed {
     scarp::MaterialPoints<2> points(Soil::from_young_poisson(young, 0.3), sites);
     Footed<Law> interface(law, footing, ground, mesh.nodes);
     return {std::move(grid),  std::move(points), std::move(constraints),
-            std::move(loads), executor,         std::move(interface)};
+            std::move(loads), executor,          std::move(interface)};
   }
 };
 

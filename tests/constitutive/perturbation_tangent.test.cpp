@@ -69,7 +69,7 @@ TEST_CASE("ellipses at rest under isotropic pressure answer to a trial as their 
 TEST_CASE("a trial to one side only sees that side") {
   auto const law = samples::study_law();
   auto const& packing = samples::settled_after_shear<Discs>();
-  PerturbationTangent const wide{.strain = 1e-4, .strain_steps = 100};  // settling drew contacts back from their limit
+  PerturbationTangent<> const wide{.strain = 1e-4, .strain_steps = 100};  // settling drew contacts back from their limit
   scarp::EngineeringStrain<2> const onward(1.0, -1.0, 0.0);
   VoigtTangent<2> const loading = wide.differentiate(packing, law, onward).tangent;
   VoigtTangent<2> const unloading = wide.differentiate(packing, law, -onward).tangent;
@@ -83,7 +83,7 @@ TEST_CASE("a trial to one side only sees that side") {
 TEST_CASE("a packing that does not settle within the most steps is complained of") {
   auto const law = samples::study_law();
   complaints = 0;
-  PerturbationTangent const hasty{.most_steps = 10, .complain = count_complaint};
+  PerturbationTangent<> const hasty{.most_steps = 10, .complain = count_complaint};
   VoigtTangent<2> const tangent = hasty(samples::settled_after_shear<Discs>(), law);
   CHECK(complaints == 1);
   CHECK(tangent.allFinite());

@@ -25,7 +25,7 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 using Discs = samples::Discs;
 using Elastic = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
 using Rve = scarp::DemRve<Discs, scarp::SamePacking<Discs>>;
-using Trial = scarp::DemRve<Discs, scarp::SamePacking<Discs>, scarp::PerturbationTangent>;
+using Trial = scarp::DemRve<Discs, scarp::SamePacking<Discs>, scarp::PerturbationTangent<>>;
 using Condensed = scarp::DemRve<Discs, scarp::SamePacking<Discs>, scarp::CondensedTangent>;
 using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength>;
 

@@ -27,21 +27,19 @@ struct Fluidised {
   struct State {
     bool loose = false;
     bool fluid = false;
-    Elastic::State elastic;
-
-    SCARP_MEMBERS(loose, fluid, elastic)
+    Elastic::State own;
   };
 
   double height = 1.0;  ///< [m]
 
   State initial_state(scarp::Site<2> const& site) const { return {site.position.y() > height, false, {}}; }
-  scarp::VoigtStress<2> stress(State const& state) const { return state.elastic.stress; }
+  scarp::VoigtStress<2> stress(State const& state) const { return state.own.stress; }
   scarp::VoigtTangent<2> tangent(State const& state) const { return (state.fluid ? 0.0 : 1.0) * ground().tangent({}); }
   scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
     trial = committed;
     trial.fluid = committed.loose;
     if (trial.fluid) return {scarp::VoigtStress<2>::Zero(), {scarp::Status::fluid, scarp::Reason::no_contacts}};
-    return ground().respond(committed.elastic, increment, trial.elastic);
+    return ground().respond(committed.own, increment, trial.own);
   }
 };
 

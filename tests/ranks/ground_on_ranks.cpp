@@ -11,8 +11,8 @@
 #include <cstdint>
 
 #include "scarp/observe/observers.hpp"
-#include "scarp/run/checkpointed_run.hpp"
 #include "scarp/points/nonlocal.hpp"
+#include "scarp/run/checkpointed_run.hpp"
 #include "scarp/solver/rank_executor.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/ground.hpp"

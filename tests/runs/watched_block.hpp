@@ -102,12 +102,11 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
   scarp::ErrorBudget budget(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 3});
   std::filesystem::create_directories(folder / "fields");
   scarp::OnFirstRank observers(executor, [&] {
-    return scarp::Observers(scarp::FieldSeries(folder, to, 3, 1.0),
-                            scarp::RveProbe(folder / "probe.csv", 1, 1.0, start),
-                            scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, 1.0),
-                            scarp::ConvergenceLog(folder / "convergence.csv", 1.0, start),
-                            scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::Borrowed(budget),
-                            Stop{attempts});
+    return scarp::Observers(
+        scarp::FieldSeries(folder, to, 3, 1.0), scarp::RveProbe(folder / "probe.csv", 1, 1.0, start),
+        scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, 1.0),
+        scarp::ConvergenceLog(folder / "convergence.csv", 1.0, start),
+        scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::Borrowed(budget), Stop{attempts});
   });
   NoNotes notes;
   scarp::CheckpointedRun run(files, observers, notes);

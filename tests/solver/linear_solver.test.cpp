@@ -15,14 +15,6 @@
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
-#ifdef SCARP_HAS_SUITESPARSE
-#include "scarp/solver/suitesparse.hpp"
-#define SCARP_SYMMETRIC_SOLVERS scarp::SparseLu, scarp::Cholmod, scarp::Umfpack
-#define SCARP_GENERAL_SOLVERS scarp::SparseLu, scarp::Umfpack
-#else
-#define SCARP_SYMMETRIC_SOLVERS scarp::SparseLu
-#define SCARP_GENERAL_SOLVERS scarp::SparseLu
-#endif
 
 namespace {
 
@@ -72,20 +64,20 @@ Grid two_blocks() {
 }  // namespace
 
 TEST_CASE_TEMPLATE("every linear solver solves symmetric systems, one after the other", Solver,
-                   SCARP_SYMMETRIC_SOLVERS) {
+                   scarp::SparseLu) {
   Solver solver;
   for (int const size : {5, 40, 40, 17})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) solves(solver, random_matrix(size, seed, true));
 }
 
-TEST_CASE_TEMPLATE("solvers of unsymmetric systems solve them", Solver, SCARP_GENERAL_SOLVERS) {
+TEST_CASE_TEMPLATE("solvers of unsymmetric systems solve them", Solver, scarp::SparseLu) {
   Solver solver;
   for (int const size : {5, 40, 40, 17})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) solves(solver, random_matrix(size, seed, false));
 }
 
 TEST_CASE_TEMPLATE("the ordering of one pattern does not spoil another one with as many entries", Solver,
-                   SCARP_GENERAL_SOLVERS) {
+                   scarp::SparseLu) {
   // An arrow that points down and one that points up: same size, same number of entries.
   constexpr int size = 30;
   Solver solver;
@@ -102,7 +94,7 @@ TEST_CASE_TEMPLATE("the ordering of one pattern does not spoil another one with 
 }
 
 TEST_CASE_TEMPLATE("every linear solver says that a singular or not finite matrix cannot be solved", Solver,
-                   SCARP_SYMMETRIC_SOLVERS) {
+                   scarp::SparseLu) {
   SparseMatrix matrix = random_matrix(20, 5, true);
   Solver solver;
   for (double const bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -163,8 +155,8 @@ TEST_CASE("a body that nothing holds is found out: a singular system, and which 
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
   Eigen::VectorXd const load = Eigen::VectorXd::Ones(grid.dof_count());
   scarp::SerialExecutor executor;
-  scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(
-      grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, load, executor);
+  scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites},
+                                                                 constraints, load, executor);
   scarp::NoObserver nobody;
   auto const run =
       scarp::LoadStepping{.first = 1.0}.run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0, 1.0, nobody);

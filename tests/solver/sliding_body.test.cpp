@@ -52,7 +52,7 @@ Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion, doub
   double const spring = stiffness / scale;
   Contact contact({.normal_stiffness = spring, .tangential_stiffness = spring, .friction = friction}, footing,
                   scarp::FacetChain(boundary(mesh, "top")), mesh.nodes);
-  return {std::move(grid), std::move(points),  std::move(constraints), scarp::LoadHistory(std::move(load)),
+  return {std::move(grid), std::move(points), std::move(constraints), scarp::LoadHistory(std::move(load)),
           executor,        std::move(contact)};
 }
 

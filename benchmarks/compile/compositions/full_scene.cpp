@@ -14,9 +14,9 @@
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/surface_log.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/run/first_rank.hpp"
-#include "scarp/points/nonlocal.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #if __has_include(<mpi.h>)

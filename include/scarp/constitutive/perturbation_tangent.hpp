@@ -10,6 +10,7 @@ namespace scarp {
 /// Derivative of a packing's stress by trial: a copy is settled, then strained a little in each mode and settled again.
 /// The stress is Cauchy's of the strained cell, so that terms of the order of the stress itself are in the tangent.
 /// The most exact tangent for its strain and by far the most expensive: some hundred to thousand DEM steps a settling.
+template <DampsMotion Damping = LocalDamping>
 struct PerturbationTangent {
   double strain = 1e-5;   ///< engineering, of each mode; no plateau where contacts slide, see docs/notes/tangents.md
   int strain_steps = 20;  ///< time steps that apply it
@@ -17,7 +18,7 @@ struct PerturbationTangent {
       1e-6;                 ///< of settled packings: times the stress it must stay well below stiffness x strain
   int most_steps = 50'000;  ///< of each settling
   int check_every = 50;     ///< steps between looks at the balance
-  LocalDamping damping{};   ///< of the trials, whatever damping the packing answers with
+  Damping damping{};        ///< of the trials, whatever damping the packing answers with
   TangentComplaint complain = complain_of_tangent;  ///< hears of each tangent that is less exact than asked
 
   /// \throws InputError for a strain or numbers of steps that are not positive
@@ -80,10 +81,11 @@ struct PerturbationTangent {
   struct Trial {
     static constexpr int dim = PackingType::dim;
     typename PackingType::Law const& law;
-    TimeStepper<PackingType> stepper;
+    TimeStepper<PackingType, Damping> stepper;
 
     VoigtStress<dim> strain(PerturbationTangent const& how, PackingType& packing, Tensor<dim> const& step,
                             Verdict& verdict, long& taken) {
+      stepper.damping = how.damping;  // of every mode alike
       for (int k = 0; k < how.strain_steps; ++k) {
         if (Verdict const moved = stepper.step(packing, law, step); !moved.acceptable()) verdict = moved;
       }

@@ -29,16 +29,17 @@ concept PreparesFromSeed = requires(Recipe const& recipe, std::uint64_t seed) {
 };
 
 /// A cloud under isotropic pressure; the seed takes the place of the cloud's.
-template <class PackingType, class Grading>
+template <class PackingType, class Grading, DampsMotion Damping = LocalDamping>
 struct IsotropicRecipe {
   Cloud<Grading> cloud{};
   IsotropicPreparation preparation{};
   typename PackingType::Law law{};
+  Damping damping{};
 
   Prepared<PackingType> operator()(std::uint64_t seed) const {
     Cloud<Grading> own = cloud;
     own.seed = seed;
-    return preparation.prepare(own.template make<PackingType>(), law);
+    return preparation.prepare(own.template make<PackingType>(), law, damping);
   }
 };
 

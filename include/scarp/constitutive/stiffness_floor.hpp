@@ -23,7 +23,14 @@ struct StiffnessFloor {
     VoigtStress<dim> floor_stress = VoigtStress<dim>::Zero();  ///< [Pa]
     bool fluid = false;
 
-    SCARP_MEMBERS(own, elasticity, floor_stress, fluid)
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) requires Described<typename Provider::State> {
+      SCARP_ALL_MEMBERS(own, elasticity, floor_stress, fluid);
+      visit("own", self.own);
+      visit("elasticity", self.elasticity);
+      visit("floor_stress", self.floor_stress);
+      visit("fluid", self.fluid);
+    }
   };
 
   Provider provider{};

@@ -18,7 +18,10 @@ decltype(auto) unwrap(Provider const& provider, State const& state, Visit&& visi
                   state.own;
                 }) {
     return unwrap(*state.provider, state.own, std::forward<Visit>(visit));
-  } else if constexpr (requires { state.own; }) {
+  } else if constexpr (requires {
+                         state.own;
+                         provider.provider;
+                       }) {
     return unwrap(provider.provider, state.own, std::forward<Visit>(visit));
   } else {
     return std::forward<Visit>(visit)(provider, state);

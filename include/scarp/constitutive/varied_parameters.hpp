@@ -36,7 +36,11 @@ struct VariedParameters {
     typename Provider::State own;
 
     /// Without the provider: that one follows from the site.
-    SCARP_MEMBERS_EXCEPT((provider), own)
+    template <class Self, class Visit>
+    static void members(Self& self, Visit&& visit) requires Described<typename Provider::State> {
+      SCARP_ALL_MEMBERS(provider, own);
+      visit("own", self.own);
+    }
   };
 
   Provider common{};

@@ -7,15 +7,38 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/pack.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/dem/detail/grain_rows.hpp"
 
 namespace scarp {
 
 /// next_velocity(velocity, force, mobility): velocity of a grain after a step with a net force, or its spin after one with
 /// a net torque, one component; mobility = time step / inertia. Asked for packs of as many grains as a register holds.
+/// Positions follow by leap-frog.
 template <class Damping>
 concept DampsMotion = requires(Damping const& damping, double const& one, lanes::Pack<double> const& several) {
   { damping.next_velocity(one, one, one) } -> std::same_as<double>;
   { damping.next_velocity(several, several, several) } -> std::same_as<lanes::Pack<double>>;
+};
+
+/// Net force [N] and torque [N m] on every grain.
+template <class PackingType>
+struct NetForces {
+  using Scalar = typename PackingType::Scalar;
+  using Layout = RowLayout<typename PackingType::Shape, typename PackingType::Law>;
+
+  Scalar const* rows;
+
+  Scalar force(std::size_t grain, int axis) const { return rows[grain * Layout::force_size + detail::index(axis)]; }
+  Scalar torque(std::size_t grain, int k) const {
+    return rows[grain * Layout::force_size + Layout::torque + detail::index(k)];
+  }
+};
+
+/// before_move(packing, forces, time_step [s]): optional, once a step, before `next_velocity` of all grains. A relaxation
+/// learns here what it needs of the whole packing; what it remembers is the stepper's, not the packing's.
+template <class Damping, class PackingType>
+concept SeesAllGrains = requires(Damping& damping, PackingType const& packing, NetForces<PackingType> const& forces) {
+  damping.before_move(packing, forces, double{});
 };
 
 /// Cundall's local damping: the net force loses the share `factor` where it does work and gains it where it resists. Grains

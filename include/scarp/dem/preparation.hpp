@@ -39,15 +39,16 @@ struct IsotropicPreparation {
   }
 
   /// \throws InputError for parameters that validate() refuses or a law that contradicts itself
-  template <class PackingType>
-  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law) const {
+  template <class PackingType, DampsMotion Damping = LocalDamping>
+  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law, Damping const& damping = {}) const {
     validate();
     require_consistent(law, cloud.population->largest_radius());
     constexpr int dim = PackingType::dim;
     VoigtStress<dim> target = VoigtStress<dim>::Zero();
     target.template head<dim>().setConstant(-pressure);
     auto const loading = Loading<dim>::stress(target);
-    TimeStepper<PackingType> stepper;
+    TimeStepper<PackingType, Damping> stepper;
+    stepper.damping = damping;
     auto prepared_by = law;
     if constexpr (Frictional<typename PackingType::Law>) prepared_by.friction_coefficient() = preparation_friction;
     Verdict verdict = consolidation.reach(stepper, cloud, prepared_by, loading);
@@ -64,13 +65,15 @@ struct OneDimensionalCompression {
 
   /// vertical_pressures [Pa], positive, in the order of the path: one below the pressure before it unloads
   /// \return one packing per pressure; the list ends early at one whose verdict is not acceptable
-  template <class PackingType>
+  template <class PackingType, DampsMotion Damping = LocalDamping>
   std::vector<Prepared<PackingType>> compress(PackingType packing, typename PackingType::Law const& law,
-                                              std::vector<double> const& vertical_pressures) const {
+                                              std::vector<double> const& vertical_pressures,
+                                              Damping const& damping = {}) const {
     constexpr int dim = PackingType::dim;
     Loading<dim> loading;
     for (int k = dim - 1; k < voigt_size<dim>; ++k) loading.controls.push_back(component_control<dim>(k, 0.0));
-    TimeStepper<PackingType> stepper;
+    TimeStepper<PackingType, Damping> stepper;
+    stepper.damping = damping;
     std::vector<Prepared<PackingType>> column;
     for (double const pressure : vertical_pressures) {
       loading.controls.front().target = -require_positive("vertical pressure", pressure);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "scarp/contact/law_checks.hpp"
 #include "scarp/core/index.hpp"
@@ -37,10 +38,15 @@ inline constexpr bool kernel_is_precompiled =
 
 }  // namespace detail
 
-/// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient. Holds the scratch memory, so one
-/// stepper serves many packings in turn but only one thread.
+/// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient; a damping or relaxation gives the
+/// velocities. Holds the scratch memory, so one stepper serves many packings in turn but only one thread.
 template <class PackingOf, DampsMotion Damping = LocalDamping>
 class TimeStepper {
+  static_assert(
+      SeesAllGrains<Damping, PackingOf> || !requires { &Damping::before_move; },
+      "scarp: this damping's before_move is never called: it needs (PackingType const& packing, "
+      "NetForces<PackingType> const& forces, double time_step)");
+
  public:
   using PackingType = PackingOf;
   static constexpr int dim = PackingType::dim;
@@ -145,6 +151,8 @@ class TimeStepper {
     ContactSums<dim> const sums = pair_forces<what>(packing, law, scratch_);
     if (!sums.settled) return {Status::failed, Reason::unsettled_touch};
     if constexpr (what != Observe::nothing) *observed = observe(packing, sums);
+    if constexpr (SeesAllGrains<Damping, PackingType>)
+      damping.before_move(std::as_const(packing), NetForces<PackingType>{scratch_.forces.data()}, time_step);
     Tensor<dim> const cell_step = exponential(strain_step);
     auto const energies = move_grains<what>(packing, cell_step, time_step, strain_step);
     if constexpr (what == Observe::energy) {

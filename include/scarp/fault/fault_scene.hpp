@@ -83,47 +83,12 @@ concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid
 };
 
 namespace detail {
-/// What is missing, in words.
-template <class Structure, class Grid>
-struct MissingOfStructure {
-  static_assert(
-      requires(Structure const& structure) {
-        { structure.edges() } -> std::same_as<std::vector<double>>;
-      },
-      "scarp: a structure needs `std::vector<double> edges() const` [m]: where it wants nodes on the surface");
-  static_assert(
-      requires(Structure const& structure, Mesh<typename Grid::ElementType>& mesh) { structure.put_on(mesh); },
-      "scarp: a structure needs `void put_on(Mesh<Element>&) const`");
-  static_assert(
-      requires(Structure const& structure) {
-        { structure.extra_dofs() } -> std::same_as<int>;
-        { structure.start() } -> std::same_as<double>;
-      },
-      "scarp: a structure needs `int extra_dofs() const` and `double start() const`, the load factor at which it is "
-      "placed");
-  static_assert(
-      requires(Structure const& structure, Grid const& grid, LoadHistory& loads) {
-        structure.add_loads(grid, 4e3, loads);
-      },
-      "scarp: a structure needs `void add_loads(grid, double surcharge, LoadHistory&) const`");
-  static_assert(
-      requires(Structure const& structure, Grid const& grid) { structure.attached(grid); },
-      "scarp: a structure needs `attached(grid) const`: an attachment, or NoAttachment{}");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class Structure, class Grid>
-concept CheckedStructure = StandsOnGround<Structure, Grid> || detail::MissingOfStructure<Structure, Grid>::nothing;
-
-namespace detail {
 /// What a fault scene gives to solvers.
 template <class Scene, class Executor>
 struct ProblemOfFault {
   using Structure = decltype(Scene::structure);
   using Grid = typename Scene::Grid;
-  static_assert(CheckedStructure<Structure, Grid>);
+  static_assert(StandsOnGround<Structure, Grid>);
   using Attached = decltype(std::declval<Structure const&>().attached(std::declval<Grid const&>()));
   using Type = EquilibriumProblem<Grid, Executor, Attached>;
 };
@@ -132,9 +97,8 @@ struct ProblemOfFault {
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
-template <CheckedMaterial Soil, class Structure, class Solver = QuasiNewton<>,
-          CheckedGround GroundType = LayeredGround<Tri3>, BedrockMotion Motion = NormalFault,
-          class GridType = UsualGridOf<GroundType>>
+template <CheckedMaterial Soil, class Structure, class Solver = QuasiNewton<>, Ground GroundType = LayeredGround<Tri3>,
+          BedrockMotion Motion = NormalFault, class GridType = UsualGridOf<GroundType>>
 struct SCARP_EXPORT FaultScene {
   using Grid = GridType;
   static constexpr int dim = Grid::dim;
@@ -203,10 +167,10 @@ struct SCARP_EXPORT FaultScene {
 
 // Outside of the class, so that a library can keep them.
 
-template <CheckedMaterial Soil, class Structure, class Solver, CheckedGround GroundType, BedrockMotion Motion,
-          class GridType>
+template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
 Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::mesh() const {
-  static_assert(CheckedStructure<Structure, Grid>);
+  static_assert(StandsOnGround<Structure, Grid>,
+                "scarp: a structure needs edges(), put_on(), extra_dofs(), start(), add_loads() and attached()");
   static_assert(std::same_as<typename GroundType::Element, typename Grid::ElementType>,
                 "the grid is of the ground's element");
   auto made = ground.mesh(structure.edges());
@@ -215,8 +179,7 @@ Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundTyp
   return made;
 }
 
-template <CheckedMaterial Soil, class Structure, class Solver, CheckedGround GroundType, BedrockMotion Motion,
-          class GridType>
+template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
 template <class Executor>
 typename detail::ProblemOfFault<FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>, Executor>::Type
 FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Executor& executor) const {
@@ -240,7 +203,7 @@ FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Execu
 }
 
 #ifdef SCARP_PRECOMPILED
-/// What `scarp::precompiled` has of level ground over a normal fault: meshes, loads and problems of the usual elements.
+/// What `scarp::precompiled` has of level ground over a normal fault: meshes and loads of the usual elements, and the problem of triangles.
 /// DECLARE: `extern template`, or `template` in the library.
 #define SCARP_GROUND(DECLARE, ELEMENT)                                                                         \
   DECLARE Mesh<ELEMENT> FaultMesh::generate<ELEMENT>(std::vector<double> const&) const;                        \
@@ -248,13 +211,13 @@ FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Execu
   DECLARE Constraints bedrock_constraints(Mesh<ELEMENT> const&, NormalFault const&, int, TimeFunction const&); \
   DECLARE Eigen::VectorXd body_force(UsualGrid<ELEMENT> const&, std::vector<Vector<2>> const&);                \
   DECLARE Eigen::VectorXd traction(UsualGrid<ELEMENT> const&, std::string_view, Vector<2> const&);             \
-  DECLARE detail::RegionResiduals<2>::RegionResiduals(Mesh<ELEMENT> const&, Constraints const&);               \
-  DECLARE class EquilibriumProblem<UsualGrid<ELEMENT>, ThreadExecutor>;
+  DECLARE detail::RegionResiduals<2>::RegionResiduals(Mesh<ELEMENT> const&, Constraints const&);
 
 SCARP_GROUND(extern template, Tri3)
 SCARP_GROUND(extern template, Tri6)
 SCARP_GROUND(extern template, Quad4)
 SCARP_GROUND(extern template, Quad8)
+extern template class EquilibriumProblem<UsualGrid<Tri3>, ThreadExecutor>;
 #endif
 
 }  // namespace scarp

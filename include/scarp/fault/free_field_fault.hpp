@@ -31,7 +31,7 @@ struct BareGround {
 };
 
 /// Nothing but ground and fault; by default the study's case.
-template <CheckedMaterial Soil, class Solver = QuasiNewton<>, CheckedGround GroundType = LayeredGround<Tri3>,
+template <CheckedMaterial Soil, class Solver = QuasiNewton<>, Ground GroundType = LayeredGround<Tri3>,
           BedrockMotion Motion = NormalFault, class Grid = UsualGridOf<GroundType>>
 using FreeFieldFault = FaultScene<Soil, BareGround, Solver, GroundType, Motion, Grid>;
 

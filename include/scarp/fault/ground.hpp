@@ -57,47 +57,8 @@ concept Ground = requires(G const& ground, std::vector<double> const& edges) {
   { ground.surface_level() } -> std::same_as<double>;
 };
 
-namespace detail {
-/// What is missing, in words.
-template <class G>
-struct MissingOfGround {
-  static_assert(
-      requires { requires ReferenceElement<typename G::Element>; },
-      "scarp: a ground names its element, `using Element = ...`");
-  static_assert(
-      requires(G const& ground, std::vector<double> const& edges) {
-        { ground.mesh(edges) } -> std::same_as<Mesh<typename G::Element>>;
-      },
-      "scarp: a ground needs `Mesh<Element> mesh(std::vector<double> const& edges) const`");
-  static_assert(
-      requires(G const& ground) {
-        { ground.surface_level() } -> std::same_as<double>;
-      },
-      "scarp: a ground needs `double surface_level() const` [m]");
-  static constexpr bool nothing = false;
-};
-}  // namespace detail
-
-/// The same; of a type that is none the compiler says in words what is missing.
-template <class G>
-concept CheckedGround = Ground<G> || detail::MissingOfGround<G>::nothing;
-
-namespace detail {
-
-template <class G>
-struct ElementOfGround {
-  using Type = Tri3;  // of what is no ground: `CheckedGround` says so
-};
-template <class G>
-  requires requires { typename G::Element; }
-struct ElementOfGround<G> {
-  using Type = typename G::Element;
-};
-
-}  // namespace detail
-
 /// The grid that a ground takes where nobody says otherwise.
 template <class G>
-using UsualGridOf = UsualGrid<typename detail::ElementOfGround<G>::Type>;
+using UsualGridOf = UsualGrid<typename G::Element>;
 
 }  // namespace scarp

@@ -51,7 +51,7 @@ struct StripSize {
 
 /// Any plane ground with the elements of its mesh refined where a field wants them smaller, see `refined`. The ground's
 /// own mesh is as coarse as the field's largest size; the directions of its sides, its jitter and its seed carry over.
-template <CheckedGround GroundType, SizeField Field = StripSize>
+template <Ground GroundType, SizeField Field = StripSize>
   requires(GroundType::Element::dim == 2)
 struct RefinedGround {
   using Element = typename GroundType::Element;

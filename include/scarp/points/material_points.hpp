@@ -121,7 +121,7 @@ class MaterialPoints {
   /// Means that the points see; null where each sees its own gradient.
   PointMeans<Dim> const* means() const { return means_ ? &*means_ : nullptr; }
 
-  /// Displacement gradient of a point since the last commit, for `respond`.
+  /// Displacement gradient of a point since the last commit, for `respond`; to be set anew after each commit.
   Gradient<Dim>& gradient(int point) { return own_[detail::index(point)]; }
 
   /// Answers to the gradients of all points: work is planned at the first answer after a commit, and points that do not converge work
@@ -296,7 +296,8 @@ class MaterialPoints {
   /// Leaves a point without state, since another process answers for it.
   void forget(int point) { batch(point).forget(local(point)); }
 
-  /// What evolves: the committed states, and tau of means. Read in, those of all points are here.
+  /// What evolves: the committed states, and tau of means. Read in, those of all points are here until they are forgotten; only own
+  /// points answer.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(batches_, neighbourhoods_, search_, places_, owned_, own_, seen_, responses_, works_, means_,
@@ -370,10 +371,6 @@ class MaterialPoints {
       add(batch_of(site), site, search_ || owned(point));
       if (owned(point)) owned_.push_back(point);
     }
-    own_.assign(places_.size(), Gradient<Dim>::Zero());
-    seen_ = own_;
-    responses_.resize(places_.size());
-    works_.resize(places_.size());
     if (!search_) return;
     std::vector<Neighbourhood> neighbourhoods;
     Tangents initial;
@@ -391,6 +388,10 @@ class MaterialPoints {
     auto& among = batches_[detail::index(batch)];
     places_.push_back({batch, among->size()});
     among->add(site, size() - 1, here);
+    own_.push_back(Gradient<Dim>::Zero());
+    seen_.push_back(own_.back());
+    responses_.emplace_back();
+    works_.push_back(0);
   }
 
   /// Completes an array over all points by what other processes know.

@@ -195,25 +195,29 @@ struct Wrong {
 TimeStepper<Discs, Wrong> stepper;
 }  // namespace case_29
 
+// first: this damping's before_move is never called
+namespace case_hook {
+struct Wrong : LocalDamping {
+  void before_move(Discs& packing, NetForces<Discs> const&, double) { packing.rest(); }
+};
+TimeStepper<Discs, Wrong> stepper;
+}  // namespace case_hook
+
 // within: PreparesFromSeed
 namespace case_30 {
 struct Wrong {};
 RandomPackings<Wrong> packings;
 }  // namespace case_30
 
-// first: a ground names its element
-// also: mesh(
-// also: surface_level(
+// within: Ground
 namespace case_32 {
-struct Wrong {};
+struct Wrong {
+  using Element = Tri3;
+};
 FreeFieldFault<Elastic, QuasiNewton<>, Wrong> scene;
 }  // namespace case_32
 
-// first: a structure needs `std::vector<double> edges()
-// also: put_on(
-// also: extra_dofs()
-// also: add_loads(
-// also: attached(
+// first: a structure needs edges(), put_on()
 namespace case_34 {
 struct Wrong {};
 auto const mesh = FaultScene<Elastic, Wrong>{}.mesh();

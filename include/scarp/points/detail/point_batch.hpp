@@ -123,9 +123,9 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
 
   void write(int k, StateWriter& writer) const override { described(writer, committed_[index(k)]); }
   void read(int k, StateReader& reader) override {
-    committed_[index(k)] = scarp::blank_state(*provider_, sites_[index(k)]);
-    described(reader, committed_[index(k)]);
-    trial_[index(k)] = committed_[index(k)];
+    State state = scarp::blank_state(*provider_, sites_[index(k)]);
+    described(reader, state);
+    trial_[index(k)] = committed_[index(k)] = std::move(state);
     here_[index(k)] = true;
   }
   void write_all(StateWriter& writer) const override { described(writer, std::span(committed_), "states"); }
