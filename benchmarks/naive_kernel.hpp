@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 #include "scarp/dem/damping.hpp"
 #include "scarp/dem/packing.hpp"
 #include "scarp/shape/disc.hpp"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "../examples/shared/study/study_sand.hpp"
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/perturbation_tangent.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/perturbation_tangent.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"

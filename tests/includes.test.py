@@ -13,15 +13,15 @@ sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent / "examples"), str(p
 from compiled_symbols import compiler, include_folders
 from expectations import expect, finish
 
-GRAINS = {"scarp/dem/", "scarp/shape/", "scarp/contact/", "scarp/homogenise/", "nanoflann"}
+GRAINS = {"scarp/dem/", "scarp/shape/", "scarp/contact/", "scarp/homogenise/", "scarp/rve/", "nanoflann"}
 COMPOSED = {"boost/hana"}
 FILES = {"scarp/io/"}
 FILES_OF_A_RUN = {"scarp/io/(?!state_bits)"}
 OBSERVED = {"scarp/observe/field_series", "scarp/io/vtu"}
 ELASTIC = '#include "scarp/constitutive/linear_elastic.hpp"\n'
 SCENE = '#include "scarp/fault/free_field_fault.hpp"\n'
-SAND = """#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+SAND = """#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/shape/ellipse.hpp"
 """

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Every arrow between the rooms of include/scarp points downwards, nobody but the room itself and those within it looks into its `detail`, and
-Hana composes in the upper rooms only."""
+"""Every arrow between the rooms of include/scarp points downwards, nobody but the room itself and those within it looks into its `detail`, which
+has a namespace of its own, and Hana composes in the upper rooms only."""
 import pathlib
 import re
 import sys
 
 # From the bottom to the top: a room may include those before it.
-ROOMS = ["core", "element", "shape", "contact", "mesh", "dem", "homogenise", "io", "io/gmsh", "io/packings", "measure",
-         "constitutive", "points", "bvp", "solver", "run", "scene", "observe", "budget", "fault"]
-COMPOSES = {"points", "scene", "observe", "budget", "fault"}
+ROOMS = ["core", "simd", "tensor", "element", "shape", "contact", "mesh", "dem", "homogenise", "io", "io/gmsh", "io/packings",
+         "constitutive", "rve", "points", "bvp", "solver", "run", "observe", "budget", "fault"]
+COMPOSES = {"points", "solver", "observe", "budget", "fault"}
 FOLDER = pathlib.Path(__file__).resolve().parents[1] / "include" / "scarp"
 
 
@@ -29,6 +29,8 @@ for path in sorted(FOLDER.rglob("*.hpp")):
         continue
     if "boost/hana" in text and room not in COMPOSES:
         faults.append(f"{header} composes with Hana")
+    if "/detail/" in f"/{header}" and re.search(r"^namespace scarp \{", text, re.MULTILINE):
+        faults.append(f"{header} puts names into namespace scarp (a detail has its own namespace, scarp::detail; else move the header out)")
     for included in re.findall(r'#include "scarp/([^"]+)"', text):
         other = room_of(included)
         if other == room:

@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "../../examples/shared/study/typed_scenes.hpp"
-#include "scarp/observe/ground_at_rest.hpp"
-#include "scarp/observe/rupture_survey.hpp"
+#include "scarp/fault/ground_at_rest.hpp"
+#include "scarp/fault/rupture_survey.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "subjects.hpp"
 #include "sweep.hpp"

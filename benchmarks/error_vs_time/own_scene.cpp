@@ -2,7 +2,7 @@
 // Your own scene: an aggregate of settings and a function that runs it. Here a packing as provider is sheared at
 // constant volume in load steps, as a point of a boundary-value problem would ask for it.
 #include "rve_packings.hpp"
-#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/rve/dem_rve.hpp"
 #include "subjects.hpp"
 #include "sweep.hpp"
 

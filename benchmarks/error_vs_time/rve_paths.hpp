@@ -8,7 +8,7 @@
 #include "rve_packings.hpp"
 #include "scarp/dem/loading.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/measure/resources.hpp"
+#include "scarp/run/resources.hpp"
 #include "sweep_table.hpp"
 
 namespace error_vs_time {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <type_traits>
 
-#include "scarp/measure/resources.hpp"
+#include "scarp/run/resources.hpp"
 #include "sweep_table.hpp"
 
 namespace error_vs_time {

@@ -11,9 +11,9 @@
 #include "../shared/data_file.hpp"
 #include "profiled.hpp"
 #include "scarp/io/csv.hpp"
-#include "scarp/measure/resources.hpp"
-#include "scarp/observe/ground_at_rest.hpp"
-#include "scarp/observe/rupture_survey.hpp"
+#include "scarp/run/resources.hpp"
+#include "scarp/fault/ground_at_rest.hpp"
+#include "scarp/fault/rupture_survey.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/thread_executor.hpp"
 

@@ -12,7 +12,7 @@
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/principal.hpp"
+#include "scarp/tensor/principal.hpp"
 
 namespace profile {
 

@@ -7,15 +7,15 @@
 #include <cstdlib>
 #include <exception>
 
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/level_ground.hpp"
-#include "scarp/measure/resources.hpp"
+#include "scarp/run/resources.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/shape/sphere.hpp"
 

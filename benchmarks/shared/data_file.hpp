@@ -14,7 +14,7 @@
 #include "scarp/core/build_info.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/measure/resources.hpp"
+#include "scarp/run/resources.hpp"
 
 namespace benchmarks {
 

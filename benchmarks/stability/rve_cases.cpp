@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/core/worse_of.hpp"
 #include "stability/shearing.hpp"
 #include "support/packings.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What does a damping of one's own take? Viscous drag on all grains, in a packing that answers as a material.
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/shape/disc.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does a relaxation of one's own take, one that looks at all grains before they move? Kinetic damping, that
+// What does a relaxation of one's own take, one that looks at all grains before they move? Projected velocities; it
 // prepares a packing and moves one that answers as a material.
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/disc.hpp"
 
 #include "lattice.hpp"
@@ -17,7 +17,7 @@ using Grains = scarp::Packing<scarp::Disc, scarp::LinearFrictional>;
 /// Projected velocities (quick-min; Sheppard et al., 2008): while the net forces do work, only the part of all velocities along
 /// the accelerations stays, else none. \f$ v = \frac{P}{\sum F^2/m} \frac{F}{m}, P = \sum F \cdot v > 0 \f$, rotations alike; then leap-frog.
 struct ProjectedVelocities {
-  double push = 1.0;  ///< velocity after the step over force times mobility, of all grains: what the two members share
+  double push = 1.0;  ///< velocity after the step over force times mobility, the same for all grains
 
   /// Once a step: velocities [m/s], forces [N], spins [1/s], torques [N m]; time step [s].
   template <class PackingType, class Forces>

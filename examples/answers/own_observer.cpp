@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // What does an observer of one's own take? It keeps the curve of load over settlement and ends the run at a settlement.
+#include "scarp/bvp/loads.hpp"
 #include "scarp/bvp/usual_integration.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/scene/scene.hpp"
+#include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/tangent_rules.hpp"

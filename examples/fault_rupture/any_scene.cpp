@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "scarp/measure/resources.hpp"
+#include "scarp/run/resources.hpp"
 
 namespace fault_rupture {
 

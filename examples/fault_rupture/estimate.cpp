@@ -13,7 +13,7 @@
 #include "../shared/study/study_sand.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/io/read_file.hpp"
-#include "scarp/measure/resources.hpp"
+#include "scarp/run/resources.hpp"
 #include "scarp/solver/load_stepping.hpp"
 
 namespace fault_rupture {

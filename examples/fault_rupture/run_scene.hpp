@@ -20,7 +20,7 @@
 #include "scarp/observe/packing_series.hpp"
 #include "scarp/observe/probe.hpp"
 #include "scarp/observe/progress.hpp"
-#include "scarp/observe/surface_log.hpp"
+#include "scarp/fault/surface_log.hpp"
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/run/stop_signal.hpp"
 #include "scarp/run/time_limit.hpp"

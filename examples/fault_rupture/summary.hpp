@@ -13,9 +13,9 @@
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/observe/distortion.hpp"
 #include "scarp/observe/floor_share.hpp"
-#include "scarp/observe/ground_at_rest.hpp"
-#include "scarp/observe/rupture_survey.hpp"
-#include "scarp/observe/surface_mean.hpp"
+#include "scarp/fault/ground_at_rest.hpp"
+#include "scarp/fault/rupture_survey.hpp"
+#include "scarp/fault/surface_mean.hpp"
 #include "team.hpp"
 
 namespace fault_rupture {

@@ -8,7 +8,7 @@
 #include "../shared/tell.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
-#include "scarp/observe/ground_at_rest.hpp"
+#include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/observe/progress.hpp"
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/run/stop_signal.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "scarp/observe/rupture_measures.hpp"
+#include "scarp/fault/rupture_measures.hpp"
 #include "scene.hpp"
 
 namespace fault_slab {

@@ -6,8 +6,8 @@
 #include "fault.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/observe/generalised_reaction.hpp"
-#include "scarp/observe/ground_at_rest.hpp"
-#include "scarp/observe/rupture_measures.hpp"
+#include "scarp/fault/ground_at_rest.hpp"
+#include "scarp/fault/rupture_measures.hpp"
 #include "scarp/points/nonlocal.hpp"
 
 namespace nonlocal_band {

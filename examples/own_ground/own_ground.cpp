@@ -8,8 +8,8 @@
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/given_ground.hpp"
-#include "scarp/observe/ground_at_rest.hpp"
-#include "scarp/observe/rupture_survey.hpp"
+#include "scarp/fault/ground_at_rest.hpp"
+#include "scarp/fault/rupture_survey.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/thread_executor.hpp"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // What does a soil law of one's own take? Hyperbolic shear in plane strain, and a column of it that is pushed sideways.
 #include "../shared/tell.hpp"
+#include "scarp/bvp/loads.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/scene/scene.hpp"
+#include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/tangent_rules.hpp"

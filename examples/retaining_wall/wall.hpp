@@ -6,7 +6,7 @@
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/scene/scene.hpp"
+#include "scarp/solver/make_problem.hpp"
 
 namespace retaining_wall {
 

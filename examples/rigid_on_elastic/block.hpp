@@ -2,7 +2,8 @@
 #pragma once
 
 #include "bed.hpp"
-#include "scarp/scene/scene.hpp"
+#include "scarp/bvp/loads.hpp"
+#include "scarp/solver/make_problem.hpp"
 
 namespace rigid_on_elastic {
 

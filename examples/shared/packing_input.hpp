@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 #include "scarp/io/csv_reader.hpp"
 
 namespace examples {

@@ -10,7 +10,7 @@
 
 #include "command_line.hpp"
 #include "scarp/core/build_info.hpp"
-#include "scarp/measure/resources.hpp"
+#include "scarp/run/resources.hpp"
 #include "scarp/run/run_folder.hpp"
 #include "tell.hpp"
 #include "write_json.hpp"

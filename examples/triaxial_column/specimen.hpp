@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"

@@ -7,7 +7,7 @@
 #include "scarp/core/random.hpp"
 #include "scarp/element/line.hpp"
 #include "scarp/mesh/rectangle_mesh.hpp"
-#include "scarp/scene/scene.hpp"
+#include "scarp/solver/make_problem.hpp"
 #include "support/refusals.hpp"
 
 namespace {

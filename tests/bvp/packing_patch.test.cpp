@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "bvp/sample_problems.hpp"
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/points/material_points.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "constitutive/provider_laws.hpp"
 
-#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "support/packings.hpp"

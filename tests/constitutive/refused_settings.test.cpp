@@ -5,10 +5,10 @@
 #include <functional>
 #include <limits>
 
-#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
-#include "scarp/constitutive/perturbation_tangent.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
+#include "scarp/rve/perturbation_tangent.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"

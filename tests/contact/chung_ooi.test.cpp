@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scarp/contact/hertz_mindlin.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "support/approx.hpp"

@@ -8,7 +8,7 @@
 
 #include "contact/every_law.hpp"
 #include "scarp/contact/contact_law.hpp"
-#include "scarp/core/pack.hpp"
+#include "scarp/simd/pack.hpp"
 #include "support/approx.hpp"
 
 namespace {

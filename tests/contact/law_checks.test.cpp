@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "contact/every_law.hpp"
-#include "scarp/core/select.hpp"
+#include "scarp/simd/select.hpp"
 
 namespace {
 

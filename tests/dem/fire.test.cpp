@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/homogenise/energy_ledger.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
@@ -50,14 +50,13 @@ double unbalanced_after(PackingType packing, int steps) {
   return seen.unbalanced_ratio;
 }
 
-/// Two grains of different size with velocities, spins, forces and torques of any size and direction.
+/// Two grains of different size with velocities, spins, forces and torques of any size and direction that do work.
 template <class PackingType>
 struct AnyMotion {
-  using Layout = typename scarp::NetForces<PackingType>::Layout;
   using Scalar = typename PackingType::Scalar;
 
   PackingType packing;
-  std::array<Scalar, 2 * Layout::force_size> rows{};
+  std::array<Scalar, 2 * scarp::NetForces<PackingType>::Layout::force_size> rows{};
 
   AnyMotion() {
     packing.population = std::make_shared<scarp::Population<typename PackingType::Shape, Scalar> const>(
@@ -65,36 +64,32 @@ struct AnyMotion {
     packing.position.resize(2);
     packing.rest();
     scarp::Random random(5);
-    for_each([&](auto& velocity, std::size_t i, int axis) {
-      velocity(i, axis) = static_cast<Scalar>(random.uniform() - 0.5);
-    });
-    for (Scalar& entry : rows) entry = static_cast<Scalar>(random.uniform() - 0.5);
-    if (power() < 0.0) {
-      for (Scalar& entry : rows) entry = -entry;
+    auto const any = [&] { return static_cast<Scalar>(random.uniform() - 0.5); };
+    for (Scalar& entry : rows) entry = any();
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (int axis = 0; axis < PackingType::dim; ++axis) packing.velocity(i, axis) = any();
+      for (int k = 0; k < scarp::spin_size<PackingType::dim>; ++k) packing.spin(i, k) = any();
     }
+    double power = 0.0;
+    for_each([&](double velocity, double force, double) { power += velocity * force; });
+    if (power < 0.0) reverse_forces();
+  }
+
+  void reverse_forces() {
+    for (Scalar& entry : rows) entry = -entry;
   }
 
   scarp::NetForces<PackingType> forces() const { return {rows.data()}; }
-  double inertia(bool turns, std::size_t i) const {
-    auto const& grains = *packing.population;
-    return 1.0 / static_cast<double>(turns ? grains.inverse_inertia()[i] : grains.inverse_mass()[i]);
-  }
-  double power() {
-    double sum = 0.0;
-    for_each([&](auto& velocity, std::size_t i, int axis) {
-      sum += static_cast<double>(velocity(i, axis)) * force(&velocity == static_cast<void*>(&packing.spin), i, axis);
-    });
-    return sum;
-  }
-  double force(bool turns, std::size_t i, int axis) const {
-    return static_cast<double>(turns ? forces().torque(i, axis) : forces().force(i, axis));
-  }
 
+  /// visit(velocity, force, inertia) for every component, then for every spin
   template <class Visit>
-  void for_each(Visit&& visit) {
+  void for_each(Visit&& visit) const {
+    auto const& grains = *packing.population;
     for (std::size_t i = 0; i < 2; ++i) {
-      for (int axis = 0; axis < PackingType::dim; ++axis) visit(packing.velocity, i, axis);
-      for (int k = 0; k < scarp::spin_size<PackingType::dim>; ++k) visit(packing.spin, i, k);
+      for (int axis = 0; axis < PackingType::dim; ++axis)
+        visit(packing.velocity(i, axis), forces().force(i, axis), 1.0 / grains.inverse_mass()[i]);
+      for (int k = 0; k < scarp::spin_size<PackingType::dim>; ++k)
+        visit(packing.spin(i, k), forces().torque(i, k), 1.0 / grains.inverse_inertia()[i]);
     }
   }
 };
@@ -109,19 +104,16 @@ TEST_CASE_TEMPLATE("full mixing turns all velocities to the accelerations and ke
   fire.before_move(motion.packing, motion.forces(), time_step);
   double before = 0.0;
   double after = 0.0;
-  double ratio = 0.0;  // of velocity and acceleration, one for all
-  motion.for_each([&](auto& velocities, std::size_t i, int axis) {
-    bool const turns = &velocities == static_cast<void*>(&motion.packing.spin);
-    double const inertia = motion.inertia(turns, i);
-    double const force = motion.force(turns, i, axis);
-    double const velocity = static_cast<double>(velocities(i, axis));
-    double const mixed = fire.next_velocity(velocity, force, time_step / inertia) - force * time_step / inertia;
-    if (ratio == 0.0) ratio = mixed * inertia / force;
-    CHECK(mixed * inertia / force == samples::Approx(ratio).epsilon(1e-12));  // round-off
+  std::vector<double> ratios;  // of velocity and acceleration
+  motion.for_each([&](double velocity, double force, double inertia) {
+    double const gained = force * time_step / inertia;
+    double const mixed = fire.next_velocity(velocity, force, time_step / inertia) - gained;
+    ratios.push_back(mixed * inertia / force);
     before += inertia * velocity * velocity;
     after += inertia * mixed * mixed;
   });
-  CHECK(ratio > 0.0);
+  CHECK(ratios.front() > 0.0);
+  for (double const ratio : ratios) CHECK(ratio == samples::Approx(ratios.front()).epsilon(1e-12));  // round-off
   CHECK(after == samples::Approx(before).epsilon(1e-12));
 }
 
@@ -130,7 +122,7 @@ TEST_CASE("without mixing grains are undamped while the forces do work, and stop
   Fire fire{.mixing = 0.0};
   fire.before_move(motion.packing, motion.forces(), 0.25);
   CHECK(fire.next_velocity(2.0, 3.0, 0.5) == 3.5);
-  for (double& entry : motion.rows) entry = -entry;
+  motion.reverse_forces();
   fire.before_move(motion.packing, motion.forces(), 0.25);
   CHECK(fire.next_velocity(2.0, 3.0, 0.5) == 1.5);
   motion.packing.rest();
@@ -146,9 +138,9 @@ TEST_CASE("mixing decays after the patience, until the next stop") {
     return fire.next_velocity(1.0, 0.0, 0.0);
   };
   for (double const share : {0.5, 0.5, 0.5, 0.75, 0.875}) CHECK(kept() == share);
-  for (double& entry : motion.rows) entry = -entry;
+  motion.reverse_forces();
   CHECK(kept() == 0.0);
-  for (double& entry : motion.rows) entry = -entry;
+  motion.reverse_forces();
   for (double const share : {0.5, 0.5, 0.5, 0.75}) CHECK(kept() == share);
 }
 
@@ -156,11 +148,11 @@ TEST_CASE_TEMPLATE("a packing that was strained at once comes to balance in fewe
                    PackingType, Discs, Ellipses) {
   for (std::uint64_t const seed : {1U, 2U}) {
     auto const& packing = samples::consolidated<PackingType>(200, seed).packing;
-    double const fire = unbalanced_after<Fire>(packing, 100);
-    double const local = unbalanced_after<LocalDamping>(packing, 100);
-    MESSAGE("unbalanced ratio after 100 steps: " << fire << ", with local damping " << local);
-    CHECK(fire < 0.02 * local);  // regression: FIXME
-    CHECK(unbalanced_after<Fire>(packing, 500) < 1e-9);
+    double const fire = unbalanced_after<Fire>(packing, 200);
+    double const local = unbalanced_after<LocalDamping>(packing, 200);
+    MESSAGE("unbalanced ratio after 200 steps: " << fire << ", with local damping " << local);
+    CHECK(fire < 0.1 * local);  // regression: 1e-5 to 0.02 for six seeds of each shape, by this test
+    CHECK(unbalanced_after<Fire>(packing, 500) < 1e-7);  // 1e-13 to 1e-9, as above
   }
 }
 
@@ -191,19 +183,23 @@ TEST_CASE_TEMPLATE("a packing as material answers as with local damping, with th
   scarp::DemRve<PackingType, Source> const damped{.law = samples::study_law(), .source = source};
   auto state = relaxing.initial_state({});
   auto other = damped.initial_state({});
+  double worst = 0.0;
   for (int increment = 0; increment < 20; ++increment) {
     auto trial = state;
     auto again = state;
+    auto expected = other;
     auto const answer = relaxing.respond(state, strain_step(1e-4), trial);
     REQUIRE(answer.verdict.acceptable());
+    REQUIRE(damped.respond(other, strain_step(1e-4), expected).verdict.acceptable());
     CHECK(relaxing.respond(state, strain_step(1e-4), again).stress == answer.stress);
     CHECK(again.packing == trial.packing);
+    worst = std::max(worst, (answer.stress - expected.stress).norm() / samples::pressure);
+    CHECK(trial.unbalanced_ratio < expected.unbalanced_ratio);
     state = trial;
-    auto const expected = damped.respond(other, strain_step(1e-4), trial).stress;
-    other = decltype(other){trial};
-    CHECK((answer.stress - expected).norm() < 5e-3 * samples::pressure);
-    CHECK(state.unbalanced_ratio < other.unbalanced_ratio);
+    other = expected;
   }
+  MESSAGE("largest difference of stresses over the pressure: " << worst);
+  CHECK(worst < 5e-3);  // regression: 1.5e-3 for discs and 0.8e-3 for ellipses, by this test
 }
 
 TEST_CASE("the energy of a relaxed packing is accounted for") {
@@ -226,7 +222,7 @@ TEST_CASE("a relaxation that cannot be is refused") {
   auto const move = [&](Fire const& fire) {
     scarp::TimeStepper<Discs, Fire> stepper;
     stepper.damping = fire;
-    shear(stepper, packing, 1);
+    return stepper.stop(packing, samples::study_law());
   };
   CHECK_REFUSED(move({.mixing = 1.5}), "mixing of the relaxation", "1.5");
   CHECK_REFUSED(move({.decay = -0.5}), "decay of the mixing", "-0.5");

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/dem/fire.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
@@ -142,6 +143,24 @@ TEST_CASE("two preparations from one seed have the same bits") {
   CHECK(again.cell == before.cell);
   auto const other = samples::consolidated<Ellipses>(80, 2).packing;
   CHECK_FALSE(other.position == before.position);
+}
+
+TEST_CASE("preparations move grains with the damping that they are given, by default with local damping") {
+  auto const law = samples::study_law();
+  scarp::LocalDamping const usual{};
+  scarp::LocalDamping const heavy{.factor = 0.7};
+  scarp::IsotropicPreparation const preparation{.pressure = samples::pressure};
+  auto const cloud = samples::loose_cloud<Discs>(60, 3);
+  auto const prepared = preparation.prepare(cloud, law);
+  CHECK(preparation.prepare(cloud, law, usual).packing == prepared.packing);
+  CHECK_FALSE(preparation.prepare(cloud, law, heavy).packing.position == prepared.packing.position);
+  auto const compressed = [&](auto const&... damping) {
+    return scarp::OneDimensionalCompression{}.compress(prepared.packing, law, {2.5e5}, damping...).front();
+  };
+  CHECK(compressed(usual).packing == compressed().packing);
+  CHECK_FALSE(compressed(heavy).packing.position == compressed().packing.position);
+  for (auto const& relaxed : {preparation.prepare(cloud, law, scarp::Fire{}), compressed(scarp::Fire{})})
+    CHECK(relaxed.verdict == Verdict{});
 }
 
 TEST_CASE("one-dimensional compression meets its stresses with an earth pressure at rest like sand") {

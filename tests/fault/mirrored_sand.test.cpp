@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "fault/mirror.hpp"
-#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/dem/mirrored.hpp"
 #include "scarp/fault/free_field_fault.hpp"

@@ -8,7 +8,7 @@
 #include "scarp/element/hex8.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/scene/scene.hpp"
+#include "scarp/solver/make_problem.hpp"
 #include "support/files.hpp"
 #include "support/refusals.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/state_bits.hpp"

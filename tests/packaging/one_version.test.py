@@ -102,7 +102,7 @@ def faults(scratch):
 
 def mixed(scratch):
     """Sources of one program that were not compiled alike."""
-    aligned = '#include "scarp/core/tensor.hpp"\n'
+    aligned = '#include "scarp/tensor/tensor.hpp"\n'
     (scratch.folder / "aligned_program.cpp").write_text(aligned + "int main() { return 0; }\n")
     (scratch.folder / "aligned_part.cpp").write_text(aligned)
     (scratch.folder / "aligned_library.cpp").write_text(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "other.hpp"
 
-#include "scarp/core/tensor.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/tensor.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 scarp::Random const* other_random() {
   static scarp::Random const random(1);

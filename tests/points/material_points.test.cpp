@@ -14,7 +14,7 @@
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/scene/scene.hpp"
+#include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/approx.hpp"
 #include "support/block.hpp"

@@ -9,7 +9,7 @@
 #include "scarp/io/state_bits.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/points/material_points.hpp"
-#include "scarp/scene/scene.hpp"
+#include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "scarp/solver/work_balance.hpp"

@@ -9,8 +9,8 @@
 #include <functional>
 
 #include "runs/watched_block.hpp"
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/solver/rank_executor.hpp"
 #include "support/packings.hpp"
 

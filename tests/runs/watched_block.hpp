@@ -17,7 +17,7 @@
 #include "scarp/observe/observers.hpp"
 #include "scarp/observe/packing_series.hpp"
 #include "scarp/observe/probe.hpp"
-#include "scarp/observe/surface_log.hpp"
+#include "scarp/fault/surface_log.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/run/checkpointed_run.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scarp/core/pack.hpp"
+#include "scarp/simd/pack.hpp"
 #include "scarp/core/random.hpp"
 #include "support/approx.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/core/pack.hpp"
+#include "scarp/simd/pack.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/population.hpp"
 #include "scarp/shape/disc.hpp"

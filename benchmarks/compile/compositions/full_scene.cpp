@@ -3,8 +3,8 @@
 // checkpoints, and ranks where there is an MPI.
 #include <filesystem>
 
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/fault/footing_log.hpp"
@@ -13,7 +13,7 @@
 #include "scarp/fault/level_ground.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
-#include "scarp/observe/surface_log.hpp"
+#include "scarp/fault/surface_log.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/run/first_rank.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A packing as constitutive law, one response: DEM and homogenisation, no finite elements.
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"

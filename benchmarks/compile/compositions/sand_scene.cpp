@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // The free field with a packing of the study's ellipses in every element.
-#include "scarp/constitutive/dem_rve.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/fault/free_field_fault.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace fault_rupture {
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "choice.hpp"
-#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/packings_by_depth.hpp"
-#include "scarp/constitutive/random_packings.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
+#include "scarp/rve/random_packings.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/contact/linear_frictional.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scarp/budget/budget_part.hpp"
-#include "scarp/budget/detail/point_checks.hpp"
+#include "scarp/budget/point_checks.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/core/worse_of.hpp"

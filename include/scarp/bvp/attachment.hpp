@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scarp/core/status.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp {
 

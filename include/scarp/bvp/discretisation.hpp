@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/bvp/detail/sparsity.hpp"
+#include "scarp/bvp/sparsity.hpp"
 #include "scarp/bvp/integration.hpp"
 #include "scarp/bvp/kinematics.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"

@@ -3,7 +3,7 @@
 
 #include <concepts>
 
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

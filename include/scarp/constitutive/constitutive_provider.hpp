@@ -5,7 +5,7 @@
 
 #include "scarp/core/error.hpp"
 #include "scarp/core/status.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

@@ -5,8 +5,8 @@
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/finite_strain.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/finite_strain.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

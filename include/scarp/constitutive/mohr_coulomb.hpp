@@ -6,9 +6,9 @@
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/described.hpp"
-#include "scarp/core/finite_strain.hpp"
+#include "scarp/tensor/finite_strain.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/principal.hpp"
+#include "scarp/tensor/principal.hpp"
 
 namespace scarp {
 

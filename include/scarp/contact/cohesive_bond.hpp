@@ -7,7 +7,7 @@
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/select.hpp"
+#include "scarp/simd/select.hpp"
 
 namespace scarp {
 

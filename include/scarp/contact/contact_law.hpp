@@ -7,7 +7,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/pack.hpp"
+#include "scarp/simd/pack.hpp"
 #include "scarp/core/precompiled.hpp"
 
 namespace scarp {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scarp/contact/contact_law.hpp"
-#include "scarp/core/select.hpp"
+#include "scarp/simd/select.hpp"
 
 namespace scarp {
 

@@ -3,7 +3,7 @@
 
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/core/select.hpp"
+#include "scarp/simd/select.hpp"
 
 namespace scarp {
 

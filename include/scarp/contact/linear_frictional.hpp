@@ -4,7 +4,7 @@
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/contact/coulomb.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/core/select.hpp"
+#include "scarp/simd/select.hpp"
 
 namespace scarp {
 

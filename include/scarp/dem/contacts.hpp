@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scarp/core/index.hpp"
-#include "scarp/dem/detail/contact_frame.hpp"
+#include "scarp/dem/contact_frame.hpp"
 #include "scarp/dem/grain_view.hpp"
 
 namespace scarp {

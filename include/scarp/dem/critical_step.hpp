@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
-#include "scarp/core/principal.hpp"
+#include "scarp/tensor/principal.hpp"
 #include "scarp/dem/contacts.hpp"
 
 namespace scarp {

@@ -5,15 +5,14 @@
 #include <concepts>
 
 #include "scarp/core/error.hpp"
-#include "scarp/core/pack.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/dem/detail/grain_rows.hpp"
+#include "scarp/dem/grain_rows.hpp"
+#include "scarp/simd/pack.hpp"
 
 namespace scarp {
 
 /// next_velocity(velocity, force, mobility): velocity of a grain after a step with a net force, or its spin after one with
 /// a net torque, one component; mobility = time step / inertia. Asked for packs of as many grains as a register holds.
-/// Positions follow by leap-frog.
 template <class Damping>
 concept DampsMotion = requires(Damping const& damping, double const& one, lanes::Pack<double> const& several) {
   { damping.next_velocity(one, one, one) } -> std::same_as<double>;
@@ -29,9 +28,7 @@ struct NetForces {
   Scalar const* rows;
 
   Scalar force(std::size_t grain, int axis) const { return rows[grain * Layout::force_size + detail::index(axis)]; }
-  Scalar torque(std::size_t grain, int k) const {
-    return rows[grain * Layout::force_size + Layout::torque + detail::index(k)];
-  }
+  Scalar torque(std::size_t grain, int k) const { return force(grain, k + static_cast<int>(Layout::torque)); }
 };
 
 /// before_move(packing, forces, time_step [s]): optional, once a step, before `next_velocity` of all grains. A relaxation

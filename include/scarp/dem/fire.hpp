@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scarp/dem/damping.hpp"
 
@@ -18,16 +16,12 @@ struct Fire {
   double mixing = 0.1;  ///< a after a stop
   double decay = 0.99;  ///< of a, in every step
   int patience = 5;     ///< steps after a stop in which a does not decay
+  // Memory since the last stop. Grains at rest have no power, so that a stepper begins anew with a packing at rest.
+  int steps = 0;
+  double decayed = 1.0;  ///< a over mixing
+  double kept = 1.0;     ///< share of the velocities
+  double pushed = 1.0;   ///< effect of the forces over that of leap-frog
 
-  /// Since the last stop. Grains at rest have no power, so that a stepper begins anew with a packing at rest.
-  struct Descent {
-    double decayed = 1.0;  ///< a over mixing
-    int steps = 0;
-    double kept = 1.0;    ///< share of the velocities
-    double pushed = 1.0;  ///< effect of the forces over that of leap-frog
-  } descent{};
-
-  /// \throws InputError
   void validate() const {
     require_between("mixing of the relaxation", mixing, 0.0, 1.0);
     require_between("decay of the mixing", decay, 0.0, 1.0);
@@ -36,7 +30,7 @@ struct Fire {
 
   template <class PackingType, class Forces>
   void before_move(PackingType const& packing, Forces const& forces, double time_step) {
-    double power = 0.0, motion = 0.0, pull = 0.0;  // P, |v|^2, |F|^2
+    double power = 0.0, motion = 0.0, pull = tiny<double>();  // P, |v|^2, |F|^2
     auto const add = [&](double velocity, double force, double inverse_inertia) {
       power += force * velocity;
       motion += velocity * velocity / inverse_inertia;
@@ -44,27 +38,22 @@ struct Fire {
     };
     auto const& grains = *packing.population;
     for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-      for (int a = 0; a < PackingType::dim; ++a)
-        add(packing.velocity(i, a), forces.force(i, a), grains.inverse_mass()[i]);
+      for (int k = 0; k < packing.dim; ++k) add(packing.velocity(i, k), forces.force(i, k), grains.inverse_mass()[i]);
       for (int k = 0; k < spin_size<PackingType::dim>; ++k)
         add(packing.spin(i, k), forces.torque(i, k), grains.inverse_inertia()[i]);
     }
-    if (!(power > 0.0)) {
-      descent = {.kept = 0.0};
-      return;
-    }
-    double const a = mixing * descent.decayed;
-    descent.kept = 1.0 - a;
-    descent.pushed = 1.0 + a * std::sqrt(motion / std::max(pull, std::numeric_limits<double>::min())) / time_step;
-    if (++descent.steps > patience) descent.decayed *= decay;
+    double const a = mixing * decayed;
+    kept = power > 0.0 ? 1.0 - a : 0.0;
+    pushed = power > 0.0 ? 1.0 + a * std::sqrt(motion / pull) / time_step : 1.0;
+    steps = power > 0.0 ? steps + 1 : 0;
+    decayed = steps > patience ? decayed * decay : 1.0;
   }
 
   template <class T>
   T next_velocity(T const& velocity, T const& force, T const& mobility) const {
-    return constant<T>(descent.kept) * velocity + constant<T>(descent.pushed) * force * mobility;
+    return constant<T>(kept) * velocity + constant<T>(pushed) * force * mobility;
   }
 };
-
 static_assert(DampsMotion<Fire>);
 
 }  // namespace scarp

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "scarp/core/index.hpp"
-#include "scarp/core/pack.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/simd/pack.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp {
 

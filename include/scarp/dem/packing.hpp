@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "scarp/contact/contact_law.hpp"
-#include "scarp/core/columns.hpp"
+#include "scarp/simd/columns.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 #include "scarp/dem/population.hpp"
 
 namespace scarp::detail {

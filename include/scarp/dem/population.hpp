@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scarp/core/columns.hpp"
+#include "scarp/simd/columns.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"

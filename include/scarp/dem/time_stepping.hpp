@@ -10,8 +10,8 @@
 #include "scarp/core/precompiled.hpp"
 #include "scarp/dem/critical_step.hpp"
 #include "scarp/dem/damping.hpp"
-#include "scarp/dem/detail/pair_loop.hpp"
 #include "scarp/dem/neighbour_list.hpp"
+#include "scarp/dem/pair_loop.hpp"
 
 namespace scarp {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/element/detail/quadrature_rules.hpp"
+#include "scarp/element/quadrature_rules.hpp"
 #include "scarp/element/mid_sides.hpp"
 #include "scarp/element/reference_element.hpp"
 

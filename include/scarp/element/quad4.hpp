@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scarp/core/index.hpp"
-#include "scarp/element/detail/quadrature_rules.hpp"
+#include "scarp/element/quadrature_rules.hpp"
 #include "scarp/element/line.hpp"
 
 namespace scarp {

@@ -5,7 +5,7 @@
 #include <concepts>
 #include <tuple>
 
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp {
 

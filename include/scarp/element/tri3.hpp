@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/element/detail/quadrature_rules.hpp"
+#include "scarp/element/quadrature_rules.hpp"
 #include "scarp/element/line.hpp"
 
 namespace scarp {

@@ -11,7 +11,7 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/fault/detail/step_at_tip.hpp"
-#include "scarp/observe/rupture_measures.hpp"
+#include "scarp/fault/rupture_measures.hpp"
 
 namespace scarp {
 

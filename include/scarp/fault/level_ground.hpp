@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/constitutive/packings_by_depth.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/preparation.hpp"
 

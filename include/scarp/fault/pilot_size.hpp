@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/core/geo.hpp"
+#include "scarp/tensor/geo.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/mesh/refined.hpp"
 #include "scarp/observe/deformation.hpp"

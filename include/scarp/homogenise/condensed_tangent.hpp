@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/voigt.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/sliding_contacts.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/voigt.hpp"
 #include "scarp/dem/contacts.hpp"
 
 namespace scarp {

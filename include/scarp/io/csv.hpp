@@ -13,7 +13,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/io/detail/appended_file.hpp"
+#include "scarp/io/appended_file.hpp"
 #include "scarp/io/read_file.hpp"
 
 namespace scarp {

@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "scarp/core/described.hpp"
-#include "scarp/io/detail/appended_file.hpp"
+#include "scarp/io/appended_file.hpp"
 
 namespace scarp {
 

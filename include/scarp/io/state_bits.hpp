@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/core/columns.hpp"
+#include "scarp/simd/columns.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp {
 

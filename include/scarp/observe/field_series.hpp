@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
-#include "scarp/core/geo.hpp"
+#include "scarp/tensor/geo.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/observe/deformation.hpp"

@@ -9,10 +9,10 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/core/finite_strain.hpp"
+#include "scarp/tensor/finite_strain.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/linear_map.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/voigt.hpp"
 #include "scarp/points/neighbour_mean.hpp"
 
 namespace scarp {

@@ -3,7 +3,7 @@
 
 #include "scarp/core/one_version.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 SCARP_EXPORT scarp::BuildInfo scarp::library_build() { return build_info(); }
 

@@ -6,7 +6,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/executor.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/voigt.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {

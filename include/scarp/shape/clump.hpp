@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
-#include "scarp/core/pack.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/simd/pack.hpp"
+#include "scarp/tensor/tensor.hpp"
 #include "scarp/shape/disc.hpp"
 
 namespace scarp {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scarp/core/precompiled.hpp"
-#include "scarp/core/square_roots.hpp"
+#include "scarp/simd/square_roots.hpp"
 #include "scarp/shape/support_touch.hpp"
 
 namespace scarp {

@@ -5,7 +5,7 @@
 #include <concepts>
 #include <cstddef>
 
-#include "scarp/core/pack.hpp"
+#include "scarp/simd/pack.hpp"
 #include "scarp/core/precompiled.hpp"
 
 namespace scarp {

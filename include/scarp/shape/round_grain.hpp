@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "scarp/core/pack.hpp"
-#include "scarp/core/select.hpp"
+#include "scarp/simd/pack.hpp"
+#include "scarp/simd/select.hpp"
 #include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "scarp/core/pack.hpp"
-#include "scarp/core/select.hpp"
+#include "scarp/simd/pack.hpp"
+#include "scarp/simd/select.hpp"
 #include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {

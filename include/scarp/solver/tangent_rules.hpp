@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "scarp/core/error.hpp"
-#include "scarp/core/finite_strain.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/finite_strain.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

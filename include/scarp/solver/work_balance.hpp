@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
-#include "scarp/core/voigt.hpp"
+#include "scarp/tensor/voigt.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {

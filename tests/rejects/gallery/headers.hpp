@@ -3,10 +3,10 @@
 
 #include "scarp/bvp/interface.hpp"
 #include "scarp/bvp/standing_body.hpp"
-#include "scarp/constitutive/dem_rve.hpp"
+#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/constitutive/random_packings.hpp"
+#include "scarp/rve/random_packings.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"

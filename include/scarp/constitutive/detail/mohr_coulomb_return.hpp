@@ -11,7 +11,7 @@
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp::detail {
 

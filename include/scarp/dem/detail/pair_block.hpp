@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "scarp/core/index.hpp"
-#include "scarp/dem/detail/contact_frame.hpp"
-#include "scarp/dem/detail/grain_rows.hpp"
+#include "scarp/dem/contact_frame.hpp"
+#include "scarp/dem/grain_rows.hpp"
 #include "scarp/dem/observation.hpp"
 
 namespace scarp::detail {

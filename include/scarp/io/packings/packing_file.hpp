@@ -3,7 +3,7 @@
 
 #include "scarp/dem/packing.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/detail/framed_file.hpp"
+#include "scarp/io/framed_file.hpp"
 #include "scarp/io/read_file.hpp"
 
 namespace scarp {

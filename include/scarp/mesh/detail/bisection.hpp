@@ -9,7 +9,7 @@
 
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp::detail {
 

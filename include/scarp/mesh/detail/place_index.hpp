@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp::detail {
 

@@ -9,7 +9,7 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/core/tensor.hpp"
+#include "scarp/tensor/tensor.hpp"
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/solver/step_report.hpp"
 

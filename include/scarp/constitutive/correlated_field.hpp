@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "scarp/core/error.hpp"
+#include "scarp/core/random.hpp"
+#include "scarp/tensor/tensor.hpp"
+
+namespace scarp {
+
+/// Independent standard normal numbers. Box and Muller, Ann. Math. Statist. 29 (1958) 610.
+template <int Dim>
+Vector<Dim> normal_vector(Random& random) {
+  Vector<Dim> normal;
+  for (int k = 0; k < Dim; ++k) {
+    double const radius = std::sqrt(-2.0 * std::log1p(-random.uniform()));
+    normal(k) = radius * std::cos(2.0 * std::numbers::pi * random.uniform());
+  }
+  return normal;
+}
+
+/// at(r): correlation of two places whose distance, each component over its correlation length, is r; wave<Dim>(random):
+/// a wave vector of the spectral density that belongs to it.
+template <class Correlation>
+concept Autocorrelation = requires(double distance, Random& random) {
+  { Correlation::at(distance) } -> std::same_as<double>;
+  { Correlation::template wave<2>(random) } -> std::same_as<Vector<2>>;
+  { Correlation::template wave<3>(random) } -> std::same_as<Vector<3>>;
+};
+
+/// \f$ \rho = e^{-r^2} \f$: a smooth field. Its spectrum is normal with the standard deviation sqrt(2).
+struct GaussianCorrelation {
+  static double at(double distance) { return std::exp(-distance * distance); }
+  template <int Dim>
+  static Vector<Dim> wave(Random& random) {
+    return std::numbers::sqrt2 * normal_vector<Dim>(random);
+  }
+};
+
+/// \f$ \rho = e^{-r} \f$: a continuous but rough field. Its spectrum is Cauchy's distribution in Dim dimensions.
+struct ExponentialCorrelation {
+  static double at(double distance) { return std::exp(-distance); }
+  template <int Dim>
+  static Vector<Dim> wave(Random& random) {
+    Vector<Dim> const direction = normal_vector<Dim>(random);
+    return direction / std::abs(normal_vector<1>(random)(0));
+  }
+};
+
+/// A homogeneous random field of mean zero and variance one, a function of the place alone:
+/// \f$ Z(x) = \sqrt{2/N} \sum_k \cos(w_k \cdot x + \phi_k) \f$, waves from the spectrum, phases uniform.
+/// Mean, variance and correlation over all seeds are exact for any number of waves N; the distribution of a value tends to the normal
+/// one, its kurtosis is 3 - 3/(2N). Shinozuka and Jan, J. Sound Vib. 25 (1972) 111; waves drawn as by Kraichnan, Phys. Fluids 13
+/// (1970) 22.
+template <int Dim, Autocorrelation Correlation = GaussianCorrelation>
+class CorrelatedField {
+ public:
+  struct Choice {
+    Vector<Dim> lengths = Vector<Dim>::Ones();  ///< of correlation along the axes [m]
+    std::uint64_t seed = 1;
+    int waves = 500;
+  };
+
+  /// \throws InputError for lengths that are not finite and positive or fewer than one wave
+  explicit CorrelatedField(Choice const& choice) {
+    for (double const length : choice.lengths) require_positive("correlation length", length);
+    if (choice.waves < 1)
+      refuse("a field of {} waves was asked for (it would be zero): give some hundred", choice.waves);
+    Random random(choice.seed);
+    for (int k = 0; k < choice.waves; ++k) {
+      Vector<Dim> const wave = Correlation::template wave<Dim>(random).cwiseQuotient(choice.lengths);
+      waves_.push_back({wave, random.uniform(0.0, 2.0 * std::numbers::pi)});
+    }
+  }
+
+  /// position [m]
+  double operator()(Vector<Dim> const& position) const {
+    double sum = 0.0;
+    for (auto const& [wave, phase] : waves_) sum += std::cos(wave.dot(position) + phase);
+    return std::sqrt(2.0 / static_cast<double>(waves_.size())) * sum;
+  }
+
+ private:
+  struct Wave {
+    Vector<Dim> wave;  ///< [1/m]
+    double phase;
+  };
+  std::vector<Wave> waves_;
+};
+
+/// A positive quantity whose logarithm is normal.
+struct Lognormal {
+  double mean = 1.0;
+  double variation = 0.0;  ///< standard deviation over mean
+
+  /// Value that belongs to a standard normal number.
+  /// \f$ m\,e^{s z - s^2/2},\; s^2 = \ln(1 + v^2) \f$
+  double of(double normal) const {
+    double const variance = std::log1p(variation * variation);
+    return mean * std::exp(std::sqrt(variance) * normal - variance / 2.0);
+  }
+};
+
+static_assert(Autocorrelation<GaussianCorrelation> && Autocorrelation<ExponentialCorrelation>);
+
+}  // namespace scarp

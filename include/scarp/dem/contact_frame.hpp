@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+
+#include "scarp/contact/contact_law.hpp"
+#include "scarp/simd/select.hpp"
+#include "scarp/shape/particle_shape.hpp"
+
+namespace scarp {
+
+template <class T>
+T dot(std::array<T, 2> const& a, std::array<T, 2> const& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+template <class T>
+T dot(std::array<T, 3> const& a, std::array<T, 3> const& b) {
+  return inner_product(a, b);
+}
+
+/// Vector product; in the plane the number along its normal.
+template <class T>
+T cross(std::array<T, 2> const& a, std::array<T, 2> const& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+template <class T>
+std::array<T, 3> cross(std::array<T, 3> const& a, std::array<T, 3> const& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Motion of a point at `arm` from the centre of a grain that turns by a small `turn`.
+template <class T>
+std::array<T, 2> turned_motion(T const& turn, std::array<T, 2> const& arm) {
+  return {-turn * arm[1], turn * arm[0]};
+}
+template <class T>
+std::array<T, 3> turned_motion(std::array<T, 3> const& turn, std::array<T, 3> const& arm) {
+  return cross(turn, arm);
+}
+
+/// Part of a motion along the tangent, for the plane t = (-n_y, n_x), or in the tangent plane.
+template <class T>
+T tangential_part(std::array<T, 2> const& motion, std::array<T, 2> const& normal) {
+  return normal[0] * motion[1] - normal[1] * motion[0];
+}
+template <class T>
+std::array<T, 3> tangential_part(std::array<T, 3> const& motion, std::array<T, 3> const& normal) {
+  T const along = dot(motion, normal);
+  return {motion[0] - along * normal[0], motion[1] - along * normal[1], motion[2] - along * normal[2]};
+}
+
+/// A tangential quantity as a vector.
+template <class T>
+std::array<T, 2> as_vector(T const& tangential, std::array<T, 2> const& normal) {
+  return {-tangential * normal[1], tangential * normal[0]};
+}
+template <class T>
+std::array<T, 3> as_vector(std::array<T, 3> const& tangential, std::array<T, 3> const&) {
+  return tangential;
+}
+
+/// Rotation without its part about the normal, which is twist. In the plane all rotation is rolling.
+template <class T>
+T rolling_part(T const& turn, std::array<T, 2> const&) {
+  return turn;
+}
+template <class T>
+std::array<T, 3> rolling_part(std::array<T, 3> const& turn, std::array<T, 3> const& normal) {
+  return tangential_part(turn, normal);
+}
+
+/// Carries a remembered tangential force or rolling moment to the present frame of its contact: it turns with the mean
+/// rotation about the normal, is laid into the tangent plane and keeps its size. In the plane the number stays.
+template <class T>
+void carry_to_frame(T&, T const&, std::array<T, 2> const&) {}
+template <class T>
+void carry_to_frame(std::array<T, 3>& remembered, std::array<T, 3> const& mean_turn, std::array<T, 3> const& normal) {
+  using std::sqrt;
+  T const twist = dot(mean_turn, normal);
+  auto const turned = cross(normal, remembered);
+  auto const laid =
+      tangential_part(std::array<T, 3>{remembered[0] + twist * turned[0], remembered[1] + twist * turned[1],
+                                       remembered[2] + twist * turned[2]},
+                      normal);
+  T const scale = sqrt(squared_size(remembered) / lanes::at_least(squared_size(laid), tiny<T>()));
+  for (std::size_t k = 0; k < 3; ++k) remembered[k] = laid[k] * scale;
+}
+
+}  // namespace scarp

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/unwrap.hpp"
+#include "scarp/contact/law_checks.hpp"
+#include "scarp/core/described.hpp"
+#include "scarp/tensor/finite_strain.hpp"
+#include "scarp/tensor/principal.hpp"
+#include "scarp/dem/drive.hpp"
+#include "scarp/dem/packing_picture.hpp"
+#include "scarp/homogenise/balance.hpp"
+#include "scarp/homogenise/contact_tangent.hpp"
+#include "scarp/homogenise/fabric.hpp"
+
+namespace scarp {
+
+/// Stiffness of a packing as a provider's tangent: eq. 6 of the study, all contacts elastic under uniform strain.
+struct ElasticContactTangent {
+  template <class PackingType>
+  VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
+    return to_voigt_tangent<PackingType::dim>(contact_tangent(packing, law));
+  }
+};
+
+/// at(site): the packing that a point starts with.
+template <class Source, class PackingType>
+concept PackingSource = requires(Source const& source, Site<PackingType::dim> const& site) {
+  { source.at(site) } -> std::convertible_to<PackingType>;
+};
+
+/// tangent(packing, law): stiffness [Pa] of a packing as it stands.
+template <class Tangent, class PackingType>
+concept TellsPackingTangent = requires(Tangent const& tangent, PackingType const& packing,
+                                       typename PackingType::Law const& law) {
+  { tangent(packing, law) } -> std::convertible_to<VoigtTangent<PackingType::dim>>;
+};
+
+/// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
+/// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the answer is Love and Weber's stress at its end.
+/// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
+template <class PackingType, PackingSource<PackingType> Source,
+          TellsPackingTangent<PackingType> Tangent = ElasticContactTangent, DampsMotion Damping = LocalDamping>
+struct DemRve {
+  static constexpr int dim = PackingType::dim;
+  using Law = typename PackingType::Law;
+  using Plan = int;  ///< DEM time steps of one response
+
+  struct State {
+    PackingType packing;
+    VoigtStress<dim> stress = VoigtStress<dim>::Zero();  ///< [Pa], tension positive
+    double unbalanced_ratio = 0.0;                       ///< mean net force of a grain over mean contact force
+    double kinetic_share = 0.0;                          ///< of moving grains in the pressure
+    double inertial_number = 0.0;                        ///< of the last response
+    Verdict verdict{};
+
+    SCARP_MEMBERS(packing, stress, unbalanced_ratio, kinetic_share, inertial_number, verdict)
+  };
+
+  Law law{};
+  Source source{};
+  double strain_per_step = 1e-5;  ///< largest principal strain of one DEM step
+  double inertial_number =
+      5e-3;  ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
+  int least_steps = 20;  ///< of one response, however small the increment
+  int most_steps = 20'000;
+  double unbalanced_tolerance = 0.05;  ///< asked of every response
+  double loose_pressure = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
+  double time_step_share = usual_time_step_share;  ///< of the critical step's lower bound
+  bool fluid_start = false;  ///< whether a point may start with a packing without contacts, see StiffnessFloor
+  Damping damping{};
+  Tangent tangent_policy{};
+
+  /// A packing that was listed with another law is listed anew.
+  /// \throws InputError for parameters that no response can be made with, and for a packing that carries nothing or cannot be
+  /// used
+  State initial_state(Site<dim> const& site) const {
+    validate();
+    State state;
+    state.packing = source.at(site);
+    if (!state.packing.population) {
+      refuse("point {} got a packing of zero grains (nothing can carry stress): give the provider's source a packing",
+             site.index);
+    }
+    require_positive("normal stiffness of the contact law", spring_modulus(state.packing, law));
+    require_consistent(law, state.packing.population->largest_radius());
+    Stepper stepper;
+    state.verdict = observe(stepper, state);
+    if (state.verdict.status == Status::failed)
+      refuse("the packing of point {} cannot be used ({}): give the provider's source another one", site.index,
+             name(state.verdict.reason));
+    if (state.verdict.status == Status::fluid && !fluid_start)
+      require_contacts(fmt::format("the packing of point {}", site.index), 0);
+    return state;
+  }
+
+  /// \throws InputError for parameters that no response can be made with
+  void validate() const {
+    require_positive("strain per DEM step", strain_per_step);
+    require_positive("inertial number", inertial_number);
+    require_positive("unbalanced tolerance", unbalanced_tolerance);
+    require_positive("share of the critical time step", time_step_share);
+    require_not_negative("loose pressure", loose_pressure);
+    if constexpr (Frictional<Law>) {
+      require_not_negative("friction of the contact law", Law(law).friction_coefficient());
+    }
+    require_at_least("least number of DEM steps of a response", least_steps, 1);
+    require_at_least("most DEM steps of a response", most_steps, least_steps);
+    detail::validated(damping);
+    detail::validated(tangent_policy);
+  }
+
+  VoigtStress<dim> stress(State const& state) const { return state.stress; }
+
+  VoigtTangent<dim> tangent(State const& state) const { return tangent_policy(state.packing, law); }
+
+  Plan plan(State const& committed, Gradient<dim> const& increment) const {
+    double const largest = largest_strain(increment);
+    if (!std::isfinite(largest)) return least_steps;
+    // n time steps of dt make the strain rate largest / (n dt).
+    double const steps =
+        std::max(largest / strain_per_step, largest * slowness(committed) / (time_step(committed) * inertial_number));
+    return static_cast<int>(
+        std::clamp(std::ceil(steps), static_cast<double>(least_steps), static_cast<double>(most_steps)));
+  }
+
+  /// Void ratio, in the plane fabrics, coordination and balance.
+  Quantities quantities(State const& state) const {
+    Quantities quantities{{"void_ratio", state.packing.void_ratio()}};
+    if constexpr (dim == 2)
+      quantities.emplace_back("contact_fabric", fabric_anisotropy(contact_fabric(state.packing, law)));
+    quantities.emplace_back("coordination", coordination(state.packing, law).all);
+    quantities.emplace_back("unbalanced_ratio", state.unbalanced_ratio);
+    if constexpr (requires { particle_fabric(state.packing); })
+      quantities.emplace_back("particle_fabric", fabric_anisotropy(particle_fabric(state.packing)));
+    return quantities;
+  }
+
+  /// The packing as a drawing needs it.
+  auto picture(State const& state) const requires requires { packing_picture(state.packing, law); }
+  { return packing_picture(state.packing, law); }
+
+  /// Packings at less than the loose pressure count by their share of it; of one that is fluid there is nothing.
+  PackingBalance balance(State const& state) const {
+    if (state.verdict.status == Status::fluid) return {};
+    double const weight = weight_of(state);
+    return {.has_packing = true,
+            .unbalanced_ratio = weight * state.unbalanced_ratio,
+            .kinetic_share = weight * state.kinetic_share,
+            .inertial_number = state.inertial_number};
+  }
+
+  /// How much the balance of a packing counts: all, below the loose pressure by its share of that.
+  double weight_of(State const& state) const {
+    double const pressure = mean_pressure(state.stress);
+    return pressure < loose_pressure ? std::max(pressure, 0.0) / loose_pressure : 1.0;
+  }
+
+  /// Inertial number of a response in so many DEM steps.
+  double inertial_number_of(State const& committed, Gradient<dim> const& increment, Plan steps) const {
+    return largest_strain(increment) * slowness(committed) / (time_step(committed) * steps);
+  }
+
+  /// Twice the steps, hence half the rate.
+  Plan refined(Plan steps) const { return std::min(2 * steps, most_steps); }
+
+  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial) const {
+    return respond(committed, increment, trial, plan(committed, increment));
+  }
+
+  /// A response that is not balanced to the tolerance is `not_converged`; refined(plan) asks for a slower one.
+  /// Fails with `not_finite` on NaN or an increment beyond the logarithm's range, with `cell_collapsed` when the cell gets
+  /// too thin for its grains, with `too_deep` when an overlap exceeds the reduced radius of its contact; `fluid` without
+  /// contacts.
+  Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial, Plan steps) const {
+    thread_local Stepper stepper;
+    stepper.damping = damping;
+    stepper.time_step_share = time_step_share;
+    trial = committed;
+    trial.inertial_number = inertial_number_of(committed, increment, steps);
+    Tensor<dim> const strain_step = logarithm_of_increment<dim>(increment) / steps;
+    trial.verdict = {};
+    if (!strain_step.allFinite()) trial.verdict = {Status::failed, Reason::not_finite};
+    for (int step = 0; step < steps && trial.verdict.acceptable(); ++step) {
+      trial.verdict = stepper.step(trial.packing, law, strain_step);
+    }
+    if (trial.verdict.acceptable()) trial.verdict = observe(stepper, trial);
+    return {trial.stress, trial.verdict};
+  }
+
+ private:
+  using Stepper = TimeStepper<PackingType, Damping>;
+
+  /// [s], for a packing that was listed with another law as the next step will list it.
+  double time_step(State const& state) const {
+    auto const& pairs = state.packing.pairs;
+    bool const is_ours = pairs.basis.agrees_with(list_basis(state.packing, law, pairs.skin));
+    return time_step_share * (is_ours ? pairs.critical_step : critical_step(state.packing, law));
+  }
+
+  static double largest_strain(Gradient<dim> const& increment) {
+    return largest_principal<dim>((increment + increment.transpose()) / 2.0);
+  }
+
+  /// \f$ d \sqrt{\rho/p} \f$ [s]: the time in which the pressure moves a grain by its size.
+  double slowness(State const& state) const {
+    auto const& population = *state.packing.population;
+    double const pressure = std::max({mean_pressure(state.stress), loose_pressure, least_pressure(state.packing)});
+    return 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
+  }
+
+  /// What passes for no pressure [Pa]: 1e-9 for the study's sand, and in any other units.
+  double least_pressure(PackingType const& packing) const { return 3e-17 * spring_modulus(packing, law); }
+
+  static double mean_pressure(VoigtStress<dim> const& stress) { return -stress.template head<dim>().sum() / dim; }
+
+  Verdict observe(Stepper& stepper, State& state) const {
+    StepObservation<dim> seen;
+    if (Verdict const verdict = stepper.observe(state.packing, law, seen); !verdict.acceptable()) return verdict;
+    if (!seen.stress.allFinite()) return {Status::failed, Reason::not_finite};
+    state.stress = to_voigt_stress<dim>(seen.stress);
+    state.unbalanced_ratio = seen.unbalanced_ratio;
+    state.kinetic_share =
+        kinetic_stress(state.packing).trace() / std::min(seen.stress.trace(), -least_pressure(state.packing) * dim);
+    if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
+    if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
+    if (!(weight_of(state) * seen.unbalanced_ratio <= unbalanced_tolerance))
+      return {Status::not_converged, Reason::unbalanced};
+    return {};
+  }
+};
+
+}  // namespace scarp

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "scarp/simd/pack.hpp"
+
+namespace scarp::lanes {
+
+/// A square root and its inverse.
+template <class T>
+struct SquareRoot {
+  T value;
+  T inverse;
+};
+
+/// Square roots of two positive numbers, or of packs of them; infinities and zeros are not among them. They share a division.
+template <class T>
+[[gnu::always_inline]] inline std::array<SquareRoot<T>, 2> square_roots(T const& a, T const& b) {
+  using std::sqrt;
+  T const root_a = sqrt(a);
+  T const root_b = sqrt(b);
+  T const inverse = constant<T>(1) / (root_a * root_b);
+  return {SquareRoot<T>{root_a, inverse * root_b}, SquareRoot<T>{root_b, inverse * root_a}};
+}
+
+#if defined(__AVX512VL__)
+/// The same without roots and divisions, whose unit would be what others wait for: from the processor's own estimate of the
+/// inverse, which errs by 2^-14 at most, by a series in \f$ e = 1 - x y^2 \f$. Relative errors are below two epsilons.
+template <class Scalar>
+[[gnu::always_inline]] inline std::array<SquareRoot<BasicPack<Scalar, 8>>, 2> square_roots(
+    BasicPack<Scalar, 8> const& a, BasicPack<Scalar, 8> const& b) {
+  using T = BasicPack<Scalar, 8>;
+  constexpr bool is_double = sizeof(Scalar) == 8;
+  auto const root = [](T const& x) {
+    T estimate{};
+    if constexpr (is_double) {
+      estimate.vector = __builtin_ia32_rsqrt14pd512_mask(x.vector, estimate.vector, 0xff);
+    } else {
+      estimate.vector = __builtin_ia32_rsqrt14ps256_mask(x.vector, estimate.vector, 0xff);
+    }
+    T const product = x * estimate;
+    T const e = constant<T>(1) - product * estimate;
+    T series = constant<T>(0.5);
+    if constexpr (is_double) series = series + e * (constant<T>(0.375) + e * constant<T>(0.3125));
+    return SquareRoot<T>{product + product * (e * series), estimate + estimate * (e * series)};
+  };
+  return {root(a), root(b)};
+}
+#endif
+
+}  // namespace scarp::lanes

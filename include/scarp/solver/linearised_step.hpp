@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "scarp/core/described.hpp"
+#include "scarp/tensor/voigt.hpp"
+#include "scarp/solver/detail/standing_balance.hpp"
+#include "scarp/solver/free_system.hpp"
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment keeps its own
+/// forces: contact that opens, closes or slides is followed here, where no material point is asked. Without attachment
+/// this is one linear solve.
+template <class Problem, LinearSolver Linear>
+class LinearisedStep {
+ public:
+  static constexpr double singular = 1e15;  ///< condition beyond which no digit of a solution is left
+
+  /// accuracy: residual below which the attachment's forces need no further correction
+  LinearisedStep(Problem& problem, double accuracy)
+      : problem_(problem), system_(problem.constraints()), accuracy_(accuracy), beside_(problem) {}
+  LinearisedStep(LinearisedStep const&) = delete;  // the equations refer to the system
+  LinearisedStep& operator=(LinearisedStep const&) = delete;
+
+  /// Linearises about the increment [m] of the problem's last evaluation, whose unbalanced forces [N] are given.
+  Verdict linearise(Eigen::VectorXd const& increment, Eigen::VectorXd const& unbalanced,
+                    std::vector<VoigtTangent<Problem::dim>> const& tangents) {
+    problem_.ground_stiffness(increment, tangents, ground_);
+    centre_ = increment;
+    ground_forces_ = unbalanced;
+    if constexpr (!Problem::is_bare) ground_forces_ -= problem_.attached_forces(increment);
+    Verdict const verdict = factorize();
+    is_held_ = verdict.acceptable();
+    if constexpr (!Problem::is_bare) {
+      // A body that floats above its ground, as before its weight comes, is no fault yet: `solve` lets it down.
+      if (verdict.reason == Reason::singular_system && !beside_.is_held()) return {};
+    }
+    return verdict;
+  }
+
+  /// Moves an increment [m], kept at its prescribed entries, to where forces balance when the loads have grown by `more` [N]
+  /// since the linearisation. What cannot be balanced is left to the next linearisation.
+  Verdict solve(Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
+    if constexpr (Problem::is_bare) {
+      return correct(increment, ground_imbalance(increment, more));
+    } else {
+      return follow_contact(increment, more);
+    }
+  }
+
+  FreeSystem const& system() const { return system_; }
+  /// Estimate for the last matrix, in the 1-norm; 0 where a body floats.
+  double condition() const { return is_held_ ? equations_.condition() : 0.0; }
+  /// |K x - b| / |b| of the last linear system.
+  double linear_residual() const { return linear_residual_; }
+  /// Degree of freedom that the last matrix holds least.
+  int weak_dof() const { return system_.dof(equations_.weakest()); }
+
+ private:
+  static constexpr int most_iterations = 40;
+  static constexpr int most_fruitless = 4;         ///< iterations in a row without a better balance
+  static constexpr double least_share = 0.1;       ///< of Newton's correction
+  static constexpr double longest_share = 1024.0;  ///< of one with all contacts held
+
+  struct NothingBeside {
+    explicit NothingBeside(Problem const&) {}
+  };
+
+  struct Balance {
+    Eigen::VectorXd increment;
+    Eigen::VectorXd unbalanced;
+    double residual = 0.0;
+    double beside = 0.0;  ///< residual of a body beside the mesh; 1 when nothing carries it
+
+    /// A body that has lost its contacts finds no way back by derivatives.
+    bool lost() const { return !(beside < 1.0); }
+    bool improves(Balance const& other) const {
+      return residual < other.residual && (!lost() || beside < other.beside);
+    }
+  };
+
+  /// A straight way through increments, and what the ground says along it.
+  struct Way {
+    Eigen::VectorXd start;
+    Eigen::VectorXd direction;
+    Eigen::VectorXd ground_at_start;
+    Eigen::VectorXd ground_along;
+  };
+
+  Verdict factorize() {
+    if constexpr (Problem::is_bare) {
+      return factorize(ground_);
+    } else {
+      return factorize(ground_ + problem_.attached_stiffness());
+    }
+  }
+
+  /// Without free degrees of freedom, as in a test of a law on one element, there are no equations.
+  Verdict factorize(GroundStiffness const& all) {
+    return system_.free_count() == 0 ? Verdict{} : equations_.factorize(system_, all);
+  }
+
+  Eigen::VectorXd ground_imbalance(Eigen::VectorXd const& increment, Eigen::VectorXd const& more) const {
+    return ground_forces_ + ground_ * (increment - centre_) - more;
+  }
+
+  /// One linear solve.
+  Verdict correct(Eigen::VectorXd& increment, Eigen::VectorXd const& unbalanced) {
+    if (system_.free_count() == 0) return {};
+    Eigen::VectorXd const force = -system_.gather(unbalanced);
+    Eigen::VectorXd const correction = equations_.solve(force);
+    double const norm = force.norm();
+    linear_residual_ = norm > 0.0 ? (equations_.product(correction) - force).norm() / norm : 0.0;
+    if (!(linear_residual_ < 1.0)) return {Status::failed, Reason::singular_system};
+    system_.scatter(system_.gather(increment) + correction, increment);
+    return {};
+  }
+
+  /// Newton's method; what stands beside the mesh is balanced at every place that is tried. Where Newton's direction
+  /// leads to no smaller imbalance, that of held contacts is followed as far as the unbalanced forces do work.
+  Verdict follow_contact(Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());
+    beside_.begin();
+    Balance now = balance({increment, still, ground_imbalance(increment, more), still}, 0.0);
+    double const goal = std::max(accuracy_, 1e-3 * now.residual);
+    Balance best = now;
+    int fruitless = 0;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      // Once in any case: a small residual may be that of boundary nodes which have moved alone.
+      if (iteration > 0 && (now.residual <= goal || beside_.spent())) break;
+      Way way;
+      Balance next;
+      bool const downhill = factorize().acceptable() && lay(way, now, more).acceptable() && go_downhill(way, now, next);
+      if (!downhill) {  // also where the matrix is singular, since nothing but sliding points holds a body
+        Verdict verdict = factorize(ground_ + problem_.held_stiffness());
+        if (verdict.acceptable()) verdict = lay(way, now, more);
+        if (!verdict.acceptable()) return verdict;
+        if (!go_by_work(way, next)) break;
+      }
+      now = std::move(next);
+      fruitless = now.residual < best.residual ? 0 : fruitless + 1;
+      if (fruitless == 0) best = now;
+      if (fruitless == most_fruitless) break;
+    }
+    increment = best.increment;
+    problem_.attached_forces(increment);
+    return {};
+  }
+
+  /// A way from a balance along the correction of the last matrix.
+  Verdict lay(Way& way, Balance const& from, Eigen::VectorXd const& more) {
+    Eigen::VectorXd whole = from.increment;
+    if (Verdict const verdict = correct(whole, from.unbalanced); !verdict.acceptable()) return verdict;
+    way = {from.increment, whole - from.increment, ground_imbalance(from.increment, more), {}};
+    way.ground_along = ground_ * way.direction;
+    return {};
+  }
+
+  /// Halves the way until the balance improves, or doubles it as long as it does.
+  bool go_downhill(Way const& way, Balance const& now, Balance& best) {
+    double share = 1.0;
+    best = balance(way, share);
+    while (!best.improves(now) && share > least_share) best = balance(way, share *= 0.5);
+    if (!best.improves(now)) {
+      problem_.attached_forces(now.increment);
+      return false;
+    }
+    if (share == 1.0) {
+      for (Balance further = balance(way, 2.0); further.improves(best); further = balance(way, 2.0 * share)) {
+        best = std::move(further);
+        share *= 2.0;
+      }
+    }
+    problem_.attached_forces(best.increment);
+    return true;
+  }
+
+  bool go_by_work(Way const& way, Balance& next) {
+    Eigen::VectorXd const free = system_.gather(way.direction);
+    auto const work = [&](double share) { return system_.gather(balance(way, share).unbalanced).dot(free); };
+    auto const share = detail::share_without_work(work, longest_share);
+    if (!share) return false;
+    next = balance(way, *share);
+    return true;
+  }
+
+  /// The attachment's trial state then belongs to the increment.
+  Balance balance(Way const& way, double share) {
+    Balance now;
+    now.increment = way.start + share * way.direction;
+    Eigen::VectorXd const of_ground = way.ground_at_start + share * way.ground_along;
+    beside_.settle(now.increment, -of_ground, 0.1 * accuracy_);
+    now.unbalanced = of_ground + problem_.attached_forces(now.increment);
+    now.residual = problem_.residual(now.unbalanced);
+    now.beside = problem_.residual_beside(now.unbalanced);
+    return now;
+  }
+
+  Problem& problem_;
+  FreeSystem system_;
+  double accuracy_;
+  std::conditional_t<Problem::is_bare, NothingBeside, detail::StandingBalance<Problem>> beside_;
+  GroundStiffness ground_;
+  detail::GroundEquations<Linear> equations_;  ///< with what is attached
+  Eigen::VectorXd centre_;
+  Eigen::VectorXd ground_forces_;  ///< internal forces of the elements less the loads, at the centre
+  double linear_residual_ = 0.0;
+  bool is_held_ = false;  ///< all bodies, when the system was linearised
+};
+
+namespace detail {
+/// How the free degrees of freedom moved in the last accepted load step, for each unit of the load factor.
+class RepeatedMotion {
+ public:
+  bool known() const { return !rate_.empty(); }
+  void forget() { rate_.clear(); }
+
+  /// motion [m]: of the free degrees of freedom in a step; growth: of the load factor, positive
+  void remember(Eigen::VectorXd const& motion, double growth) {
+    rate_.resize(static_cast<std::size_t>(motion.size()));
+    rate() = motion / growth;
+  }
+
+  /// The motion [m] when the load factor grows by as much.
+  Eigen::VectorXd over(double growth) { return growth * rate(); }
+
+  SCARP_MEMBERS(rate_)
+
+ private:
+  Eigen::Map<Eigen::VectorXd> rate() { return {rate_.data(), static_cast<Eigen::Index>(rate_.size())}; }
+
+  std::vector<double> rate_;  ///< [m]
+};
+}  // namespace detail
+
+/// What a load step begins with: the system linearised about the committed state, what is
+/// known of it, and the first guess that follows from it.
+template <class Problem, LinearSolver Linear>
+class StepStart {
+ public:
+  /// accuracy: see LinearisedStep
+  StepStart(Problem& problem, double accuracy) : problem_(problem), linearised_(problem, accuracy) {}
+
+  /// At the load factor that the problem is aimed at; says which degree of freedom is weak where the system is singular.
+  Verdict linearise(std::vector<VoigtTangent<Problem::dim>> const& tangents) {
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
+    Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, tangents);
+    condition_ = verdict.acceptable() ? linearised_.condition() : 0.0;
+    if (condition_ > linearised_.singular) verdict = {Status::failed, Reason::singular_system};
+    weak_dof_ = verdict.reason == Reason::singular_system ? linearised_.weak_dof() : -1;
+    return verdict;
+  }
+
+  /// Adds what was found out about the system.
+  void describe(StepReport& report) const {
+    report.condition = condition_;
+    report.weak_dof = weak_dof_;
+  }
+
+  /// Displacement increment between two load factors where it is prescribed, zero elsewhere; from then on forces are
+  /// measured against the loads of the second one.
+  Eigen::VectorXd prescribed(double from, double to) {
+    problem_.aim(to);
+    return problem_.constraints().displacement(from, to);
+  }
+
+  /// First guess of the whole increment from the linearised system, aimed likewise.
+  Eigen::VectorXd predict(double from, double to) {
+    Eigen::VectorXd increment = prescribed(from, to);
+    Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
+    // A prediction that fails is no more than a poor first guess.
+    linearised_.solve(increment, more_load);
+    return increment;
+  }
+
+  LinearisedStep<Problem, Linear>& linearised() { return linearised_; }
+
+ private:
+  Problem& problem_;
+  LinearisedStep<Problem, Linear> linearised_;
+  double condition_ = 0.0;
+  int weak_dof_ = -1;
+};
+
+}  // namespace scarp

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/tensor/geo.hpp"
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+#include "support/approx.hpp"
+
+namespace {
+
+using scarp::Tensor;
+
+Tensor<2> stretched(double x, double y) {
+  Tensor<2> deformation = Tensor<2>::Zero();
+  deformation.diagonal() << x, y;
+  return deformation;
+}
+
+constexpr double round_off = 1e-14;
+
+}  // namespace
+
+TEST_CASE("pressure and shear stress of the plane have their closed forms") {
+  // Analytic: p = -(sxx + syy)/2; q = half the difference of the principal stresses = hypot((sxx - syy)/2, sxy).
+  auto const general = scarp::geo::plane_stress({-100.0, -40.0, 40.0});
+  CHECK(general.p == 70.0);
+  CHECK(general.q == samples::Approx(50.0).epsilon(round_off));
+  auto const isotropic = scarp::geo::plane_stress({-3.0, -3.0, 0.0});
+  CHECK(isotropic.p == 3.0);
+  CHECK(isotropic.q == 0.0);
+  auto const biaxial = scarp::geo::plane_stress({-200e3, -640e3, 0.0});
+  CHECK(biaxial.q == 220e3);
+}
+
+TEST_CASE("pressure and shear stress do not depend on the axes") {
+  scarp::VoigtStress<2> const stress(-120.0, -30.0, 25.0);
+  auto const seen = scarp::geo::plane_stress(stress);
+  for (double angle = 0.1; angle < std::numbers::pi; angle += 0.3) {
+    Tensor<2> const turn = scarp::rotation(angle);
+    Tensor<2> const turned = turn * scarp::from_voigt_stress<2, double>(stress) * turn.transpose();
+    auto const other = scarp::geo::plane_stress(scarp::to_voigt_stress<2, double>(turned));
+    CHECK(other.p == samples::Approx(seen.p).epsilon(10.0 * round_off));
+    CHECK(other.q == samples::Approx(seen.q).epsilon(10.0 * round_off));
+  }
+}
+
+TEST_CASE("logarithmic strains of stretch, turn and simple shear have their closed forms") {
+  auto const none = scarp::geo::plane_strain(Tensor<2>::Identity());
+  CHECK(none.volumetric == 0.0);
+  CHECK(none.deviatoric == 0.0);
+  // Analytic: principal logarithmic strains ln 0.8 and ln 1.1, whatever turns before or after the stretch.
+  for (double const angle : {0.0, 0.7, 2.0}) {
+    Tensor<2> const deformation = scarp::rotation(angle) * stretched(0.8, 1.1) * scarp::rotation(0.3 * angle);
+    auto const strain = scarp::geo::plane_strain(deformation);
+    CHECK(strain.volumetric == samples::Approx(-std::log(0.88)).epsilon(10.0 * round_off));
+    CHECK(strain.deviatoric == samples::Approx(std::log(1.1 / 0.8)).epsilon(10.0 * round_off));
+  }
+  for (double const shear : {1e-6, 0.01, 1.0, 3.0}) {
+    Tensor<2> deformation = Tensor<2>::Identity();
+    deformation(0, 1) = shear;
+    auto const strain = scarp::geo::plane_strain(deformation);
+    // Analytic: principal stretches exp(+-asinh(shear/2)). The squared stretches are rounded at 1e-16: absolute error.
+    CHECK(std::abs(strain.volumetric) < 1e-14);
+    CHECK(std::abs(strain.deviatoric - 2.0 * std::asinh(shear / 2.0)) < 1e-14);
+  }
+}
+
+TEST_CASE("contraction counts positive") { CHECK(scarp::geo::plane_strain(stretched(0.9, 0.9)).volumetric > 0.2); }
