@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/tensor/tensor.hpp"
 #include "scarp/dem/damping.hpp"
 #include "scarp/dem/packing.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp_benchmark {
 

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "../examples/shared/study/study_sand.hpp"
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/perturbation_tangent.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/io/csv.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/perturbation_tangent.hpp"
 #include "shared/data_file.hpp"
 
 namespace {
@@ -92,9 +92,9 @@ int main(int argc, char** argv) {
   for (auto& state : states) {
     for (double const amplitude : amplitudes) {
       scarp::PerturbationTangent<> const exact{.strain = amplitude,
-                                             .strain_steps = std::max(20, static_cast<int>(amplitude / 1e-6)),
-                                             .unbalanced_tolerance = 0.1 * amplitude,
-                                             .most_steps = 200'000};
+                                               .strain_steps = std::max(20, static_cast<int>(amplitude / 1e-6)),
+                                               .unbalanced_tolerance = 0.1 * amplitude,
+                                               .most_steps = 200'000};
       auto const one_sided = exact.differentiate(state.settled, law, onward);
       if (!one_sided.verdict.acceptable()) fmt::print(stderr, "{}, {:g}: not settled\n", state.name, amplitude);
       state.response.push_back(one_sided.tangent);

@@ -10,11 +10,11 @@
 #include "../../examples/shared/study/typed_scenes.hpp"
 #include "../shared/data_file.hpp"
 #include "profiled.hpp"
-#include "scarp/io/csv.hpp"
-#include "scarp/run/resources.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
+#include "scarp/io/csv.hpp"
 #include "scarp/points/nonlocal.hpp"
+#include "scarp/run/resources.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace {

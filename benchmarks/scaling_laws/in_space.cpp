@@ -7,16 +7,16 @@
 #include <cstdlib>
 #include <exception>
 
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/level_ground.hpp"
-#include "scarp/run/resources.hpp"
 #include "scarp/observe/observers.hpp"
+#include "scarp/run/resources.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/level_ground.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/sphere.hpp"
 
 namespace {

@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/core/worse_of.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "stability/shearing.hpp"
 
 namespace stability {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "scarp/core/worse_of.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
-#include "scarp/core/worse_of.hpp"
 #include "stability/shearing.hpp"
 #include "support/packings.hpp"
 

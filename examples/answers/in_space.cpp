@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // What changes in space? The shape, and with it the dimension of everything: a packing of spheres in three tests.
+#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
-#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/shape/sphere.hpp"
 
 #include "lattice.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // How does every point get another packing? By a source: a lattice whose overlap grows with depth and varies at random.
 #include "scarp/bvp/usual_integration.hpp"
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/constitutive/correlated_field.hpp"
+#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "scarp/rve/dem_rve.hpp"
 #include "scarp/shape/disc.hpp"
 
 #include "lattice.hpp"

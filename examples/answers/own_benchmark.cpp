@@ -3,10 +3,10 @@
 #include "scarp/contact/coulomb.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/simd/select.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/run/resources.hpp"
 #include "scarp/shape/disc.hpp"
+#include "scarp/simd/select.hpp"
 
 #include "lattice.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // What does a damping of one's own take? Viscous drag on all grains, in a packing that answers as a material.
+#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
-#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/shape/disc.hpp"
 
 #include "lattice.hpp"

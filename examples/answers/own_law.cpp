@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // What does a contact law of one's own take? A spring that stiffens, with friction, in packings of any shape.
+#include "scarp/contact/coulomb.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
-#include "scarp/contact/coulomb.hpp"
-#include "scarp/simd/select.hpp"
 #include "scarp/shape/disc.hpp"
+#include "scarp/simd/select.hpp"
 
 #include "lattice.hpp"
 

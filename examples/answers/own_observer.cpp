@@ -5,8 +5,8 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // How does another program call a packing as its material? By a C function: gradient in, stress and tangent out.
+#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
-#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/shape/disc.hpp"
 
 #include "lattice.hpp"

@@ -7,9 +7,9 @@
 
 #include "../shared/packing_input.hpp"
 #include "../shared/study/study_sand.hpp"
+#include "scarp/io/packings/contact_reader.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/random_packings.hpp"
-#include "scarp/io/packings/contact_reader.hpp"
 #include "scarp/shape/disc.hpp"
 
 namespace biaxial_specimen {

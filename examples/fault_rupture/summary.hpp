@@ -10,12 +10,12 @@
 #include "any_scene.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/fault/footing_log.hpp"
-#include "scarp/io/atomic_file.hpp"
-#include "scarp/observe/distortion.hpp"
-#include "scarp/observe/floor_share.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
 #include "scarp/fault/surface_mean.hpp"
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/observe/distortion.hpp"
+#include "scarp/observe/floor_share.hpp"
 #include "team.hpp"
 
 namespace fault_rupture {

@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "choice.hpp"
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/contact/linear_frictional.hpp"
@@ -17,9 +15,11 @@
 #include "scarp/element/hex8.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/level_ground.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/points/nonlocal.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/level_ground.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/sphere.hpp"
 
 namespace fault_slab {

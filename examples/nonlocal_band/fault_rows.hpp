@@ -5,9 +5,9 @@
 #include "../shared/tell.hpp"
 #include "fault.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/observe/generalised_reaction.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_measures.hpp"
+#include "scarp/observe/generalised_reaction.hpp"
 #include "scarp/points/nonlocal.hpp"
 
 namespace nonlocal_band {

@@ -2,14 +2,14 @@
 // What changes when every element's elastic law is replaced by a packing of grains? In the program: one template argument.
 #include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/level_ground.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/level_ground.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/thread_executor.hpp"
 

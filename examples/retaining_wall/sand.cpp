@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../shared/study/study_sand.hpp"
 #include "run.hpp"
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
-#include "scarp/fault/level_ground.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/level_ground.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "strength_test.hpp"

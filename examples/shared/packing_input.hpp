@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scarp/tensor/tensor.hpp"
 #include "scarp/io/csv_reader.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace examples {
 

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/preparation.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/sphere.hpp"
 
 namespace triaxial_column {

@@ -3,11 +3,11 @@
 #include <doctest/doctest.h>
 
 #include "bvp/sample_problems.hpp"
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "support/elements.hpp"
 #include "support/packings.hpp"

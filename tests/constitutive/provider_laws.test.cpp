@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "constitutive/provider_laws.hpp"
 
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "support/packings.hpp"
 
 namespace provider_laws {

@@ -5,15 +5,15 @@
 #include <functional>
 #include <limits>
 
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
-#include "scarp/rve/perturbation_tangent.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/points/nonlocal.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
+#include "scarp/rve/perturbation_tangent.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "constitutive/nestings.hpp"
 #include "constitutive/provider_laws.hpp"
-#include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/correlated_field.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/points/material_points.hpp"
 #include "support/approx.hpp"

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "scarp/contact/hertz_mindlin.hpp"
-#include "scarp/tensor/tensor.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/shape/sphere.hpp"
+#include "scarp/tensor/tensor.hpp"
 #include "support/approx.hpp"
 
 // The eight impacts of Chung and Ooi 2011, Granular Matter 13, 643-656. Geometry, speeds and materials of tests 1 to 4 are

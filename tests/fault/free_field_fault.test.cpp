@@ -5,13 +5,13 @@
 
 #include <regex>
 
-#include "scarp/observe/convergence_log.hpp"
-#include "scarp/observe/field_series.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
-#include "scarp/observe/packing_series.hpp"
-#include "scarp/observe/probe.hpp"
 #include "scarp/fault/rupture_measures.hpp"
 #include "scarp/fault/surface_log.hpp"
+#include "scarp/observe/convergence_log.hpp"
+#include "scarp/observe/field_series.hpp"
+#include "scarp/observe/packing_series.hpp"
+#include "scarp/observe/probe.hpp"
 #include "scarp/run/time_limit.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/approx.hpp"

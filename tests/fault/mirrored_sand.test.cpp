@@ -3,12 +3,12 @@
 #include <doctest/doctest.h>
 
 #include "fault/mirror.hpp"
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/dem/mirrored.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/level_ground.hpp"
 #include "scarp/points/nonlocal.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/level_ground.hpp"
 #include "support/packings.hpp"
 
 namespace {

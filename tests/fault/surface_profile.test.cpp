@@ -6,9 +6,9 @@
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/fault/fault_mesh.hpp"
+#include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/fault/ground_at_rest.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 

@@ -3,14 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/io/state_bits.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/approx.hpp"
 #include "support/files.hpp"

@@ -3,13 +3,13 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/io/state_bits.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 

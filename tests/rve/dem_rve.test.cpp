@@ -3,12 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/rve/packings_by_depth.hpp"
-#include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/constitutive/correlated_field.hpp"
+#include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "support/approx.hpp"
 #include "support/files.hpp"
 #include "support/packings.hpp"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "scarp/simd/pack.hpp"
 #include "scarp/core/random.hpp"
+#include "scarp/simd/pack.hpp"
 #include "support/approx.hpp"
 
 namespace {

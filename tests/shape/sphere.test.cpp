@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/simd/pack.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/population.hpp"
 #include "scarp/shape/disc.hpp"
+#include "scarp/simd/pack.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 

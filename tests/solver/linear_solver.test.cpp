@@ -63,8 +63,7 @@ Grid two_blocks() {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("every linear solver solves symmetric systems, one after the other", Solver,
-                   scarp::SparseLu) {
+TEST_CASE_TEMPLATE("every linear solver solves symmetric systems, one after the other", Solver, scarp::SparseLu) {
   Solver solver;
   for (int const size : {5, 40, 40, 17})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) solves(solver, random_matrix(size, seed, true));

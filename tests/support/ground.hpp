@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/level_ground.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/level_ground.hpp"
 #include "scarp/shape/ellipse.hpp"
 
 /// The free-field scene at a size that runs in a blink.

@@ -3,20 +3,20 @@
 // checkpoints, and ranks where there is an MPI.
 #include <filesystem>
 
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/frictional_footing.hpp"
-#include "scarp/fault/level_ground.hpp"
+#include "scarp/fault/surface_log.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
-#include "scarp/fault/surface_log.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/run/first_rank.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/level_ground.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #if __has_include(<mpi.h>)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // A packing as constitutive law, one response: DEM and homogenisation, no finite elements.
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/preparation.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/ellipse.hpp"
 
 int main() {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // The free field with a packing of the study's ellipses in every element.
-#include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/level_ground.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/level_ground.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/thread_executor.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "any_soil.hpp"
 #include "scarp/dem/mirrored.hpp"
-#include "scarp/fault/level_ground.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
+#include "scarp/rve/level_ground.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "study_sand.hpp"
 

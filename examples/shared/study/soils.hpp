@@ -2,14 +2,14 @@
 #pragma once
 
 #include "choice.hpp"
-#include "scarp/rve/dem_rve.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/rve/packings_by_depth.hpp"
-#include "scarp/rve/random_packings.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/contact/linear_frictional.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
+#include "scarp/rve/random_packings.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/tangent_rules.hpp"

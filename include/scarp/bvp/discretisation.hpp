@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/bvp/sparsity.hpp"
 #include "scarp/bvp/integration.hpp"
 #include "scarp/bvp/kinematics.hpp"
+#include "scarp/bvp/sparsity.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"

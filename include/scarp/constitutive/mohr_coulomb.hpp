@@ -6,8 +6,8 @@
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/described.hpp"
-#include "scarp/tensor/finite_strain.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/tensor/finite_strain.hpp"
 #include "scarp/tensor/principal.hpp"
 
 namespace scarp {

@@ -7,8 +7,8 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/simd/pack.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/simd/pack.hpp"
 
 namespace scarp {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "scarp/contact/contact_law.hpp"
-#include "scarp/simd/select.hpp"
 #include "scarp/shape/particle_shape.hpp"
+#include "scarp/simd/select.hpp"
 
 namespace scarp {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
-#include "scarp/tensor/principal.hpp"
 #include "scarp/dem/contacts.hpp"
+#include "scarp/tensor/principal.hpp"
 
 namespace scarp {
 

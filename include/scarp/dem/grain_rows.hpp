@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "scarp/simd/columns.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/simd/quads.hpp"
 #include "scarp/dem/packing.hpp"
+#include "scarp/simd/columns.hpp"
+#include "scarp/simd/quads.hpp"
 
 namespace scarp {
 

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "scarp/contact/contact_law.hpp"
-#include "scarp/simd/columns.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/tensor/tensor.hpp"
 #include "scarp/dem/population.hpp"
+#include "scarp/simd/columns.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp::detail {
 

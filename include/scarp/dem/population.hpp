@@ -9,11 +9,11 @@
 #include <numbers>
 #include <vector>
 
-#include "scarp/simd/columns.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/shape/particle_shape.hpp"
+#include "scarp/simd/columns.hpp"
 
 namespace scarp {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/element/quadrature_rules.hpp"
 #include "scarp/element/mid_sides.hpp"
+#include "scarp/element/quadrature_rules.hpp"
 #include "scarp/element/reference_element.hpp"
 
 namespace scarp {

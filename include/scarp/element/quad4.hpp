@@ -2,8 +2,8 @@
 #pragma once
 
 #include "scarp/core/index.hpp"
-#include "scarp/element/quadrature_rules.hpp"
 #include "scarp/element/line.hpp"
+#include "scarp/element/quadrature_rules.hpp"
 
 namespace scarp {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "scarp/element/quadrature_rules.hpp"
 #include "scarp/element/line.hpp"
+#include "scarp/element/quadrature_rules.hpp"
 
 namespace scarp {
 

@@ -13,8 +13,8 @@
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/ground.hpp"
-#include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #ifdef SCARP_PRECOMPILED
 #include "scarp/fault/fault_mesh.hpp"

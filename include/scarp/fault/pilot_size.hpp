@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/tensor/geo.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/mesh/refined.hpp"
 #include "scarp/observe/deformation.hpp"
+#include "scarp/tensor/geo.hpp"
 
 namespace scarp {
 

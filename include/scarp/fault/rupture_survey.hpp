@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "scarp/core/precompiled.hpp"
-#include "scarp/mesh/mesh.hpp"
 #include "scarp/fault/rupture_measures.hpp"
 #include "scarp/fault/surface_profile.hpp"
+#include "scarp/mesh/mesh.hpp"
 #ifdef SCARP_PRECOMPILED
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/quad8.hpp"

@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "scarp/core/described.hpp"
-#include "scarp/io/csv.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/surface_profile.hpp"
+#include "scarp/io/csv.hpp"
 
 namespace scarp {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
-#include "scarp/tensor/voigt.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/sliding_contacts.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

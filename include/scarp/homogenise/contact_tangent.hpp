@@ -8,8 +8,8 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
-#include "scarp/tensor/voigt.hpp"
 #include "scarp/dem/contacts.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/framed_file.hpp"
 #include "scarp/io/folder_lock.hpp"
+#include "scarp/io/framed_file.hpp"
 #include "scarp/io/read_file.hpp"
 
 namespace scarp {

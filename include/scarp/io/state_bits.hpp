@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/simd/columns.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/simd/columns.hpp"
 #include "scarp/tensor/tensor.hpp"
 
 namespace scarp {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
-#include "scarp/tensor/geo.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/observe/deformation.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/run/first_rank.hpp"
+#include "scarp/tensor/geo.hpp"
 
 namespace scarp {
 

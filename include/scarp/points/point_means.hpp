@@ -9,11 +9,11 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/tensor/finite_strain.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/linear_map.hpp"
-#include "scarp/tensor/voigt.hpp"
 #include "scarp/points/neighbour_mean.hpp"
+#include "scarp/tensor/finite_strain.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

@@ -6,8 +6,8 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/executor.hpp"
-#include "scarp/tensor/voigt.hpp"
 #include "scarp/solver/step_report.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

@@ -8,13 +8,13 @@
 #include "scarp/constitutive/unwrap.hpp"
 #include "scarp/contact/law_checks.hpp"
 #include "scarp/core/described.hpp"
-#include "scarp/tensor/finite_strain.hpp"
-#include "scarp/tensor/principal.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/packing_picture.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/fabric.hpp"
+#include "scarp/tensor/finite_strain.hpp"
+#include "scarp/tensor/principal.hpp"
 
 namespace scarp {
 

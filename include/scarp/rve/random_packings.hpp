@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/preparation.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 
 namespace scarp {
 

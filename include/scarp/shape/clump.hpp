@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
+#include "scarp/shape/disc.hpp"
 #include "scarp/simd/pack.hpp"
 #include "scarp/tensor/tensor.hpp"
-#include "scarp/shape/disc.hpp"
 
 namespace scarp {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "scarp/core/precompiled.hpp"
-#include "scarp/simd/square_roots.hpp"
 #include "scarp/shape/support_touch.hpp"
+#include "scarp/simd/square_roots.hpp"
 
 namespace scarp {
 

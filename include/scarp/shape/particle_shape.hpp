@@ -5,8 +5,8 @@
 #include <concepts>
 #include <cstddef>
 
-#include "scarp/simd/pack.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/simd/pack.hpp"
 
 namespace scarp {
 

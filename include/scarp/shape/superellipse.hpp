@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "scarp/core/error.hpp"
-#include "scarp/simd/pack.hpp"
 #include "scarp/shape/superellipse_touch.hpp"
+#include "scarp/simd/pack.hpp"
 
 namespace scarp {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/shape/support_touch.hpp"
 #include "scarp/simd/pack.hpp"
 #include "scarp/simd/positive_power.hpp"
 #include "scarp/simd/select.hpp"
-#include "scarp/shape/support_touch.hpp"
 
 namespace scarp {
 

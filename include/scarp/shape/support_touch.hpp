@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/shape/particle_shape.hpp"
 #include "scarp/simd/pack.hpp"
 #include "scarp/simd/select.hpp"
-#include "scarp/shape/particle_shape.hpp"
 
 namespace scarp {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
-#include "scarp/tensor/voigt.hpp"
 #include "scarp/solver/detail/standing_balance.hpp"
 #include "scarp/solver/free_system.hpp"
 #include "scarp/solver/step_report.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

@@ -7,8 +7,8 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/solver/linearised_step.hpp"
 #include "scarp/solver/incremental_problem.hpp"
+#include "scarp/solver/linearised_step.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/solver/tangent_rules.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
-#include "scarp/tensor/voigt.hpp"
 #include "scarp/solver/step_report.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 

@@ -9,9 +9,9 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/tensor/tensor.hpp"
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/solver/step_report.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp::detail {
 

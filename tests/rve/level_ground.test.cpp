@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/fault/level_ground.hpp"
+#include "scarp/rve/level_ground.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/preparation.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 
 namespace scarp {
 
@@ -34,8 +34,9 @@ struct LevelGround {
 
   /// depths [m], any order; those with the same overburden, to 1e-7 of it, share a packing
   /// \throws PreparationError when a stress is not reached, InputError for bad parameters
-  template <class PackingType>
-  PackingsByDepth<PackingType> make(typename PackingType::Law const& law, std::vector<double> depths) const {
+  template <class PackingType, DampsMotion Damping = LocalDamping>
+  PackingsByDepth<PackingType> make(typename PackingType::Law const& law, std::vector<double> depths,
+                                    Damping const& damping = {}) const {
     if (depths.empty()) refuse("no depths are given (level ground needs at least one): pass the depths of the points");
     validate();
     for (double const depth : depths) require_finite("depth of a packing", depth);
@@ -50,12 +51,12 @@ struct LevelGround {
     depths.erase(std::unique(depths.begin(), depths.end(), alike), depths.end());
     std::vector<double> pressures;
     for (double const depth : depths) pressures.push_back(preload * overburden(depth));
-    auto const base = preparation.prepare(cloud.template make<PackingType>(), law);
+    auto const base = preparation.prepare(cloud.template make<PackingType>(), law, damping);
     if (!base.verdict.acceptable()) {
       throw PreparationError(fmt::format("the packing did not reach {} Pa ({}): try another seed or a higher pressure",
                                          preparation.pressure, name(base.verdict.reason)));
     }
-    auto column = compression.compress(base.packing, law, pressures);
+    auto column = compression.compress(base.packing, law, pressures, damping);
     if (!column.back().verdict.acceptable()) {
       throw PreparationError(
           fmt::format("the column of packings stopped at {} Pa vertical stress ({}): try another seed",
@@ -63,16 +64,17 @@ struct LevelGround {
     }
     PackingsByDepth<PackingType> ground{std::move(depths), {}};
     for (auto& prepared : column) ground.packings.push_back(std::move(prepared.packing));
-    if (preload > 1.0) unload(law, ground);
+    if (preload > 1.0) unload(law, ground, damping);
     return ground;
   }
 
  private:
-  template <class PackingType>
-  void unload(typename PackingType::Law const& law, PackingsByDepth<PackingType>& ground) const {
+  template <class PackingType, class Damping>
+  void unload(typename PackingType::Law const& law, PackingsByDepth<PackingType>& ground,
+              Damping const& damping) const {
     for (std::size_t k = 0; k < ground.packings.size(); ++k) {
       double const pressure = overburden(ground.depths[k]);
-      auto unloaded = compression.compress(std::move(ground.packings[k]), law, {pressure});
+      auto unloaded = compression.compress(std::move(ground.packings[k]), law, {pressure}, damping);
       if (!unloaded.front().verdict.acceptable()) {
         throw PreparationError(
             fmt::format("the packing at {} m did not come back from its preload to {} Pa ({}): try another seed",
