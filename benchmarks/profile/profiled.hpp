@@ -82,7 +82,7 @@ struct Profiled {
   std::shared_ptr<Tallies> tallies = std::make_shared<Tallies>();
 
   State initial_state(scarp::Site<dim> const& site) const { return {provider.initial_state(site), site.depth}; }
-  State blank_state(scarp::Site<dim> const& site) const { return {scarp::blank_state(provider, site), site.depth}; }
+  State empty_state(scarp::Site<dim> const& site) const { return {scarp::empty_state(provider, site), site.depth}; }
   scarp::VoigtStress<dim> stress(State const& state) const { return provider.stress(state.own); }
 
   scarp::VoigtTangent<dim> tangent(State const& state) const {

@@ -23,7 +23,7 @@ namespace {
 
 using Spheres = scarp::Packing<scarp::Sphere, scarp::LinearFrictional>;
 struct Sand : scarp::DemRve<Spheres, scarp::PackingsByDepth<Spheres>> {};
-using Scene = scarp::FreeFieldFault<Sand, scarp::QuasiNewton<>, scarp::LayeredGround<scarp::Hex8>>;
+using Scene = scarp::FreeFieldFault<Sand, scarp::QuasiNewton<>, scarp::StructuredGround<scarp::Hex8>>;
 
 /// Time outside of the points, over all attempts.
 struct Outside : scarp::NeverStops {

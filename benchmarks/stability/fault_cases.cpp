@@ -77,7 +77,7 @@ Outcome tiny_throw() {
   ground.throw_to = 1e-9;
   auto const found = answer(ground);
   double most = 0.0;
-  for (auto const& moved : found.surface) most = scarp::worse_of(most, moved.norm() * ground.layer().depth);
+  for (auto const& moved : found.surface) most = scarp::nan_max(most, moved.norm() * ground.layer().depth);
   // No node goes further than the hanging wall, the square root of 1 + 1/tan(60 degrees)^2 times the throw.
   double const beyond = std::max(0.0, most / (ground.throw_to * std::sqrt(4.0 / 3.0)) - 1.0);
   auto outcome = at_most(1e-6, beyond, "largest motion of the surface over that of the hanging wall, less 1",

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/core/worse_of.hpp"
+#include "scarp/core/nan_max.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 
@@ -96,7 +96,7 @@ FaultAnswer answer(FaultGround const& ground, Problem& problem) {
   found.imbalance = std::abs(up + down) / std::max(std::abs(down), reactions);
   for (auto const& stress : stresses) {
     double const mean = (stress(0) + stress(1)) / 2.0;
-    found.tension = scarp::worse_of(found.tension, mean + std::hypot((stress(0) - stress(1)) / 2.0, stress(2)));
+    found.tension = scarp::nan_max(found.tension, mean + std::hypot((stress(0) - stress(1)) / 2.0, stress(2)));
   }
   return found;
 }
@@ -113,8 +113,8 @@ inline double difference(FaultAnswer const& a, FaultAnswer const& b) {
   double apart = arrived && a.surface.size() == b.surface.size() ? 0.0 : std::numeric_limits<double>::infinity();
   double most = 0.0;
   for (std::size_t k = 0; k < std::min(a.surface.size(), b.surface.size()); ++k) {
-    apart = scarp::worse_of(apart, (a.surface[k] - b.surface[k]).norm());
-    most = scarp::worse_of(most, b.surface[k].norm());
+    apart = scarp::nan_max(apart, (a.surface[k] - b.surface[k]).norm());
+    most = scarp::nan_max(most, b.surface[k].norm());
   }
   return apart / most;
 }

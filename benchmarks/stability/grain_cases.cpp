@@ -7,7 +7,7 @@
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
-#include "scarp/core/worse_of.hpp"
+#include "scarp/core/nan_max.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
 #include "stability/shearing.hpp"
@@ -199,7 +199,7 @@ double growth(Law const& law, double share) {
   auto const speed = [&] {
     double most = 0.0;
     for (std::size_t i = 0; i < grains.grain_count(); ++i)
-      most = scarp::worse_of(most, std::hypot(grains.velocity(i, 0), grains.velocity(i, 1)));
+      most = scarp::nan_max(most, std::hypot(grains.velocity(i, 0), grains.velocity(i, 1)));
     return most;
   };
   double const before = speed();

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "scarp/core/worse_of.hpp"
+#include "scarp/core/nan_max.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
 #include "stability/shearing.hpp"
@@ -65,8 +65,8 @@ struct Path {
     if (!verdict.acceptable()) {
       ++unbalanced;
     } else {
-      tension = scarp::worse_of(tension, pull(state.stress) / start_);
-      tension_share = scarp::worse_of(tension_share, pull(state.stress) / mean_pressure(state.stress));
+      tension = scarp::nan_max(tension, pull(state.stress) / start_);
+      tension_share = scarp::nan_max(tension_share, pull(state.stress) / mean_pressure(state.stress));
     }
     return true;
   }
@@ -166,7 +166,7 @@ Outcome sheared_far(double strain, Size size) {
   for (int k = 0; k < increments; ++k) {
     if (k == increments / 2) half_way = path.state;
     if (!path.go(simple_shear(0.005))) return {.measure = "nothing", .remark = words(path.verdict)};
-    outcome.worst = scarp::worse_of(outcome.worst, deviator(path.state.stress) / mean_pressure(path.state.stress));
+    outcome.worst = scarp::nan_max(outcome.worst, deviator(path.state.stress) / mean_pressure(path.state.stress));
   }
   Path again(path.provider);
   again.state = half_way;

@@ -12,11 +12,11 @@
 
 /// As scarp::LinearFrictional, to have something known to compare with.
 struct OwnSprings {
-  static constexpr scarp::ContactNeeds needs{.shear = true};
+  static constexpr scarp::ContactInputs needs{.shear = true};
   double normal_stiffness = 0.0, tangential_stiffness = 0.0, friction = 0.0;
 
   template <int Dim, class T>
-  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach,
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>& memory) const {
     using scarp::constant;
     T const normal = scarp::lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));

@@ -10,7 +10,7 @@
 
 /// \f$ F_n = k\,u^{3/2},\; |F_t| \le \mu F_n \f$ with a linear shear spring; k [N/m^1.5], k_t [N/m].
 struct Stiffening {
-  static constexpr scarp::ContactNeeds needs{.shear = true};  // without it no slip is computed and nothing rubs
+  static constexpr scarp::ContactInputs needs{.shear = true};  // without it no slip is computed and nothing rubs
 
   double coefficient = 0.0;
   double tangential_stiffness = 0.0;
@@ -18,7 +18,7 @@ struct Stiffening {
 
   // T is a double, or a pack of as many contacts as a register holds: no `if` on it, but lanes::select and its like.
   template <int Dim, class T>
-  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach,
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>& memory) const {
     using scarp::constant;
     using std::sqrt;

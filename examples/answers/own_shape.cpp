@@ -55,8 +55,8 @@ struct Oval {
     return {support(first, n), support(second, n)};
   }
   template <class T>
-  static scarp::Touch<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
-                                  scarp::Point<2, T> const& branch, scarp::Point<2, T> const& normal) {
+  static scarp::ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
+                                            scarp::Point<2, T> const& branch, scarp::Point<2, T> const& normal) {
     return scarp::support_touch<Oval>(first, second, branch, normal);
   }
 };

@@ -94,13 +94,13 @@ SceneSize size_of_any(Choice const& choice) {
 }  // namespace
 
 SceneSize size_of_scene(Choice const& choice) {
-  if (choice.scene == Case::free) return size_of_any<Scene<scarp::BareGround>>(choice);
+  if (choice.scene == Case::free) return size_of_any<Scene<scarp::NoStructure>>(choice);
   if (choice.base == Base::sticking) return size_of_any<Scene<scarp::StickingFooting>>(choice);
   return size_of_any<Scene<RigidFooting>>(choice);
 }
 
 AnyScene make_scene(Choice const& choice, int processes, bool speaks) {
-  if (choice.scene == Case::free) return make_any<Scene<scarp::BareGround>>(choice, processes, speaks);
+  if (choice.scene == Case::free) return make_any<Scene<scarp::NoStructure>>(choice, processes, speaks);
   if (choice.base == Base::sticking) return make_any<Scene<scarp::StickingFooting>>(choice, processes, speaks);
   return make_any<Scene<RigidFooting>>(choice, processes, speaks);
 }

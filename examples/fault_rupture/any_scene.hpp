@@ -19,7 +19,7 @@ struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structu
   PackingWriter write_packing{};  ///< nothing for soils without packings
 };
 
-using AnyScene = std::variant<Scene<scarp::BareGround>, Scene<scarp::StickingFooting>, Scene<RigidFooting>>;
+using AnyScene = std::variant<Scene<scarp::NoStructure>, Scene<scarp::StickingFooting>, Scene<RigidFooting>>;
 
 /// processes: that share the packings out among them; says on stderr what is prepared where `speaks`
 /// \throws scarp::InputError for choices that do not make a scene or need too much memory, scarp::PreparationError

@@ -96,7 +96,7 @@ struct NoFooting : scarp::NeverStops {
   void attempted(Problem const&, scarp::StepReport const&) {}
 };
 
-inline NoFooting footing_log(std::filesystem::path const&, scarp::BareGround const&, double, int, double,
+inline NoFooting footing_log(std::filesystem::path const&, scarp::NoStructure const&, double, int, double,
                              scarp::CsvStart) {
   return {};
 }
@@ -164,7 +164,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnFirstRank observers(executor, [&] {
     return scarp::Observers(
-        scarp::Borrowed(*takeover), scarp::FieldSeries(folder, to, choice.frames, depth),
+        scarp::ObserverRef(*takeover), scarp::FieldSeries(folder, to, choice.frames, depth),
         scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
         scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
@@ -179,7 +179,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
               "0 without area): compare with another --pattern, or take a longer --length or less throw\n",
               begun.name, worst.element, worst.place.x(), worst.place.y(), 100.0 * worst.shear, worst.mean_ratio);
         }),
-        scarp::Borrowed(budget), scarp::Borrowed(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
+        scarp::ObserverRef(budget), scarp::ObserverRef(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
   });
 
   RunNotes notes{.used = examples::RunUsage(begun.moment)};
@@ -261,8 +261,8 @@ std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const&
 }
 
 // Each structure's scene is compiled in a source of its own.
-extern template int run(Choice const&, Scene<scarp::BareGround> const&, Start const&);
-extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::BareGround> const&);
+extern template int run(Choice const&, Scene<scarp::NoStructure> const&, Start const&);
+extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::NoStructure> const&);
 extern template int run(Choice const&, Scene<scarp::StickingFooting> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::StickingFooting> const&);
 extern template int run(Choice const&, Scene<RigidFooting> const&, Start const&);

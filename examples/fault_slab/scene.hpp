@@ -26,7 +26,7 @@ namespace fault_slab {
 
 /// The study's free field as a slab in space, for any soil.
 struct Scene : scarp::FreeFieldFault<scarp::Nonlocal<scarp::AnyProvider<3>>, scarp::QuasiNewton<>,
-                                     scarp::LayeredGround<scarp::Hex8>, scarp::TaperedSlip<scarp::NormalFault>> {};
+                                     scarp::StructuredGround<scarp::Hex8>, scarp::TaperedSlip<scarp::NormalFault>> {};
 
 using Grains = scarp::Packing<scarp::Sphere, scarp::LinearFrictional>;
 

@@ -7,8 +7,8 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/fault/given_ground.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
+#include "scarp/fault/mesh_file_ground.hpp"
 #include "scarp/fault/rupture_survey.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -35,7 +35,7 @@ struct PressureStiffened {
 };
 
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
-using Ground = scarp::GivenGround<scarp::Quad8>;
+using Ground = scarp::MeshFileGround<scarp::Quad8>;
 
 int main(int count, char** arguments) try {
   auto const file = count > 1 ? std::filesystem::path(arguments[1])

@@ -9,7 +9,7 @@
 #include "../shared/budget_report.hpp"
 #include "biaxial_test.hpp"
 #include "scarp/budget/budget_part.hpp"
-#include "scarp/core/worse_of.hpp"
+#include "scarp/core/nan_max.hpp"
 
 namespace rve_biaxial {
 
@@ -25,12 +25,12 @@ inline scarp::BudgetParts error_budget(std::vector<Result> const& results, doubl
   std::vector<double> halved;
   for (auto const& result : results) {
     for (auto const& row : result.rows) {
-      unbalanced = scarp::worse_of(unbalanced, row.unbalanced_ratio);
+      unbalanced = scarp::nan_max(unbalanced, row.unbalanced_ratio);
       unbalanced_sum += row.unbalanced_ratio;
       missing_squares += std::pow(row.lateral_stress / pressure - 1.0, 2);
     }
     rows += result.rows.size();
-    inertial_number = scarp::worse_of(inertial_number, result.inertial_number);
+    inertial_number = scarp::nan_max(inertial_number, result.inertial_number);
     halved.insert(halved.end(), result.halved.begin(), result.halved.end());
   }
   scarp::BudgetParts parts{

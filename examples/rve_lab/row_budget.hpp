@@ -6,7 +6,7 @@
 
 #include "recorder.hpp"
 #include "scarp/budget/budget_part.hpp"
-#include "scarp/core/worse_of.hpp"
+#include "scarp/core/nan_max.hpp"
 
 namespace rve_lab {
 
@@ -23,8 +23,8 @@ struct RowBudget {
   void add(Row const& row) {
     ++rows;
     unbalanced_sum += value(row, "unbalanced_ratio");
-    unbalanced = scarp::worse_of(unbalanced, value(row, "unbalanced_ratio"));
-    kinetic_share = scarp::worse_of(kinetic_share, std::abs(value(row, "kinetic_share")));
+    unbalanced = scarp::nan_max(unbalanced, value(row, "unbalanced_ratio"));
+    kinetic_share = scarp::nan_max(kinetic_share, std::abs(value(row, "kinetic_share")));
     double const turned_over = std::abs(value(row, "stored")) + value(row, "contact_loss") + value(row, "damping_loss");
     energy_gap = turned_over == 0.0 ? 0.0 : std::abs(value(row, "energy_gap")) / turned_over;
   }

@@ -85,7 +85,7 @@ void what_is_saved_comes_back(Provider const& provider, double size = 2e-4) {
     auto const before = state;
     static_cast<void>(provider.respond(before, increment, state));
     auto const bits = bits_of(state);
-    auto blank = scarp::blank_state(provider, site);
+    auto blank = scarp::empty_state(provider, site);
     read(bits, blank);
     CHECK(bits_of(blank) == bits);
     same_answers(provider, state, blank, size);

@@ -72,13 +72,13 @@ Rebound bounce(Law const& contact_law, Impact const& impact, double tangential_s
     double const before = overlap;
     overlap += closing_speed * step;
     double const slip = (rebound.tangential_speed + rebound.spin) * step;
-    auto const force = contact_law.respond(Approach<2, double>{.overlap = overlap,
-                                                               .slip = slip,
-                                                               .reduced_radius = impact.radius,
-                                                               .closing = closing_speed * step,
-                                                               .sweep = slip,
-                                                               .reduced_mass = impact.mass,
-                                                               .time_step = step},
+    auto const force = contact_law.respond(ContactKinematics<2, double>{.overlap = overlap,
+                                                                        .slip = slip,
+                                                                        .reduced_radius = impact.radius,
+                                                                        .closing = closing_speed * step,
+                                                                        .sweep = slip,
+                                                                        .reduced_mass = impact.mass,
+                                                                        .time_step = step},
                                            memory);
     rebound.dissipated += force.dissipated;
     if (overlap <= 0.0) {
@@ -436,7 +436,8 @@ namespace {
 struct TotalSlipForm {
   HertzMindlin<> law;
 
-  ContactForce<2, double> respond(Approach<2, double> const& approach, ContactMemory<2, double>& memory) const {
+  ContactForce<2, double> respond(ContactKinematics<2, double> const& approach,
+                                  ContactMemory<2, double>& memory) const {
     double const slip = memory.scalars[1] += approach.slip;
     auto force = law.respond(approach, memory);
     force.shear = -law.stiffness(approach.overlap, approach.reduced_radius).tangential * slip;

@@ -44,12 +44,12 @@ Memory bonded() {
 TEST_CASE("a bond pulls up to its tensile strength and then breaks for good") {
   Memory memory = bonded();
   CHECK(law.reach() == samples::Approx(0.1).epsilon(1e-15));  // analytic: T / k_n; one rounding
-  CHECK(law.respond(Approach<2, double>{-0.09, 0.0}, memory).normal == samples::Approx(-9.0).epsilon(1e-15));
+  CHECK(law.respond(ContactKinematics<2, double>{-0.09, 0.0}, memory).normal == samples::Approx(-9.0).epsilon(1e-15));
   CHECK(Bond::is_intact(memory));
-  CHECK(law.respond(Approach<2, double>{-0.11, 0.0}, memory).normal == 0.0);
+  CHECK(law.respond(ContactKinematics<2, double>{-0.11, 0.0}, memory).normal == 0.0);
   CHECK(Bond::is_broken(memory));
-  law.respond(Approach<2, double>{0.1, 0.0}, memory);  // touches again
-  CHECK(law.respond(Approach<2, double>{-0.01, 0.0}, memory).normal == 0.0);
+  law.respond(ContactKinematics<2, double>{0.1, 0.0}, memory);  // touches again
+  CHECK(law.respond(ContactKinematics<2, double>{-0.01, 0.0}, memory).normal == 0.0);
   CHECK(Bond::is_broken(memory));
 }
 
@@ -58,10 +58,10 @@ TEST_CASE("a bond carries shear up to cohesion and friction and then slides at f
   for (double const overlap : {-0.05, 0.0, 0.2}) {
     double const strength = 8.0 + 50.0 * overlap;
     Memory memory = bonded();
-    CHECK(law.respond(Approach<2, double>{overlap, 0.99 * strength / 50.0}, memory).shear ==
+    CHECK(law.respond(ContactKinematics<2, double>{overlap, 0.99 * strength / 50.0}, memory).shear ==
           samples::Approx(-0.99 * strength).epsilon(1e-14));
     CHECK(Bond::is_intact(memory));
-    auto const force = law.respond(Approach<2, double>{overlap, 0.02 * strength / 50.0}, memory);
+    auto const force = law.respond(ContactKinematics<2, double>{overlap, 0.02 * strength / 50.0}, memory);
     CHECK(Bond::is_broken(memory));
     CHECK(force.shear == samples::Approx(-std::max(50.0 * overlap, 0.0)).epsilon(1e-14));
     CHECK(force.normal == samples::Approx(std::max(100.0 * overlap, 0.0)).epsilon(1e-14));
@@ -72,10 +72,10 @@ TEST_CASE("in space the shear strength bounds the size of the shear force") {
   ContactMemory<3, double> memory;
   Bond::bond(memory);
   // Analytic: sizes 50 x (0.15, 0.165) = (7.5, 8.25) around C = 8.
-  auto const force = law.respond(Approach<3, double>{0.0, {0.09, 0.12, 0.0}}, memory);
+  auto const force = law.respond(ContactKinematics<3, double>{0.0, {0.09, 0.12, 0.0}}, memory);
   CHECK(force.shear[0] == samples::Approx(-4.5).epsilon(1e-14));
   CHECK(force.shear[1] == samples::Approx(-6.0).epsilon(1e-14));
-  law.respond(Approach<3, double>{0.0, {0.009, 0.012, 0.0}}, memory);
+  law.respond(ContactKinematics<3, double>{0.0, {0.009, 0.012, 0.0}}, memory);
   CHECK(Bond::is_broken(memory));
   CHECK(memory.shear[0] == 0.0);
 }
@@ -84,7 +84,7 @@ TEST_CASE("breakages can be counted") {
   std::vector<Memory> contacts(10, bonded());
   contacts.emplace_back();  // never bonded
   double gap = 0.0;
-  for (Memory& memory : contacts) law.respond(Approach<2, double>{-(gap += 0.02), 0.0}, memory);
+  for (Memory& memory : contacts) law.respond(ContactKinematics<2, double>{-(gap += 0.02), 0.0}, memory);
   int broken = 0, intact = 0;
   for (Memory const& memory : contacts) {
     broken += Bond::is_broken(memory);
@@ -101,9 +101,9 @@ TEST_CASE("a contact that was never bonded answers bit by bit as the law inside,
   std::mt19937 random(11);
   std::uniform_real_distribution<double> spread(-1.0, 1.0);
   Memory base, unbonded, broken = bonded();
-  law.respond(Approach<2, double>{-1.0, 0.0}, broken);
+  law.respond(ContactKinematics<2, double>{-1.0, 0.0}, broken);
   for (int n = 0; n < 1000; ++n) {
-    Approach<2, double> const approach{0.1 + spread(random), spread(random)};
+    ContactKinematics<2, double> const approach{0.1 + spread(random), spread(random)};
     auto const expected = law.law.respond(approach, base);
     for (Memory* memory : {&unbonded, &broken}) {
       auto const force = law.respond(approach, *memory);
@@ -131,7 +131,7 @@ TEST_CASE("an intact bond stores all work and a broken one has dissipated what t
       double const closing = path.overlap / steps, slip = path.slip / steps;
       overlap += closing;
       before = force;
-      force = law.respond(Approach<2, double>{overlap, slip}, memory);
+      force = law.respond(ContactKinematics<2, double>{overlap, slip}, memory);
       work += 0.5 * (before.normal + force.normal) * closing - 0.5 * (before.shear + force.shear) * slip;
       dissipated += force.dissipated;
       // Analytic: springs only; round-off of the sums.
@@ -142,12 +142,12 @@ TEST_CASE("an intact bond stores all work and a broken one has dissipated what t
     }
     CHECK(while_intact > steps / 10);
     CHECK(Bond::is_broken(memory));
-    double const stored = law.stored_energy(Approach<2, double>{overlap, 0.0}, memory);
+    double const stored = law.stored_energy(ContactKinematics<2, double>{overlap, 0.0}, memory);
     // First order in the one step of breaking: some 1e-4 of the bond's energy.
     CHECK(work == samples::Approx(stored + dissipated).epsilon(3e-4));
   }
   Memory memory = bonded();
-  law.respond(Approach<2, double>{-0.05, 0.02}, memory);
+  law.respond(ContactKinematics<2, double>{-0.05, 0.02}, memory);
   // Analytic: 100 x 0.05^2 / 2 + 1^2 / (2 x 50); round-off.
-  CHECK(law.stored_energy(Approach<2, double>{-0.05, 0.0}, memory) == samples::Approx(0.135).epsilon(1e-14));
+  CHECK(law.stored_energy(ContactKinematics<2, double>{-0.05, 0.0}, memory) == samples::Approx(0.135).epsilon(1e-14));
 }

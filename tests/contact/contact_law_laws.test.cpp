@@ -25,7 +25,7 @@ struct RandomApproaches {
 
   double spread(double size) { return std::uniform_real_distribution<double>(-size, size)(random); }
 
-  Approach<3, double> next() {
+  ContactKinematics<3, double> next() {
     std::array<double, 3> const slip{spread(0.1), spread(0.1), spread(0.1)};
     return {.overlap = 0.05 + spread(0.1),
             .slip = slip,
@@ -39,7 +39,7 @@ struct RandomApproaches {
 };
 
 template <class T>
-Approach<2, T> in_plane(Approach<3, double> const& a) {
+ContactKinematics<2, T> in_plane(ContactKinematics<3, double> const& a) {
   auto const number = [](double value) { return scarp::constant<T>(value); };
   return {.overlap = number(a.overlap),
           .slip = number(a.slip[0]),
@@ -87,7 +87,8 @@ TEST_CASE_TEMPLATE("a closed contact pushes and pushes harder the deeper it is",
   double former = 0.0;
   for (double overlap = 1e-12; overlap < 1.0; overlap *= 3.0) {
     double const normal =
-        law.respond(Approach<2, double>{.overlap = overlap, .slip = 0.0, .reduced_radius = 1.0}, memory).normal;
+        law.respond(ContactKinematics<2, double>{.overlap = overlap, .slip = 0.0, .reduced_radius = 1.0}, memory)
+            .normal;
     CHECK(normal > former);
     CHECK(law.stiffness(overlap, 1.0).normal > 0.0);
     former = normal;
@@ -99,15 +100,15 @@ TEST_CASE_TEMPLATE("the stiffness is the derivative of the forces", Law, EVERY_C
   double const step = 1e-5, overlap = 0.1;
   auto const push = [&](double at) {
     ContactMemory<2, double> memory;
-    return law.respond(Approach<2, double>{.overlap = at, .slip = 0.0, .reduced_radius = 1.0}, memory).normal;
+    return law.respond(ContactKinematics<2, double>{.overlap = at, .slip = 0.0, .reduced_radius = 1.0}, memory).normal;
   };
   auto const stiffness = law.stiffness(overlap, 1.0);
   // Analytic: central difference, error step^2 F''' ~ 1e-8 and round-off 1e-10 of the stiffness.
   CHECK((push(overlap + step) - push(overlap - step)) / (2.0 * step) ==
         samples::Approx(stiffness.normal).epsilon(1e-7));
   ContactMemory<2, double> memory;
-  auto const force =
-      law.respond(Approach<2, double>{.overlap = overlap, .slip = step, .roll = step, .reduced_radius = 1.0}, memory);
+  auto const force = law.respond(
+      ContactKinematics<2, double>{.overlap = overlap, .slip = step, .roll = step, .reduced_radius = 1.0}, memory);
   CHECK(-force.shear / step == samples::Approx(stiffness.tangential).epsilon(1e-12));  // linear in the slip; round-off
   CHECK(-force.moment / step == samples::Approx(stiffness.rolling).epsilon(1e-12));
 }
@@ -138,17 +139,17 @@ TEST_CASE_TEMPLATE("packs give lane by lane what single numbers give", Law, EVER
     ContactMemory<3, Lanes> packed;
     for (std::size_t k = 0; k < packed.scalars.size(); ++k) packed.scalars[k] = single[0].scalars[k];
     for (int n = 0; n < 20; ++n) {
-      std::array<Approach<3, double>, Lanes::size()> lanes;
+      std::array<ContactKinematics<3, double>, Lanes::size()> lanes;
       for (auto& lane : lanes) lane = approaches.next();
       auto const gather = [&](auto const& number_of) {
         return Lanes([&](auto lane) { return number_of(lanes[lane]); });
       };
-      Approach<3, Lanes> approach{.overlap = gather([](auto const& a) { return a.overlap; }),
-                                  .slip = {},
-                                  .reduced_radius = gather([](auto const& a) { return a.reduced_radius; }),
-                                  .closing = gather([](auto const& a) { return a.closing; }),
-                                  .reduced_mass = gather([](auto const& a) { return a.reduced_mass; }),
-                                  .time_step = gather([](auto const& a) { return a.time_step; })};
+      ContactKinematics<3, Lanes> approach{.overlap = gather([](auto const& a) { return a.overlap; }),
+                                           .slip = {},
+                                           .reduced_radius = gather([](auto const& a) { return a.reduced_radius; }),
+                                           .closing = gather([](auto const& a) { return a.closing; }),
+                                           .reduced_mass = gather([](auto const& a) { return a.reduced_mass; }),
+                                           .time_step = gather([](auto const& a) { return a.time_step; })};
       for (std::size_t k = 0; k < 3; ++k) {
         approach.slip[k] = gather([k](auto const& a) { return a.slip[k]; });
         approach.roll[k] = gather([k](auto const& a) { return a.roll[k]; });
@@ -212,9 +213,9 @@ TEST_CASE_TEMPLATE("single precision stays finite, at rest, at first touch and f
 TEST_CASE_TEMPLATE("not a number goes in and comes out", Law, EVERY_CONTACT_LAW) {
   Law const law = Sample<Law>::law();
   double const nan = std::numeric_limits<double>::quiet_NaN();
-  Approach<2, double> const sound{
+  ContactKinematics<2, double> const sound{
       .overlap = 0.1, .slip = 0.01, .roll = 0.01, .reduced_radius = 1.0, .reduced_mass = 1.0, .time_step = 0.01};
-  auto const after = [&](Approach<2, double> const& approach) {
+  auto const after = [&](ContactKinematics<2, double> const& approach) {
     ContactMemory<2, double> memory;
     return law.respond(approach, memory);
   };
@@ -242,7 +243,8 @@ TEST_CASE_TEMPLATE("work is stored or dissipated", Law, EVERY_CONTACT_LAW) {
     auto const overlap = [](double t) { return 0.05 * (1.0 - std::cos(t)) + 0.02; };
     auto const slip = [](double t) { return 0.3 * std::sin(1.7 * t); };
     auto const roll = [](double t) { return 0.9 * std::sin(1.3 * t); };
-    Approach<2, double> approach{.overlap = overlap(0.0), .slip = 0.0, .reduced_radius = 1.0, .reduced_mass = 1.0};
+    ContactKinematics<2, double> approach{
+        .overlap = overlap(0.0), .slip = 0.0, .reduced_radius = 1.0, .reduced_mass = 1.0};
     auto before = law.respond(approach, memory);
     double const start = law.stored_energy(approach, memory);
     approach.time_step = step;

@@ -19,7 +19,7 @@ using scarp::HertzRestitution;
 /// E* = 1 Pa and G* = 0.25 Pa with R* = 4 m: a = 2 sqrt(u), F_n = 8/3 u^1.5, k_t = 4 sqrt(u).
 constexpr HertzMindlin<> law{.reduced_modulus = 1.0, .reduced_shear_modulus = 0.25, .friction = 0.5};
 
-Approach<2, double> at(double overlap, double slip) {
+ContactKinematics<2, double> at(double overlap, double slip) {
   return {.overlap = overlap, .slip = slip, .reduced_radius = 4.0};
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("the dissipated energy closes the tangential balance of a random path 
   std::uniform_real_distribution<double> spread(-1.0, 1.0);
   ContactMemory<3, double> memory;
   double work = 0.0, dissipated = 0.0, turnover = 0.0;
-  Approach<3, double> approach{.overlap = 0.0, .slip = {}, .reduced_radius = 4.0};
+  ContactKinematics<3, double> approach{.overlap = 0.0, .slip = {}, .reduced_radius = 4.0};
   for (int n = 0; n < 10000; ++n) {
     auto const before = memory.shear;
     approach.overlap = 0.4 + 0.5 * spread(random);  // opens now and then

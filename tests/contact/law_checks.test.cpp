@@ -21,12 +21,13 @@ struct ForgetsMoment : scarp::Frictionless {
 
 /// Pulls across gaps up to `gap` [m], which the member of the misspelt name is to tell.
 struct Sticky {
-  static constexpr scarp::ContactNeeds needs{};
+  static constexpr scarp::ContactInputs needs{};
   double normal_stiffness = 1e6;
   double gap = 1e-4;
 
   template <int Dim, class T>
-  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach, scarp::ContactMemory<Dim, T>&) const {
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>&) const {
     using scarp::constant;
     T const force = constant<T>(normal_stiffness) * approach.overlap;
     return {.normal = scarp::lanes::select(approach.overlap > constant<T>(-gap), force, constant<T>(0))};
@@ -40,11 +41,12 @@ struct StickySpeltRight : Sticky {
 
 /// Has a dashpot; the member of the misspelt name is to tell how strong it is.
 struct Damped : scarp::Frictionless {
-  static constexpr scarp::ContactNeeds needs{.motion = true};
+  static constexpr scarp::ContactInputs needs{.motion = true};
   double damping = 0.2;
 
   template <int Dim, class T>
-  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach, scarp::ContactMemory<Dim, T>&) const {
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>&) const {
     T const rate = approach.closing / (approach.time_step + scarp::constant<T>(1e-12));
     T const closed = scarp::lanes::at_least(approach.overlap, scarp::constant<T>(0));
     return {.normal = scarp::constant<T>(normal_stiffness) * closed + scarp::constant<T>(damping) * rate};
@@ -58,12 +60,13 @@ struct DampedSpeltRight : Damped {
 static_assert(scarp::ContactLaw<Sticky> && !scarp::TellsReach<Sticky> && scarp::TellsReach<StickySpeltRight>);
 
 struct RubsWithoutShear : scarp::LinearFrictional {
-  static constexpr scarp::ContactNeeds needs{};
+  static constexpr scarp::ContactInputs needs{};
 };
 static_assert(!scarp::ContactLaw<RubsWithoutShear>, "a law with friction that remembers no shear would not rub");
 
 struct AnswersOneContact : scarp::Frictionless {
-  scarp::ContactForce<2, double> respond(scarp::Approach<2, double> const&, scarp::ContactMemory<2, double>&) const {
+  scarp::ContactForce<2, double> respond(scarp::ContactKinematics<2, double> const&,
+                                         scarp::ContactMemory<2, double>&) const {
     return {.normal = 0.0};
   }
 };

@@ -28,7 +28,7 @@ TEST_CASE("a drive looks before its first step and leaves a consolidated packing
   // The packing meets its target to 2e-4, so the answer is that share of pressure over modulus and response steps.
   double const modulus = scarp::spring_modulus(packing, samples::study_law());
   CHECK(drive.strain_step().cwiseAbs().maxCoeff() <
-        2e-4 * samples::pressure / (modulus * scarp::StressFeedback{}.response_steps));
+        2e-4 * samples::pressure / (modulus * scarp::ServoGains{}.response_steps));
 }
 
 TEST_CASE("a path towards zero, tension or not-a-number ends as unreachable without a step") {

@@ -24,7 +24,7 @@ std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
 }
 
 template <int Count>
-void reorder(scarp::Columns<double, Count>& columns, std::vector<std::size_t> const& new_of) {
+void reorder(scarp::SoaArray<double, Count>& columns, std::vector<std::size_t> const& new_of) {
   auto const old = columns;
   for (std::size_t i = 0; i < new_of.size(); ++i) columns.set_row(new_of[i], old.row(i));
 }

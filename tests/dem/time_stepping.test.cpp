@@ -57,13 +57,14 @@ Sheared sheared(Discs packing, scarp::LinearFrictional const& law) {
 
 /// A law whose springs stiffen with depth, from two numbers.
 struct Hardening {
-  static constexpr scarp::ContactNeeds needs{};
+  static constexpr scarp::ContactInputs needs{};
 
   double normal_stiffness = 0.0;
   double growth = 0.0;  ///< [1/m]
 
   template <int Dim, class T>
-  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const& approach, scarp::ContactMemory<Dim, T>&) const {
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>&) const {
     T const overlap = scarp::lanes::at_least(approach.overlap, scarp::constant<T>(0));
     return {.normal = scarp::constant<T>(normal_stiffness) * overlap *
                       (scarp::constant<T>(1) + scarp::constant<T>(growth / 2.0) * overlap)};
@@ -170,8 +171,8 @@ namespace {
 struct Reluctant : scarp::Disc {
   static constexpr bool remembers_normal = true;
   template <class T>
-  static scarp::Touch<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
-                                  scarp::Point<2, T> const& branch, scarp::Point<2, T> const& normal) {
+  static scarp::ContactGeometry<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
+                                            scarp::Point<2, T> const& branch, scarp::Point<2, T> const& normal) {
     auto touch = scarp::Disc::touch<T>(first, second, branch, normal);
     T const none = scarp::constant<T>(0);
     T const never = scarp::constant<T>(std::numeric_limits<double>::infinity());

@@ -16,7 +16,7 @@ using Soil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
 /// Tilt that a small throw gives a footing on elastic ground; what carries it must be its weight.
 template <class Element, class Structure>
 double tilt(Structure const& structure) {
-  scarp::FaultScene<Soil, Structure, Newton, scarp::LayeredGround<Element>> scene;
+  scarp::FaultScene<Soil, Structure, Newton, scarp::StructuredGround<Element>> scene;
   scene.soil = Soil::from_young_poisson(25e6, 0.25, {scene.surcharge, scene.unit_weight, 0.4});
   scene.ground.layer.size = 5.0;
   scene.structure = structure;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/fault/given_ground.hpp"
+#include "scarp/fault/mesh_file_ground.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,7 +23,7 @@ std::filesystem::path example(char const* name) {
 }
 
 template <class Element>
-scarp::GivenGround<Element> through_file(scarp::Mesh<Element> const& mesh) {
+scarp::MeshFileGround<Element> through_file(scarp::Mesh<Element> const& mesh) {
   ScratchFolder const folder;
   scarp::write_gmsh(folder / "ground.msh", mesh);
   return scarp::ground_from_file<Element>(folder / "ground.msh");
@@ -77,7 +77,7 @@ TEST_CASE_TEMPLATE("a sound ground passes through a file", Element, scarp::Quad8
 }
 
 TEST_CASE("both grounds are asked alike") {
-  scarp::LayeredGround<scarp::Quad8> const made{layer};
+  scarp::StructuredGround<scarp::Quad8> const made{layer};
   auto const given = through_file(made.mesh({-15.0, -5.0}));
   CHECK(made.surface_level() == given.surface_level());
   CHECK(made.mesh({-15.0, -5.0}).nodes.size() == given.mesh({-15.0, -5.0}).nodes.size());

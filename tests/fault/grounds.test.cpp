@@ -56,7 +56,7 @@ Eigen::VectorXd ruptured(SceneType const& scene, std::vector<double> const& plac
 
 template <class Element, class Grid = scarp::UsualGrid<Element>>
 Eigen::VectorXd on_layer(scarp::FaultMesh const& layer) {
-  Scene<scarp::LayeredGround<Element>, scarp::NormalFault, Grid> scene;
+  Scene<scarp::StructuredGround<Element>, scarp::NormalFault, Grid> scene;
   scene.ground.layer = layer;
   return ruptured(elastic(scene), {-30.0, -15.0, -5.0, 5.0, 15.0});
 }
@@ -108,8 +108,8 @@ TEST_CASE_TEMPLATE("a slab of one hexahedron is its quadrilateral", Pair, FullyI
 }
 
 TEST_CASE("small reverse and normal faults in elastic ground are each other's mirror") {
-  Scene<scarp::LayeredGround<scarp::Tri3>> normal;
-  Scene<scarp::LayeredGround<scarp::Tri3>, scarp::ReverseFault> reverse;
+  Scene<scarp::StructuredGround<scarp::Tri3>> normal;
+  Scene<scarp::StructuredGround<scarp::Tri3>, scarp::ReverseFault> reverse;
   normal.ground.layer = reverse.ground.layer = coarse();
   normal = elastic(normal);
   reverse = elastic(reverse);

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scarp/fault/dip_slip_faults.hpp"
-#include "scarp/fault/given_ground.hpp"
+#include "scarp/fault/mesh_file_ground.hpp"
 #include "support/approx.hpp"
 #include "support/elements.hpp"
 #include "support/refusals.hpp"
@@ -21,7 +21,7 @@ template <class Ground>
 concept Refinable = requires {
   typename scarp::RefinedGround<Ground>;
 };
-static_assert(Refinable<scarp::GivenGround<scarp::Quad8>> && !Refinable<scarp::LayeredGround<scarp::Tet4>>);
+static_assert(Refinable<scarp::MeshFileGround<scarp::Quad8>> && !Refinable<scarp::StructuredGround<scarp::Tet4>>);
 
 std::filesystem::path example(char const* name) {
   return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "examples" / name;
@@ -63,7 +63,7 @@ TEST_CASE("the strip is fine along its line, coarse far away and grows between")
 
 TEST_CASE_TEMPLATE("a layer is refined along the strip, with the nodes that structures ask for", Element, scarp::Tri3,
                    scarp::Quad8 ALSO_NIGHTLY(scarp::Tri6, scarp::Quad4)) {
-  scarp::RefinedGround const ground{scarp::LayeredGround<Element>{layer}, scarp::StripSize{.fine = 0.6}};
+  scarp::RefinedGround const ground{scarp::StructuredGround<Element>{layer}, scarp::StripSize{.fine = 0.6}};
   static_assert(scarp::Ground<std::remove_cv_t<decltype(ground)>>);
   CHECK(ground.surface_level() == 25.0);
   auto const mesh = ground.mesh({-15.0, -5.0});
@@ -91,7 +91,7 @@ TEST_CASE("grounds from Gmsh are refined likewise") {
 
 TEST_CASE("a strip that is none is refused before anything is refined") {
   auto const refused = [](scarp::StripSize const& strip) {
-    return samples::message_of([&] { scarp::RefinedGround{scarp::LayeredGround<>{layer}, strip}.mesh({}); });
+    return samples::message_of([&] { scarp::RefinedGround{scarp::StructuredGround<>{layer}, strip}.mesh({}); });
   };
   CHECK(refused({.dip = std::nan("")}) == samples::Naming({"dip of the strip", "nan"}));
   CHECK(refused({.dip = 0.0}) == samples::Naming({"dip of the strip", "0"}));

@@ -23,7 +23,7 @@ constexpr double height = 1.5;
 
 template <class Element>
 scarp::Mesh<Element> ground() {
-  return scarp::LayeredGround<Element>{{.size = 2.0}}.mesh({centre - width / 2.0, centre + width / 2.0});
+  return scarp::StructuredGround<Element>{{.size = 2.0}}.mesh({centre - width / 2.0, centre + width / 2.0});
 }
 
 template <class Element>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scarp/fault/dip_slip_faults.hpp"
-#include "scarp/fault/given_ground.hpp"
+#include "scarp/fault/mesh_file_ground.hpp"
 #include "scarp/fault/refined_ground.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "support/elements.hpp"
@@ -81,7 +81,7 @@ TEST_CASE_TEMPLATE("the mean of the profile follows from the dilated area, whate
                    scarp::Tri3, scarp::Quad8 ALSO_NIGHTLY(scarp::Tri6, scarp::Quad4)) {
   scarp::FaultMesh const layer{.size = 5.0, .jitter = 0.2};
   check_all(layer.generate<Element>());
-  check_all(scarp::RefinedGround{scarp::LayeredGround<Element>{layer}, scarp::StripSize{.fine = 1.0}}.mesh({}));
+  check_all(scarp::RefinedGround{scarp::StructuredGround<Element>{layer}, scarp::StripSize{.fine = 1.0}}.mesh({}));
   auto below_a_footing = layer.generate<Element>({-15.0, -5.0});
   scarp::mark_footing_base(below_a_footing, -10.0, 10.0);
   check_all(below_a_footing);

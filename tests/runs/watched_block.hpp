@@ -106,7 +106,7 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
         scarp::FieldSeries(folder, to, 3, 1.0), scarp::RveProbe(folder / "probe.csv", 1, 1.0, start),
         scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, 1.0),
         scarp::ConvergenceLog(folder / "convergence.csv", 1.0, start),
-        scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::Borrowed(budget), Stop{attempts});
+        scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::ObserverRef(budget), Stop{attempts});
   });
   NoNotes notes;
   scarp::CheckpointedRun run(files, observers, notes);

@@ -64,11 +64,11 @@ struct RandomPair {
            branch[1] * std::sin(direction);
   }
 
-  scarp::Touch<2, double> touch(Point<2, double> const& start) const {
+  scarp::ContactGeometry<2, double> touch(Point<2, double> const& start) const {
     return Ellipse::touch(first.pose(), second.pose(), branch, start);
   }
 
-  scarp::Touch<2, double> settled() const {
+  scarp::ContactGeometry<2, double> settled() const {
     double const distance = std::hypot(branch[0], branch[1]);
     return scarp::settled_touch<Ellipse>(first.pose(), second.pose(), branch,
                                          {branch[0] / distance, branch[1] / distance});
@@ -149,7 +149,7 @@ TEST_CASE_TEMPLATE("lanes meet as single numbers do", T, scarp::lanes::Pack<doub
     std::array<T, 3> second;
     Point<2, T> branch;
     Point<2, T> start;
-    std::array<scarp::Touch<2, double>, T::size()> single;
+    std::array<scarp::ContactGeometry<2, double>, T::size()> single;
     for (std::size_t lane = 0; lane < T::size(); ++lane) {
       RandomPair const pair(random);
       double const off = random.uniform(-0.01, 0.01);

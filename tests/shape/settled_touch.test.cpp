@@ -50,8 +50,8 @@ struct Oval {
     return {support(first, n), support(second, n)};
   }
   template <class T>
-  static scarp::Touch<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
-                                  Point<2, T> const& branch, Point<2, T> const& normal) {
+  static scarp::ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
+                                            Point<2, T> const& branch, Point<2, T> const& normal) {
     return scarp::support_touch<Oval>(first, second, branch, normal);
   }
 };
@@ -63,8 +63,8 @@ static_assert(scarp::TellsInnerRadius<Ellipse> && !scarp::TellsInnerRadius<Super
 struct NeverSettles : scarp::Disc {
   static constexpr bool remembers_normal = true;
   template <class T>
-  static scarp::Touch<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
-                                  Point<2, T> const& branch, Point<2, T> const& normal) {
+  static scarp::ContactGeometry<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
+                                            Point<2, T> const& branch, Point<2, T> const& normal) {
     auto touch = scarp::Disc::touch(first, second, branch, normal);
     touch.normal = {-normal[1], normal[0]};
     return touch;

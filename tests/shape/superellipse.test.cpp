@@ -70,10 +70,10 @@ struct RandomPair {
     return least;
   }
 
-  Touch<2, double> touch(Point<2, double> const& start) const {
+  ContactGeometry<2, double> touch(Point<2, double> const& start) const {
     return Superellipse::touch(first.pose(), second.pose(), branch, start);
   }
-  Touch<2, double> settled() const {
+  ContactGeometry<2, double> settled() const {
     return scarp::settled_touch<Superellipse>(first.pose(), second.pose(), branch, branch);
   }
 };

@@ -50,10 +50,10 @@ TEST_CASE("solvers refuse settings with which no step could be accepted") {
 
 TEST_CASE("tangent rules refuse shares outside of their range, also within a solver") {
   using scarp::ConsistentTangent;
-  using scarp::PointSecant;
-  refuses(&PointSecant::provider_share, {not_a_number, -0.1, 1.1}, "share of the provider's tangent");
-  refuses(&PointSecant::floor, {not_a_number, 1.1, infinity}, "floor of a learned tangent");
-  refuses(&PointSecant::least_strain_change, {not_a_number, -1e-7, infinity}, "least change of strain");
+  using scarp::PointwiseBroyden;
+  refuses(&PointwiseBroyden::provider_share, {not_a_number, -0.1, 1.1}, "share of the provider's tangent");
+  refuses(&PointwiseBroyden::floor, {not_a_number, 1.1, infinity}, "floor of a learned tangent");
+  refuses(&PointwiseBroyden::least_strain_change, {not_a_number, -1e-7, infinity}, "least change of strain");
   refuses(&ConsistentTangent::floor, {not_a_number, -0.1, 1.1}, "share of the first tangent");
   CHECK_REFUSED(scarp::QuasiNewton<>{.rule = {.provider_share = 2.0}}.validate(),
                 "share of the provider's tangent is 2");

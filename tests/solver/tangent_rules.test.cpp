@@ -28,7 +28,7 @@ constexpr double round_off = 1e-13;
 }  // namespace
 
 TEST_CASE("after an update the tangent maps the last change of strain to the change of stress") {
-  scarp::PointSecant const rule;
+  scarp::PointwiseBroyden const rule;
   Strain const strain(1e-3, -2e-3, 5e-4);
   Stress const stress = 0.7 * elastic() * strain;
   Tangent const updated = rule.update<2>(elastic(), elastic(), strain, stress);
@@ -41,18 +41,18 @@ TEST_CASE("after an update the tangent maps the last change of strain to the cha
 }
 
 TEST_CASE("a tangent that softens is raised to the floor") {
-  scarp::PointSecant const rule{.floor = 0.1};
+  scarp::PointwiseBroyden const rule{.floor = 0.1};
   Strain const strain(1e-3, -1e-3, 0.0);
   Tangent const updated = rule.update<2>(elastic(), elastic(), strain, -2.0 * elastic() * strain);
   double const floor = 0.1 * elastic().trace() / 3.0;
   CHECK(least_eigenvalue(updated) == samples::Approx(floor).epsilon(1e-9));
-  scarp::PointSecant const no_floor{.floor = -1e300};
+  scarp::PointwiseBroyden const no_floor{.floor = -1e300};
   Tangent const lowered = no_floor.update<2>(elastic(), elastic(), strain, -2.0 * elastic() * strain);
   CHECK(least_eigenvalue(lowered) < 0.0);
 }
 
 TEST_CASE("a change of strain that is noise teaches nothing") {
-  scarp::PointSecant const rule{.least_strain_change = 1e-7};
+  scarp::PointwiseBroyden const rule{.least_strain_change = 1e-7};
   Stress const noise(1e3, -2e3, 1e3);
   CHECK(rule.update<2>(elastic(), elastic(), Strain(0.9e-7, 0.0, 0.0), noise) == elastic());
   CHECK(rule.update<2>(elastic(), elastic(), Strain::Zero(), noise) == elastic());
@@ -62,7 +62,7 @@ TEST_CASE("a change of strain that is noise teaches nothing") {
 }
 
 TEST_CASE("a step starts between what the provider says and what was learned") {
-  scarp::PointSecant const rule{.provider_share = 0.25};
+  scarp::PointwiseBroyden const rule{.provider_share = 0.25};
   Tangent const learned = 0.2 * elastic();
   CHECK((rule.start<2>(elastic(), learned) - 0.4 * elastic()).norm() < round_off * elastic().norm());
 }
@@ -78,14 +78,14 @@ TEST_CASE(
   shear(0, 1) = 1e-5;
   Stress const before = soil.stress(committed);
   Stress const after = soil.respond(committed, shear, state).stress;
-  scarp::PointSecant const rule;
+  scarp::PointwiseBroyden const rule;
   auto const start =
       scarp::VoigtTangent<2>((scarp::VoigtTangent<2>() << 300e3, 100e3, 0, 100e3, 300e3, 0, 0, 0, 50e3).finished());
   auto const learned_from = [&](scarp::EngineeringStrain<2> const& strain, Stress const& change) {
     return rule.update<2>(start, start, strain, change)(2, 2);
   };
   auto const raw = learned_from(scarp::to_engineering_strain<2, double>(shear), after - before);
-  auto const change = scarp::unturned_change<2>(scarp::Gradient<2>::Zero(), shear, before, after);
+  auto const change = scarp::corotated_secant_pair<2>(scarp::Gradient<2>::Zero(), shear, before, after);
   CHECK(std::abs(raw - 70e3) < 100.0);
   CHECK(std::abs(learned_from(change.strain, change.stress) - 100e3) < 100.0);  // errors of the order of the shear
 }
@@ -100,16 +100,17 @@ TEST_CASE("a pure rotation between two answers teaches nothing") {
     return scarp::to_voigt_stress<2, double>(stress);
   };
   scarp::Tensor<2> const identity = scarp::Tensor<2>::Identity();
-  auto const change = scarp::unturned_change<2>(first - identity, second - identity, turned(first), turned(second));
+  auto const change =
+      scarp::corotated_secant_pair<2>(first - identity, second - identity, turned(first), turned(second));
   CHECK(change.strain.norm() < 1e-14);
   CHECK(change.stress.norm() < 1e-9);  // round-off of 100 kPa
 }
 
 TEST_CASE("where no rotation leads from one gradient to the other nothing is learned") {
   Stress const stress(-40e3, -100e3, 0.0);
-  auto const inverted = scarp::unturned_change<2>(scarp::Gradient<2>::Zero(),
-                                                  -2.0 * scarp::Gradient<2>::Identity() + scarp::Gradient<2>::Ones(),
-                                                  stress, 2.0 * stress);
+  auto const inverted = scarp::corotated_secant_pair<2>(
+      scarp::Gradient<2>::Zero(), -2.0 * scarp::Gradient<2>::Identity() + scarp::Gradient<2>::Ones(), stress,
+      2.0 * stress);
   CHECK(inverted.strain.isZero(0.0));
   CHECK(inverted.stress.isZero(0.0));
 }

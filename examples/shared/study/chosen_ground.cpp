@@ -8,14 +8,14 @@
 #include <string>
 
 #include "../tell.hpp"
-#include "scarp/fault/given_ground.hpp"
+#include "scarp/fault/mesh_file_ground.hpp"
 
 namespace fault_rupture {
 
 template <class E>
 scarp::Mesh<E> ChosenGround<E>::mesh(std::vector<double> const& edges) const {
-  if (given) return scarp::GivenGround<E>{*given}.mesh(edges);
-  if (strip) return scarp::RefinedGround{scarp::LayeredGround<E>{layer}, *strip}.mesh(edges);
+  if (given) return scarp::MeshFileGround<E>{*given}.mesh(edges);
+  if (strip) return scarp::RefinedGround{scarp::StructuredGround<E>{layer}, *strip}.mesh(edges);
   return layer.generate<E>(edges);
 }
 

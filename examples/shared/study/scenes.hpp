@@ -21,7 +21,7 @@ inline scarp::StripFooting footing_of(Choice const& choice) {
 }
 
 /// What the choice says of a structure.
-inline void set(scarp::BareGround&, Choice const&) {}
+inline void set(scarp::NoStructure&, Choice const&) {}
 inline void set(scarp::StickingFooting& structure, Choice const& choice) { structure.footing = footing_of(choice); }
 inline void set(RigidFooting& structure, Choice const& choice) {
   structure.footing = footing_of(choice);

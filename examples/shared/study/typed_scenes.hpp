@@ -11,10 +11,10 @@ template <class SoilType, class Structure>
 using TypedScene =
     scarp::FaultScene<SoilType, Structure, typename SoilType::Solver, ChosenGround<Element>, ChosenFault>;
 
-struct SandFreeField : TypedScene<Sand, scarp::BareGround> {};
-struct MohrCoulombFreeField : TypedScene<FrictionalSoil, scarp::BareGround> {};
+struct SandFreeField : TypedScene<Sand, scarp::NoStructure> {};
+struct MohrCoulombFreeField : TypedScene<FrictionalSoil, scarp::NoStructure> {};
 struct MohrCoulombFrictionalFooting : TypedScene<FrictionalSoil, RigidFooting> {};
-struct ElasticFreeField : TypedScene<ElasticSoil, scarp::BareGround> {};
+struct ElasticFreeField : TypedScene<ElasticSoil, scarp::NoStructure> {};
 
 /// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError
 template <class SceneType>

@@ -11,7 +11,7 @@
 #include "scarp/budget/point_checks.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/executor.hpp"
-#include "scarp/core/worse_of.hpp"
+#include "scarp/core/nan_max.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/solver/work_balance.hpp"
 
@@ -77,12 +77,12 @@ class ErrorBudget : public NeverStops {
   void attempted(Problem const& problem, StepReport const& report) {
     for (auto const& record : report.history) {
       work_ += record.inner_steps;
-      linear_residual_ = worse_of(linear_residual_, record.linear_residual);
+      linear_residual_ = nan_max(linear_residual_, record.linear_residual);
     }
     if (work_ == 0) answers_ += static_cast<long>(report.history.size()) * problem.points().size();
-    condition_ = worse_of(condition_, report.condition);
+    condition_ = nan_max(condition_, report.condition);
     if (!report.verdict.acceptable()) return;
-    residual_ = worse_of(residual_, report.residual());
+    residual_ = nan_max(residual_, report.residual());
     balance_.attempted(problem, report);
     packings_.look(problem, seen_);
     followed_.follow(problem, at_rest_);

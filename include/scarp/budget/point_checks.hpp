@@ -12,7 +12,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/worse_of.hpp"
+#include "scarp/core/nan_max.hpp"
 #include "scarp/points/step_doubling.hpp"
 
 /// What an error budget asks of a point whose answer has just been committed.
@@ -36,9 +36,9 @@ struct PackingSurvey {
       if (!found.has_packing) continue;
       looked_at += 1.0;
       unbalanced_sum += found.unbalanced_ratio;
-      unbalanced = worse_of(unbalanced, found.unbalanced_ratio);
-      kinetic_share = worse_of(kinetic_share, found.kinetic_share);
-      inertial_number = worse_of(inertial_number, found.inertial_number);
+      unbalanced = nan_max(unbalanced, found.unbalanced_ratio);
+      kinetic_share = nan_max(kinetic_share, found.kinetic_share);
+      inertial_number = nan_max(inertial_number, found.inertial_number);
     }
   }
 
@@ -169,7 +169,7 @@ struct FollowedPoints {
                                              ? VoigtStress<dim>(answer.response.stress - stress)
                                              : VoigtStress<dim>::Constant(std::numeric_limits<double>::infinity());
       carried[detail::index(task)] = std::max(stress_size<dim>(stress), least);
-      one.farthest = worse_of(one.farthest, one.apart);
+      one.farthest = nan_max(one.farthest, one.apart);
       one.square_sum += one.apart * one.apart;
       works[detail::index(task)] = answer.work;
     });
@@ -207,7 +207,7 @@ struct FollowedPoints {
 
   double farthest() const {
     double farthest = 0.0;
-    for (auto const& one : points) farthest = worse_of(farthest, one.farthest);
+    for (auto const& one : points) farthest = nan_max(farthest, one.farthest);
     return farthest;
   }
 

@@ -19,7 +19,7 @@ namespace scarp {
 /// commit(nodes, increment): makes that state the committed one, before the nodes move; thickness(), where it has one, is
 /// compared with the mesh's; length() [m], where it has one, is the size of a body with degrees of freedom of its own, which its
 /// motions are measured by. What can slide also has
-/// add_held_stiffness(entries): the stiffness as if nothing slid, positive where bodies touch.
+/// add_stick_stiffness(entries): the stiffness as if nothing slid, positive where bodies touch.
 template <class Part, int Dim>
 concept Attachment = requires(Part& part, Part const& constant, std::vector<Vector<Dim>> const& nodes,
                               Eigen::VectorXd const& increment, Eigen::VectorXd& forces,

@@ -82,7 +82,7 @@ class Interface {
     add_stiffness(entries, [&](State const& state) { return state.stiffness; });
   }
 
-  void add_held_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
+  void add_stick_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
     add_stiffness(entries, [&](State const& state) {
       bool const touches = state.pressure != 0.0 || state.stiffness != Tensor<2>::Zero();
       return touches ? closed_stiffness(state) : Tensor<2>(Tensor<2>::Zero());
@@ -134,7 +134,7 @@ class Interface {
   }
 
   ContactForce<2, double> answer(double overlap, double slip, Memory& memory) const {
-    Approach<2, double> approach{.overlap = overlap, .slip = slip};
+    ContactKinematics<2, double> approach{.overlap = overlap, .slip = slip};
     return law_.respond(approach, memory);
   }
 

@@ -138,12 +138,12 @@ template <class Model>
 concept CheckedProvider = ConstitutiveProvider<Model> || detail::MissingOfProvider<Model>::nothing;
 
 /// A state that a saved one can be read into, with all that is not saved because it follows from the provider and the site. Providers
-/// whose states keep such things tell by `State blank_state(Site<dim> const&) const`, and so do adaptors, for what they hold.
+/// whose states keep such things tell by `State empty_state(Site<dim> const&) const`, and so do adaptors, for what they hold.
 /// \throws InputError for states that cannot be made so
 template <ConstitutiveProvider Provider>
-typename Provider::State blank_state(Provider const& provider, Site<Provider::dim> const& site) {
-  if constexpr (requires { provider.blank_state(site); }) {
-    return provider.blank_state(site);
+typename Provider::State empty_state(Provider const& provider, Site<Provider::dim> const& site) {
+  if constexpr (requires { provider.empty_state(site); }) {
+    return provider.empty_state(site);
   } else if constexpr (std::default_initializable<typename Provider::State>) {
     static_cast<void>(provider), static_cast<void>(site);
     return {};

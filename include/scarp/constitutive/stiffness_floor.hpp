@@ -58,7 +58,7 @@ struct StiffnessFloor {
     return {std::move(own), elasticity};
   }
 
-  State blank_state(Site<dim> const& site) const { return {.own = scarp::blank_state(provider, site)}; }
+  State empty_state(Site<dim> const& site) const { return {.own = scarp::empty_state(provider, site)}; }
 
   VoigtStress<dim> stress(State const& state) const {
     return state.fluid ? VoigtStress<dim>(provider.stress(state.own) + state.floor_stress) : provider.stress(state.own);

@@ -58,9 +58,9 @@ struct VariedParameters {
     return {std::move(own), std::move(state)};
   }
 
-  State blank_state(Site<dim> const& site) const {
+  State empty_state(Site<dim> const& site) const {
     auto own = provider_at(site);
-    auto state = scarp::blank_state(*own, site);
+    auto state = scarp::empty_state(*own, site);
     return {std::move(own), std::move(state)};
   }
 

@@ -28,8 +28,8 @@ concept HasLinearSprings = Frictional<Law> && TellsStoredEnergy<Law> && requires
 template <HasLinearSprings Law>
   requires(Law::needs.scalars < most_contact_scalars)
 struct CohesiveBond {
-  static constexpr ContactNeeds needs = [] {
-    ContactNeeds all = Law::needs;
+  static constexpr ContactInputs needs = [] {
+    ContactInputs all = Law::needs;
     all.shear = true;
     all.scalars = Law::needs.scalars + 1;
     return all;
@@ -63,7 +63,7 @@ struct CohesiveBond {
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     T const zero = constant<T>(0);
     T const normal = constant<T>(law.normal_stiffness) * approach.overlap;
     Tangential<Dim, T> const shear = stretched<Dim, T>(memory.shear, approach.slip);
@@ -89,7 +89,7 @@ struct CohesiveBond {
   double& friction_coefficient() { return law.friction_coefficient(); }
 
   template <int Dim, class T>
-  T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+  T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     T const pulled = lanes::select(is_intact(memory), pull_energy(approach.overlap), constant<T>(0));
     return law.stored_energy(approach, memory) + pulled;
   }

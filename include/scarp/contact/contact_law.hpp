@@ -21,7 +21,7 @@ template <int Dim, class T>
 using Turning = std::conditional_t<Dim == 2, T, std::array<T, 3>>;
 
 /// What a law asks of a contact. What it does not name is neither stored nor computed.
-struct ContactNeeds {
+struct ContactInputs {
   bool shear = false;   ///< a tangential force is remembered; `slip` is given
   bool moment = false;  ///< a moment is remembered; `roll` is given
   int scalars = 0;      ///< further numbers that are remembered, zero for a new contact
@@ -32,7 +32,7 @@ struct ContactNeeds {
 /// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and roll are
 /// zero where the memory already contains them.
 template <int Dim, class T>
-struct Approach {
+struct ContactKinematics {
   T overlap;                   ///< [m], positive in compression
   Tangential<Dim, T> slip;     ///< tangential motion at the contact point [m]
   Turning<Dim, T> roll{};      ///< rotation [rad]
@@ -43,7 +43,7 @@ struct Approach {
   T time_step{};               ///< [s]; zero while nothing moves
 };
 
-/// The most numbers that a law, with all that is wrapped around it, may ask for in `ContactNeeds::scalars`.
+/// The most numbers that a law, with all that is wrapped around it, may ask for in `ContactInputs::scalars`.
 inline constexpr int most_contact_scalars = 4;
 
 /// What a contact remembers from step to step, as far as its law needs it.
@@ -74,14 +74,14 @@ struct ContactStiffness {
 
 /// respond(approach, memory): forces of the contact; the memory is brought up to date.
 template <class Law>
-concept RespondsToApproach = requires(Law const& law, Approach<2, double> const& approach,
+concept RespondsToApproach = requires(Law const& law, ContactKinematics<2, double> const& approach,
                                       ContactMemory<2, double>& memory) {
   { law.respond(approach, memory) } -> std::same_as<ContactForce<2, double>>;
 };
 
 /// The same for packs: the pair loop asks for several contacts at once, in the plane and in space alike.
 template <class Law>
-concept RespondsInPacks = requires(Law const& law, Approach<2, lanes::Pack<double>> const& approach,
+concept RespondsInPacks = requires(Law const& law, ContactKinematics<2, lanes::Pack<double>> const& approach,
                                    ContactMemory<2, lanes::Pack<double>>& memory) {
   { law.respond(approach, memory) } -> std::same_as<ContactForce<2, lanes::Pack<double>>>;
 };
@@ -93,7 +93,7 @@ concept TellsContactStiffness = requires(Law const& law) {
 
 template <class Law>
 concept NamesContactNeeds = requires {
-  { Law::needs } -> std::convertible_to<ContactNeeds>;
+  { Law::needs } -> std::convertible_to<ContactInputs>;
   requires Law::needs.scalars <= most_contact_scalars;
 };
 
@@ -117,7 +117,7 @@ concept Frictional = ContactLaw<Law> && requires(Law law) {
 /// stored_energy(approach, memory): what the contact would give back [J].
 template <class Law>
 concept TellsStoredEnergy = ContactLaw<Law> &&
-    requires(Law const& law, Approach<2, double> const& approach, ContactMemory<2, double> const& memory) {
+    requires(Law const& law, ContactKinematics<2, double> const& approach, ContactMemory<2, double> const& memory) {
   { law.stored_energy(approach, memory) } -> std::same_as<double>;
 };
 
@@ -190,14 +190,15 @@ struct MissingOfContactLaw {
   static_assert(std::is_aggregate_v<Law>,
                 "scarp: a contact law is an aggregate of parameters: no constructors, no private or virtual members");
   static_assert(NamesContactNeeds<Law>,
-                "scarp: a contact law needs `static constexpr ContactNeeds needs{...}`, with at most "
+                "scarp: a contact law needs `static constexpr ContactInputs needs{...}`, with at most "
                 "most_contact_scalars scalars");
   static_assert(
       !NamesContactNeeds<Law> || RemembersItsShear<Law>,
       "scarp: a contact law with friction_coefficient() needs `.shear = true` in its needs: nothing would rub");
-  static_assert(RespondsToApproach<Law>,
-                "scarp: a contact law needs `template <int Dim, class T> ContactForce<Dim, T> respond(Approach<Dim, T> "
-                "const&, ContactMemory<Dim, T>&) const`");
+  static_assert(
+      RespondsToApproach<Law>,
+      "scarp: a contact law needs `template <int Dim, class T> ContactForce<Dim, T> respond(ContactKinematics<Dim, T> "
+      "const&, ContactMemory<Dim, T>&) const`");
   static_assert(
       !RespondsToApproach<Law> || RespondsInPacks<Law>,
       "scarp: a contact law is asked for several contacts at once: make respond a template over the scalar T");
@@ -213,7 +214,7 @@ template <class Law>
 constexpr bool a_law_answers_many_contacts_at_once_so_it_takes_lanes_select_for_if() {
   if constexpr (!is_precompiled<Law>) {
     using T = lanes::Pack<double>;
-    [[maybe_unused]] auto const answer = [](Law const& law, Approach<2, T> const& approach,
+    [[maybe_unused]] auto const answer = [](Law const& law, ContactKinematics<2, T> const& approach,
                                             ContactMemory<2, T>& memory) {
       return law.respond(approach, memory);  // many_contacts_at_once: lanes::select in the place of `if`
     };

@@ -9,7 +9,7 @@ namespace scarp {
 
 /// Linear repulsion without tangential force: \f$ F_n = k_n u_n \f$ for u_n > 0. `normal_stiffness` [N/m].
 struct Frictionless {
-  static constexpr ContactNeeds needs{};
+  static constexpr ContactInputs needs{};
 
   double normal_stiffness = 0.0;
 
@@ -17,14 +17,14 @@ struct Frictionless {
   void validate() const { require_positive("normal stiffness of the contact law", normal_stiffness); }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
+  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
     return {.normal = lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0))};
   }
 
   ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
 
   template <int Dim, class T>
-  T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const&) const {
+  T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const&) const {
     T const closed = lanes::at_least(approach.overlap, constant<T>(0));
     return constant<T>(normal_stiffness / 2.0) * closed * closed;
   }

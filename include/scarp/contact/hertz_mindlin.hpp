@@ -15,7 +15,7 @@ namespace scarp {
 /// push(S_n, approach): normal force [N] beside a spring of tangent stiffness S_n [N/m].
 /// drag(shear, S_t, limit, approach): adds to the spring's shear force inside the limit; returns the loss [J].
 template <class Damping>
-concept ContactDamping = requires(Damping const& damping, double& shear, Approach<2, double> const& approach) {
+concept ContactDamping = requires(Damping const& damping, double& shear, ContactKinematics<2, double> const& approach) {
   { Damping::needs_motion } -> std::convertible_to<bool>;
   { damping.push(1.0, approach) } -> std::same_as<double>;
   { damping.drag(shear, 1.0, 1.0, approach) } -> std::same_as<double>;
@@ -25,11 +25,11 @@ struct NoContactDamping {
   static constexpr bool needs_motion = false;
 
   template <int Dim, class T>
-  T push(T const&, Approach<Dim, T> const&) const {
+  T push(T const&, ContactKinematics<Dim, T> const&) const {
     return constant<T>(0);
   }
   template <int Dim, class T>
-  T drag(Tangential<Dim, T>&, T const&, T const&, Approach<Dim, T> const&) const {
+  T drag(Tangential<Dim, T>&, T const&, T const&, ContactKinematics<Dim, T> const&) const {
     return constant<T>(0);
   }
 };
@@ -71,12 +71,13 @@ struct HertzRestitution {
   }
 
   template <int Dim, class T>
-  T push(T const& stiffness, Approach<Dim, T> const& approach) const {
+  T push(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
     return stiffness_of_step(stiffness, approach) * approach.closing;
   }
 
   template <int Dim, class T>
-  T drag(Tangential<Dim, T>& shear, T const& stiffness, T const& limit, Approach<Dim, T> const& approach) const {
+  T drag(Tangential<Dim, T>& shear, T const& stiffness, T const& limit,
+         ContactKinematics<Dim, T> const& approach) const {
     T const work_of_spring = inner_product(shear, approach.sweep);
     coulomb_slide<Dim, T>(shear, approach.sweep, stiffness_of_step(stiffness, approach), limit);
     return work_of_spring - inner_product(shear, approach.sweep);
@@ -85,7 +86,7 @@ struct HertzRestitution {
  private:
   /// In one step a dashpot acts like a spring of stiffness \f$ c / \Delta t \f$ that remembers nothing.
   template <int Dim, class T>
-  T stiffness_of_step(T const& stiffness, Approach<Dim, T> const& approach) const {
+  T stiffness_of_step(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
     using std::sqrt;
     T const dashpot = constant<T>(2.0 * damping_ratio) * sqrt(approach.reduced_mass * stiffness);
     return lanes::select(approach.time_step > constant<T>(0), dashpot / approach.time_step, constant<T>(0));
@@ -105,7 +106,7 @@ static_assert(ContactDamping<HertzRestitution>);
 /// and to first order for the damping.
 template <ContactDamping Damping = NoContactDamping>
 struct HertzMindlin {
-  static constexpr ContactNeeds needs{.shear = true, .scalars = 1, .radius = true, .motion = Damping::needs_motion};
+  static constexpr ContactInputs needs{.shear = true, .scalars = 1, .radius = true, .motion = Damping::needs_motion};
 
   double reduced_modulus = 0.0;
   double reduced_shear_modulus = 0.0;
@@ -139,7 +140,7 @@ struct HertzMindlin {
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     using std::sqrt;
     T const overlap = lanes::at_least(approach.overlap, constant<T>(0));
     T const contact_radius = sqrt(approach.reduced_radius * overlap);
@@ -172,7 +173,7 @@ struct HertzMindlin {
 
   /// \f$ \tfrac{8}{15} E^* a\,u^2 + F_t^2 / 16 G^* a \f$
   template <int Dim, class T>
-  T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+  T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     using std::sqrt;
     T const overlap = lanes::at_least(approach.overlap, constant<T>(0));
     T const contact_radius = sqrt(approach.reduced_radius * overlap);

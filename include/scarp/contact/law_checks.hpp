@@ -40,12 +40,12 @@ void require_consistent(Law const& law, double radius) {
   if constexpr (Law::needs.motion && !TellsDampingRatio<Law>) {
     auto const normal_force = [&](double closing) {
       ContactMemory<2, double> memory;
-      Approach<2, double> const closed{.overlap = depth,
-                                       .slip = 0.0,
-                                       .reduced_radius = radius / 2.0,
-                                       .closing = closing,
-                                       .reduced_mass = 1.0,
-                                       .time_step = 1e-6};
+      ContactKinematics<2, double> const closed{.overlap = depth,
+                                                .slip = 0.0,
+                                                .reduced_radius = radius / 2.0,
+                                                .closing = closing,
+                                                .reduced_mass = 1.0,
+                                                .time_step = 1e-6};
       return law.respond(closed, memory).normal;
     };
     if (normal_force(1e-3 * depth) != normal_force(0.0)) {
@@ -59,7 +59,8 @@ void require_consistent(Law const& law, double radius) {
   if (reach > 0.0) return;
   ContactMemory<2, double> memory;
   if constexpr (Bonds<Law>) Law::bond(memory);
-  Approach<2, double> const apart{.overlap = -depth, .slip = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
+  ContactKinematics<2, double> const apart{
+      .overlap = -depth, .slip = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
   double const force = law.respond(apart, memory).normal;
   if (force != 0.0) {
     refuse(

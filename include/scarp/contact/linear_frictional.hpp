@@ -13,7 +13,7 @@ namespace scarp {
 /// Open contacts have F_n = 0, hence F_t = 0: clamping expresses both opening and sliding without a branch.
 /// stiffnesses [N/m], friction coefficient dimensionless
 struct LinearFrictional {
-  static constexpr ContactNeeds needs{.shear = true};
+  static constexpr ContactInputs needs{.shear = true};
 
   double normal_stiffness = 0.0;
   double tangential_stiffness = 0.0;
@@ -26,7 +26,7 @@ struct LinearFrictional {
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     T const normal = lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));
     T const lost = coulomb_slide<Dim, T>(memory.shear, approach.slip, constant<T>(tangential_stiffness),
                                          constant<T>(friction) * normal);
@@ -40,7 +40,7 @@ struct LinearFrictional {
   double& friction_coefficient() { return friction; }
 
   template <int Dim, class T>
-  T stored_energy(Approach<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+  T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     T const closed = lanes::at_least(approach.overlap, constant<T>(0));
     T const normal = constant<T>(normal_stiffness / 2.0) * closed * closed;
     if (tangential_stiffness == 0.0) return normal;

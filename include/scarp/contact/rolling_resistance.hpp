@@ -16,8 +16,8 @@ namespace scarp {
 template <ContactLaw Law>
   requires(!Law::needs.moment)
 struct RollingResistance {
-  static constexpr ContactNeeds needs = [] {
-    ContactNeeds all = Law::needs;
+  static constexpr ContactInputs needs = [] {
+    ContactInputs all = Law::needs;
     all.moment = true;
     all.radius = true;
     return all;
@@ -34,7 +34,7 @@ struct RollingResistance {
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     using std::abs;
     ContactForce<Dim, T> force = law.respond(approach, memory);
     T const limit = constant<T>(rolling_friction) * approach.reduced_radius * abs(force.normal);
@@ -53,7 +53,7 @@ struct RollingResistance {
   double& friction_coefficient() requires Frictional<Law> { return law.friction_coefficient(); }
 
   template <int Dim, class T>
-    requires TellsStoredEnergy<Law> T stored_energy(Approach<Dim, T> const& approach,
+    requires TellsStoredEnergy<Law> T stored_energy(ContactKinematics<Dim, T> const& approach,
                                                     ContactMemory<Dim, T> const& memory)
   const {
     T const base = law.stored_energy(approach, memory);

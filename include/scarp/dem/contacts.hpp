@@ -13,13 +13,13 @@ struct Contact {
   std::size_t pair;    ///< row in the list of near pairs
   std::size_t first;   ///< grain
   std::size_t second;  ///< grain; the owner where the pair lists a ghost
-  Touch<Dim, double> touch;
-  Approach<Dim, double> approach;     ///< without motion
-  ContactMemory<Dim, double> memory;  ///< at the present overlap
-  ContactStiffness stiffness;         ///< [N/m], [N m/rad]; sliding not regarded
-  double normal_force;                ///< [N], positive in compression
-  Vector<Dim> branch;                 ///< from the first centre to the second [m]
-  Vector<Dim> force;                  ///< on the second grain [N]
+  ContactGeometry<Dim, double> touch;
+  ContactKinematics<Dim, double> approach;  ///< without motion
+  ContactMemory<Dim, double> memory;        ///< at the present overlap
+  ContactStiffness stiffness;               ///< [N/m], [N m/rad]; sliding not regarded
+  double normal_force;                      ///< [N], positive in compression
+  Vector<Dim> branch;                       ///< from the first centre to the second [m]
+  Vector<Dim> force;                        ///< on the second grain [N]
 
   Vector<Dim> normal() const { return Eigen::Map<Vector<Dim> const>(touch.normal.data()); }
   /// Tangential force on the second grain [N].
@@ -30,7 +30,7 @@ struct Contact {
 namespace detail {
 
 template <int Dim, class Scalar, int Count>
-void read_tangential(Columns<Scalar, Count> const& columns, std::size_t row, Tangential<Dim, double>& to) {
+void read_tangential(SoaArray<Scalar, Count> const& columns, std::size_t row, Tangential<Dim, double>& to) {
   if constexpr (Count == 1) {
     to = static_cast<double>(columns(row, 0));
   } else if constexpr (Count == 3) {
@@ -67,9 +67,10 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
     auto const& touch = near.touch;
     double const radius_first = Shape::contact_radius(near.first);
     double const radius_second = Shape::contact_radius(near.second);
-    Approach<dim, double> const still{.overlap = touch.overlap,
-                                      .slip = {},
-                                      .reduced_radius = radius_first * radius_second / (radius_first + radius_second)};
+    ContactKinematics<dim, double> const still{
+        .overlap = touch.overlap,
+        .slip = {},
+        .reduced_radius = radius_first * radius_second / (radius_first + radius_second)};
     auto memory = contact_memory(pairs, p);
     carry_to_frame(memory.shear, {}, touch.normal);
     carry_to_frame(memory.moment, {}, touch.normal);

@@ -11,7 +11,7 @@ namespace scarp {
 
 /// Gains of the servo control, how a cell answers to a missing stress: it strains in proportion, and where a strain is prescribed beside it also at a
 /// steady rate that is learned on the way, so that the held stress does not lag behind.
-struct StressFeedback {
+struct ServoGains {
   double fastest = 1e-4;         ///< largest strain per step of a held stress
   double response_steps = 10.0;  ///< a missing stress is made up in about so many steps
   /// Response steps after which the steady rate has learned; 16 damps the loop critically where the packing has a quarter of
@@ -92,7 +92,7 @@ class Drive {
   static constexpr int dim = PackingType::dim;
   using Law = typename PackingType::Law;
 
-  Drive(PackingType& packing, Law const& law, Loading<dim> const& loading, StressFeedback const& feedback = {})
+  Drive(PackingType& packing, Law const& law, Loading<dim> const& loading, ServoGains const& feedback = {})
       : packing_(packing),
         law_(law),
         loading_(detail::validated(loading)),
@@ -132,7 +132,7 @@ class Drive {
   PackingType& packing_;
   Law law_;
   Loading<dim> loading_;
-  StressFeedback feedback_;
+  ServoGains feedback_;
   double springs_;   ///< [Pa]
   double dashpots_;  ///< [Pa s]
   double fewest_contacts_;
@@ -144,7 +144,7 @@ class Drive {
 
 /// Servo control: drives a packing until its held stresses are met and its forces balance.
 struct Servo {
-  StressFeedback feedback{};
+  ServoGains feedback{};
   double stress_tolerance = 1e-4;  ///< relative to the largest target, to 0.001 of the springs' modulus for none
   double unbalanced_tolerance = 1e-4;
   long most_steps = 400'000;

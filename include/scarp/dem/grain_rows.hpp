@@ -5,8 +5,8 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/dem/packing.hpp"
-#include "scarp/simd/columns.hpp"
 #include "scarp/simd/quads.hpp"
+#include "scarp/simd/soa_array.hpp"
 
 namespace scarp {
 

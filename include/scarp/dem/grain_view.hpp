@@ -64,7 +64,7 @@ struct NearTouch {
   PoseOf<Shape> first;
   PoseOf<Shape> second;
   Point<dim, double> branch;
-  Touch<dim, double> touch;
+  ContactGeometry<dim, double> touch;
 
   NearTouch(PackingType const& packing, std::size_t pair) {
     auto const& pairs = packing.pairs;

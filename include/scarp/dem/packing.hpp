@@ -15,7 +15,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/dem/population.hpp"
-#include "scarp/simd/columns.hpp"
+#include "scarp/simd/soa_array.hpp"
 #include "scarp/tensor/tensor.hpp"
 
 namespace scarp::detail {
@@ -26,7 +26,7 @@ inline void refuse_unless(bool sound, std::string_view what) {
 
 /// Whether columns have a row for each of `rows`; columns that hold nothing always do.
 template <class Scalar, int Count>
-bool has_rows(Columns<Scalar, Count> const& columns, std::size_t rows) {
+bool has_rows(SoaArray<Scalar, Count> const& columns, std::size_t rows) {
   if constexpr (Count == 0) {
     return true;
   } else {
@@ -96,10 +96,10 @@ struct NearPairs {
 
   std::vector<std::int32_t> first;
   std::vector<std::int32_t> second;
-  Columns<Scalar, Shape::remembers_normal ? dim : 0> normal;
-  Columns<Scalar, Law::needs.shear ? tangential_count : 0> shear;    ///< tangential force on the second grain [N]
-  Columns<Scalar, Law::needs.moment ? tangential_count : 0> moment;  ///< on the second grain [N m]
-  Columns<Scalar, Law::needs.scalars> scalars;
+  SoaArray<Scalar, Shape::remembers_normal ? dim : 0> normal;
+  SoaArray<Scalar, Law::needs.shear ? tangential_count : 0> shear;    ///< tangential force on the second grain [N]
+  SoaArray<Scalar, Law::needs.moment ? tangential_count : 0> moment;  ///< on the second grain [N m]
+  SoaArray<Scalar, Law::needs.scalars> scalars;
   std::vector<std::int32_t> ghost_owner;
   std::vector<Shift> ghost_shift;
   double drift = 0.0;          ///< bound on how far gaps have shrunk since the list was made [m]
@@ -146,10 +146,10 @@ struct Packing {
 
   std::shared_ptr<Population<Shape, Scalar> const> population;
   Tensor<dim> cell = Tensor<dim>::Identity();
-  Columns<Scalar, dim> position;
-  Columns<Scalar, dim> velocity;
-  Columns<Scalar, spin_size<dim>> spin;
-  Columns<Scalar, Shape::orientation_count> orientation;
+  SoaArray<Scalar, dim> position;
+  SoaArray<Scalar, dim> velocity;
+  SoaArray<Scalar, spin_size<dim>> spin;
+  SoaArray<Scalar, Shape::orientation_count> orientation;
   LastMove<dim> last_move;
   NearPairs<Shape, Law, Scalar> pairs;
 

@@ -63,7 +63,7 @@ class PairResponse {
     auto const touch = touch_of(block, at, branch);
     auto const& n = touch.normal;
 
-    Approach<dim, Lanes> approach{.overlap = touch.overlap, .slip = {}};
+    ContactKinematics<dim, Lanes> approach{.overlap = touch.overlap, .slip = {}};
     ContactMemory<dim, Lanes> memory;
     auto const turn_first = turn(block, Block::spin_first, at);
     auto const turn_second = turn(block, Block::spin_second, at);
@@ -148,12 +148,12 @@ class PairResponse {
     return block.template read<Block::pose_size>(field, at);
   }
 
-  Touch<dim, Lanes> touch_of(Block const& block, std::size_t at, Point<dim, Lanes> const& branch) const {
+  ContactGeometry<dim, Lanes> touch_of(Block const& block, std::size_t at, Point<dim, Lanes> const& branch) const {
     if constexpr (Shape::remembers_normal) {
-      Touch<dim, Lanes> touch{.overlap = block.template read<1>(Block::overlap, at)[0],
-                              .normal = block.template read<axes>(Block::normal, at),
-                              .arm_first = block.template read<axes>(Block::arm_first, at),
-                              .arm_second = {}};
+      ContactGeometry<dim, Lanes> touch{.overlap = block.template read<1>(Block::overlap, at)[0],
+                                        .normal = block.template read<axes>(Block::normal, at),
+                                        .arm_first = block.template read<axes>(Block::arm_first, at),
+                                        .arm_second = {}};
       for (std::size_t a = 0; a < axes; ++a) touch.arm_second[a] = touch.arm_first[a] - branch[a];
       return touch;
     } else {

@@ -13,7 +13,7 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/shape/particle_shape.hpp"
-#include "scarp/simd/columns.hpp"
+#include "scarp/simd/soa_array.hpp"
 
 namespace scarp {
 
@@ -96,7 +96,7 @@ class Population {
     }
     return values;
   }
-  Columns<Scalar, Shape::size_count> const& sizes() const { return size_; }
+  SoaArray<Scalar, Shape::size_count> const& sizes() const { return size_; }
   /// [1/kg]; zero in the padding, which therefore never moves
   Scalar const* inverse_mass() const { return inverse_mass_.column(0); }
   /// [1/(kg m2)]
@@ -121,7 +121,7 @@ class Population {
     double density = 0.0;
     double thickness = 0.0;
     double content = 0.0;
-    Columns<Scalar, Shape::size_count> stored;
+    SoaArray<Scalar, Shape::size_count> stored;
     visit("density", density);
     visit("thickness", thickness);
     visit("content", content);
@@ -153,9 +153,9 @@ class Population {
   double largest_eccentricity_ = 0.0;
   double settled_angle_ = 1.0;
   double certain_depth_ = std::numeric_limits<double>::infinity();
-  Columns<Scalar, Shape::size_count> size_;
-  Columns<Scalar, 1> inverse_mass_;
-  Columns<Scalar, 1> inverse_inertia_;
+  SoaArray<Scalar, Shape::size_count> size_;
+  SoaArray<Scalar, 1> inverse_mass_;
+  SoaArray<Scalar, 1> inverse_inertia_;
 };
 
 }  // namespace scarp

@@ -97,8 +97,9 @@ struct ProblemOfFault {
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
-template <CheckedMaterial Soil, class Structure, class Solver = QuasiNewton<>, Ground GroundType = LayeredGround<Tri3>,
-          BedrockMotion Motion = NormalFault, class GridType = UsualGridOf<GroundType>>
+template <CheckedMaterial Soil, class Structure, class Solver = QuasiNewton<>,
+          Ground GroundType = StructuredGround<Tri3>, BedrockMotion Motion = NormalFault,
+          class GridType = UsualGridOf<GroundType>>
 struct SCARP_EXPORT FaultScene {
   using Grid = GridType;
   static constexpr int dim = Grid::dim;

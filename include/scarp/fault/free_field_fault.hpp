@@ -6,7 +6,7 @@
 namespace scarp {
 
 /// Nothing stands on the ground.
-struct BareGround {
+struct NoStructure {
   static std::vector<double> edges() { return {}; }
   /// The place of a footing that a mesh marks is bare surface here.
   template <class Element>
@@ -31,8 +31,8 @@ struct BareGround {
 };
 
 /// Nothing but ground and fault; by default the study's case.
-template <CheckedMaterial Soil, class Solver = QuasiNewton<>, Ground GroundType = LayeredGround<Tri3>,
+template <CheckedMaterial Soil, class Solver = QuasiNewton<>, Ground GroundType = StructuredGround<Tri3>,
           BedrockMotion Motion = NormalFault, class Grid = UsualGridOf<GroundType>>
-using FreeFieldFault = FaultScene<Soil, BareGround, Solver, GroundType, Motion, Grid>;
+using FreeFieldFault = FaultScene<Soil, NoStructure, Solver, GroundType, Motion, Grid>;
 
 }  // namespace scarp

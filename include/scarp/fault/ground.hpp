@@ -36,7 +36,7 @@ double surface_level(Mesh<Element> const& mesh) {
 
 /// Ground on a grid made for it, of any element.
 template <CheckedElement E = Tri3>
-struct LayeredGround {
+struct StructuredGround {
   using Element = E;
 
   FaultMesh layer{};

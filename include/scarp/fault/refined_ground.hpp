@@ -71,6 +71,6 @@ struct RefinedGround {
 template <class GroundType, class Field>
 RefinedGround(GroundType, Field) -> RefinedGround<GroundType, Field>;
 
-static_assert(Ground<RefinedGround<LayeredGround<>>>);
+static_assert(Ground<RefinedGround<StructuredGround<>>>);
 
 }  // namespace scarp

@@ -18,7 +18,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/simd/columns.hpp"
+#include "scarp/simd/soa_array.hpp"
 #include "scarp/tensor/tensor.hpp"
 
 namespace scarp {
@@ -65,7 +65,7 @@ class StateWriter {
     list(name, std::span<T const>(values));
   }
   template <class Scalar, int Count>
-  void operator()(std::string_view name, Columns<Scalar, Count> const& columns) {
+  void operator()(std::string_view name, SoaArray<Scalar, Count> const& columns) {
     if constexpr (Count > 0) {
       label(name, sizeof(Scalar) * Count);
       put_length(columns.rows());
@@ -185,7 +185,7 @@ class StateReader {
     elements(name, values);
   }
   template <class Scalar, int Count>
-  void operator()(std::string_view name, Columns<Scalar, Count>& columns) {
+  void operator()(std::string_view name, SoaArray<Scalar, Count>& columns) {
     if constexpr (Count > 0) {
       expect(name, sizeof(Scalar) * Count);
       columns.resize(take_length(name, sizeof(Scalar)));

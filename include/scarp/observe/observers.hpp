@@ -53,10 +53,10 @@ struct Observers {
 
 /// An observer that lives elsewhere, for a program that asks it when the run has ended.
 template <class Observer>
-struct Borrowed {
+struct ObserverRef {
   Observer* observer;
 
-  explicit Borrowed(Observer& lent) : observer(&lent) {}
+  explicit ObserverRef(Observer& lent) : observer(&lent) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {

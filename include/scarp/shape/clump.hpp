@@ -137,8 +137,8 @@ struct Clump {
   }
 
   template <class T>
-  static Touch<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second, Point<2, T> const& branch,
-                           Point<2, T> const& normal) {
+  static ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
+                                     Point<2, T> const& branch, Point<2, T> const& normal) {
     Point<2, T> const between{branch[0] + second[0] - first[0], branch[1] + second[1] - first[1]};
     auto const discs = Disc::touch<T>({first[2]}, {second[2]}, between, normal);
     return {discs.overlap,

@@ -75,8 +75,8 @@ struct Ellipse {
   }
 
   template <class T>
-  static Touch<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second, Point<2, T> const& branch,
-                           Point<2, T> const& normal) {
+  static ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
+                                     Point<2, T> const& branch, Point<2, T> const& normal) {
     return support_touch<Ellipse>(first, second, branch, normal);
   }
 

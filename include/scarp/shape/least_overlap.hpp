@@ -80,7 +80,7 @@ class LeastOverlap {
   }
 
   /// The best direction, brought to where f' vanishes: Newton's steps within a bracket, halved where they leave it.
-  Touch<2, double> touch() const {
+  ContactGeometry<2, double> touch() const {
     OverlapProbe const& start = probes_[best_];
     OverlapProbe at = start;
     double low = -widest(start, false);
@@ -195,7 +195,7 @@ class LeastOverlap {
     return {c * n[0] - s * n[1], s * n[0] + c * n[1]};
   }
 
-  Touch<2, double> touch_at(OverlapProbe const& at) const {
+  ContactGeometry<2, double> touch_at(OverlapProbe const& at) const {
     auto const& n = at.normal;
     Point<2, double> const t{-n[1], n[0]};
     double const radii = at.first.curvature_radius + at.second.curvature_radius;
@@ -224,8 +224,8 @@ class LeastOverlap {
 /// Bergen, 2001, for support functions), then Newton's method within a bracket. Slow; `unsettled` where the least is not
 /// certain to 1e-10 of the grains' size (grains about one centre) or not finite.
 template <TellsSupport Shape>
-Touch<2, double> least_overlap(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
-                               Point<2, double> const& branch) {
+ContactGeometry<2, double> least_overlap(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
+                                         Point<2, double> const& branch) {
   detail::LeastOverlap<Shape> search(first, second, branch);
   bool const certain = search.search();
   auto touch = search.touch();

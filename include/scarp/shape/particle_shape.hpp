@@ -23,7 +23,7 @@ inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 /// turned it last [rad], infinite where it found none, zero where it does not say: a touch that is far from its end is
 /// searched anew, one that turned by less than 1e-8 has ended, which is right where errors fall as squares.
 template <int Dim, class T>
-struct Touch {
+struct ContactGeometry {
   T overlap;
   Point<Dim, T> normal;
   Point<Dim, T> arm_first;
@@ -91,7 +91,7 @@ concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::si
 /// also where the poses are those of parts.
 template <class Shape>
 concept Touches = requires(PoseOf<Shape> const& pose, Point<Shape::dim, double> const& branch) {
-  { Shape::touch(pose, pose, branch, branch) } -> std::same_as<Touch<Shape::dim, double>>;
+  { Shape::touch(pose, pose, branch, branch) } -> std::same_as<ContactGeometry<Shape::dim, double>>;
   { Shape::remembers_normal } -> std::convertible_to<bool>;
 };
 
@@ -103,7 +103,7 @@ concept TouchesInPacks =
              PoseOf<Shape, lanes::Pack<double>> const& pose, Point<Shape::dim, lanes::Pack<double>> const& branch) {
   { part_pose<Shape>(size, orientation, 0) } -> std::same_as<PoseOf<Shape, lanes::Pack<double>>>;
   { Shape::contact_radius(pose) } -> std::same_as<lanes::Pack<double>>;
-  { Shape::touch(pose, pose, branch, branch) } -> std::same_as<Touch<Shape::dim, lanes::Pack<double>>>;
+  { Shape::touch(pose, pose, branch, branch) } -> std::same_as<ContactGeometry<Shape::dim, lanes::Pack<double>>>;
 };
 
 /// A grain shape: static functions only, templates over the scalar so that packs of lanes pass through.
@@ -185,7 +185,7 @@ struct MissingOfShape<Shape, true> {
       remembers,
       "scarp: a shape needs `static constexpr bool remembers_normal`: whether its search starts from the last normal");
   static_assert(!remembers || Touches<Shape>,
-                "scarp: a shape needs `static Touch<dim, T> "
+                "scarp: a shape needs `static ContactGeometry<dim, T> "
                 "touch(pose, pose, branch, normal)`");
   static_assert(!(HasPose<Shape> && Touches<Shape>) || TouchesInPacks<Shape>,
                 "scarp: a shape is asked for several "

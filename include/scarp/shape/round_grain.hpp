@@ -13,14 +13,14 @@ namespace scarp {
 /// axis.
 /// radii [m], branch from the first centre to the second [m]
 template <int Dim, class T>
-Touch<Dim, T> round_touch(T const& first, T const& second, Point<Dim, T> const& branch) {
+ContactGeometry<Dim, T> round_touch(T const& first, T const& second, Point<Dim, T> const& branch) {
   using std::sqrt;
   T squared = branch[0] * branch[0];
   for (std::size_t a = 1; a < branch.size(); ++a) squared = squared + branch[a] * branch[a];
   T const distance = sqrt(squared);
   auto const coincident = distance == constant<T>(0);
   T const inverse = constant<T>(1) / lanes::select(coincident, constant<T>(1), distance);
-  Touch<Dim, T> touch;
+  ContactGeometry<Dim, T> touch;
   touch.overlap = first + second - distance;
   T const reach_first = first - touch.overlap * constant<T>(0.5);
   T const reach_second = second - touch.overlap * constant<T>(0.5);
@@ -60,8 +60,8 @@ struct RoundGrain {
   }
 
   template <class T>
-  static Touch<Dim, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second, Point<Dim, T> const& branch,
-                             Point<Dim, T> const&) {
+  static ContactGeometry<Dim, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
+                                       Point<Dim, T> const& branch, Point<Dim, T> const&) {
     return round_touch<Dim, T>(first[0], second[0], branch);
   }
 };

@@ -13,7 +13,7 @@ namespace detail {
 /// Whether a search's step from this normal was the last one: it left a unit vector where it was, or turned it by so small an
 /// angle that the square of it, which is left, is round-off. A shape that tells no angle tells zero.
 template <int Dim>
-bool stands_still(Touch<Dim, double> const& touch, Point<Dim, double> const& before) {
+bool stands_still(ContactGeometry<Dim, double> const& touch, Point<Dim, double> const& before) {
   double change = 0.0;
   double excess = -1.0;
   for (std::size_t a = 0; a < before.size(); ++a) {
@@ -30,7 +30,7 @@ bool stands_still(Touch<Dim, double> const& touch, Point<Dim, double> const& bef
 /// boundary in no nearer point. Otherwise the other directions are looked at.
 template <TellsSupport Shape>
 bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch,
-                        Touch<2, double> const& touch) {
+                        ContactGeometry<2, double> const& touch) {
   if (touch.overlap <= 0.0) return true;
   if constexpr (TellsInnerRadius<Shape>) {
     if (touch.overlap < Shape::inner_radius(first) + Shape::inner_radius(second)) return true;
@@ -44,9 +44,9 @@ bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
 /// less overlap, shapes that tell their support function take the slow certain way, `least_overlap`; of others a touch that
 /// does not stand still is `unsettled`.
 template <class Shape>
-Touch<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
-                                        Point<Shape::dim, double> const& branch,
-                                        Point<Shape::dim, double> const& start) {
+ContactGeometry<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
+                                                  Point<Shape::dim, double> const& branch,
+                                                  Point<Shape::dim, double> const& start) {
   auto touch = Shape::touch(first, second, branch, start);
   if constexpr (Shape::remembers_normal) {
     constexpr int most_iterations = 30;  // quadratic convergence: a handful is usual

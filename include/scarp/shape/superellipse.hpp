@@ -95,8 +95,8 @@ struct Superellipse {
   }
 
   template <class T>
-  static Touch<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
-                           Point<2, T> const& normal) {
+  static ContactGeometry<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
+                                     Point<2, T> const& normal) {
     return superellipse_touch(first, second, branch, normal);
   }
 

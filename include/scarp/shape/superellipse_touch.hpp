@@ -109,8 +109,8 @@ std::array<SuperellipseSupport<T>, Count> superellipse_supports(std::array<std::
 /// followed.
 /// `normal` is where to start; one of no use (zero, or not ahead of the branch) is replaced by the branch.
 template <class T>
-Touch<2, T> superellipse_touch(std::array<T, 7> const& first, std::array<T, 7> const& second, Point<2, T> const& branch,
-                               Point<2, T> const& normal) {
+ContactGeometry<2, T> superellipse_touch(std::array<T, 7> const& first, std::array<T, 7> const& second,
+                                         Point<2, T> const& branch, Point<2, T> const& normal) {
   using std::abs;
   using std::copysign;
   using std::max;

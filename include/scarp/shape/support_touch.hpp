@@ -25,7 +25,8 @@ struct Support {
 /// vanish at rest. Repeat with the returned normal until it stands still for a new pair; `unsettled` is the angle of the step.
 /// branch d [m] from the first centre to the second; `normal` a unit vector
 template <class Shape, class Pose, class T>
-Touch<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> const& branch, Point<2, T> const& normal) {
+ContactGeometry<2, T> support_touch(Pose const& first, Pose const& second, Point<2, T> const& branch,
+                                    Point<2, T> const& normal) {
   using std::abs;
   Point<2, T> const tangent{-normal[1], normal[0]};
   auto const [a, b] = Shape::supports(first, second, normal);

@@ -60,7 +60,7 @@ class AttachedProblem : public IncrementalProblem<Dim> {
   virtual double length() const = 0;
   virtual Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) = 0;
   virtual Eigen::SparseMatrix<double> attached_stiffness() const = 0;
-  virtual Eigen::SparseMatrix<double> held_stiffness() const = 0;
+  virtual Eigen::SparseMatrix<double> stick_stiffness() const = 0;
 };
 
 }  // namespace scarp

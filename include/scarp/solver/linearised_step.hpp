@@ -137,7 +137,7 @@ class LinearisedStep {
       Balance next;
       bool const downhill = factorize().acceptable() && lay(way, now, more).acceptable() && go_downhill(way, now, next);
       if (!downhill) {  // also where the matrix is singular, since nothing but sliding points holds a body
-        Verdict verdict = factorize(ground_ + problem_.held_stiffness());
+        Verdict verdict = factorize(ground_ + problem_.stick_stiffness());
         if (verdict.acceptable()) verdict = lay(way, now, more);
         if (!verdict.acceptable()) return verdict;
         if (!go_by_work(way, next)) break;
@@ -215,7 +215,7 @@ class LinearisedStep {
 
 namespace detail {
 /// How the free degrees of freedom moved in the last accepted load step, for each unit of the load factor.
-class RepeatedMotion {
+class ExtrapolatedPredictor {
  public:
   bool known() const { return !rate_.empty(); }
   void forget() { rate_.clear(); }
@@ -241,10 +241,10 @@ class RepeatedMotion {
 /// What a load step begins with: the system linearised about the committed state, what is
 /// known of it, and the first guess that follows from it.
 template <class Problem, LinearSolver Linear>
-class StepStart {
+class LinearPredictor {
  public:
   /// accuracy: see LinearisedStep
-  StepStart(Problem& problem, double accuracy) : problem_(problem), linearised_(problem, accuracy) {}
+  LinearPredictor(Problem& problem, double accuracy) : problem_(problem), linearised_(problem, accuracy) {}
 
   /// At the load factor that the problem is aimed at; says which degree of freedom is weak where the system is singular.
   Verdict linearise(std::vector<VoigtTangent<Problem::dim>> const& tangents) {

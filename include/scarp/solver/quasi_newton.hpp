@@ -54,7 +54,7 @@ class SCARP_EXPORT QuasiNewtonSession {
 
   Settings settings_;
   Problem& problem_;
-  StepStart<Problem, Linear> start_;
+  LinearPredictor<Problem, Linear> start_;
   Clock::time_point mark_{};                       ///< end of the last answer of the points in this step
   double tangent_seconds_ = 0.0;                   ///< that no evaluation has been told yet
   std::vector<VoigtTangent<Problem::dim>> first_;  ///< of the state that the session began with
@@ -63,7 +63,7 @@ class SCARP_EXPORT QuasiNewtonSession {
   std::vector<VoigtTangent<Problem::dim>> learned_;
   std::vector<Gradient<dim>> last_gradients_;
   std::vector<VoigtStress<dim>> last_stresses_;
-  detail::RepeatedMotion motion_;
+  detail::ExtrapolatedPredictor motion_;
   double growth_ = 0.0;  ///< of the load factor in the last prediction
 };
 
@@ -199,9 +199,9 @@ void QuasiNewtonSession<Settings, Problem>::learn_from_answers() {
       Gradient<dim> const& gradient = problem_.gradients()[k];
       VoigtStress<dim> const& stress = problem_.responses()[k].stress;
       auto const change = problem_.turns_stresses()
-                              ? unturned_change<dim>(last_gradients_[k], gradient, last_stresses_[k], stress)
-                              : AnswerChange<dim>{to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
-                                                  stress - last_stresses_[k]};
+                              ? corotated_secant_pair<dim>(last_gradients_[k], gradient, last_stresses_[k], stress)
+                              : SecantPair<dim>{to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
+                                                stress - last_stresses_[k]};
       working_[k] = settings_.rule.template update<dim>(working_[k], provider_[k], change.strain, change.stress);
       last_gradients_[k] = gradient;
       last_stresses_[k] = stress;
@@ -211,7 +211,7 @@ void QuasiNewtonSession<Settings, Problem>::learn_from_answers() {
 
 /// Newton-type iteration for one load step: the tangent rule says what the points' tangents become on the way. Every iteration
 /// takes the points along the straight path from their committed states to the iterate.
-template <TangentRule<2> Rule = PointSecant, LinearSolver Linear = SparseLu>
+template <TangentRule<2> Rule = PointwiseBroyden, LinearSolver Linear = SparseLu>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual, see EquilibriumProblem::residuals
   int most_iterations = 30;

@@ -38,7 +38,7 @@ concept TangentRule = StartsTangent<Rule, Dim> &&(LearnsFromAnswers<Rule, Dim> |
 /// Broyden's rank-one update, so that thousands of points gather curvature at once where a global quasi-Newton method gathers
 /// one direction. A step starts from a mix of the provider's tangent and what the last step has learned.
 /// The symmetric part is kept above a floor, without which softening makes the system indefinite.
-struct PointSecant {
+struct PointwiseBroyden {
   double provider_share = 0.5;        ///< of the provider's tangent in the start of a step; the rest is learned
   double floor = 0.02;                ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
   double least_strain_change = 1e-7;  ///< a smaller change teaches nothing but noise
@@ -77,7 +77,7 @@ struct PointSecant {
   }
 };
 
-static_assert(TangentRule<PointSecant, 2> && TangentRule<PointSecant, 3>);
+static_assert(TangentRule<PointwiseBroyden, 2> && TangentRule<PointwiseBroyden, 3>);
 
 /// Newton's method: every iteration takes the provider's tangent at its trial state. Residuals fall quadratically where that is
 /// the derivative of the answer and the answer is smooth.
@@ -102,7 +102,7 @@ static_assert(TangentRule<ConsistentTangent, 2> && TangentRule<ConsistentTangent
 
 /// What a tangent can learn from two answers of one point: a strain and the change of stress that it made.
 template <int Dim>
-struct AnswerChange {
+struct SecantPair {
   EngineeringStrain<Dim> strain;
   VoigtStress<Dim> stress;  ///< [Pa]
 };
@@ -110,8 +110,8 @@ struct AnswerChange {
 /// From the answer to one gradient to that to another, both from the same start, in the axes of the former: the rotation
 /// between them turns the stress that was there and is no stiffness. Nothing, where no rotation leads from one to the other.
 template <int Dim>
-AnswerChange<Dim> unturned_change(Gradient<Dim> const& from, Gradient<Dim> const& to, VoigtStress<Dim> const& before,
-                                  VoigtStress<Dim> const& after) {
+SecantPair<Dim> corotated_secant_pair(Gradient<Dim> const& from, Gradient<Dim> const& to,
+                                      VoigtStress<Dim> const& before, VoigtStress<Dim> const& after) {
   Gradient<Dim> const identity = Gradient<Dim>::Identity();
   RotatedIncrement<Dim> const moved((to - from) * (identity + from).inverse());
   if (!moved.verdict.acceptable()) return {EngineeringStrain<Dim>::Zero(), VoigtStress<Dim>::Zero()};

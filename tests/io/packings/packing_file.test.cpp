@@ -28,9 +28,9 @@ using Spheres = scarp::Packing<scarp::Sphere, scarp::LinearFrictional>;
 
 /// A law that remembers everything that a law may.
 struct Rememberer {
-  static constexpr scarp::ContactNeeds needs{.shear = true, .moment = true, .scalars = 2};
+  static constexpr scarp::ContactInputs needs{.shear = true, .moment = true, .scalars = 2};
   template <int Dim, class T>
-  scarp::ContactForce<Dim, T> respond(scarp::Approach<Dim, T> const&, scarp::ContactMemory<Dim, T>&) const {
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const&, scarp::ContactMemory<Dim, T>&) const {
     return {};
   }
   scarp::ContactStiffness stiffness(double, double) const { return {.normal = 1.0}; }
@@ -100,7 +100,7 @@ void check_same(PackingType loaded, PackingType const& packing) {
 }
 
 template <class Scalar, int Count>
-void fill(scarp::Columns<Scalar, Count>& columns, scarp::Random& random) {
+void fill(scarp::SoaArray<Scalar, Count>& columns, scarp::Random& random) {
   if constexpr (Count > 0) {
     for (std::size_t i = 0; i < columns.rows(); ++i) {
       for (int k = 0; k < Count; ++k) columns(i, k) = static_cast<Scalar>(random.uniform(-1.0, 1.0));

@@ -43,7 +43,7 @@ struct Wrong : Disc {
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_axes
 
-// first: a shape needs `static Touch<dim, T> touch(
+// first: a shape needs `static ContactGeometry<dim, T> touch(
 namespace case_3 {
 struct Wrong : Disc {
   static constexpr int touch = 0;
@@ -59,7 +59,7 @@ struct Wrong : Disc {
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_4
 
-// first: a contact law needs `static constexpr ContactNeeds needs
+// first: a contact law needs `static constexpr ContactInputs needs
 // also: a contact law needs `template <int Dim, class T>
 // also: a contact law needs `ContactStiffness
 namespace case_5 {
@@ -70,7 +70,7 @@ Packing<Disc, Wrong> packing;
 // first: needs `.shear = true`
 namespace case_6 {
 struct Wrong : LinearFrictional {
-  static constexpr ContactNeeds needs{};
+  static constexpr ContactInputs needs{};
 };
 Packing<Disc, Wrong> packing;
 }  // namespace case_6
@@ -78,7 +78,9 @@ Packing<Disc, Wrong> packing;
 // first: a contact law is asked for several contacts at once
 namespace case_7 {
 struct Wrong : Frictionless {
-  ContactForce<2, double> respond(Approach<2, double> const&, ContactMemory<2, double>&) const { return {1.0}; }
+  ContactForce<2, double> respond(ContactKinematics<2, double> const&, ContactMemory<2, double>&) const {
+    return {1.0};
+  }
 };
 Packing<Disc, Wrong> packing;
 }  // namespace case_7
@@ -87,7 +89,7 @@ Packing<Disc, Wrong> packing;
 namespace case_8 {
 struct Wrong : Frictionless {
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(Approach<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
+  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
     if (approach.overlap < constant<T>(0)) return {constant<T>(0)};
     return {approach.overlap};
   }
@@ -227,8 +229,8 @@ auto const mesh = FaultScene<Elastic, Wrong>{}.mesh();
 namespace case_36 {
 struct Wrong : Disc {
   template <class T>
-  static Touch<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second, Point<2, T> const& branch,
-                           Point<2, T> const& normal) {
+  static ContactGeometry<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
+                                     Point<2, T> const& branch, Point<2, T> const& normal) {
     if (branch[0] < constant<T>(0)) return Disc::touch(second, first, branch, normal);
     return Disc::touch(first, second, branch, normal);
   }

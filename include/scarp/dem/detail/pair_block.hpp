@@ -12,19 +12,20 @@ namespace scarp::detail {
 
 /// Rows of columns as lanes, one number or several.
 template <class Scalar, int Count, std::size_t Size>
-void load_rows(Columns<Scalar, Count> const& columns, std::size_t start, std::array<lanes::Pack<Scalar>, Size>& to) {
+void load_rows(SoaArray<Scalar, Count> const& columns, std::size_t start, std::array<lanes::Pack<Scalar>, Size>& to) {
   for (int k = 0; k < Count; ++k) to[detail::index(k)] = lanes::load(columns.column(k) + start);
 }
 template <class Scalar>
-void load_rows(Columns<Scalar, 1> const& columns, std::size_t start, lanes::Pack<Scalar>& to) {
+void load_rows(SoaArray<Scalar, 1> const& columns, std::size_t start, lanes::Pack<Scalar>& to) {
   to = lanes::load(columns.column(0) + start);
 }
 template <class Scalar, int Count, std::size_t Size>
-void store_rows(std::array<lanes::Pack<Scalar>, Size> const& from, std::size_t start, Columns<Scalar, Count>& columns) {
+void store_rows(std::array<lanes::Pack<Scalar>, Size> const& from, std::size_t start,
+                SoaArray<Scalar, Count>& columns) {
   for (int k = 0; k < Count; ++k) lanes::store(from[detail::index(k)], columns.column(k) + start);
 }
 template <class Scalar>
-void store_rows(lanes::Pack<Scalar> const& from, std::size_t start, Columns<Scalar, 1>& columns) {
+void store_rows(lanes::Pack<Scalar> const& from, std::size_t start, SoaArray<Scalar, 1>& columns) {
   lanes::store(from, columns.column(0) + start);
 }
 

@@ -95,7 +95,7 @@ class PairsOfGrains {
 };
 
 template <class Scalar, int Count, int Dim>
-void write_shear(Columns<Scalar, Count>& columns, Contact<Dim> const& contact, Vector<Dim> const& force) {
+void write_shear(SoaArray<Scalar, Count>& columns, Contact<Dim> const& contact, Vector<Dim> const& force) {
   Point<Dim, double> vector;
   for (std::size_t a = 0; a < vector.size(); ++a) vector[a] = force(static_cast<int>(a));
   auto const shear = tangential_part(vector, contact.touch.normal);

@@ -21,7 +21,7 @@ struct LayoutEntry {
 template <class PackingType>
 constexpr auto packing_layout() {
   using Shape = typename PackingType::Shape;
-  constexpr ContactNeeds needs = PackingType::Law::needs;
+  constexpr ContactInputs needs = PackingType::Law::needs;
   return std::array{LayoutEntry{"dimensions", Shape::dim},
                     LayoutEntry{"sizes of a grain", Shape::size_count},
                     LayoutEntry{"numbers of an orientation", Shape::orientation_count},
@@ -32,7 +32,7 @@ constexpr auto packing_layout() {
                     LayoutEntry{"further remembered numbers of a contact", static_cast<std::uint32_t>(needs.scalars)},
                     LayoutEntry{"bytes of a number", sizeof(typename PackingType::Scalar)},
                     LayoutEntry{"rows of a full vector",
-                                static_cast<std::uint32_t>(Columns<typename PackingType::Scalar, 1>::padding)}};
+                                static_cast<std::uint32_t>(SoaArray<typename PackingType::Scalar, 1>::padding)}};
 }
 
 template <class PackingType>

@@ -123,7 +123,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
 
   void write(int k, StateWriter& writer) const override { described(writer, committed_[index(k)]); }
   void read(int k, StateReader& reader) override {
-    State state = scarp::blank_state(*provider_, sites_[index(k)]);
+    State state = scarp::empty_state(*provider_, sites_[index(k)]);
     described(reader, state);
     trial_[index(k)] = committed_[index(k)] = std::move(state);
     here_[index(k)] = true;
@@ -131,7 +131,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   void write_all(StateWriter& writer) const override { described(writer, std::span(committed_), "states"); }
   void read_all(StateReader& reader) override {
     for (std::size_t k = 0; k < sites_.size(); ++k) {
-      if (!here_[k]) committed_[k] = scarp::blank_state(*provider_, sites_[k]);
+      if (!here_[k]) committed_[k] = scarp::empty_state(*provider_, sites_[k]);
     }
     described(reader, std::span(committed_), "states");
     trial_ = committed_;

@@ -51,9 +51,9 @@ class AttachmentPart : public AttachedProblem<Dim> {
   }
 
   /// The same as if nothing there slid.
-  Eigen::SparseMatrix<double> held_stiffness() const override {
-    if constexpr (requires(std::vector<Eigen::Triplet<double>> & entries) { attached_.add_held_stiffness(entries); }) {
-      return assembled([&](auto& entries) { attached_.add_held_stiffness(entries); });
+  Eigen::SparseMatrix<double> stick_stiffness() const override {
+    if constexpr (requires(std::vector<Eigen::Triplet<double>> & entries) { attached_.add_stick_stiffness(entries); }) {
+      return assembled([&](auto& entries) { attached_.add_stick_stiffness(entries); });
     } else {
       return attached_stiffness();
     }

@@ -123,7 +123,7 @@ class StandingBalance {
   }
 
   bool by_work(Eigen::VectorXd& place, Eigen::VectorXd& unbalanced, Eigen::VectorXd& increment) {
-    auto const held = factors(problem_.held_stiffness());
+    auto const held = factors(problem_.stick_stiffness());
     Eigen::VectorXd const direction = held.isInvertible()
                                           ? Eigen::VectorXd(-held.solve(unbalanced))
                                           : Eigen::VectorXd(-first_way * length_ / unbalanced.norm() * unbalanced);

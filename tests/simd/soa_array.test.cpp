@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/simd/columns.hpp"
+#include "scarp/simd/soa_array.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,21 +7,21 @@
 
 using scarp::Columns;
 
-static_assert(std::is_empty_v<Columns<double, 0>>, "no columns must take no memory");
-static_assert(Columns<double, 2>::padding % 8 == 0, "the widest vector register of doubles must fit in the padding");
+static_assert(std::is_empty_v<SoaArray<double, 0>>, "no columns must take no memory");
+static_assert(SoaArray<double, 2>::padding % 8 == 0, "the widest vector register of doubles must fit in the padding");
 
 TEST_CASE("columns are padded with the fill value to full registers") {
-  Columns<double, 2> columns(9, 3.5);
+  SoaArray<double, 2> columns(9, 3.5);
   CHECK(columns.rows() == 9);
   CHECK(columns.padded_rows() > 9);
-  CHECK(columns.padded_rows() % Columns<double, 2>::padding == 0);
+  CHECK(columns.padded_rows() % SoaArray<double, 2>::padding == 0);
   for (int k = 0; k < 2; ++k) {
     for (std::size_t r = 0; r < columns.padded_rows(); ++r) CHECK(columns.column(k)[r] == 3.5);
   }
 }
 
 TEST_CASE("a row set is a row read and touches no other row") {
-  Columns<float, 3> columns(5);
+  SoaArray<float, 3> columns(5);
   columns.set_row(3, {1.0F, 2.0F, 3.0F});
   CHECK(columns.row(3) == std::array<float, 3>{1.0F, 2.0F, 3.0F});
   CHECK(columns(3, 1) == 2.0F);
@@ -30,16 +30,16 @@ TEST_CASE("a row set is a row read and touches no other row") {
 }
 
 TEST_CASE("columns are equal when size and values are") {
-  Columns<double, 1> first(4, 1.0);
-  Columns<double, 1> second(4, 1.0);
+  SoaArray<double, 1> first(4, 1.0);
+  SoaArray<double, 1> second(4, 1.0);
   CHECK(first == second);
   second(2, 0) = 2.0;
   CHECK_FALSE(first == second);
-  CHECK_FALSE(first == Columns<double, 1>(5, 1.0));
+  CHECK_FALSE(first == SoaArray<double, 1>(5, 1.0));
 }
 
 TEST_CASE("resizing forgets the old values") {
-  Columns<double, 1> columns(3, 7.0);
+  SoaArray<double, 1> columns(3, 7.0);
   columns.resize(12);
   for (std::size_t r = 0; r < 12; ++r) CHECK(columns(r, 0) == 0.0);
 }

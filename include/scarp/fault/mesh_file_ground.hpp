@@ -63,7 +63,7 @@ void require_ground(Mesh<Element> const& mesh) {
 /// and "right", in space "front" and "back" across the second; where a footing stands "footing_base", and with the
 /// region "footing" its "footing_top". `ground_from_file` checks all of this.
 template <CheckedElement E>
-struct GivenGround {
+struct MeshFileGround {
   using Element = E;
 
   Mesh<Element> given;
@@ -95,7 +95,7 @@ struct GivenGround {
 /// boundary or in two
 /// notes: gets what the file holds that the ground does not have, see GmshFile
 template <HasGmshType E>
-GivenGround<E> ground_from_file(std::filesystem::path const& path, std::vector<std::string>* notes = nullptr) {
+MeshFileGround<E> ground_from_file(std::filesystem::path const& path, std::vector<std::string>* notes = nullptr) {
   GmshFile const file(path);
   if (notes != nullptr) *notes = file.notes();
   auto const read = [&]() -> Mesh<E> {
@@ -106,7 +106,7 @@ GivenGround<E> ground_from_file(std::filesystem::path const& path, std::vector<s
     }
     return file.mesh<E>();
   };
-  GivenGround<E> ground{read()};
+  MeshFileGround<E> ground{read()};
   try {
     detail::require_ground(ground.given);
   } catch (InputError const& error) {

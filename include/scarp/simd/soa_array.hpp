@@ -32,12 +32,12 @@ using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 /// `Count` arrays of equal length in one block (structure of arrays). Each column is padded with the fill value to
 /// full vectors of 64 bytes so that vector loops need no tail. `Count` zero takes no memory.
 template <class Scalar, int Count>
-class Columns {
+class SoaArray {
  public:
   static constexpr std::size_t padding = sizeof(Scalar) < 8 ? 16 : 8;
 
-  Columns() = default;
-  explicit Columns(std::size_t rows, Scalar fill = Scalar(0)) { resize(rows, fill); }
+  SoaArray() = default;
+  explicit SoaArray(std::size_t rows, Scalar fill = Scalar(0)) { resize(rows, fill); }
 
   void resize(std::size_t rows, Scalar fill = Scalar(0)) {
     rows_ = rows;
@@ -66,7 +66,7 @@ class Columns {
 
   std::size_t bytes() const { return values_.capacity() * sizeof(Scalar); }
 
-  friend bool operator==(Columns const&, Columns const&) = default;
+  friend bool operator==(SoaArray const&, SoaArray const&) = default;
 
  private:
   AlignedVector<Scalar> values_;
@@ -75,15 +75,15 @@ class Columns {
 };
 
 template <class Scalar>
-class Columns<Scalar, 0> {
+class SoaArray<Scalar, 0> {
  public:
-  Columns() = default;
-  explicit Columns(std::size_t, Scalar = Scalar(0)) {}
+  SoaArray() = default;
+  explicit SoaArray(std::size_t, Scalar = Scalar(0)) {}
   void resize(std::size_t, Scalar = Scalar(0)) {}
   std::array<Scalar, 0> row(std::size_t) const { return {}; }
   void set_row(std::size_t, std::array<Scalar, 0> const&) {}
   std::size_t bytes() const { return 0; }
-  friend bool operator==(Columns const&, Columns const&) = default;
+  friend bool operator==(SoaArray const&, SoaArray const&) = default;
 };
 
 }  // namespace scarp
