@@ -19,8 +19,8 @@
 namespace {
 
 using samples::relative_error;
-using scarp::Approach;
 using scarp::ContactForce;
+using scarp::ContactKinematics;
 using scarp::ContactMemory;
 using scarp::HertzMindlin;
 using scarp::HertzRestitution;

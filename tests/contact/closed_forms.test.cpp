@@ -13,7 +13,7 @@
 namespace {
 
 using samples::relative_error;
-using scarp::Approach;
+using scarp::ContactKinematics;
 using scarp::ContactLaw;
 using scarp::ContactMemory;
 using scarp::HertzMindlin;

@@ -13,7 +13,7 @@
 
 namespace {
 
-using scarp::Approach;
+using scarp::ContactKinematics;
 using scarp::ContactMemory;
 using scarp::LinearFrictional;
 using Bond = scarp::CohesiveBond<LinearFrictional>;

@@ -15,8 +15,8 @@ namespace {
 
 using samples::bond_if_possible;
 using samples::Sample;
-using scarp::Approach;
 using scarp::ContactForce;
+using scarp::ContactKinematics;
 using scarp::ContactMemory;
 
 /// Jumps across contact and gap, the same ones in every run.

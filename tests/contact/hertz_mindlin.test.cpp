@@ -11,7 +11,7 @@
 
 namespace {
 
-using scarp::Approach;
+using scarp::ContactKinematics;
 using scarp::ContactMemory;
 using scarp::HertzMindlin;
 using scarp::HertzRestitution;

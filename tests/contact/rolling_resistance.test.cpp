@@ -12,7 +12,7 @@
 
 namespace {
 
-using scarp::Approach;
+using scarp::ContactKinematics;
 using scarp::ContactMemory;
 using scarp::Frictionless;
 using scarp::LinearFrictional;

@@ -15,9 +15,9 @@ namespace {
 
 using scarp::Clump;
 using scarp::ClumpMember;
+using scarp::ContactGeometry;
 using scarp::Disc;
 using scarp::Point;
-using scarp::Touch;
 
 struct OneDisc {
   static constexpr std::array<ClumpMember, 1> members{{{3.0, -2.0, 1.5}}};

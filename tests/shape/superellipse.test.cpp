@@ -13,10 +13,10 @@
 
 namespace {
 
+using scarp::ContactGeometry;
 using scarp::Ellipse;
 using scarp::Point;
 using scarp::Superellipse;
-using scarp::Touch;
 
 struct ShapeWithoutInertia : Superellipse {
   static void gyration_squared();

@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-using scarp::Columns;
+using scarp::SoaArray;
 
 static_assert(std::is_empty_v<SoaArray<double, 0>>, "no columns must take no memory");
 static_assert(SoaArray<double, 2>::padding % 8 == 0, "the widest vector register of doubles must fit in the padding");
