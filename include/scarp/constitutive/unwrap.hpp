@@ -40,7 +40,7 @@ struct PackingBalance {
   double inertial_number = 0.0;
 };
 
-/// Stress [Pa] of a stiffness floor in a state, or in one that it keeps; zero where there is none.
+/// Stress [Pa] of a stiffness floor in a state, or in the state within it; zero without a floor.
 template <int Dim, class State>
 VoigtStress<Dim> floor_stress_in(State const& state) {
   if constexpr (requires { state.floor_stress; }) {

@@ -20,31 +20,9 @@
 #include "scarp/points/detail/point_batch.hpp"
 #include "scarp/points/point_means.hpp"
 #include "scarp/points/point_survey.hpp"
+#include "scarp/points/region.hpp"
 
 namespace scarp {
-
-/// What a region may consist of: a ConstitutiveProvider, `AnyProvider`, or `Nonlocal` of one of these.
-template <class Type>
-concept Material = ConstitutiveProvider<Type> || requires(Type const& material) {
-  material.batch();
-} || requires(Type const& material) {
-  material.neighbourhood();
-  material.provider;
-};
-
-/// The same; of a type that is none the compiler names the missing member.
-template <class Type>
-concept CheckedMaterial = Material<Type> || CheckedProvider<Type>;
-
-/// A named region and the material of its points.
-template <CheckedMaterial MaterialType>
-struct Region {
-  std::string name;
-  MaterialType provider;
-};
-
-template <class MaterialType>
-Region(std::string, MaterialType) -> Region<MaterialType>;
 
 /// A batch of material points of one or several providers: parameters, committed and trial states, plans, and means over neighbours
 /// where a region asks for them. The material side of `EquilibriumProblem`, and of any program that has points of its own:
@@ -284,6 +262,7 @@ class MaterialPoints {
   void unpack(int point, std::string_view bits) {
     StateReader reader(bits);
     batch(point).read(local(point), reader);
+    is_planned_ = false;
   }
   /// The point alone, with the state of these bits.
   MaterialPoints alone(int point, std::string_view bits) const {

@@ -13,7 +13,7 @@ namespace scarp {
 /// the length and is not symmetric; it is applied, never assembled.
 struct GroundStiffness {
   Eigen::SparseMatrix<double> own;  ///< what the elements hold without their neighbours
-  LinearMap around{};  ///< forces of the second part, of the mesh's degrees of freedom; empty where there is none
+  LinearMap around{};  ///< forces of the second part, of the mesh's degrees of freedom; empty for local ground
   LinearIteration iterate = nullptr;  ///< solves with the second part
 
   /// The same for more degrees of freedom, behind those of the mesh, which nothing here holds.

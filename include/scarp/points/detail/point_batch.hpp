@@ -125,6 +125,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   void read(int k, StateReader& reader) override {
     State state = scarp::empty_state(*provider_, sites_[index(k)]);
     described(reader, state);
+    if (!reader.at_end()) refuse("it holds more than a state of this point: unpack what was packed of its provider");
     trial_[index(k)] = committed_[index(k)] = std::move(state);
     here_[index(k)] = true;
   }
