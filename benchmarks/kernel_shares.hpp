@@ -36,7 +36,7 @@ class Parts {
   }
   [[gnu::flatten]] void answer() {
     scarp::detail::PairResponse<scarp::Observe::nothing, PackingType, Law> response(packing_, law_);
-    if constexpr (Shape::remembers_normal) {
+    if constexpr (Shape::warm_starts_normal) {
       std::size_t const pairs = packing_.pairs.count();
       for (std::size_t start = 0; start < pairs; start += Block::size)
         response.search(block_, (std::min(Block::size, pairs - start) + width - 1) / width * width, start);
@@ -54,9 +54,9 @@ class Parts {
   std::size_t nobody() const { return packing_.row_count() + packing_.pairs.ghost_owner.size(); }
 
   template <class Visit>
-  void for_each_block(std::size_t most_blocks, Visit&& visit) {
+  void for_each_block(std::size_t max_blocks, Visit&& visit) {
     auto const& pairs = packing_.pairs;
-    for (std::size_t start = 0; start < pairs.count() && start / Block::size < most_blocks; start += Block::size) {
+    for (std::size_t start = 0; start < pairs.count() && start / Block::size < max_blocks; start += Block::size) {
       std::size_t const present = std::min(Block::size, pairs.count() - start);
       block_.name_pairs(pairs.first.data() + start, pairs.second.data() + start, present,
                         static_cast<std::int32_t>(nobody()));
@@ -137,7 +137,7 @@ void neighbour_search(benchmark::State& state, int grains) {
   double const steps_slow = steps_of_a_list(packing, law, 1e-6);
   double const steps_fast = steps_of_a_list(packing, law, 1e-5);
   for (auto _ : state) {
-    if (!scarp::rebuild_pairs(packing, skin, scarp::reach_of(law)).acceptable()) {
+    if (!scarp::rebuild_pairs(packing, skin, scarp::interaction_range_of(law)).acceptable()) {
       state.SkipWithError("no list of pairs");
       break;
     }

@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
       scarp::PerturbationTangent<> const exact{.strain = amplitude,
                                                .strain_steps = std::max(20, static_cast<int>(amplitude / 1e-6)),
                                                .unbalanced_tolerance = 0.1 * amplitude,
-                                               .most_steps = 200'000};
+                                               .max_steps = 200'000};
       auto const one_sided = exact.differentiate(state.settled, law, onward);
       if (!one_sided.verdict.acceptable()) fmt::print(stderr, "{}, {:g}: not settled\n", state.name, amplitude);
       state.response.push_back(one_sided.tangent);
@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
     return Policy{std::move(name), [tangent](Packing const& packing) { return tangent(packing, law); }};
   };
   std::vector<Policy> const policies{
-      policy("elastic contacts, affine motion", scarp::ElasticContactTangent{}),
+      policy("elastic contacts, affine motion", scarp::AffineTangent{}),
       policy("condensed, share 1", CondensedTangent{.sliding = {.shear_share = 1.0}}),
       policy("condensed, share 0.5", CondensedTangent{.sliding = {.shear_share = 0.5}}),
       policy("condensed, share 0", CondensedTangent{}),

@@ -11,7 +11,7 @@ BYTES = 5_000_000  # of docs
 LARGEST_TABLE = 20  # rows; larger ones are files in docs/data
 SOURCES = ["include", "examples", "tests", "benchmarks", "docs/packaging", ".ci"]
 # Written by a run or by other programs, or placeholders.
-NOT_OURS = re.compile(r"^(output|build|companion_|figures/ensemble|packings/|DIR/|PREFIX|PATH|\./packages/)|[*<]|^/|\$")
+NOT_OURS = re.compile(r"^(output|build|sensitivity_|figures/ensemble|packings/|DIR/|PREFIX|PATH|\./packages/)|[*<]|^/|\$")
 # Names that programs put together.
 MADE = {"seed_1", "heavy_frictional", "light_frictional"}
 ENDS = (".hpp", ".cpp", ".py", ".md", ".csv", ".png", ".geo", ".msh", ".cmake", ".in", ".txt")

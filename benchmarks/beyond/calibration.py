@@ -25,7 +25,7 @@ POISSON = 0.25  # of the scene's ground without packings
 def run(output):
     """The tests, and the scene's ground at rest, unless they have been.
     output: folder of all runs of the benchmark, as below"""
-    run_once([fault_rupture(), "--grains", GRAINS, "--length", 8, "--preload", 1, "--throw-over-depth", 1e-5, "--frames", 1, "--threads", 1],
+    run_once([fault_rupture(), "--grains", GRAINS, "--length", 8, "--overconsolidation-ratio", 1, "--throw-over-depth", 1e-5, "--frames", 1, "--threads", 1],
              output / "calibration" / "at_rest")
     folder = output / "calibration" / "biaxial"
     if not (folder / "summary.json").exists():
@@ -65,7 +65,7 @@ def plastic_shear(row, modulus):
     return row["axial_strain"] - row["lateral_strain"] - stress * (1.0 + POISSON) / modulus
 
 
-def strain_to_residual(all_rows, peak_strain, peak, residual, modulus):
+def softening_strain(all_rows, peak_strain, peak, residual, modulus):
     """Plastic shear strain of the straight fall from peak to residual that has the same area above the residual angle as the mean of
     the tests from their peak on."""
     area = 0.0
@@ -101,7 +101,7 @@ def dilation_for(volume, strain):
 def by_volume(output):
     """The calibrated options, but the dilation that gains as much volume as the tests."""
     options, sources = calibrated(output)
-    return {**options, "peak-dilation": dilation_for(statistics.fmean(sources["volume"]), options["strain-to-residual"])}
+    return {**options, "peak-dilation-angle": dilation_for(statistics.fmean(sources["volume"]), options["softening-strain"])}
 
 
 def calibrated(output):
@@ -113,11 +113,11 @@ def calibrated(output):
     moduli = [young_modulus(rows) for rows in all_rows]
     peak, residual, modulus = statistics.fmean(one["phi_max"] for one in peaks), statistics.fmean(residuals), statistics.fmean(moduli)
     peak_strain = statistics.fmean(one["phi_max_axial_strain"] for one in peaks)
-    options = {"peak-friction": peak, "peak-dilation": statistics.fmean(one["psi_max"] for one in peaks), "residual-friction": residual,
-               "strain-to-residual": strain_to_residual(all_rows, peak_strain, peak, residual, modulus), "young-modulus": modulus,
+    options = {"peak-friction-angle": peak, "peak-dilation-angle": statistics.fmean(one["psi_max"] for one in peaks), "residual-friction-angle": residual,
+               "softening-strain": softening_strain(all_rows, peak_strain, peak, residual, modulus), "young-modulus": modulus,
                "k0": at_rest["k0"]}
-    return options, {"peak-friction": [one["phi_max"] for one in peaks], "peak-dilation": [one["psi_max"] for one in peaks],
-                     "residual-friction": residuals, "young-modulus": moduli, "void ratio": [rows[0]["void_ratio"] for rows in all_rows],
+    return options, {"peak-friction-angle": [one["phi_max"] for one in peaks], "peak-dilation-angle": [one["psi_max"] for one in peaks],
+                     "residual-friction-angle": residuals, "young-modulus": moduli, "void ratio": [rows[0]["void_ratio"] for rows in all_rows],
                      "volume": [volume_gained(rows) for rows in all_rows]}
 
 

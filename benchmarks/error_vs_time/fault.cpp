@@ -29,12 +29,12 @@ struct FaultSettings {
   double throw_over_depth = 0.085;
   int grains = 100;
   double tolerance = 1e-3;
-  double largest_gradient = 0.005;
+  double max_displacement_gradient = 0.005;
   double strain_per_step = 2e-5;
-  int least_steps = 20;
+  int min_steps = 20;
   double inertial_number = 5e-3;
   double unbalanced = 0.1;
-  double most_seconds = 2000.0;  ///< CPU time
+  double max_seconds = 2000.0;  ///< CPU time
 };
 
 /// Ends a run between two attempts once its CPU time [s] is spent.
@@ -86,19 +86,19 @@ Measured sand_fault(FaultSettings const& settings, int repetition) {
   sand.law = study.soil.provider.law;
   sand.source = study.soil.provider.source;
   sand.strain_per_step = settings.strain_per_step;
-  sand.least_steps = settings.least_steps;
+  sand.min_steps = settings.min_steps;
   sand.inertial_number = settings.inertial_number;
   sand.unbalanced_tolerance = settings.unbalanced;
-  sand.loose_pressure = study.soil.provider.loose_pressure;
+  sand.pressure_floor = study.soil.provider.pressure_floor;
   scene.soil.length = settings.length;
   scene.ground.layer = study.ground.layer;
   scene.fault = study.fault;
   scene.throw_to = settings.throw_over_depth * scene.ground.layer.depth;
   scene.solver.tolerance = settings.tolerance;
-  scene.stepping.largest_gradient = settings.largest_gradient;
+  scene.stepping.max_displacement_gradient = settings.max_displacement_gradient;
   static scarp::SerialExecutor executor;
   auto problem = scene.problem(executor);
-  CpuTimeLimit limit(settings.most_seconds);
+  CpuTimeLimit limit(settings.max_seconds);
   scarp::CpuTime const time;
   auto report = scene.settle(problem, limit);
   auto const rest = scarp::ground_at_rest(problem);
@@ -129,21 +129,21 @@ SweepTable fault(Options const& options) {
   }
   auto reference = base;
   reference.tolerance /= 5.0;
-  reference.largest_gradient /= 4.0;
+  reference.max_displacement_gradient /= 4.0;
   reference.strain_per_step /= 4.0;
   reference.unbalanced /= 4.0;
-  reference.least_steps *= 2;
+  reference.min_steps *= 2;
   Sweep sweep("fault", base, sand_fault);
   sweep.reference(reference);
   sweep.vary("strain per DEM step", &FaultSettings::strain_per_step, {5e-6, 1e-5, 4e-5});
-  sweep.vary("least DEM steps", &FaultSettings::least_steps, {5, 40});
+  sweep.vary("least DEM steps", &FaultSettings::min_steps, {5, 40});
   sweep.vary("inertial number", &FaultSettings::inertial_number, {2.5e-3, 1e-2});
   sweep.vary("unbalanced ratio", &FaultSettings::unbalanced, {0.025, 0.05, 0.2});
   sweep.vary("force tolerance", &FaultSettings::tolerance, {1e-2, 3e-3, 3e-4});
-  sweep.vary("gradient of a load step", &FaultSettings::largest_gradient, {0.02, 0.01, 0.0025});
+  sweep.vary("gradient of a load step", &FaultSettings::max_displacement_gradient, {0.02, 0.01, 0.0025});
   auto both = base;
   both.tolerance = 3e-3;
-  both.largest_gradient = 2.0 * base.largest_gradient;
+  both.max_displacement_gradient = 2.0 * base.max_displacement_gradient;
   sweep.also("tolerance 3e-3, gradient 0.01", both);
   sweep.vary("cell in the band [m]", &FaultSettings::size, options.quick ? std::vector{8.0} : std::vector{5.0, 2.5});
   sweep.vary("aspect of a cell", &FaultSettings::aspect, {1.73, 2.5});

@@ -16,7 +16,7 @@ struct OnePacking {
 
 struct Settings {
   double load_step = 1e-3, strain_per_step = 1e-5, inertial_number = 5e-3;
-  int least_steps = 20;
+  int min_steps = 20;
 };
 
 Measured shear(Settings const& settings, int repetition) {
@@ -24,7 +24,7 @@ Measured shear(Settings const& settings, int repetition) {
                                                .source = {repetition + 1},
                                                .strain_per_step = settings.strain_per_step,
                                                .inertial_number = settings.inertial_number,
-                                               .least_steps = settings.least_steps};
+                                               .min_steps = settings.min_steps};
   Measured measured;
   scarp::Gradient<2> const increment{{0.0, settings.load_step}, {0.0, 0.0}};
   auto state = soil.initial_state({});
@@ -44,7 +44,7 @@ SweepTable sweep_provider(Options const& options) {
   sweep.vary("load step", &Settings::load_step, {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4});
   sweep.vary("strain per step", &Settings::strain_per_step, {5e-5, 2e-5, 1e-5, 5e-6, 2e-6});
   sweep.vary("inertial number", &Settings::inertial_number, {5e-3, 2e-3, 1e-3, 5e-4});
-  sweep.vary("least steps", &Settings::least_steps, {20, 100, 400});
+  sweep.vary("least steps", &Settings::min_steps, {20, 100, 400});
   return sweep.run(options.repetitions_or(options.quick ? 1 : 5));
 }
 

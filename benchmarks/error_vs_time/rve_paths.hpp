@@ -19,7 +19,7 @@ struct RveSettings {
   double settling = 0.0;          ///< share of the steps spent without strain before each sample
   double averaging_window = 0.0;  ///< strain around a sample over which stress is averaged; 0: as it stands there
   double damping = 0.2;
-  double time_step_share = scarp::usual_time_step_share;
+  double time_step_share = scarp::default_time_step_share;
   double response_steps = 10.0;  ///< of the servo
   int grains = 400;
 };
@@ -39,7 +39,7 @@ struct MassProportional {
 
   template <class T>
   T next_velocity(T const& velocity, T const& force, T const& mobility) const {
-    return scarp::constant<T>(1.0 - drag) * velocity + force * mobility;
+    return scarp::broadcast<T>(1.0 - drag) * velocity + force * mobility;
   }
 };
 
@@ -94,7 +94,7 @@ Measured walk(PackingType packing, typename PackingType::Law const& law, Damping
   auto const loading = path.loading(rate);
   auto still = loading;
   still.gradient_per_step.setZero();
-  scarp::Drive<PackingType> drive(packing, law, loading, {.response_steps = settings.response_steps});
+  scarp::CellDriver<PackingType> drive(packing, law, loading, {.response_steps = settings.response_steps});
   Samples samples(path);
   double const first_area = packing.cell.determinant();
   // At most the whole interval, so that no step belongs to two samples.

@@ -74,20 +74,20 @@ Measured press_with(Footing const& footing, FootingSettings const& settings, Rul
   Eigen::VectorXd const loads = Eigen::VectorXd::Zero(grid.dof_count());
   auto problem = examples::plane_problem(std::move(grid), soil, 0.0, constraints, scarp::LoadHistory(loads));
   scarp::QuasiNewton<Rule> const solver{
-      .tolerance = settings.tolerance, .most_iterations = 40, .hopeless = 1e3, .rule = rule};
+      .tolerance = settings.tolerance, .max_iterations = 40, .divergence_limit = 1e3, .rule = rule};
   double const to = settings.to_collapse ? 0.25 : 0.02;  // of the motion
   double const step = settings.load_step * to;
   scarp::LoadStepping const stepping{.first = settings.to_collapse ? 0.1 * step : step,
                                      .smallest = settings.to_collapse ? 1e-5 : 1e-9,
                                      .largest = step,
-                                     .largest_gradient = 1e3,
-                                     .few = 10,
-                                     .many = 14};
+                                     .max_displacement_gradient = 1e3,
+                                     .grow_below = 10,
+                                     .shrink_above = 14};
   Measured measured;
   strip_footing::Plateau plateau{below, loads};
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto const run = settings.to_collapse ? stepping.run(solver, problem, 0.0, to, plateau)
-                                        : stepping.run(solver, problem, 0.0, to, nobody);
+                                        : stepping.run(solver, problem, 0.0, to, no_observer);
   measured.inner_steps = run.iterations;
   measured.verdict = run.verdict;
   if (settings.to_collapse) {

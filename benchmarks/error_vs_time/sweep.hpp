@@ -44,8 +44,9 @@ class SweepEvaluation {
     require_acceptable("reference", run.measured.verdict);
     for (auto const& [name, values] : run.measured.responses) {
       if (values.size() > 0 && values.norm() > 0.0) continue;
-      scarp::refuse("response '{}' of the reference of sweep '{}' is zero (errors are relative to it): leave it out",
-                    name, name_);
+      scarp::throw_input_error(
+          "response '{}' of the reference of sweep '{}' is zero (errors are relative to it): leave it out", name,
+          name_);
     }
     if (!references_.empty()) require_comparable("the reference", run.measured);
     references_.push_back(std::move(run));
@@ -88,8 +89,8 @@ class SweepEvaluation {
 
   void require_acceptable(char const* what, scarp::Verdict const& verdict) const {
     if (verdict.acceptable()) return;
-    scarp::refuse("the {} of sweep '{}' ended with {} ({}): choose settings that work", what, name_,
-                  scarp::name(verdict.status), scarp::name(verdict.reason));
+    scarp::throw_input_error("the {} of sweep '{}' ended with {} ({}): choose settings that work", what, name_,
+                             scarp::name(verdict.status), scarp::name(verdict.reason));
   }
 
   void require_comparable(std::string const& run, Measured const& measured) const {
@@ -98,7 +99,7 @@ class SweepEvaluation {
         wanted.begin(), wanted.end(), measured.responses.begin(), measured.responses.end(),
         [](auto const& a, auto const& b) { return a.first == b.first && a.second.size() == b.second.size(); });
     if (fits) return;
-    scarp::refuse(
+    scarp::throw_input_error(
         "{} of sweep '{}' gives responses of other names or lengths than the reference (they cannot be compared): "
         "measure at the same places in all runs",
         run, name_);
@@ -215,7 +216,7 @@ class SweepEvaluation {
 template <class Settings>
 class Sweep {
  public:
-  double least_seconds = 0.02;  ///< shorter runs are repeated until so much CPU time [s] is spent; the mean counts
+  double min_seconds = 0.02;  ///< shorter runs are repeated until so much CPU time [s] is spent; the mean counts
   static constexpr std::size_t runs_per_baseline = 10;  ///< after so many the base setting is measured again
 
   template <class Measure>
@@ -281,7 +282,8 @@ class Sweep {
 
   /// \throws InputError without a reference, or for responses that cannot be compared
   SweepTable run(int repetitions = 1) const {
-    if (!reference_) scarp::refuse("sweep '{}' has no reference (errors need one): call reference or exact", name_);
+    if (!reference_)
+      scarp::throw_input_error("sweep '{}' has no reference (errors need one): call reference or exact", name_);
     scarp::require_at_least("number of repetitions of a sweep", repetitions, 1);
     SweepEvaluation evaluation(name_, runs_, samples_, exact_);
     for (int k = 0; k < repetitions; ++k) {
@@ -289,21 +291,21 @@ class Sweep {
     }
     for (int k = 0; k < repetitions; ++k) {
       for (std::size_t r = 0; r < runs_.size(); ++r) {
-        if (r % runs_per_baseline == 0) evaluation.baseline(timed(runs_.front().measure, k, least_seconds));
-        evaluation.add(r, timed(runs_[r].measure, k, least_seconds));
+        if (r % runs_per_baseline == 0) evaluation.baseline(timed(runs_.front().measure, k, min_seconds));
+        evaluation.add(r, timed(runs_[r].measure, k, min_seconds));
       }
-      if (runs_.size() > 1) evaluation.baseline(timed(runs_.front().measure, k, least_seconds));
+      if (runs_.size() > 1) evaluation.baseline(timed(runs_.front().measure, k, min_seconds));
     }
     return evaluation.table();
   }
 
  private:
   /// Runs again until so much CPU time [s] is spent, and takes the mean. Responses that are not finite fail.
-  static TimedRun timed(std::function<Measured(int)> const& measure, int repetition, double least_seconds) {
+  static TimedRun timed(std::function<Measured(int)> const& measure, int repetition, double min_seconds) {
     TimedRun run;
     double sum = 0.0;
     constexpr int most = 1000;  // of runs shorter than the clock can tell
-    for (int count = 1; count == 1 || (sum < least_seconds && count <= most); ++count) {
+    for (int count = 1; count == 1 || (sum < min_seconds && count <= most); ++count) {
       scarp::CpuTime const clock;
       run.measured = measure(repetition);
       sum += std::isfinite(run.measured.seconds) ? run.measured.seconds : clock.seconds();

@@ -46,7 +46,7 @@ struct Comparison {
   static constexpr double density = 2650.0;
   static constexpr double thickness = dim == 2 ? 0.2 : 1.0;
   static constexpr double pressure = 2e5;
-  static constexpr int most_prepared =
+  static constexpr int max_prepared =
       1600;  // more grains are copies side by side, which velocities at random make differ
   static constexpr double stiffness = dim == 2 ? 6e6 : 3e5;  // as in benchmarks/kernel_packings.hpp
 
@@ -65,20 +65,23 @@ struct Comparison {
     scarp::TimeStepper<Packing> stepper;
     scarp::Servo const servo{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
     if (auto const verdict = servo.reach(stepper, packing, springs, loading); !verdict.acceptable())
-      scarp::refuse("{} grains were not consolidated ({}): take another number", grains, scarp::name(verdict.reason));
-    if (!stepper.stop(packing, springs).acceptable()) scarp::refuse("{} grains could not be stopped", grains);
+      scarp::throw_input_error("{} grains were not consolidated ({}): take another number", grains,
+                               scarp::name(verdict.reason));
+    if (!stepper.stop(packing, springs).acceptable())
+      scarp::throw_input_error("{} grains could not be stopped", grains);
     return packing;
   }
 
   static void make(int grains, std::string const& file) {
-    int const sides = grains > most_prepared ? static_cast<int>(std::lround(std::sqrt(grains / most_prepared))) : 1;
+    int const sides = grains > max_prepared ? static_cast<int>(std::lround(std::sqrt(grains / max_prepared))) : 1;
     if (grains % (sides * sides) != 0)
-      scarp::refuse("{} grains are no {} x {} copies of one packing: take another number", grains, sides, sides);
+      scarp::throw_input_error("{} grains are no {} x {} copies of one packing: take another number", grains, sides,
+                               sides);
     auto const packing = smooth(grains / (sides * sides));
     auto out = fmt::output_file(file);
     out.print("{} {} {:.17g} {:.17g} {:.17g} {:.17g}\n", dim, grains, density, thickness, stiffness, law().friction);
     for (int a = 0; a < dim; ++a) out.print("{:.17g} ", packing.cell(a, a) * (a < 2 ? sides : 1));
-    out.print("{:.17g}\n", scarp::usual_time_step_share * packing.pairs.critical_step);
+    out.print("{:.17g}\n", scarp::default_time_step_share * packing.pairs.critical_step);
     for (int copy = 0; copy < sides * sides; ++copy) {
       std::array<int, 3> const shift{copy % sides, copy / sides, 0};
       for (std::size_t i = 0; i < packing.grain_count(); ++i) {
@@ -100,7 +103,8 @@ struct Comparison {
     in >> dimension >> grains >> skipped >> skipped >> skipped >> skipped;
     for (int a = 0; a < dim; ++a) in >> packing.cell(a, a);
     in >> skipped;
-    if (!in || dimension != dim || grains == 0) scarp::refuse("'{}' is no packing of {} dimensions", file, dim);
+    if (!in || dimension != dim || grains == 0)
+      scarp::throw_input_error("'{}' is no packing of {} dimensions", file, dim);
     packing.position.resize(grains);
     packing.orientation.resize(grains);
     packing.rest();
@@ -109,7 +113,7 @@ struct Comparison {
       for (int a = 0; a < dim; ++a) in >> packing.position(i, a);
       in >> sizes[i][0];
     }
-    if (!in) scarp::refuse("'{}' ends within its {} grains", file, grains);
+    if (!in) scarp::throw_input_error("'{}' ends within its {} grains", file, grains);
     packing.population = std::make_shared<scarp::Population<Shape> const>(sizes, density, thickness);
     return packing;
   }
@@ -126,7 +130,7 @@ struct Comparison {
     }
     // Yade counts slip from the first step on, with the velocities of half a step before; LAMMPS begins with the next one.
     if (dim == 2) packing.last_move.duration = time_step;
-    if (!stepper.refresh(packing, law()).acceptable()) scarp::refuse("'{}' has no list of near pairs", file);
+    if (!stepper.refresh(packing, law()).acceptable()) scarp::throw_input_error("'{}' has no list of near pairs", file);
     ++lists;
   }
 
@@ -203,13 +207,13 @@ int obey(Side side) {
     } else if (command == "steps") {
       long const lists = side.lists;
       auto const before = processor_nanoseconds();
-      if (!side.steps(std::stol(argument))) scarp::refuse("the packing failed within {} steps", argument);
+      if (!side.steps(std::stol(argument))) scarp::throw_input_error("the packing failed within {} steps", argument);
       auto const after = processor_nanoseconds();
       fmt::print("{} {} {}\n", after - before, side.packing.pairs.count(), side.lists - lists);
     } else if (command == "grains") {
-      if (!side.grains(argument)) scarp::refuse("the packing could not be observed");
+      if (!side.grains(argument)) scarp::throw_input_error("the packing could not be observed");
     } else {
-      scarp::refuse("unknown command '{}' (there are start, steps and grains)", command);
+      scarp::throw_input_error("unknown command '{}' (there are start, steps and grains)", command);
     }
     std::fflush(stdout);
   }
@@ -223,7 +227,8 @@ int serve(std::vector<std::string> const& given) {
     return 0;
   }
   if (given.size() == 5 && given[0] == "run") return obey(Side(given[2], std::stod(given[3]), std::stod(given[4])));
-  scarp::refuse("usage: our_steps make spheres|discs GRAINS FILE, or our_steps run spheres|discs FILE SPEED DT");
+  scarp::throw_input_error(
+      "usage: our_steps make spheres|discs GRAINS FILE, or our_steps run spheres|discs FILE SPEED DT");
 }
 
 }  // namespace

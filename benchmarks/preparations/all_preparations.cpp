@@ -7,24 +7,25 @@ namespace {
 
 /// Those that are to hit the study's void ratio and K0 together, their numbers interpolated between the others'.
 std::vector<Preparation> candidates() {
-  return {{.path = "candidate: rising friction",
-           .isotropic_pressure = 0.5e3,
-           .isotropic_friction = 0.092,
-           .vertical_friction = 0.42,
-           .tested = true},
-          {.path = "candidate: rising friction",
-           .isotropic_pressure = 0.5e3,
-           .isotropic_friction = 0.095,
-           .vertical_friction = 0.41,
-           .tested = true},
-          {.path = "candidate: preloaded",
-           .isotropic_pressure = 0.5e3,
-           .isotropic_friction = 0.092,
-           .preload = 1.24,
-           .tested = true},
-          {.path = "candidate: preloaded", .isotropic_pressure = 0.5e3, .preload = 1.25, .tested = true},
-          {.path = "candidate: isotropic share", .isotropic_friction = 0.092, .share = 0.28, .tested = true},
-          {.path = "candidate: held ratio", .isotropic_friction = 0.092, .held_ratio = 0.4, .tested = true}};
+  return {
+      {.path = "candidate: rising friction",
+       .isotropic_pressure = 0.5e3,
+       .isotropic_friction = 0.092,
+       .vertical_friction = 0.42,
+       .tested = true},
+      {.path = "candidate: rising friction",
+       .isotropic_pressure = 0.5e3,
+       .isotropic_friction = 0.095,
+       .vertical_friction = 0.41,
+       .tested = true},
+      {.path = "candidate: preloaded",
+       .isotropic_pressure = 0.5e3,
+       .isotropic_friction = 0.092,
+       .overconsolidation_ratio = 1.24,
+       .tested = true},
+      {.path = "candidate: preloaded", .isotropic_pressure = 0.5e3, .overconsolidation_ratio = 1.25, .tested = true},
+      {.path = "candidate: isotropic share", .isotropic_friction = 0.092, .share = 0.28, .tested = true},
+      {.path = "candidate: held ratio", .isotropic_friction = 0.092, .held_ratio = 0.4, .tested = true}};
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ std::vector<Preparation> all_preparations() {
   }
   all.push_back({.path = "falling friction", .isotropic_friction = 0.25, .vertical_friction = 0.15});
   for (double const second : {0.2, 0.3, 0.4}) all.push_back({.path = "rising friction", .vertical_friction = second});
-  for (double const preload : {1.2, 1.4, 2.0}) all.push_back({.path = "preloaded", .preload = preload});
+  for (double const ratio : {1.2, 1.4, 2.0}) all.push_back({.path = "preloaded", .overconsolidation_ratio = ratio});
   for (double const friction : near_the_scene) {
     for (double const second : {0.3, 0.35, 0.4}) {
       all.push_back({.path = "rising friction from 0.5 kPa",
@@ -49,12 +50,12 @@ std::vector<Preparation> all_preparations() {
                      .vertical_friction = second,
                      .tested = friction == 0.09 && second == 0.35});
     }
-    for (double const preload : {1.2, 1.3, 1.4}) {
+    for (double const ratio : {1.2, 1.3, 1.4}) {
       all.push_back({.path = "preloaded from 0.5 kPa",
                      .isotropic_pressure = 0.5e3,
                      .isotropic_friction = friction,
-                     .preload = preload,
-                     .tested = friction == 0.09 && preload == 1.3});
+                     .overconsolidation_ratio = ratio,
+                     .tested = friction == 0.09 && ratio == 1.3});
     }
   }
   for (double const share : {0.1, 0.2, 0.25, 0.3, 0.7}) {

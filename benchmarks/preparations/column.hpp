@@ -35,12 +35,12 @@ class Columns {
     std::vector<AtDepth> column;
     auto packing = start;
     for (double const overburden : overburdens) {
-      if (preparation.preload * overburden >= preparation.isotropic_pressure)
+      if (preparation.overconsolidation_ratio * overburden >= preparation.isotropic_pressure)
         go_on(preparation, packing, start.packing.cell, overburden, column);
     }
     packing = start;
     for (std::size_t k = overburdens.size(); k-- > 0;) {
-      if (preparation.preload * overburdens[k] < preparation.isotropic_pressure)
+      if (preparation.overconsolidation_ratio * overburdens[k] < preparation.isotropic_pressure)
         go_on(preparation, packing, start.packing.cell, overburdens[k], column);
     }
     return column;
@@ -74,9 +74,9 @@ class Columns {
   static void go_on(Preparation const& preparation, scarp::Prepared<Packing>& packing,
                     scarp::Tensor<2> const& first_cell, double overburden, std::vector<AtDepth>& column) {
     double const law_friction = examples::study_law().friction;
-    bring(preparation, preparation.vertical_friction, preparation.preload * overburden, packing);
+    bring(preparation, preparation.vertical_friction, preparation.overconsolidation_ratio * overburden, packing);
     auto own = packing;
-    if (preparation.preload > 1.0) bring(preparation, preparation.vertical_friction, overburden, own);
+    if (preparation.overconsolidation_ratio > 1.0) bring(preparation, preparation.vertical_friction, overburden, own);
     if (preparation.vertical_friction != law_friction) bring(preparation, law_friction, overburden, own);
     column.push_back({overburden, std::move(own), first_cell});
   }

@@ -50,7 +50,7 @@ void write(std::vector<std::vector<Row>> const& of_seeds) {
                          "share",
                          "share friction",
                          "vertical friction",
-                         "preload",
+                         "overconsolidation ratio",
                          "held ratio",
                          "laid",
                          "fastest",
@@ -74,11 +74,11 @@ void write(std::vector<std::vector<Row>> const& of_seeds) {
   for (auto const& rows : of_seeds) {
     for (auto const& [made, seed, overburden, verdict, is, tested] : rows) {
       table.add(made.path, made.isotropic_pressure, made.isotropic_friction, made.share, made.share_friction,
-                made.vertical_friction, made.preload, made.held_ratio, made.laid, made.fastest, seed, overburden,
-                scarp::name(verdict.status), is.k0, is.void_ratio, is.coordination, is.mechanical_coordination,
-                is.contact_fabric, is.particle_fabric, is.level_particle_fabric, is.sliding_share, is.lateral_strain,
-                is.vertical_strain, tested.friction_angle, tested.narrow_friction_angle, tested.dilation_angle,
-                tested.elastic_k0);
+                made.vertical_friction, made.overconsolidation_ratio, made.held_ratio, made.laid, made.fastest, seed,
+                overburden, scarp::name(verdict.status), is.k0, is.void_ratio, is.coordination,
+                is.mechanical_coordination, is.contact_fabric, is.particle_fabric, is.level_particle_fabric,
+                is.sliding_share, is.lateral_strain, is.vertical_strain, tested.friction_angle,
+                tested.narrow_friction_angle, tested.dilation_angle, tested.elastic_k0);
     }
   }
   benchmarks::write_data("preparations", table.text());

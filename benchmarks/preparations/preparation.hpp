@@ -14,9 +14,9 @@ struct Preparation {
   double isotropic_friction = 0.09;
   double share = 0.0;  ///< positive: then to this share of each depth's overburden, isotropic too
   double share_friction = 0.55;
-  double vertical_friction = 0.55;  ///< while the overburden grows
-  double preload = 1.0;             ///< largest overburden of the past over the present one
-  double held_ratio = 0.0;          ///< positive: lateral over vertical stress is held, the lateral strain follows
+  double vertical_friction = 0.55;       ///< while the overburden grows
+  double overconsolidation_ratio = 1.0;  ///< largest overburden of the past over the present one
+  double held_ratio = 0.0;               ///< positive: lateral over vertical stress is held, the lateral strain follows
   double laid = 0.0;      ///< particle fabric of the cloud: positive along the horizontal, negative along the vertical
   double fastest = 1e-5;  ///< strain per DEM step while the overburden grows
   bool tested = false;    ///< in a biaxial test too

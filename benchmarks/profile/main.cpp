@@ -114,7 +114,7 @@ void profile_scene(bool quick) {
   choice.strain_per_step = 2e-5;
   choice.unbalanced_tolerance = 0.1;
   if (quick) {
-    choice.triangles = 220;
+    choice.elements = 220;
     choice.grains = 60;
     choice.throw_over_depth = 0.002;
   }
@@ -130,7 +130,7 @@ void profile_scene(bool quick) {
   scene.throw_to = study.throw_to;
   scene.stepping = study.stepping;
   scene.solver.tolerance = 1e-3;
-  scene.solver.most_iterations = choice.most_iterations;
+  scene.solver.max_iterations = choice.max_iterations;
   auto const tallies = sand.provider.tallies;
   tallies->depth = study.ground.layer.depth;
 

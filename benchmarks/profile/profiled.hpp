@@ -94,7 +94,7 @@ struct Profiled {
 
   Plan plan(State const& committed, scarp::Gradient<dim> const& increment) const {
     auto const own = provider.plan(committed.own, increment);
-    if (own <= provider.least_steps) return {own, Reason::least};
+    if (own <= provider.min_steps) return {own, Reason::least};
     // The number is rounded up from what the inertial number asks, where that decides.
     bool const is_slow = provider.inertial_number_of(committed.own, increment, own - 1) >= provider.inertial_number;
     return {own, is_slow ? Reason::inertia : Reason::strain};

@@ -84,7 +84,7 @@ class Model:
         """From steps that are near the limit of the gradient: bands are wider in the small ones before, and these are few."""
         rows, values = [], []
         for run in self.sand.values():
-            large = [step["load_increment"] / step["largest_gradient"] for step in throws(run) if step["largest_gradient"] > 0.5 * LIMIT]
+            large = [step["load_increment"] / step["max_displacement_gradient"] for step in throws(run) if step["max_displacement_gradient"] > 0.5 * LIMIT]
             if large:
                 rows.append([WIDTH * DEPTH / run["nodes"], length_of(run) ** 2])
                 values.append(np.median(large) ** 2)
@@ -100,9 +100,9 @@ class Model:
                     continue
                 tolerance = option(run, "--tolerance", 1e-3)
                 for step in throws(run):
-                    if step["largest_gradient"] < 0.3 * tolerance:
+                    if step["max_displacement_gradient"] < 0.3 * tolerance:
                         continue
-                    decades.append(math.log10(step["largest_gradient"] / tolerance))
+                    decades.append(math.log10(step["max_displacement_gradient"] / tolerance))
                     counts.append(step["iterations"])
             slope, at_tolerance = np.polyfit(decades, counts, 1)
             self.constants.update({key: at_tolerance, f"{key}_by_decade": slope})
@@ -112,7 +112,7 @@ class Model:
         ground, share of its run's work."""
         rows = []
         for run in self.sand.values():
-            least, each = option(run, "--least-dem-steps", 20.0), option(run, "--strain-per-step", 1e-5)
+            least, each = option(run, "--min-dem-steps", 20.0), option(run, "--strain-per-dem-step", 1e-5)
             for step in throws(run):
                 answers = step["dem_steps"] / step["iterations"] / run["elements"]
                 if answers > 1.3 * least:

@@ -10,18 +10,18 @@ SIZES = [220, 480, 960, 1900, 3800, 7616, 15000, 30000]  # triangles asked for
 # Open MPI otherwise refuses more ranks than cores, and the root user of a container.
 ON_RANKS = {**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 GRAINS = [100, 200, 400, 800, 1600]
-SAND = ["--grains", 100, "--preload", 1]
+SAND = ["--grains", 100, "--overconsolidation-ratio", 1]
 
 
 def of_sizes():
     """Packings of 100 grains. Fine meshes end after a few load steps, with a quarter of the least DEM steps and fewer columns."""
     for triangles in SIZES:
-        mesh = ["--triangles", triangles] if triangles != 960 else ["--size", 2.5]
+        mesh = ["--elements", triangles] if triangles != 960 else ["--size", 2.5]
         if triangles <= 960:
             yield f"length-{triangles}", [*SAND, *mesh, "--throw-over-depth", 0.006]
             yield f"local-{triangles}", ["--local", *SAND, *mesh, "--throw-over-depth", 0.002]
             continue
-        short = [*SAND, *mesh, "--least-dem-steps", 5]
+        short = [*SAND, *mesh, "--min-dem-steps", 5]
         yield f"length-{triangles}", [*short, "--packings", 2, "--throw-over-depth", 0.0006 if triangles < 15000 else 0.0001]
         far = 0.0006 if triangles < 7616 else 0.0003 if triangles < 15000 else 0.0001
         yield f"local-{triangles}", ["--local", *short, "--throw-over-depth", far]
@@ -29,16 +29,16 @@ def of_sizes():
 
 def of_grains():
     for grains in GRAINS:
-        yield f"grains-{grains}", ["--preload", 1, "--triangles", 220, "--packings", 2, "--grains", grains, "--throw-over-depth", 0.001]
+        yield f"grains-{grains}", ["--overconsolidation-ratio", 1, "--elements", 220, "--packings", 2, "--grains", grains, "--throw-over-depth", 0.001]
 
 
 def whole():
     """To the end of the throw, or far, with another residual: iterations and strains of the later steps."""
-    half = ["--strain-per-step", 2e-5, "--unbalanced", 0.1]
-    yield "whole-length-220", [*SAND, "--triangles", 220, *half]
-    yield "far-length-480", [*SAND, "--triangles", 480, *half, "--tolerance", 5e-3, "--throw-over-depth", 0.03]
-    yield "whole-local-220", ["--local", *SAND, "--triangles", 220, *half]
-    yield "far-local-1900", ["--local", *SAND, "--triangles", 1900, *half, "--tolerance", 1e-2, "--least-dem-steps", 5,
+    half = ["--strain-per-dem-step", 2e-5, "--unbalanced-tolerance", 0.1]
+    yield "whole-length-220", [*SAND, "--elements", 220, *half]
+    yield "far-length-480", [*SAND, "--elements", 480, *half, "--tolerance", 5e-3, "--throw-over-depth", 0.03]
+    yield "whole-local-220", ["--local", *SAND, "--elements", 220, *half]
+    yield "far-local-1900", ["--local", *SAND, "--elements", 1900, *half, "--tolerance", 1e-2, "--min-dem-steps", 5,
                              "--throw-over-depth", 0.008]
 
 
@@ -47,15 +47,15 @@ def of_plain_soil():
         for name, length in (("length", 8), ("local", 0)):
             far = 0.01 if name == "local" and triangles <= 7616 else 0.001 if name == "local" or triangles <= 7616 else 0.0001
             to = [] if triangles <= 1900 else ["--throw-over-depth", far]
-            yield f"plain-{name}-{triangles}", ["--soil", "mohr_coulomb", "--length", length, "--triangles", triangles, *to]
+            yield f"plain-{name}-{triangles}", ["--soil", "mohr_coulomb", "--length", length, "--elements", triangles, *to]
 
 
 def checks():
     """Not fitted."""
     yield "check-quick", ["--quick"]
-    yield "check-plain-length", ["--soil", "mohr_coulomb", "--length", 5.66, "--triangles", 1400]
-    yield "check-plain-local", ["--soil", "mohr_coulomb", "--length", 0, "--triangles", 1400]
-    yield "check-grains", ["--triangles", 480, "--packings", 2, "--grains", 200, "--tolerance", 5e-3, "--throw-over-depth", 0.015]
+    yield "check-plain-length", ["--soil", "mohr_coulomb", "--length", 5.66, "--elements", 1400]
+    yield "check-plain-local", ["--soil", "mohr_coulomb", "--length", 0, "--elements", 1400]
+    yield "check-grains", ["--elements", 480, "--packings", 2, "--grains", 200, "--tolerance", 5e-3, "--throw-over-depth", 0.015]
 
 
 TEAMS = {"1 thread": (1, 1), "2 threads": (1, 2), "2 ranks": (2, 1)}  # ranks, threads
@@ -100,7 +100,7 @@ def pairs_of(text):
 
 
 def command_of(build, options):
-    """Program of the build that has ranks where they are asked for."""
+    """Program of the build that has ranks where they are requested."""
     options = list(map(str, options))
     ranks = 0
     if "--ranks" in options:

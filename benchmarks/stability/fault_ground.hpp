@@ -70,11 +70,11 @@ FaultAnswer answer(FaultGround const& ground, Problem& problem) {
   scene.stepping.first = 1e-3 / 25.0 * ground.layer().depth;
   scene.stepping.smallest = 1e-7 / 25.0 * ground.layer().depth;
   scene.stepping.largest = ground.largest_part * ground.layer().depth;
-  scene.stepping.largest_gradient = 0.02;
-  scarp::NoObserver nobody;
+  scene.stepping.max_displacement_gradient = 0.02;
+  scarp::NoObserver no_observer;
   FaultAnswer found;
-  auto const settled = scene.settle(problem, nobody);
-  found.run = settled.verdict.acceptable() ? scarp::joined(settled, scene.rupture(problem, nobody)) : settled;
+  auto const settled = scene.settle(problem, no_observer);
+  found.run = settled.verdict.acceptable() ? scarp::joined(settled, scene.rupture(problem, no_observer)) : settled;
   auto const& grid = problem.discretisation();
   for (int const node : boundary_nodes(grid.mesh(), "surface")) {
     auto const k = static_cast<std::size_t>(node);

@@ -11,7 +11,7 @@ namespace stability {
 
 namespace {
 
-/// A footing on friction with a couple that has a course over the load factor.
+/// A footing on friction with a couple that has a amplitude over the load factor.
 struct RockedFooting : scarp::FrictionalFooting<scarp::LinearFrictional> {
   scarp::TimeFunction couple = scarp::TimeFunction::constant(0.0);  ///< counter-clockwise, over weight times width
 
@@ -36,7 +36,7 @@ scarp::FaultScene<FaultSoil, Structure, FaultNewton> scene_with(Structure const&
   scene.ground = ground.ground;
   scene.solver = ground.solver;
   scene.structure = structure;
-  scene.stepping.largest_gradient = 0.02;
+  scene.stepping.max_displacement_gradient = 0.02;
   scene.stepping.largest = 0.25;
   return scene;
 }
@@ -105,30 +105,30 @@ Outcome frictional(double stiffness, double friction, double width, double throw
   return outcome;
 }
 
-RockedFooting rocked(std::vector<std::pair<double, double>> const& course) {
+RockedFooting rocked(std::vector<std::pair<double, double>> const& amplitude) {
   RockedFooting footing;
   footing.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = 0.5};
-  footing.couple = scarp::TimeFunction(course);
+  footing.couple = scarp::TimeFunction(amplitude);
   return footing;
 }
 
 /// Rocks a footing on strong ground by couples over W B, one after another; the fault hardly moves.
 Stand rock(std::vector<double> const& couples, int steps_each) {
   double const end = 1e-6;
-  std::vector<std::pair<double, double>> course{{0.0, 0.0}};
+  std::vector<std::pair<double, double>> amplitude{{0.0, 0.0}};
   for (std::size_t k = 0; k < couples.size(); ++k)
-    course.emplace_back(end * static_cast<double>(k + 1) / static_cast<double>(couples.size()), couples[k]);
-  auto scene = scene_with(rocked(course), true);
+    amplitude.emplace_back(end * static_cast<double>(k + 1) / static_cast<double>(couples.size()), couples[k]);
+  auto scene = scene_with(rocked(amplitude), true);
   scene.throw_to = end;
   double const step = end / static_cast<double>(steps_each * static_cast<int>(couples.size()));
-  return stand(scene, {.first = step, .smallest = 1e-4 * step, .largest = step, .largest_gradient = 0.02});
+  return stand(scene, {.first = step, .smallest = 1e-4 * step, .largest = step, .max_displacement_gradient = 0.02});
 }
 
 /// Reaches the end in balance, with a share of the base lifted within bounds.
-Outcome rocks(std::vector<double> const& couples, int steps_each, double least_lifted, double most_lifted) {
+Outcome rocks(std::vector<double> const& couples, int steps_each, double min_lifted, double max_lifted) {
   auto const found = rock(couples, steps_each);
   auto outcome = at_most(1e-8, imbalance(found, rocked({{0.0, 0.0}}).weight()), "imbalance over weight", words(found));
-  outcome.as_expected &= found.run.verdict.acceptable() && found.lifted >= least_lifted && found.lifted <= most_lifted;
+  outcome.as_expected &= found.run.verdict.acceptable() && found.lifted >= min_lifted && found.lifted <= max_lifted;
   return outcome;
 }
 

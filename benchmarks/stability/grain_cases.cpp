@@ -216,8 +216,8 @@ Case default_step(std::string const& name, Law const& law) {
           .name = name,
           .expected = "velocities stay below ten times the nudge; at twenty times the default step they grow",
           .run = [law](Size) {
-            auto outcome = at_most(10.0, growth(law, scarp::usual_time_step_share), "growth of the velocities");
-            outcome.as_expected &= growth(law, 20.0 * scarp::usual_time_step_share) > 1e3;
+            auto outcome = at_most(10.0, growth(law, scarp::default_time_step_share), "growth of the velocities");
+            outcome.as_expected &= growth(law, 20.0 * scarp::default_time_step_share) > 1e3;
             return outcome;
           }};
 }

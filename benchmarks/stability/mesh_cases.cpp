@@ -143,7 +143,7 @@ struct Refusals {
 Outcome pressed_flat(double first) {
   scarp::SerialExecutor executor;
   auto problem = Pressed::make(executor);
-  scarp::LoadStepping const stepping{.first = first, .smallest = 1e-4, .largest_gradient = 10.0};
+  scarp::LoadStepping const stepping{.first = first, .smallest = 1e-4, .max_displacement_gradient = 10.0};
   Refusals refusals;
   auto const run = stepping.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 1.2, refusals);
   double smallest = infinity;

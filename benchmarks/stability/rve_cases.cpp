@@ -56,7 +56,7 @@ struct Path {
     Rve::State trial;
     int plan = provider.plan(state, increment);
     verdict = provider.respond(state, increment, trial, plan).verdict;
-    while (verdict.status == Status::not_converged && plan < provider.most_steps) {
+    while (verdict.status == Status::not_converged && plan < provider.max_steps) {
       plan = provider.refined(plan);
       verdict = provider.respond(state, increment, trial, plan).verdict;
     }
@@ -124,8 +124,8 @@ constexpr double nameable = 1e-5;
 Outcome barely_confined(double pressure, Size size) {
   auto packing = samples::consolidated<Ellipses>(size == Size::quick ? 40 : 200).packing;
   // More grains take longer to come to rest.
-  long const most_steps = size == Size::quick ? 50'000 : 400'000;
-  Verdict const reached = relieve(packing, samples::study_law(), samples::pressure, pressure, most_steps);
+  long const max_steps = size == Size::quick ? 50'000 : 400'000;
+  Verdict const reached = relieve(packing, samples::study_law(), samples::pressure, pressure, max_steps);
   Outcome outcome{.measure = "largest tension over the pressure",
                   .remark = fmt::format("brought there: {}", words(reached))};
   if (!reached.acceptable()) {

@@ -44,7 +44,7 @@ struct Sheared {
 /// follows the strain of the springs: at once, grains would fly apart.
 template <class PackingType>
 scarp::Verdict relieve(PackingType& packing, typename PackingType::Law const& law, double from, double to,
-                       long most_steps = 50'000) {
+                       long max_steps = 50'000) {
   scarp::TimeStepper<PackingType> stepper;
   double const modulus = scarp::spring_modulus(packing, law);
   while (from > to) {
@@ -52,7 +52,7 @@ scarp::Verdict relieve(PackingType& packing, typename PackingType::Law const& la
     scarp::Servo const servo{.feedback = {.fastest = 0.1 * from / modulus},
                              .stress_tolerance = 1e-2,
                              .unbalanced_tolerance = 1e-2,
-                             .most_steps = most_steps};
+                             .max_steps = max_steps};
     scarp::VoigtStress<PackingType::dim> target = scarp::VoigtStress<PackingType::dim>::Zero();
     target.template head<PackingType::dim>().setConstant(-from);
     if (auto const verdict = servo.reach(stepper, packing, law, scarp::Loading<PackingType::dim>::stress(target));
@@ -67,11 +67,12 @@ Sheared prepared_and_sheared(Shearing const& asked) {
   using scarp::Tensor;
   auto [packing, verdict] = scarp::IsotropicPreparation{.pressure = asked.prepared_at}.prepare(
       samples::loose_cloud<Grains>(asked.grains, 3), asked.law);
-  Sheared end{.verdict = verdict, .time_step = scarp::usual_time_step_share * packing.pairs.critical_step};
+  Sheared end{.verdict = verdict, .time_step = scarp::default_time_step_share * packing.pairs.critical_step};
   if (verdict.acceptable()) end.verdict = relieve(packing, asked.law, asked.prepared_at, asked.pressure);
   if (!end.verdict.acceptable()) return end;
   scarp::TimeStepper<Grains> stepper;
-  scarp::Drive<Grains> drive(packing, asked.law, scarp::drained_compression<2>(asked.strain_per_step, asked.pressure));
+  scarp::CellDriver<Grains> drive(packing, asked.law,
+                                  scarp::drained_compression<2>(asked.strain_per_step, asked.pressure));
   long const steps = std::lround(asked.strain / asked.strain_per_step);
   Tensor<2> mean = Tensor<2>::Zero();
   for (long step = 0; step < steps; ++step) {
@@ -86,7 +87,7 @@ Sheared prepared_and_sheared(Shearing const& asked) {
   double const pressure = -0.5 * mean.trace();
   end.strength = std::hypot(0.5 * (mean(0, 0) - mean(1, 1)), shear) / pressure;
   end.skew_share = std::abs(mean(0, 1) - mean(1, 0)) / pressure;
-  end.time_step = scarp::usual_time_step_share * packing.pairs.critical_step;
+  end.time_step = scarp::default_time_step_share * packing.pairs.critical_step;
   return end;
 }
 

@@ -23,7 +23,7 @@ inline SofteningSoil ground(double residual_cohesion = 20e3) {
   scarp::Strength residual = peak;
   residual.cohesion = residual_cohesion;
   return {.elasticity = scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25),
-          .strength = {.peak = peak, .residual = residual, .strain_to_residual = 0.05},
+          .strength = {.peak = peak, .residual = residual, .softening_strain = 0.05},
           .initial = {}};
 }
 

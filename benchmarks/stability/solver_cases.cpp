@@ -37,7 +37,7 @@ double base_force(Block::Problem const& problem) {
 
 /// All of a strain in one macroscopic step, if the solver can, against five hundred.
 Outcome one_increment(double strain) {
-  scarp::LoadStepping stepping{.first = 2.0 * strain, .smallest = 1e-8, .largest_gradient = 10.0};
+  scarp::LoadStepping stepping{.first = 2.0 * strain, .smallest = 1e-8, .max_displacement_gradient = 10.0};
   Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-4}};
   auto once = Block{}.make();
   Watch watch;

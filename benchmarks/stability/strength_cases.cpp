@@ -149,12 +149,12 @@ Outcome steep_softening() {
   Worst worst;
   int none = 0;
   int asked = 0;
-  for (double const strain_to_residual : {1.0, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9}) {
+  for (double const softening_strain : {1.0, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9}) {
     scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const law{
         .elasticity = elasticity(),
         .strength = {.peak = {.cohesion = 20e3, .friction = 35.0 * degree, .dilation = 10.0 * degree},
                      .residual = {.cohesion = 0.0, .friction = 25.0 * degree},
-                     .strain_to_residual = strain_to_residual},
+                     .softening_strain = softening_strain},
         .initial = {}};
     for (double const strain : {1e-5, 1e-4, 1e-3, 1e-2}) {
       auto state = law.initial_state({});

@@ -10,7 +10,7 @@ from common import measures, origin, summary_of, write_table
 
 COLUMNS = {"attempt": "attempt", "step": "step", "throw_over_depth": "h/H", "accepted": "accepted", "reason": "reason", "iterations": "iterations",
            "residual": "residual", "dem_steps": "DEM steps", "seconds": "wall time [s]", "share_outside_points": "share outside of the points",
-           "largest_gradient": "largest gradient"}
+           "max_displacement_gradient": "largest gradient"}
 name, folder, command = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 summary = summary_of(folder)
 if not summary:

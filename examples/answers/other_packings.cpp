@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // How does every point get another packing? By a source: a lattice whose overlap grows with depth and varies at random.
-#include "scarp/bvp/usual_integration.hpp"
+#include "scarp/bvp/default_integration.hpp"
 #include "scarp/constitutive/correlated_field.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/element/quad4.hpp"

@@ -18,10 +18,10 @@ struct OwnSprings {
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>& memory) const {
-    using scarp::constant;
-    T const normal = scarp::lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));
-    scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip, constant<T>(tangential_stiffness),
-                                 constant<T>(friction) * normal);
+    using scarp::broadcast;
+    T const normal = scarp::lanes::at_least(broadcast<T>(normal_stiffness) * approach.overlap, broadcast<T>(0));
+    scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip, broadcast<T>(tangential_stiffness),
+                                 broadcast<T>(friction) * normal);
     return {.normal = normal, .shear = memory.shear};
   }
   scarp::ContactStiffness stiffness(double, double) const {

@@ -14,8 +14,8 @@ struct ViscousDrag {
   /// One component of a velocity [m/s] or spin [1/s]; mobility = time step / inertia. T: a pack of several grains.
   template <class T>
   T next_velocity(T const& velocity, T const& force, T const& mobility) const {
-    using scarp::constant;
-    return (constant<T>(1.0 - share / 2.0) * velocity + force * mobility) * constant<T>(1.0 / (1.0 + share / 2.0));
+    using scarp::broadcast;
+    return (broadcast<T>(1.0 - share / 2.0) * velocity + force * mobility) * broadcast<T>(1.0 / (1.0 + share / 2.0));
   }
 };
 static_assert(scarp::DampsMotion<ViscousDrag>);
@@ -39,7 +39,7 @@ int main() {
 
   // As a material: C11 = k_n of the square lattice, per thickness of 1 m, whatever the damping is.
   double const spacing = 2.0 * radius - 1e-6, strain = 1e-4;
-  scarp::DemRve<Grains, Source, scarp::ElasticContactTangent, ViscousDrag> const soil{
+  scarp::DemRve<Grains, Source, scarp::AffineTangent, ViscousDrag> const soil{
       .law = law, .source = {answers::lattice<Grains>({radius}, {spacing, spacing})}, .damping = drag};
   auto const start = soil.initial_state({});
   auto trial = start;

@@ -40,7 +40,7 @@ struct ProjectedVelocities {
   /// Then for every component of velocity or spin; mobility = time step / inertia. T: a pack of several grains.
   template <class T>
   T next_velocity(T const&, T const& force, T const& mobility) const {
-    return scarp::constant<T>(push) * force * mobility;
+    return scarp::broadcast<T>(push) * force * mobility;
   }
 };
 static_assert(scarp::DampsMotion<ProjectedVelocities> && scarp::SeesAllGrains<ProjectedVelocities, Grains>);
@@ -49,7 +49,7 @@ int main() {
   using Source = scarp::SamePacking<Grains>;
   scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.5};
 
-  // A cloud that is compressed comes to rest under the pressure that is asked for, to the servo's tolerance.
+  // A cloud that is compressed comes to rest under the pressure that is requested, to the servo's tolerance.
   scarp::Cloud<scarp::DiscGrading> const cloud{
       .grading = {.smallest = 4e-3, .largest = 6e-3}, .grains = 100, .density = 2650.0, .thickness = 1.0};
   scarp::IsotropicPreparation const preparation{.pressure = 1e5};
@@ -61,7 +61,7 @@ int main() {
 
   // As a material: C11 = k_n of the square lattice, per thickness of 1 m, whatever moves the grains.
   double const radius = 5e-3, spacing = 2.0 * radius - 1e-6, strain = 1e-4;
-  scarp::DemRve<Grains, Source, scarp::ElasticContactTangent, ProjectedVelocities> const soil{
+  scarp::DemRve<Grains, Source, scarp::AffineTangent, ProjectedVelocities> const soil{
       .law = law, .source = {answers::lattice<Grains>({radius}, {spacing, spacing})}};
   auto const start = soil.initial_state({});
   auto trial = start;

@@ -20,12 +20,12 @@ struct Stiffening {
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>& memory) const {
-    using scarp::constant;
+    using scarp::broadcast;
     using std::sqrt;
-    T const closed = scarp::lanes::at_least(approach.overlap, constant<T>(0));
-    T const normal = constant<T>(coefficient) * closed * sqrt(closed);
-    T const lost = scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip, constant<T>(tangential_stiffness),
-                                                constant<T>(friction) * normal);
+    T const closed = scarp::lanes::at_least(approach.overlap, broadcast<T>(0));
+    T const normal = broadcast<T>(coefficient) * closed * sqrt(closed);
+    T const lost = scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip, broadcast<T>(tangential_stiffness),
+                                                broadcast<T>(friction) * normal);
     return {.normal = normal, .shear = memory.shear, .dissipated = lost};
   }
   scarp::ContactStiffness stiffness(double overlap, double) const {

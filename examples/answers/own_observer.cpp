@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What does an observer of one's own take? It keeps the curve of load over settlement and ends the run at a settlement.
+#include "scarp/bvp/default_integration.hpp"
 #include "scarp/bvp/loads.hpp"
-#include "scarp/bvp/usual_integration.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"

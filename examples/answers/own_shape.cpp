@@ -3,7 +3,7 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/preparation.hpp"
-#include "scarp/shape/support_touch.hpp"
+#include "scarp/shape/support_contact.hpp"
 
 #include "lattice.hpp"
 
@@ -11,12 +11,13 @@
 /// theta, the pose (r, r eps cos 2 theta, r eps sin 2 theta).
 struct Oval {
   static constexpr int dim = 2, size_count = 2, orientation_count = 2, pose_count = 3;
-  static constexpr bool remembers_normal = true;  // the search starts from the last step's normal
+  static constexpr bool warm_starts_normal = true;  // the search starts from the last step's normal
   using Size = scarp::SizeOf<Oval>;
 
   /// Grains that are not convex: called once for every grain.
   static void check(Size const& size) {
-    if (size[1] > 0.3) scarp::refuse("an oval has epsilon {} (from 1/3 on it is not convex): take up to 0.3", size[1]);
+    if (size[1] > 0.3)
+      scarp::throw_input_error("an oval has epsilon {} (from 1/3 on it is not convex): take up to 0.3", size[1]);
   }
   // Area and polar moment from h: A = int (h^2 - h'^2) / 2, I = int (h^2 + h'^2) h (h + h'') / 4 over the angle.
   static double content(Size const& size) {
@@ -28,7 +29,7 @@ struct Oval {
   }
   static double bounding_radius(Size const& size) { return size[0] * (1.0 + size[1]); }
   static double eccentricity(Size const& size) { return 2.0 * size[0] * size[1]; }  // largest |h'|
-  static double least_curvature_radius(Size const& size) { return size[0] * (1.0 - 3.0 * size[1]); }
+  static double min_curvature_radius(Size const& size) { return size[0] * (1.0 - 3.0 * size[1]); }
 
   // From here on T is a double or a pack of several grains.
   template <class T>
@@ -47,7 +48,7 @@ struct Oval {
     T const sine = n[0] * n[1] + n[0] * n[1];
     T const part = pose[1] * cosine + pose[2] * sine;
     T const turned = pose[2] * cosine - pose[1] * sine;
-    return {pose[0] + part, turned + turned, pose[0] - scarp::constant<T>(3) * part};
+    return {pose[0] + part, turned + turned, pose[0] - scarp::broadcast<T>(3) * part};
   }
   template <class T>
   static std::array<scarp::Support<T>, 2> supports(std::array<T, 3> const& first, std::array<T, 3> const& second,
@@ -57,7 +58,7 @@ struct Oval {
   template <class T>
   static scarp::ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
                                             scarp::Point<2, T> const& branch, scarp::Point<2, T> const& normal) {
-    return scarp::support_touch<Oval>(first, second, branch, normal);
+    return scarp::support_contact<Oval>(first, second, branch, normal);
   }
 };
 static_assert(scarp::ParticleShape<Oval>);

@@ -80,10 +80,10 @@ void declare_test(CLI::App& app, Choice& choice) {
   app.add_option("--iterations", choice.iterations, "most of an attempt at a step")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  app.add_option("--halvings", choice.halvings, "of a step that fails, before the test is given up")
+  app.add_option("--max-halvings", choice.halvings, "of a step that fails, before the test is given up")
       ->check(CLI::Range(0, 30))
       ->capture_default_str();
-  app.add_option("--threads", choice.threads, "0 takes all")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", choice.threads, "0 uses all")->check(CLI::Range(0, 1024));
 }
 
 void declare_results(CLI::App& app, Choice& choice, examples::Output& output) {
@@ -91,7 +91,7 @@ void declare_results(CLI::App& app, Choice& choice, examples::Output& output) {
   auto* const all = examples::declare_output(app, output, "folder of all results")->capture_default_str();
   auto* const table = app.add_option("--out", choice.table, "the table alone, instead of --output")->excludes(all);
   app.add_option("--fields", choice.fields, "folder for VTU files beside --out")->check(folder)->needs(table);
-  app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
+  app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, instead of the default ones")
       ->check([](std::string const& given) { return examples::refused_bound(given); });
   app.add_option("--frames", choice.frames, "VTU files over the test")
       ->check(CLI::Range(1, 100'000))
@@ -111,8 +111,9 @@ int run_mesh(Choice choice) {
 #else
     case scarp::Tri6::gmsh_type:
     case scarp::Quad4::gmsh_type:
-      scarp::refuse("'{}' holds Tri6 or Quad4; expected Tri3 or Quad8. Configure with -D SCARP_BUILD_VERIFICATION=ON.",
-                    choice.mesh);
+      scarp::throw_input_error(
+          "'{}' holds Tri6 or Quad4; expected Tri3 or Quad8. Configure with -D SCARP_BUILD_VERIFICATION=ON.",
+          choice.mesh);
 #endif
     case scarp::Quad8::gmsh_type: return run<scarp::Quad8>(choice);
     default: return run<scarp::Tri3>(choice);  // says what is wrong with other elements

@@ -28,7 +28,7 @@ Rve<Shape> rve(Grains const& grains, double pressure, scarp::LinearFrictional co
   return {.law = law,
           .source = std::move(pool),
           .strain_per_step = grains.strain_per_dem_step,
-          .loose_pressure = pressure / 100.0};
+          .pressure_floor = pressure / 100.0};
 }
 
 scarp::AnyProvider<2> prepared(Grains const& grains, double pressure, int points, scarp::ThreadExecutor& executor) {
@@ -72,8 +72,8 @@ scarp::AnyProvider<2> sand(Grains const& grains, double pressure, int points, sc
   auto const shape = examples::shape_of(input.particles);
   if (shape == "disc") return read<scarp::Disc>(grains, pressure, input, law);
   if (shape == "ellipse") return read<scarp::Ellipse>(grains, pressure, input, law);
-  scarp::refuse("'{}' holds grains of the shape {} (discs and ellipses are built): take other grains", grains.particles,
-                shape);
+  scarp::throw_input_error("'{}' holds grains of the shape {} (discs and ellipses are built): take other grains",
+                           grains.particles, shape);
 }
 
 }  // namespace biaxial_specimen

@@ -118,10 +118,10 @@ template <class Element, class Budget>
 scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Budget& budget) {
   using Solver = scarp::QuasiNewton<>;
   auto& problem = specimen.problem();
-  Solver const solver{.tolerance = choice.residual, .most_iterations = choice.iterations};
+  Solver const solver{.tolerance = choice.residual, .max_iterations = choice.iterations};
   double const step = choice.axial_strain_step;
   scarp::LoadStepping const stepping{
-      .first = step, .smallest = 0.99 * std::ldexp(step, -choice.halvings), .largest_gradient = 0.05};
+      .first = step, .smallest = 0.99 * std::ldexp(step, -choice.halvings), .max_displacement_gradient = 0.05};
   Watch<Budget> watch{{}, budget};
   if (choice.begin) choice.begin();
   if (!choice.fields.empty()) {
@@ -169,13 +169,13 @@ int run(Choice const& choice) {
                 specimen.sides().height, specimen.problem().discretisation().mesh().elements.size(),
                 specimen.problem().points().size(), executor.threads());
   scarp::ErrorBudget budget(specimen.problem(), examples::error_bounds(choice.budget),
-                            {.loose_pressure = choice.confining / 100.0});
+                            {.pressure_floor = choice.confining / 100.0});
   auto const report = compress(choice, specimen, budget);
   report_budget(choice, budget.parts());
   if (report.verdict.acceptable()) return 0;
   examples::say(
       stderr,
-      "biaxial_specimen: stopped at the axial strain {} ({}; last refused attempt: {}, point {}); the rows so far "
+      "biaxial_specimen: stopped at the axial strain {} ({}; last rejected attempt: {}, point {}); the rows so far "
       "are in '{}'\n",
       report.load, name(report.verdict.reason), name(report.last_failure), report.worst_point, choice.table);
   return 3;

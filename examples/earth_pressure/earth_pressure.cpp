@@ -69,8 +69,10 @@ int main(int argc, char** argv) {
   CLI::App app{"Earth pressure, endless slope and vertical cut against mesh size and run time"};
   examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(2, 6));
-  app.add_option("--gate", gate, "largest error in per cent of wall forces and slopes")->check(CLI::Range(1e-6, 100.0));
-  app.add_option("--cut-gate", cut_gate, "largest error in per cent of the vertical cut; twice as much on two meshes")
+  app.add_option("--max-error", gate, "largest error in per cent of wall forces and slopes")
+      ->check(CLI::Range(1e-6, 100.0));
+  app.add_option("--max-cut-error", cut_gate,
+                 "largest error in per cent of the vertical cut; twice as much on two meshes")
       ->check(CLI::Range(1e-6, 100.0));
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);

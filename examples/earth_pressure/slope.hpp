@@ -45,9 +45,10 @@ examples::Outcome tilt(EndlessSlope const& slope, int cells) {
   loads.add(body_force(grid, [&](int) { return along; }), {});
   auto problem = examples::plane_problem(std::move(grid), soil, slope.thickness, constraints, loads, ties);
   examples::Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-8}};
-  scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-4, .largest = 0.05, .largest_gradient = 1.0};
-  scarp::NoObserver nobody;
-  auto const run = stepping.run(newton, problem, 0.0, 2.0, nobody);
+  scarp::LoadStepping const stepping{
+      .first = 0.05, .smallest = 1e-4, .largest = 0.05, .max_displacement_gradient = 1.0};
+  scarp::NoObserver no_observer;
+  auto const run = stepping.run(newton, problem, 0.0, 2.0, no_observer);
   auto const& done = problem.discretisation();
   return {static_cast<int>(done.mesh().elements.size()), done.dof_count(), run.load, run, watch.seconds()};
 }

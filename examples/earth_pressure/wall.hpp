@@ -61,9 +61,9 @@ examples::Outcome move_wall(Wall const& wall, int cells) {
   Eigen::VectorXd const loads = body_force(grid, [&](int) { return weight; });
   auto problem = examples::plane_problem(std::move(grid), soil, wall.height, constraints, scarp::LoadHistory(loads));
   examples::Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-8}};
-  scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-6, .largest = 0.2, .largest_gradient = 1e3};
-  scarp::NoObserver nobody;
-  auto const run = stepping.run(newton, problem, 0.0, 1.0, nobody);
+  scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-6, .largest = 0.2, .max_displacement_gradient = 1e3};
+  scarp::NoObserver no_observer;
+  auto const run = stepping.run(newton, problem, 0.0, 1.0, no_observer);
   auto const& done = problem.discretisation();
   return {static_cast<int>(done.mesh().elements.size()), done.dof_count(),
           examples::support_force(problem, at_wall, 0, loads), run, watch.seconds()};

@@ -11,7 +11,7 @@ namespace fault_rupture {
 
 namespace {
 
-/// \throws scarp::InputError for a probe that was asked for outside of the ground
+/// \throws scarp::InputError for a probe that was requested outside of the ground
 template <class SceneType>
 void require_probes_inside(Choice const& choice, SceneType const& scene) {
   auto const mesh = scene.ground.mesh({});
@@ -25,7 +25,7 @@ void require_probes_inside(Choice const& choice, SceneType const& scene) {
   auto const check = [&](char name, double x, double y, double usual_x, double usual_y) {
     bool const inside = x >= left && x <= right && y >= 0.0 && y <= depth;
     if (inside || (x == usual_x && y == usual_y)) return;
-    scarp::refuse(
+    scarp::throw_input_error(
         "probe {} at x = {} m, {} m above bedrock, lies outside of the ground (x from {} to {} m, up to {} m): "
         "put it inside",
         name, x, y, left, right, depth);
@@ -45,7 +45,7 @@ SceneSize size_of(Choice const& choice, SceneType const& scene, std::vector<scar
   size.nodes = static_cast<double>(mesh.nodes.size());
   size.width = right->x() - left->x();
   size.depth = scene.ground.depth();
-  if (scene.ground.strip) size.least_area = scene.ground.strip->fine * scene.ground.strip->fine / (is_triangle ? 4 : 1);
+  if (scene.ground.strip) size.min_area = scene.ground.strip->fine * scene.ground.strip->fine / (is_triangle ? 4 : 1);
   return size;
 }
 
@@ -59,8 +59,8 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
                         : fmt::format("ground of {} points", sites.size());
   double const bytes = memory_of(choice, size_of_soil(choice, sites), processes);
   scarp::require_memory(what, bytes,
-                        choice.soil == Soil::dem ? "choose a larger --size, fewer --triangles or fewer --grains"
-                                                 : "choose a larger --size or fewer --triangles");
+                        choice.soil == Soil::dem ? "choose a larger --size, fewer --elements or fewer --grains"
+                                                 : "choose a larger --size or fewer --elements");
   if (speaks) {
     examples::say(stderr, "preparing {}, about {} of memory\n", what, scarp::memory_text(bytes));
     constexpr int few = 50;
@@ -78,9 +78,9 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   scene.soil.length = choice.length;
   scene.solver = std::move(soil.solver);
   scene.tolerance = soil.tolerance;
-  scene.loose_pressure = soil.loose_pressure;
+  scene.pressure_floor = soil.pressure_floor;
   scene.write_packing = std::move(soil.write_packing);
-  scene.stepping.largest_gradient = soil.largest_gradient;
+  scene.stepping.max_displacement_gradient = soil.max_displacement_gradient;
   return scene;
 }
 
@@ -95,13 +95,13 @@ SceneSize size_of_any(Choice const& choice) {
 
 SceneSize size_of_scene(Choice const& choice) {
   if (choice.scene == Case::free) return size_of_any<Scene<scarp::NoStructure>>(choice);
-  if (choice.base == Base::sticking) return size_of_any<Scene<scarp::StickingFooting>>(choice);
+  if (choice.base == Base::tied) return size_of_any<Scene<scarp::TiedFooting>>(choice);
   return size_of_any<Scene<RigidFooting>>(choice);
 }
 
 AnyScene make_scene(Choice const& choice, int processes, bool speaks) {
   if (choice.scene == Case::free) return make_any<Scene<scarp::NoStructure>>(choice, processes, speaks);
-  if (choice.base == Base::sticking) return make_any<Scene<scarp::StickingFooting>>(choice, processes, speaks);
+  if (choice.base == Base::tied) return make_any<Scene<scarp::TiedFooting>>(choice, processes, speaks);
   return make_any<Scene<RigidFooting>>(choice, processes, speaks);
 }
 

@@ -15,11 +15,11 @@ template <class Structure>
 struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structure, AnySolver, ChosenGround<Element>,
                                  ChosenFault> {
   double tolerance = 0.0;         ///< of the force residual
-  double loose_pressure = 0.0;    ///< [Pa], below which a point's balance counts less
+  double pressure_floor = 0.0;    ///< [Pa], below which a point's balance counts less
   PackingWriter write_packing{};  ///< nothing for soils without packings
 };
 
-using AnyScene = std::variant<Scene<scarp::NoStructure>, Scene<scarp::StickingFooting>, Scene<RigidFooting>>;
+using AnyScene = std::variant<Scene<scarp::NoStructure>, Scene<scarp::TiedFooting>, Scene<RigidFooting>>;
 
 /// processes: that share the packings out among them; says on stderr what is prepared where `speaks`
 /// \throws scarp::InputError for choices that do not make a scene or need too much memory, scarp::PreparationError

@@ -64,11 +64,11 @@ struct EnsembleRuns {
 
     void run(scarp::ThreadExecutor& threads, Moment started) {
       try {
-        Start const start{own.files, own.on_first_rank(), started, {}, &threads, fmt::format("seed {}: ", result.seed)};
+        Start const start{own.files, own.on_root_rank(), started, {}, &threads, fmt::format("seed {}: ", result.seed)};
         result.code = std::visit([&](auto const& one) { return fault_rupture::run(choice, one, start); }, *scene);
       } catch (std::exception const& problem) {
         result.problem = problem.what();
-        if (auto* const folder = own.on_first_rank(); folder != nullptr && folder->record().state == "running") {
+        if (auto* const folder = own.on_root_rank(); folder != nullptr && folder->record().state == "running") {
           try {
             folder->end("failed");
           } catch (std::exception const&) {  // the first problem says more
@@ -91,14 +91,17 @@ struct EnsembleRuns {
     auto sorted = seeds;
     std::ranges::sort(sorted);
     if (seeds.size() < 2)
-      scarp::refuse("--seeds names one packing (several make an ensemble): say --seed {}", seeds[0]);
+      scarp::throw_input_error("--seeds names one packing (several make an ensemble): say --seed {}", seeds[0]);
     if (auto const twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-      scarp::refuse("--seeds names {} twice (the same run counts once): give each seed once", *twice);
+      scarp::throw_input_error("--seeds names {} twice (the same run counts once): give each seed once", *twice);
     if (choice.soil != Soil::dem)
-      scarp::refuse("--seeds was given for a soil without packings (all runs would be the same): say --soil dem");
-    if (choice.budget_companions)
-      scarp::refuse("--seeds and --budget-companions were given (companions belong to one run): leave one out");
-    if (ranks() > 1) scarp::refuse("--seeds was given on {} ranks (members run on one): leave the ranks out", ranks());
+      scarp::throw_input_error(
+          "--seeds was given for a soil without packings (all runs would be the same): say --soil dem");
+    if (choice.sensitivity_runs)
+      scarp::throw_input_error(
+          "--seeds and --sensitivity-runs were given (sensitivity runs belong to one run): leave one out");
+    if (ranks() > 1)
+      scarp::throw_input_error("--seeds was given on {} ranks (members run on one): leave the ranks out", ranks());
   }
 
   /// With the options that would run the member alone.

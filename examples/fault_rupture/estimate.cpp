@@ -23,7 +23,7 @@ namespace {
 template <class SoilType>
 Control control_of(Choice const& choice) {
   return {choice.tolerance.value_or(SoilType::tolerance(choice)),
-          choice.largest_gradient.value_or(SoilType::largest_gradient(choice.quick))};
+          choice.max_displacement_gradient.value_or(SoilType::max_displacement_gradient(choice.quick))};
 }
 
 /// Load steps of one size.
@@ -60,7 +60,7 @@ double answer_of(Choice const& choice, SceneSize const& size, EqualSteps const& 
                  CostModel const& model) {
   double const strain = crowding * model.strain_at_metre * std::pow(width, model.strain_by_width) *
                         (1.0 + model.strain_by_throw * steps.throw_at / size.depth) * steps.increment / size.depth;
-  return std::hypot(choice.least_dem_steps, strain / choice.strain_per_step);
+  return std::hypot(choice.min_dem_steps, strain / choice.strain_per_step);
 }
 
 std::string time_text(double seconds) {
@@ -83,8 +83,9 @@ CostModel read_cost_model(std::filesystem::path const& file) {
     bool const sound = found.is_object() && found.contains(name) &&
                        (std::is_same_v<decltype(value), double&> ? found[name].is_number() : found[name].is_string());
     if (!sound)
-      scarp::refuse("'{}' holds no '{}' (what runs cost is expected): make it anew by benchmarks/run scaling_laws",
-                    file.string(), name);
+      scarp::throw_input_error(
+          "'{}' holds no '{}' (what runs cost is expected): make it anew by benchmarks/run scaling_laws", file.string(),
+          name);
     found[name].get_to(value);
   });
   return model;
@@ -96,7 +97,7 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
              double speed) {
   // In the strip, where the rupture is.
   double const mean_area = size.width * size.depth / size.elements;
-  double const area = size.least_area > 0.0 ? size.least_area : mean_area;
+  double const area = size.min_area > 0.0 ? size.min_area : mean_area;
   double const node_distance = std::sqrt(area * size.elements / size.nodes);
   double const width = std::hypot(model.width_per_node * node_distance, model.width_per_length * choice.length);
   double const throw_to = choice.throw_over_depth * size.depth;
@@ -104,9 +105,9 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
   bool const has_length = size.pairs > 0.0;
   // More of the points are strained than on the uniform meshes of the model, whose band has 1.25 times the mean number of
   // elements; the power is that of runs with lengths of 4 and 2 m.
-  double const crowding = size.least_area > 0.0 ? std::sqrt(std::max(1.0, mean_area / size.least_area / 1.25)) : 1.0;
+  double const crowding = size.min_area > 0.0 ? std::sqrt(std::max(1.0, mean_area / size.min_area / 1.25)) : 1.0;
   Cost cost{.steps = 1.0, .iterations = 1.0};
-  if (packings) cost.dem_steps = size.points * choice.least_dem_steps;
+  if (packings) cost.dem_steps = size.points * choice.min_dem_steps;
   auto const step = [&](EqualSteps const& steps) {
     double const iterations = iterations_of(steps.increment / width, control.tolerance, has_length, model);
     cost.steps += steps.count;
@@ -114,7 +115,7 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
     if (packings)
       cost.dem_steps += steps.count * iterations * size.points * answer_of(choice, size, steps, width, crowding, model);
   };
-  for_steps(throw_to, control.largest_gradient * width, step);
+  for_steps(throw_to, control.max_displacement_gradient * width, step);
   if (choice.soil == Soil::mohr_coulomb) {
     double const each = has_length ? model.plain_iterations_with_length : model.plain_iterations;
     cost.iterations = std::max(cost.steps, each * throw_to / width);
@@ -143,7 +144,8 @@ double kernel_seconds() {
   auto const law = examples::study_law();
   auto made =
       scarp::IsotropicPreparation{.pressure = 5e4}.prepare(examples::study_cloud(grains, 1).make<Grains>(), law);
-  if (!made.verdict.acceptable()) scarp::refuse("the packing that this machine is timed with was not prepared");
+  if (!made.verdict.acceptable())
+    scarp::throw_input_error("the packing that this machine is timed with was not prepared");
   scarp::TimeStepper<Grains> stepper;
   double least = std::numeric_limits<double>::infinity();
   double strain = 1e-6;
@@ -152,7 +154,7 @@ double kernel_seconds() {
     scarp::CpuTime const batch;
     for (int step = 0; step < steps; ++step) {
       if (!stepper.step(made.packing, law, shear).acceptable())
-        scarp::refuse("the packing that this machine is timed with has failed");
+        scarp::throw_input_error("the packing that this machine is timed with has failed");
     }
     least = std::min(least, batch.seconds() / steps);
   }
@@ -186,7 +188,7 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
                       threads > 1 ? "s" : "", ranks > 1 ? fmt::format(" of each of {} ranks", ranks) : "");
   text += fmt::format("memory: {}{}\n", scarp::memory_text(bytes), ranks > 1 ? " on every rank" : "");
   if (auto const free = scarp::free_memory(); bytes > free.bytes)
-    text += fmt::format("warning: only {} are left by {}: the run would be refused\n", scarp::memory_text(free.bytes),
+    text += fmt::format("warning: only {} are left by {}: the run would be rejected\n", scarp::memory_text(free.bytes),
                         free.limit);
   text += fmt::format(
       "machine: {:.2f} us for a step of 100 grains, {:.2f} of what it took where the model was measured ({}, {}, "
@@ -200,8 +202,7 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
       (choice.grain_aspect != usual.grain_aspect || choice.grain_friction != usual.grain_friction))
     text += "warning: no other grains than the study's were measured\n";
   if (choice.soil == Soil::elastic) text += "warning: no elastic ground was measured\n";
-  if (choice.budget_companions)
-    text += "companions of the budget come on top: about one and a half to three times more\n";
+  if (choice.sensitivity_runs) text += "sensitivity runs come on top: about one and a half to three times more\n";
   return text;
 }
 

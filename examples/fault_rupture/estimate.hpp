@@ -71,8 +71,8 @@ std::filesystem::path usual_cost_model();
 
 /// How load steps are made and judged.
 struct Control {
-  double tolerance = 0.0;         ///< of the force residual
-  double largest_gradient = 0.0;  ///< of a load step
+  double tolerance = 0.0;                  ///< of the force residual
+  double max_displacement_gradient = 0.0;  ///< of a load step
 };
 Control control_of(Choice const& choice);
 

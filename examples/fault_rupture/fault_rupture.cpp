@@ -7,12 +7,12 @@
 #include "../shared/run_options.hpp"
 #include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
-#include "companion_runs.hpp"
 #include "ensemble_runs.hpp"
 #include "estimate.hpp"
 #include "own_folders.hpp"
 #include "pilot.hpp"
 #include "run_scene.hpp"
+#include "sensitivity_runs.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ constexpr double long_length = 8.0;    ///< [m], of coarser meshes
 /// same places (docs/notes/profile.md).
 void make_objective(Choice& choice) {
   choice.length = short_length;
-  choice.preload = 1.25;
+  choice.overconsolidation_ratio = 1.25;
   choice.packings = 16;
   choice.mirrored_packings = true;
   choice.strain_per_step = 2e-5;
@@ -36,7 +36,7 @@ void make_objective(Choice& choice) {
 /// No length and copies of one packing, as the study has it.
 void make_local(Choice& choice) {
   choice.length = 0.0;
-  choice.preload = 1.0;
+  choice.overconsolidation_ratio = 1.0;
   choice.packings = 1;
   choice.mirrored_packings = false;
   choice.strain_per_step = 1e-5;
@@ -59,21 +59,21 @@ void declare_materials(CLI::App& app, Choice& choice) {
   using examples::number_from;
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
-  app.add_option("--preload", choice.preload,
+  app.add_option("--overconsolidation-ratio", choice.overconsolidation_ratio,
                  "what sand once carried over its overburden, at least 1; raises K0 (docs/notes/preparations.md)")
       ->check(number_from(1.0, true, 10.0));
   app.add_option("--grain-aspect", choice.grain_aspect, "width over length of the grains, ellipses of the same lengths")
       ->check(number_from(0.1, true, 1.0));
   app.add_option("--grain-friction", choice.grain_friction, "coefficient between grains")
       ->check(number_from(0.0, true, 10.0));
-  app.add_option("--peak-friction", choice.peak_friction, "angle of Mohr-Coulomb ground [degrees]")
+  app.add_option("--peak-friction-angle", choice.peak_friction_angle, "angle of Mohr-Coulomb ground [degrees]")
       ->check(number_from(0.0, false, 89.0));
-  app.add_option("--peak-dilation", choice.peak_dilation, "angle of Mohr-Coulomb ground [degrees]")
+  app.add_option("--peak-dilation-angle", choice.peak_dilation_angle, "angle of Mohr-Coulomb ground [degrees]")
       ->check(number_from(0.0, true, 89.0));
-  app.add_option("--residual-friction", choice.residual_friction,
+  app.add_option("--residual-friction-angle", choice.residual_friction_angle,
                  "angle of Mohr-Coulomb ground [degrees]; without, the peak's less 0.8 of the dilation (Bolton)")
       ->check(number_from(0.0, true, 89.0));
-  app.add_option("--strain-to-residual", choice.strain_to_residual,
+  app.add_option("--softening-strain", choice.softening_strain,
                  "plastic shear strain over which Mohr-Coulomb ground falls from peak to residual strength")
       ->check(number_from(0.0, false, 100.0));
   app.add_option("--young-modulus", choice.young_modulus, "of ground without packings [Pa]")
@@ -91,9 +91,8 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
                   {{"free", Case::free}, {"heavy", Case::heavy}, {"light", Case::light}});
   add_named<Soil>(app, "--soil", choice.soil, "dem (a packing in every element), mohr_coulomb or elastic",
                   {{"dem", Soil::dem}, {"mohr_coulomb", Soil::mohr_coulomb}, {"elastic", Soil::elastic}});
-  add_named<Base>(app, "--footing", choice.base,
-                  "sticking (elastic block, shares nodes) or frictional (rigid, may lift)",
-                  {{"sticking", Base::sticking}, {"frictional", Base::frictional}});
+  add_named<Base>(app, "--footing", choice.base, "tied (elastic block, shares nodes) or frictional (rigid, may lift)",
+                  {{"tied", Base::tied}, {"frictional", Base::frictional}});
   app.add_option("--footing-centre", choice.footing_centre, "x [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--footing-width", choice.footing_width, "[m]")->check(number_from(0.0, false, 1e6));
   app.add_option("--bearing-pressure", choice.bearing_pressure, "[Pa]; 0 takes the case's own, 91 or 37 kPa")
@@ -122,7 +121,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
                  "mesh [m]; 0 for a uniform mesh; a --length below 6 m chooses it, and --size")
       ->check(number_from(0.0, true, 1e3));
   for (char const* other : {"--quick", "--local", "--size", "--strip-width"}) study->excludes(app.get_option(other));
-  app.add_option("--triangles,--elements", choice.triangles, "wanted number of elements instead of --size")
+  app.add_option("--elements", choice.elements, "wanted number of elements instead of --size")
       ->check(CLI::Range(100, 1'000'000))
       ->excludes(study)
       ->excludes("--size")
@@ -143,12 +142,12 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   auto* const file =
       app.add_option("--mesh", choice.mesh, "Gmsh file: region soil; boundaries left, right, bottom, surface")
           ->check(CLI::ExistingFile);
-  for (char const* made_mesh : {"--size", "--strip-width", "--triangles", "--pattern", "--aspect", "--mesh-seed"})
+  for (char const* made_mesh : {"--size", "--strip-width", "--elements", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
   file->excludes(study);
   app.add_option("--length", choice.length,
                  "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study; where it is "
-                 "not given 1 with --study, 8 with --quick, --size, --triangles, --mesh or --strip-width 0")
+                 "not given 1 with --study, 8 with --quick, --size, --elements, --mesh or --strip-width 0")
       ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--packings", choice.packings,
@@ -173,16 +172,17 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_option("--tolerance", choice.tolerance,
                  "force residual over reactions; packings 1e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10")
       ->check(number_from(0.0, false, 1.0));
-  app.add_option("--largest-gradient", choice.largest_gradient,
+  app.add_option("--max-displacement-gradient", choice.max_displacement_gradient,
                  "displacement gradient that limits a load step; 0.005 with packings, else 0.02")
       ->check(number_from(0.0, false, 0.2));
-  app.add_option("--most-iterations", choice.most_iterations, "of a load step")->check(CLI::Range(1, 10'000));
-  app.add_option("--strain-per-step", choice.strain_per_step, "strain of one DEM step")
+  app.add_option("--max-iterations", choice.max_iterations, "of a load step")->check(CLI::Range(1, 10'000));
+  app.add_option("--strain-per-dem-step", choice.strain_per_step, "strain of one DEM step")
       ->check(number_from(0.0, false, 1e-3));
-  app.add_option("--least-dem-steps", choice.least_dem_steps, "of one response")->check(CLI::Range(1, 20'000));
-  app.add_option("--unbalanced", choice.unbalanced_tolerance, "unbalanced ratio asked of every packing")
+  app.add_option("--min-dem-steps", choice.min_dem_steps, "of one response")->check(CLI::Range(1, 20'000));
+  app.add_option("--unbalanced-tolerance", choice.unbalanced_tolerance,
+                 "tolerance on the unbalanced force ratio of every packing")
       ->check(number_from(0.0, false, 1.0));
-  app.add_option("--threads", choice.threads, "of each process; 0 takes all processors")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", choice.threads, "of each process; 0 uses all processors")->check(CLI::Range(0, 1024));
   app.add_option("--frames", choice.frames, "VTU files over the run")->check(CLI::Range(1, 100'000));
   app.add_option("--probe-a-x", choice.probe_a_x, "probe A, in the band [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--probe-a-y", choice.probe_a_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
@@ -190,13 +190,14 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_option("--probe-b-y", choice.probe_b_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, preparation and all; 0 for none")
       ->check(number_from(0.0, true, 1e9));
-  app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, in the place of the usual ones")
+  app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, instead of the default ones")
       ->check([](std::string const& given) { return examples::refused_bound(given); });
   app.add_flag(
-         "--budget-companions", choice.budget_companions,
-         "run the scene once more on a mesh of other directions and once with smaller load steps, for the error budget")
+         "--sensitivity-runs", choice.sensitivity_runs,
+         "run the scene again on a mesh of other directions and once with smaller load steps, for the error budget")
       ->configurable(false);
-  app.add_option("--companions", choice.companions, "file of what such runs came to: read, and with them written")
+  app.add_option("--sensitivity-file", choice.sensitivity_file,
+                 "file of what such runs came to: read, and with them written")
       ->check([](std::string const& given) {
         auto const folder = std::filesystem::path(given).parent_path();
         return folder.empty() || std::filesystem::is_directory(folder)
@@ -209,7 +210,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
                      "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")
           ->check([](std::string const& given) { return given.empty() ? "" : examples::refused_folder(given); });
   auto* const resume =
-      app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there; afresh where there is none")
+      app.add_flag("--resume", choice.resume, "resume from the newest checkpoint there; start anew where there is none")
           ->needs(folder)
           ->configurable(false);
   app.add_flag("--estimate")
@@ -226,7 +227,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
 /// What follows from the options that are given; recorded as if it were the default.
 void choose_length_and_sizes(CLI::App& app, Choice& choice) {
   bool const is_uniform = app.count("--strip-width") > 0 && choice.strip_width == 0.0;
-  bool const has_mesh = app.count("--size") > 0 || choice.triangles > 0 || !choice.mesh.empty() || is_uniform;
+  bool const has_mesh = app.count("--size") > 0 || choice.elements > 0 || !choice.mesh.empty() || is_uniform;
   bool const has_length = app.count("--length") > 0 || choice.length == 0.0;
   if ((has_mesh || app.count("--quick") > 0) && !has_length) choice.length = long_length;
   if (!has_mesh) fault_rupture::choose_strip<fault_rupture::Element>(choice);
@@ -238,8 +239,8 @@ void choose_length_and_sizes(CLI::App& app, Choice& choice) {
   record("--strip-width", choice.strip_width);
 }
 
-double largest_gradient(fault_rupture::AnyScene const& scene) {
-  return std::visit([](auto const& chosen) { return chosen.stepping.largest_gradient; }, scene);
+double max_displacement_gradient(fault_rupture::AnyScene const& scene) {
+  return std::visit([](auto const& chosen) { return chosen.stepping.max_displacement_gradient; }, scene);
 }
 
 /// Prepares and writes nothing.
@@ -277,7 +278,7 @@ int main(int argc, char** argv) {
   std::vector<std::uint64_t> seeds;
   declare_options(app, choice, output, element, seeds);
   try {
-    app.parse(argc, argv);
+    examples::parse(app, argc, argv);
   } catch (CLI::ParseError const& error) {
     int const code = app.exit(error);
     return code == 0 ? 0 : 2;
@@ -296,28 +297,30 @@ int main(int argc, char** argv) {
       if (fault_rupture::rank() == 0) print_estimate(choice, seeds.size());
       return 0;
     }
-    // Folders are for the first rank; when it gives up, the others end with it.
+    // Folders are for the root rank; when it gives up, the others end with it.
     bool const first = fault_rupture::rank() == 0;
-    if (choice.budget_companions && fault_rupture::ranks() > 1)
-      scarp::refuse("--budget-companions was given on {} ranks (companions run on one): leave the ranks out",
-                    fault_rupture::ranks());
+    if (choice.sensitivity_runs && fault_rupture::ranks() > 1)
+      scarp::throw_input_error(
+          "--sensitivity-runs was given on {} ranks (sensitivity runs run on one): leave the ranks out",
+          fault_rupture::ranks());
     if (!seeds.empty()) return fault_rupture::EnsembleRuns{app, output, started}.run(choice, seeds);
     fault_rupture::OwnFolders own(choice, app, output.folder, output.overwrite,
                                   examples::record_of("fault_rupture", app));
-    std::filesystem::path const known =
-        choice.companions.empty() ? fault_rupture::usual_companion_file() : std::filesystem::path(choice.companions);
-    static_cast<void>(fault_rupture::CompanionFile(known, ""));  // a wrong file is refused before the ground is made
+    std::filesystem::path const known = choice.sensitivity_file.empty()
+                                            ? fault_rupture::default_sensitivity_file()
+                                            : std::filesystem::path(choice.sensitivity_file);
+    static_cast<void>(fault_rupture::SensitivityFile(known, ""));  // a wrong file is refused before the ground is made
     auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
-    fault_rupture::CompanionFile companions(
+    fault_rupture::SensitivityFile sensitivity(
         known, std::visit([&](auto const& chosen) { return fault_rupture::scene_lines(choice, app, chosen); }, scene));
     auto const ask = [&](scarp::RunReport const& report) {
-      if (choice.budget_companions) {
-        fault_rupture::CompanionRuns const runs{app, output.folder, started};
-        runs.complete(companions_of(choice, largest_gradient(scene)), report.steps, companions);
+      if (choice.sensitivity_runs) {
+        fault_rupture::SensitivityRuns const runs{app, output.folder, started};
+        runs.complete(sensitivity_runs_of(choice, max_displacement_gradient(scene)), report.steps, sensitivity);
       }
-      return companions.answers();
+      return sensitivity.answers();
     };
-    fault_rupture::Start const start{own.files, own.on_first_rank(), started, ask};
+    fault_rupture::Start const start{own.files, own.on_root_rank(), started, ask};
     return std::visit([&](auto const& chosen) { return run(choice, chosen, start); }, scene);
   } catch (std::exception const& error) {
     fault_rupture::give_up(examples::ended_by(error, "fault_rupture", app));

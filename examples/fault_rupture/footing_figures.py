@@ -9,7 +9,7 @@ from scarp_figures import BLACK, BLUE, GREY, VERMILION, plt
 def footing(folder):
     """Settlement, tilt and pressed share over the throw; the stage before the fault moves is left out."""
     table = figures.read_csv(folder / "footing.csv", ["load", "throw_over_depth", "settlement", "tilt", "pressure_min",
-                                                      "pressure_max", "pressed_share"])
+                                                      "pressure_max", "contact_share"])
     moving = table["load"] >= 0.0
     throw = 100.0 * table["throw_over_depth"][moving]
     fig, (left, right) = plt.subplots(1, 2, figsize=(7.2, 2.8), layout="constrained")
@@ -23,7 +23,7 @@ def footing(folder):
                        alpha=0.4, label="range over the base")
     right.set(xlabel="throw over depth [%]", ylabel="contact pressure [kPa]")
     share = right.twinx()
-    share.plot(throw, 100.0 * table["pressed_share"][moving], color=BLACK, linewidth=0.8)
+    share.plot(throw, 100.0 * table["contact_share"][moving], color=BLACK, linewidth=0.8)
     share.set_ylabel("pressed share of the base [%]")
     share.set_ylim(0.0, 105.0)
     share.grid(False)

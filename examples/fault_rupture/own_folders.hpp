@@ -54,7 +54,7 @@ inline ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
 template <class Scene>
 std::string scene_lines(Choice choice, CLI::App const& app, Scene const& scene) {
   choice.tolerance = scene.tolerance;
-  choice.largest_gradient = scene.stepping.largest_gradient;
+  choice.max_displacement_gradient = scene.stepping.max_displacement_gradient;
   Choice const usual;
   choice.frames = usual.frames;
   choice.probe_a_x = usual.probe_a_x;
@@ -67,7 +67,7 @@ std::string scene_lines(Choice choice, CLI::App const& app, Scene const& scene) 
 /// \throws scarp::CheckpointError
 inline scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App const& app) {
   auto lines = choice_lines(choice, app);
-  // The error budget follows points of the first rank.
+  // The error budget follows points of the root rank.
   if (int const count = ranks(); count > 1) lines("ranks", count);
   return {{.folder = choice.checkpoint,
            .resume = choice.resume,
@@ -79,7 +79,7 @@ inline scarp::CheckpointFiles checkpoint_files(Choice const& choice, CLI::App co
 /// What one run has to itself on disk, as long as this lives.
 struct OwnFolders {
   scarp::CheckpointFiles files;
-  std::optional<scarp::RunFolder> results{};  ///< on the first rank
+  std::optional<scarp::RunFolder> results{};  ///< on the root rank
 
   /// \throws scarp::InputError for folders that are in use, hold what must be kept or do not fit together
   OwnFolders(Choice const& choice, CLI::App const& app, std::filesystem::path const& folder, bool overwrite,
@@ -92,7 +92,7 @@ struct OwnFolders {
         std::move(record), &files);
   }
 
-  scarp::RunFolder* on_first_rank() { return results ? &*results : nullptr; }
+  scarp::RunFolder* on_root_rank() { return results ? &*results : nullptr; }
 };
 
 }  // namespace fault_rupture

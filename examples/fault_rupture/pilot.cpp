@@ -25,12 +25,12 @@ void run_pilot(Choice& choice) {
   pilot.aspect = Choice{}.aspect;
   pilot.length = pilot_length;
   pilot.tolerance = 1e-3;
-  pilot.largest_gradient.reset();
+  pilot.max_displacement_gradient.reset();
   // Its rupture comes out where that of the study's sand does with a length of 2 m, within 1 m.
-  pilot.peak_friction = 35.0;
-  pilot.peak_dilation = 9.0;
-  pilot.residual_friction.reset();
-  pilot.strain_to_residual = 0.5;
+  pilot.peak_friction_angle = 35.0;
+  pilot.peak_dilation_angle = 9.0;
+  pilot.residual_friction_angle.reset();
+  pilot.softening_strain = 0.5;
   pilot.young_modulus = Choice{}.young_modulus;
   pilot.k0 = Choice{}.k0;
   pilot.throw_over_depth = std::max(choice.throw_over_depth, Choice{}.throw_over_depth);  // before it, no band

@@ -94,7 +94,7 @@ def draw_bands(axes, summary, bedrock, depth):
 def draw_fault(axes, summary, bedrock, depth):
     """The fault's own line through the soil, along which a rigid hanging wall would rupture it, from the tip at rest."""
     tip = float(summary.get("run", {}).get("options", {}).get("tip", 0.0))
-    block = figures.finite(summary.get("block_x50"))
+    block = figures.finite(summary.get("fault_line_x50"))
     if block is not None:
         axes.plot([tip, block], [bedrock, bedrock + depth], ":", color=BLACK, linewidth=1.3, label="line of the fault",
                   path_effects=[withStroke(linewidth=2.6, foreground="white")])

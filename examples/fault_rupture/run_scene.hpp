@@ -10,7 +10,6 @@
 #include "../shared/budget_report.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/tell.hpp"
-#include "companions.hpp"
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/fault/pilot_size.hpp"
 #include "scarp/fault/surface_log.hpp"
@@ -24,6 +23,7 @@
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/run/stop_signal.hpp"
 #include "scarp/run/time_limit.hpp"
+#include "sensitivity.hpp"
 #include "summary.hpp"
 #include "team.hpp"
 
@@ -34,10 +34,10 @@ using Moment = std::chrono::steady_clock::time_point;
 /// A run about to begin.
 struct Start {
   scarp::CheckpointFiles& files;
-  scarp::RunFolder* folder = nullptr;  ///< on the first rank
+  scarp::RunFolder* folder = nullptr;  ///< on the root rank
   Moment moment{};                     ///< when the program began
   /// Asked once the run itself has ended well; its answer is the error budget's.
-  std::function<CompanionAnswers(scarp::RunReport const&)> companions{};
+  std::function<SensitivityResults(scarp::RunReport const&)> sensitivity{};
   scarp::ThreadExecutor* threads = nullptr;  ///< that several runs share; without, the run has its own
   std::string name{};                        ///< of one among several, before its lines on the error stream
 };
@@ -110,7 +110,7 @@ scarp::FootingLog<Structure> footing_log(std::filesystem::path const& folder, St
 template <class Problem, class SceneType>
 scarp::ErrorBudget<Problem> error_budget(Choice const& choice, SceneType const& scene, Problem const& problem,
                                          int probe) {
-  scarp::ErrorSampling const sampling{.followed = {probe}, .loose_pressure = scene.loose_pressure};
+  scarp::ErrorSampling const sampling{.followed = {probe}, .pressure_floor = scene.pressure_floor};
   scarp::ErrorBounds const usual{.unbalanced_largest = choice.unbalanced_tolerance};
   return scarp::ErrorBudget<Problem>(problem, examples::error_bounds(choice.budget, usual), sampling);
 }
@@ -127,15 +127,16 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   std::optional<scarp::ThreadExecutor> own_threads;
   auto& threads = begun.threads != nullptr ? *begun.threads : own_threads.emplace(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
-  if (agreed(executor, files.resumes()) != files.resumes()) {
-    scarp::refuse(
-        "checkpoints in '{}' are not the same for all ranks (each must see them to go on): use a folder that all share",
+  if (broadcast_flag(executor, files.resumes()) != files.resumes()) {
+    scarp::throw_input_error(
+        "checkpoints in '{}' are not the same for all ranks (each must see them to resume): use a folder that all "
+        "share",
         choice.checkpoint);
   }
   auto problem = scene.problem(executor);
   fs::path const folder = begun.folder != nullptr ? begun.folder->path() : "";
   std::optional<Takeover> takeover;
-  if (is_first_rank(executor)) {
+  if (is_root_rank(executor)) {
     if (files.resumes()) examples::say(stderr, "{}going on from '{}'\n", begun.name, files.newest().string());
     examples::say(stderr, "{}{} {} elements, {} threads, ground made after {:.1f} s\n", begun.name,
                   problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
@@ -150,6 +151,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     });
   }
   double const depth = scene.ground.depth();
+  scarp::LoadMeasure const measure{depth, "throw_over_depth"};
   double const to = scene.throw_to;
   constexpr int profiles = 17;
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
@@ -158,20 +160,20 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     return nearest_point(grid, scarp::Vector<2>(x, scene.ground.surface_level() - depth + y));
   };
   auto const packings_of = [&](char const* probe, int point) {
-    return scarp::PackingSeries(folder, probe, point, to, {0.0, 0.25, 0.5, 1.0}, depth);
+    return scarp::PackingSeries(folder, probe, point, to, {0.0, 0.25, 0.5, 1.0}, measure);
   };
   auto budget = error_budget(choice, scene, problem, at(choice.probe_a_x, choice.probe_a_y));
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
-  scarp::OnFirstRank observers(executor, [&] {
+  scarp::OnRootRank observers(executor, [&] {
     return scarp::Observers(
         scarp::ObserverRef(*takeover), scarp::FieldSeries(folder, to, choice.frames, depth),
         scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
-        scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), depth, start),
-        scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), depth, start),
+        scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), measure, start),
+        scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), measure, start),
         packings_of("A", at(choice.probe_a_x, choice.probe_a_y)),
         packings_of("B", at(choice.probe_b_x, choice.probe_b_y)),
         footing_log(folder, scene.structure, to, profiles, depth, start),
-        scarp::ConvergenceLog(folder / "convergence.csv", depth, start), scarp::Progress(to, depth, begun.name),
+        scarp::ConvergenceLog(folder / "convergence.csv", measure, start), scarp::Progress(to, measure, begun.name),
         scarp::DistortionWarning<2>([&](auto const& worst) {
           examples::say(
               stderr,
@@ -187,7 +189,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   scarp::CheckpointedRun stages(files, observers, notes);
   stages.stage([&] {
     auto const settled = scene.settle(problem, stages);
-    on_first_rank(problem, [&] { rest = at_rest(problem, scene); });
+    on_root_rank(problem, [&] { rest = at_rest(problem, scene); });
     return settled;
   });
   stages.stage([&] {
@@ -201,7 +203,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   bool const sound = !stages.stopped();  // all could be written
   if (!report.verdict.acceptable() && sound) observers.ended(problem, report.load);
   double const reaction = scarp::generalised_reaction(problem) - notes.reaction_at_rest;
-  on_first_rank(problem, [&] {
+  on_root_rank(problem, [&] {
     takeover->take();  // also when nothing was left to do
     if (!sound) {
       // Its state first: there may be room for no more.
@@ -210,16 +212,17 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     }
     auto json = summary(choice, scene, problem, notes, reaction, report);
     json["run"] = examples::json_of(begun.folder->record());
-    auto const written = [&](CompanionAnswers const& companions) {
+    auto const written = [&](SensitivityResults const& sensitivity) {
       auto parts = budget.parts();
-      for (auto& part : companion_parts(companions, json["surface_x50"], depth, examples::error_bounds(choice.budget)))
+      for (auto& part :
+           sensitivity_parts(sensitivity, json["surface_x50"], depth, examples::error_bounds(choice.budget)))
         parts.push_back(std::move(part));
       json["error_budget"] = examples::json_of(parts);
       examples::write_json(folder / "summary.json", json);
       std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);
-      if (begun.companions) text += companion_lines(companions);
+      if (begun.sensitivity) text += sensitivity_lines(sensitivity);
       if (!report.verdict.acceptable()) {
-        text = fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last refused step: {}, point {})\n",
+        text = fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last rejected step: {}, point {})\n",
                            report.load / depth, name(report.verdict.reason), name(report.last_failure),
                            report.worst_point) +
                text;
@@ -227,11 +230,11 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       scarp::write_file(folder / "summary.txt", text);
       return text;
     };
-    std::string text = written({});  // the run's own results first: companions take long
+    std::string text = written({});  // the run's own results first: sensitivity runs take long
     if (!sound) return;
-    if (begun.companions && report.verdict.acceptable()) text = written(begun.companions(report));
+    if (begun.sensitivity && report.verdict.acceptable()) text = written(begun.sensitivity(report));
     begun.folder->end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
-    if (begun.companions) examples::say(stdout, "{}", text);
+    if (begun.sensitivity) examples::say(stdout, "{}", text);
   });
   if (!sound) return 1;
   if (report.verdict.acceptable()) return 0;
@@ -247,14 +250,14 @@ std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const&
   scarp::ThreadExecutor threads(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
   auto problem = scene.problem(executor);
-  NoFooting nobody;
-  auto report = scene.settle(problem, nobody);
-  if (report.verdict.acceptable()) report = scene.place(problem, nobody);
-  if (report.verdict.acceptable()) report = scene.rupture(problem, nobody);
+  NoFooting no_observer;
+  auto report = scene.settle(problem, no_observer);
+  if (report.verdict.acceptable()) report = scene.place(problem, no_observer);
+  if (report.verdict.acceptable()) report = scene.rupture(problem, no_observer);
   if (!report.verdict.acceptable() && !(report.load > 0.0))
-    scarp::refuse("the pilot run ended before the fault moved ({}): choose --strip-width 0",
-                  name(report.verdict.reason));
-  if (!report.verdict.acceptable() && is_first_rank(executor))
+    scarp::throw_input_error("the pilot run ended before the fault moved ({}): choose --strip-width 0",
+                             name(report.verdict.reason));
+  if (!report.verdict.acceptable() && is_root_rank(executor))
     examples::say(stderr, "warning: the pilot run ended at a throw of {:.3g} m ({}): the strip may be too short\n",
                   report.load, name(report.verdict.reason));
   return scarp::strained_places(problem, share);
@@ -263,8 +266,8 @@ std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const&
 // Each structure's scene is compiled in a source of its own.
 extern template int run(Choice const&, Scene<scarp::NoStructure> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::NoStructure> const&);
-extern template int run(Choice const&, Scene<scarp::StickingFooting> const&, Start const&);
-extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::StickingFooting> const&);
+extern template int run(Choice const&, Scene<scarp::TiedFooting> const&, Start const&);
+extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::TiedFooting> const&);
 extern template int run(Choice const&, Scene<RigidFooting> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<RigidFooting> const&);
 

@@ -12,13 +12,13 @@ namespace fault_rupture {
 struct SceneSize {
   double elements = 0.0;
   double nodes = 0.0;
-  double width = 0.0;       ///< [m], of the ground
-  double depth = 0.0;       ///< [m]
-  double points = 0.0;      ///< of the soil
-  double columns = 0.0;     ///< of packings that are made; 0 without packings
-  double prepared = 0.0;    ///< packings that points may draw, images too
-  double least_area = 0.0;  ///< [m2], of an element in the strip; 0 without a strip
-  double pairs = 0.0;       ///< of points within the length of each other, each with itself too; 0 without a length
+  double width = 0.0;     ///< [m], of the ground
+  double depth = 0.0;     ///< [m]
+  double points = 0.0;    ///< of the soil
+  double columns = 0.0;   ///< of packings that are made; 0 without packings
+  double prepared = 0.0;  ///< packings that points may draw, images too
+  double min_area = 0.0;  ///< [m2], of an element in the strip; 0 without a strip
+  double pairs = 0.0;     ///< of points within the length of each other, each with itself too; 0 without a length
 };
 
 /// What follows from the soil's points; the mesh's part is left.

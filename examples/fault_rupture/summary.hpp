@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -88,17 +89,17 @@ void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem c
     json["bearing_pressure"] = footing.bearing;
     json["tilt"] = motion.tilt;
     json["settlement"] = motion.settlement;
-    json["sideways"] = motion.sideways;
+    json["horizontal_displacement"] = motion.horizontal;
     json["contact_pressure_min"] = pressure.least;
     json["contact_pressure_max"] = pressure.largest;
-    json["pressed_share"] = pressure.pressed;
-    json["support_error"] = std::abs(scarp::support(motion) - weight) / weight;
+    json["contact_share"] = pressure.pressed;
+    json["force_imbalance"] = std::abs(scarp::support(motion) - weight) / weight;
   }
 }
 
 /// Where and how sharply the offset comes through the ground; lengths [m], angles [rad].
-/// block_x50: where a rigid hanging wall would come out, on the fault's own line [m]
-inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const& survey, double block_x50) {
+/// fault_line_x50: where a rigid hanging wall would come out, on the fault's own line [m]
+inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const& survey, double fault_line_x50) {
   auto const& surface = survey.surface;
   json["outcrop_x"] = surface.outcrop_x;
   json["steepest_x"] = surface.steepest_x;
@@ -107,9 +108,9 @@ inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const
   json["surface_x50"] = surface.surface_x50;
   json["surface_x95"] = surface.surface_x95;
   json["surface_slope_max"] = surface.surface_slope_max;
-  json["mid_line_dip"] = surface.mid_line_dip;
+  json["rupture_dip"] = surface.rupture_dip;
   json["largest_share"] = surface.largest_share;
-  json["block_x50"] = block_x50;
+  json["fault_line_x50"] = fault_line_x50;
   for (auto const& band : survey.bands) {
     json["bands"].push_back({{"height_over_depth", band.height / survey.depth},
                              {"band_x50", band.band_x50},
@@ -136,6 +137,26 @@ inline void add_strip(nlohmann::ordered_json& json, scarp::PilotSize const& stri
     margin = std::min(margin, distance);
   }
   json["strip_margin"] = margin;
+}
+
+/// Keys as they were before version 0.2, beside the present ones until version 0.3.
+inline void add_keys_from_before(nlohmann::ordered_json& json) {
+  constexpr std::array<std::array<char const*, 2>, 11> renamed = {{
+      {"settlement_footwall_over_throw", "settlement_foot_over_throw"},
+      {"settlement_hanging_wall_over_throw", "settlement_hanging_over_throw"},
+      {"horizontal_displacement", "sideways"},
+      {"contact_share", "pressed_share"},
+      {"force_imbalance", "support_error"},
+      {"rejected_steps", "refused_steps"},
+      {"last_rejection", "last_refusal"},
+      {"rupture_dip", "mid_line_dip"},
+      {"fault_line_x50", "block_x50"},
+      {"share_of_time_in_points", "share_of_time_in_rves"},
+      {"share_of_time_outside_points", "share_of_time_outside_rves"},
+  }};
+  for (auto const& [now, before] : renamed) {
+    if (json.contains(now)) json[before] = nlohmann::ordered_json(json[now]);
+  }
 }
 
 /// reaction: of the moving bedrock, less that at rest [N]
@@ -179,26 +200,27 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["surface_mean"] = mean.surface_mean;
   json["dilated_area"] = mean.dilated_area;
   json["reaction"] = reaction;
-  json["settlement_foot_over_throw"] =
+  json["settlement_footwall_over_throw"] =
       offset.share(scarp::settlement_at(profile, profile.front().x_initial + from_side));
-  json["settlement_hanging_over_throw"] =
+  json["settlement_hanging_wall_over_throw"] =
       offset.share(scarp::settlement_at(profile, profile.back().x_initial - from_side));
   add_footing(json, scene, problem);
   json["tolerance"] = scene.tolerance;
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;
-  json["refused_steps"] = run.refused;
-  json["last_refusal"] = std::string(name(run.last_failure));
+  json["rejected_steps"] = run.refused;
+  json["last_rejection"] = std::string(name(run.last_failure));
   if (choice.soil == Soil::dem) json["floor_share"] = scarp::floor_share(problem);
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
-  json["share_of_time_in_rves"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
-  json["share_of_time_outside_rves"] = 1.0 - json["share_of_time_in_rves"].get<double>();
+  json["share_of_time_in_points"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
+  json["share_of_time_outside_points"] = 1.0 - json["share_of_time_in_points"].get<double>();
   json["threads"] = threads_of(problem.executor());
   if (ranks() > 1) json["ranks"] = ranks();
   json["cpu_seconds"] = notes.used.cpu_seconds();
   json["wall_seconds"] = notes.used.wall_seconds();
   json["peak_memory_bytes"] = notes.used.peak_memory_bytes();
+  add_keys_from_before(json);
   return json;
 }
 
@@ -225,7 +247,7 @@ inline std::string table(nlohmann::ordered_json const& json) {
       "-12.5 (surface starts to deflect); dip alone -14.4");
   row("steepest_x [m]", fmt::format("{:.2f}", number("steepest_x")), "sharp band: -14.5 to -6.5");
   row("outcrop_width [m]", fmt::format("{:.2f}", number("outcrop_width")), "mild and broad slope, no figure given");
-  auto const block = fmt::format("{:.2f} on the fault's own line", number("block_x50"));
+  auto const block = fmt::format("{:.2f} on the fault's own line", number("fault_line_x50"));
   row("surface_x50 [m]: half of the throw has passed", fmt::format("{:.2f}", number("surface_x50")), block.c_str());
   row("surface_x05, surface_x95 [m]", fmt::format("{:.2f}, {:.2f}", number("surface_x05"), number("surface_x95")),
       "a sharp band: both at surface_x50");
@@ -235,7 +257,7 @@ inline std::string table(nlohmann::ordered_json const& json) {
       "0 for a rigid hanging wall; over the throw: shift of the mean");
   row("steepest slope of the surface [degrees]", fmt::format("{:.1f}", degrees(std::atan(number("surface_slope_max")))),
       "not reported");
-  row("mid_line_dip [degrees]: tip to surface_x50", fmt::format("{:.1f}", degrees(number("mid_line_dip"))),
+  row("rupture_dip [degrees]: tip to surface_x50", fmt::format("{:.1f}", degrees(number("rupture_dip"))),
       "the fault's dip, and its dilation above that");
   for (auto const& band : json["bands"]) {
     auto const of_band = [&](char const* key) { return band[key].get<double>(); };
@@ -251,8 +273,8 @@ inline std::string table(nlohmann::ordered_json const& json) {
       fmt::format("{}, {:.0f}, {:.2f}", distorted["number"].get<int>(), 100.0 * distorted["shear"].get<double>(),
                   distorted["mean_ratio"].get<double>()),
       "a regular element has shear 0 and mean ratio 1");
-  row("settlement of the far foot wall / throw", fmt::format("{:.4f}", number("settlement_foot_over_throw")), "0");
-  row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_over_throw")),
+  row("settlement of the far footwall / throw", fmt::format("{:.4f}", number("settlement_footwall_over_throw")), "0");
+  row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_wall_over_throw")),
       "1");
   if (json.contains("tilt")) {
     row("tilt of the footing towards the hanging wall [degrees]", fmt::format("{:.3f}", degrees(number("tilt"))),
@@ -261,11 +283,11 @@ inline std::string table(nlohmann::ordered_json const& json) {
     row("contact pressure [kPa]",
         fmt::format("{:.0f}-{:.0f}", number("contact_pressure_min") / 1e3, number("contact_pressure_max") / 1e3),
         "mean: the bearing pressure");
-    row("imbalance of the footing over its weight", fmt::format("{:.1e}", number("support_error")), "0");
+    row("imbalance of the footing over its weight", fmt::format("{:.1e}", number("force_imbalance")), "0");
   }
   row("largest residual of an accepted step", fmt::format("{:.2e}", number("max_accepted_residual")), "not reported");
   row("share of the time outside the material points",
-      fmt::format("{:.1f} %", 100.0 * number("share_of_time_outside_rves")), "not reported");
+      fmt::format("{:.1f} %", 100.0 * number("share_of_time_outside_points")), "not reported");
   return text;
 }
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "scarp/run/first_rank.hpp"
+#include "scarp/run/root_rank.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #ifdef SCARP_WITH_RANKS
 #include "scarp/solver/rank_executor.hpp"
@@ -27,7 +27,7 @@ inline int rank() {
   MPI_Comm_rank(MPI_COMM_WORLD, &own);
   return own;
 }
-/// Ranks share the machine's processors unless a number is asked for.
+/// Ranks share the machine's processors unless a number is requested.
 inline int threads_of_a_process(int asked) {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks());
 }

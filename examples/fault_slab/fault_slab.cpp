@@ -19,7 +19,7 @@ void make_quick(Choice& choice) {
   choice.across = 3;
   choice.grains = 50;
   choice.throw_over_depth = 0.01;
-  choice.largest_gradient = 0.02;
+  choice.max_displacement_gradient = 0.02;
 }
 
 void declare_options(CLI::App& app, Choice& choice, examples::Output& output) {
@@ -43,9 +43,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output) {
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H on the near side at the end")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--tolerance", choice.tolerance, "force residual over reactions")->check(number_from(0.0, false, 1.0));
-  app.add_option("--largest-gradient", choice.largest_gradient, "displacement gradient that limits a load step")
+  app.add_option("--max-displacement-gradient", choice.max_displacement_gradient,
+                 "displacement gradient that limits a load step")
       ->check(number_from(0.0, false, 0.2));
-  app.add_option("--threads", choice.threads, "0 takes all processors")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", choice.threads, "0 uses all processors")->check(CLI::Range(0, 1024));
   app.add_option("--frames", choice.frames, "VTU files over the run")->check(CLI::Range(1, 100'000));
   app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, preparation and all; 0 for none")
       ->check(number_from(0.0, true, 1e9));

@@ -55,8 +55,8 @@ nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, Problem
   for (auto const& section : all) json["sections"].push_back(json_of(section));
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;
-  json["refused_steps"] = run.refused;
-  json["last_refusal"] = std::string(name(run.last_failure));
+  json["rejected_steps"] = run.refused;
+  json["last_rejection"] = std::string(name(run.last_failure));
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_points"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
@@ -114,10 +114,11 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
   bool const resumes = files.resumes();
   if (!resumes) begin_anew(folder.path());
   double const depth = scene.ground.layer.depth;
+  scarp::LoadMeasure const measure{depth, "throw_over_depth"};
   auto const start = resumes ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   scarp::Observers observers(scarp::FieldSeries(folder.path(), scene.throw_to, choice.frames, depth),
-                             scarp::ConvergenceLog(folder.path() / "convergence.csv", depth, start),
-                             scarp::Progress(scene.throw_to, depth), scarp::StopSignal(),
+                             scarp::ConvergenceLog(folder.path() / "convergence.csv", measure, start),
+                             scarp::Progress(scene.throw_to, measure), scarp::StopSignal(),
                              scarp::TimeLimit(choice.time_limit, started));
   RunNotes notes{.used = examples::RunUsage(started)};
   auto& rest = notes.rest;
@@ -145,7 +146,7 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
   folder.end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
   print_table(all);
   if (report.verdict.acceptable()) return 0;
-  examples::say(stderr, "fault_slab: stopped at h/H = {:.5f} ({}; last refused step: {})\n", report.load / depth,
+  examples::say(stderr, "fault_slab: stopped at h/H = {:.5f} ({}; last rejected step: {})\n", report.load / depth,
                 name(report.verdict.reason), name(report.last_failure));
   return report.verdict.reason == scarp::Reason::interrupted ? 130 : 3;
 }

@@ -63,7 +63,7 @@ inline Sand make_sand(Choice const& choice, Scene const& scene) {
   sand.provider.source = {own, image, choice.strike / (2.0 * choice.across)};
   sand.provider.strain_per_step = 2e-5;
   sand.provider.unbalanced_tolerance = 0.1;
-  sand.provider.loose_pressure = scene.surcharge / 2.0;
+  sand.provider.pressure_floor = scene.surcharge / 2.0;
   return sand;
 }
 
@@ -74,7 +74,7 @@ inline scarp::MohrCoulomb<3, scarp::GeostaticStress<3>, scarp::SofteningStrength
   return {.elasticity = scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25),
           .strength = {.peak = {.cohesion = 1e3, .friction = 30.8 * degree, .dilation = 6.6 * degree},
                        .residual = {.cohesion = 1e3, .friction = 25.5 * degree, .dilation = 0.0},
-                       .strain_to_residual = 0.15},
+                       .softening_strain = 0.15},
           .initial = {scene.surcharge, scene.unit_weight, 0.4}};
 }
 
@@ -89,7 +89,7 @@ inline Scene make_scene(Choice const& choice) {
   scene.fault.full_to = uniform ? choice.strike : 0.0;
   scene.fault.ends_at = uniform ? 2.0 * choice.strike : choice.strike;
   scene.throw_to = choice.throw_over_depth * layer.depth;
-  scene.stepping.largest_gradient = choice.largest_gradient;
+  scene.stepping.max_displacement_gradient = choice.max_displacement_gradient;
   scene.solver.tolerance = choice.tolerance;
   scene.soil.length = choice.length;
   if (choice.soil == Soil::dem) {

@@ -9,24 +9,24 @@
 
 namespace nonlocal_band {
 
-/// Force [N] on the top, positive in compression, and the share of stress against unseen strain in all stress.
+/// Force [N] on the top, positive in compression, and the share of stress against fluctuation strain in all stress.
 inline std::array<double, 2> top_force(Problem const& problem) {
   auto const& grid = problem.discretisation();
   auto const still = Eigen::VectorXd::Zero(grid.dof_count()).eval();
   auto const volumes = grid.volumes(still);
   auto const stresses = problem.committed_stresses();
   auto const balanced = problem.balanced_stresses();
-  double unseen = 0.0;
+  double fluctuation = 0.0;
   double all = 0.0;
   for (std::size_t k = 0; k < stresses.size(); ++k) {
-    unseen += volumes[k] * (balanced[k] - stresses[k]).norm();
+    fluctuation += volumes[k] * (balanced[k] - stresses[k]).norm();
     all += volumes[k] * stresses[k].norm();
   }
   Eigen::VectorXd forces;
   grid.internal_force(still, balanced, forces);
   double force = 0.0;
   for (int const node : scarp::boundary_nodes(grid.mesh(), "top")) force -= forces(2 * node + 1);
-  return {force, unseen / all};
+  return {force, fluctuation / all};
 }
 
 /// Where a specimen shears while its top moves on.

@@ -19,7 +19,7 @@ void print_fault(FaultChoice const& choice) {
     scene.soil.provider = fault_rupture::make_frictional_soil();
     scene.ground.layer.size = size;
     scene.solver.rule.floor = 1e-4;
-    scene.stepping.largest_gradient = 0.02;
+    scene.stepping.max_displacement_gradient = 0.02;
     return scene;
   });
 }

@@ -29,11 +29,11 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
       scene.throw_to = choice.throw_over_depth * scene.ground.layer.depth;
       scene.solver.tolerance = choice.tolerance;
       auto problem = scene.problem(executor);
-      scarp::NoObserver nobody;
-      auto const settled = scene.settle(problem, nobody);
+      scarp::NoObserver no_observer;
+      auto const settled = scene.settle(problem, no_observer);
       double const at_rest = scarp::generalised_reaction(problem);
       auto const rest = scarp::ground_at_rest(problem);
-      auto const run = settled.verdict.acceptable() ? scene.rupture(problem, nobody) : settled;
+      auto const run = settled.verdict.acceptable() ? scene.rupture(problem, no_observer) : settled;
       auto const& grid = problem.discretisation();
       auto const found =
           scarp::outcrop(scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions()), run.load);

@@ -23,7 +23,7 @@ struct Choice {
   double to = 0.04;
   double step = 5e-4;
   double tolerance = 1e-6;
-  int most_iterations = 30;
+  int max_iterations = 30;
   double gate = 0.0;
   scarp::RunFolder* folder = nullptr;  ///< of the results, if they are wanted
 };
@@ -71,9 +71,9 @@ Outcome print_row(Choice const& choice, int cells, double length) {
   neighbourhood.length = length;
   Problem problem = specimen(cells, neighbourhood, executor);
   Record record{.from = choice.from};
-  examples::Newton const newton{.tolerance = choice.tolerance, .most_iterations = choice.most_iterations};
+  examples::Newton const newton{.tolerance = choice.tolerance, .max_iterations = choice.max_iterations};
   scarp::LoadStepping const stepping{
-      .first = choice.step, .smallest = 1e-3 * choice.step, .largest = choice.step, .largest_gradient = 1.0};
+      .first = choice.step, .smallest = 1e-3 * choice.step, .largest = choice.step, .max_displacement_gradient = 1.0};
   auto const run = stepping.run(newton, problem, 0.0, choice.to, record);
   double peak = 0.0;
   for (auto const& row : record.curve) peak = std::max(peak, row[1]);
@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1000));
   app.add_option("--lengths", choice.lengths, "intrinsic lengths [m]")->delimiter(',')->check(length);
-  app.add_option("--stiffness", choice.neighbourhood.stiffness, "against unseen strain, share of the initial one")
+  app.add_option("--stiffness", choice.neighbourhood.stiffness, "against fluctuation strain, share of the initial one")
       ->check(share);
   app.add_option("--fading", choice.neighbourhood.fading, "strain after which the stress of that stiffness has faded")
       ->check(positive);
@@ -134,8 +134,8 @@ int main(int argc, char** argv) {
   app.add_option("--to", choice.to, "settlement at the end [m]")->check(positive);
   app.add_option("--step", choice.step, "largest settlement of a load step [m]")->check(positive);
   app.add_option("--tolerance", choice.tolerance, "of the force residual")->check(number_from(0.0, false, 1.0));
-  app.add_option("--most-iterations", choice.most_iterations, "of a load step")->check(CLI::Range(1, 10'000));
-  app.add_option("--gate", choice.gate, "largest difference between meshes with a length, as a part; 0 for none")
+  app.add_option("--max-iterations", choice.max_iterations, "of a load step")->check(CLI::Range(1, 10'000));
+  app.add_option("--max-error", choice.gate, "largest difference between meshes with a length, as a part; 0 for none")
       ->check(length);
   examples::Output output;
   examples::declare_output(app, output, "folder for load curves and shear strains");

@@ -17,7 +17,7 @@ void print_sand(FaultChoice const& choice, int grains, std::uint64_t seed) {
   print_rows(choice, [&](double size) {
     Scene scene;
     scene.ground.layer.size = size;
-    scene.stepping.largest_gradient = Sand::largest_gradient(false);
+    scene.stepping.max_displacement_gradient = Sand::max_displacement_gradient(false);
     fault_rupture::Choice sand;
     sand.grains = grains;
     sand.seed = seed;

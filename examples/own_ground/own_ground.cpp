@@ -49,11 +49,11 @@ int main(int count, char** arguments) try {
   scene.solver.tolerance = 1e-8;
 
   scarp::ThreadExecutor executor;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(executor);
-  auto report = scene.settle(problem, nobody);
+  auto report = scene.settle(problem, no_observer);
   auto const rest = ground_at_rest(problem);
-  if (report.verdict.acceptable()) report = scene.rupture(problem, nobody);
+  if (report.verdict.acceptable()) report = scene.rupture(problem, no_observer);
 
   auto const& grid = problem.discretisation();
   auto const survey =

@@ -50,9 +50,9 @@ int main() {
   scarp::SerialExecutor serial;
   auto const soils = boost::hana::make_tuple(scarp::Region{"soil", soil});
   auto problem = scarp::make_problem(grid, height, soils, fixed, loads, serial);
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   scarp::QuasiNewton<scarp::ConsistentTangent> const newton{.tolerance = 1e-10};
-  bool const done = scarp::LoadStepping{}.settle(newton, problem, 0.0, nobody).verdict.acceptable();
+  bool const done = scarp::LoadStepping{}.settle(newton, problem, 0.0, no_observer).verdict.acceptable();
   double const moved = problem.discretisation().positions().back().x() - mesh.nodes.back().x();
   double const a = push / (soil.shear_modulus * soil.reference_strain);  // gamma = gamma_r a z / (1 - a z), summed up:
   double const exact = soil.reference_strain * (-std::log1p(-a * height) / a - height);

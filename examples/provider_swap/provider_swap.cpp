@@ -20,13 +20,13 @@ using Sand = scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>;
 template <class Soil>
 bool rupture(char const* name, scarp::FreeFieldFault<Soil> const& scene) {
   scarp::ThreadExecutor executor;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(executor);
-  bool balanced = scene.settle(problem, nobody).verdict.acceptable();
+  bool balanced = scene.settle(problem, no_observer).verdict.acceptable();
   double k0 = 0.0;
   for (auto const& stress : problem.committed_stresses()) k0 += stress(0) / stress(1);
   auto const rest = ground_at_rest(problem);
-  auto const run = scene.rupture(problem, nobody);
+  auto const run = scene.rupture(problem, no_observer);
   auto const& mesh = problem.discretisation().mesh();
   auto const offset = offset_at(scene.fault, run.load);
   auto const found = rupture_survey(mesh, rest.of(mesh), problem.discretisation().positions(), offset).surface;
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   scarp::LevelGround<scarp::EllipseGrading> const ground{{{4e-3, 6e-3, 0.75}, 100, 2650.0, 0.2}};
   std::vector<double> depths;  // three levels of points in each row of crossed triangles
   for (double depth = 5.0 / 6.0; depth < layer.depth; depth += 5.0 / 3.0) depths.push_back(depth);
-  Sand const sand{.law = law, .source = ground.make<Grains>(law, depths), .loose_pressure = 1e3};
+  Sand const sand{.law = law, .source = ground.make<Grains>(law, depths), .pressure_floor = 1e3};
   bool const done = rupture<Elastic>("elastic", {.soil = elastic, .ground = {layer}, .throw_to = 0.25});
   return rupture<Sand>("grains", {.soil = sand, .ground = {layer}, .throw_to = 0.25}) && done ? 0 : 1;
 }

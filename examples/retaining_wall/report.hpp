@@ -60,7 +60,8 @@ inline bool judge(std::vector<Outcome> const& outcomes) {
       examples::say(stderr, "retaining_wall: {} pressure is not Rankine's (its ratio lies outside what phi explains)\n",
                     name(outcome.movement));
     } else {
-      examples::say(stderr, "retaining_wall: {} movement stopped at the strain {:.4f} ({}; last refused attempt: {})\n",
+      examples::say(stderr,
+                    "retaining_wall: {} movement stopped at the strain {:.4f} ({}; last rejected attempt: {})\n",
                     name(outcome.movement), run.load, name(run.verdict.reason), name(run.last_failure));
     }
   }
@@ -85,7 +86,7 @@ inline nlohmann::ordered_json summary(Outcome const& outcome) {
   json["strain"] = run.load;
   json["imbalance"] = imbalance(outcome);
   json["steps"] = run.steps;
-  json["refused_steps"] = run.refused;
+  json["rejected_steps"] = run.refused;
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["max_accepted_residual"] = run.largest_residual;

@@ -26,7 +26,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output) {
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--strain", choice.strain, "wall displacement over the length of the ground, at the end")
       ->check(number_from(2.0 * retaining_wall::window, true, 0.3));
-  app.add_option("--threads", choice.threads, "0 takes all")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", choice.threads, "0 uses all")->check(CLI::Range(0, 1024));
   examples::declare_output(app, output, "folder of summary.json and of tables of forces and tests");
 }
 

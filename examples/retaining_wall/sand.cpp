@@ -26,7 +26,7 @@ Sand sand_of(Choice const& choice, Wall const& wall) {
   Sand sand;
   sand.provider.law = examples::study_law();
   sand.provider.source = ground.make<Grains>(sand.provider.law, wall.depths());
-  sand.provider.loose_pressure = wall.surcharge / 2.0;
+  sand.provider.pressure_floor = wall.surcharge / 2.0;
   return sand;
 }
 
@@ -47,9 +47,9 @@ std::vector<Outcome> run_sand(Choice const& choice) {
   Wall const wall{.size = choice.size};
   scarp::ThreadExecutor executor(choice.threads);
   Sand const sand = sand_of(choice, wall);
-  scarp::QuasiNewton<> const solver{.tolerance = 2e-3, .most_iterations = 40};
+  scarp::QuasiNewton<> const solver{.tolerance = 2e-3, .max_iterations = 40};
   scarp::LoadStepping const stepping{
-      .first = 5e-4, .smallest = 1e-6, .largest = window / 4.0, .largest_gradient = window};
+      .first = 5e-4, .smallest = 1e-6, .largest = window / 4.0, .max_displacement_gradient = window};
   std::vector<Outcome> outcomes;
   for (auto const movement : {Movement::active, Movement::passive}) {
     outcomes.push_back(move_wall(wall, sand, movement, tested(choice, sand, movement, executor), solver, stepping,

@@ -33,7 +33,7 @@ std::vector<TestRow> biaxial_test(PackingType packing, typename PackingType::Law
                       scarp::component_control<2>(2, 0.0)};
   scarp::TimeStepper<PackingType, Damping> stepper;
   stepper.damping = damping;
-  scarp::Drive<PackingType> drive(packing, law, loading);
+  scarp::CellDriver<PackingType> drive(packing, law, loading);
   std::vector<TestRow> rows{{0.0, -start(0, 0), -start(1, 1)}};
   long const steps_per_row = std::lround(strain_per_row / strain_per_step);
   long const steps = std::lround(strain / strain_per_step);

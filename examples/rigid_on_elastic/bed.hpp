@@ -62,10 +62,10 @@ struct Layer {
 /// All load in one step. Stiffness times the round-off of places, up to 1e-7 of the loads here, bounds the tolerance from below.
 template <class Problem>
 scarp::RunReport load_once(Problem& problem, double tolerance = 1e-6) {
-  examples::Newton const newton{.tolerance = tolerance, .hopeless = 1e9};
-  scarp::LoadStepping const stepping{.first = 1.0, .smallest = 1e-3, .largest_gradient = 1e3};
-  scarp::NoObserver nobody;
-  return stepping.run(newton, problem, 0.0, 1.0, nobody);
+  examples::Newton const newton{.tolerance = tolerance, .divergence_limit = 1e9};
+  scarp::LoadStepping const stepping{.first = 1.0, .smallest = 1e-3, .max_displacement_gradient = 1e3};
+  scarp::NoObserver no_observer;
+  return stepping.run(newton, problem, 0.0, 1.0, no_observer);
 }
 
 /// A rigid footing on an interface.

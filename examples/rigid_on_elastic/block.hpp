@@ -111,12 +111,13 @@ inline examples::Outcome slide(double friction, int cells) {
         loads.add(of_block({weight, 0.0}), {});
         return loads;
       });
-  examples::Newton const newton{.tolerance = 1e-9, .most_iterations = 40, .hopeless = 1e3};
-  scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-5, .largest = 0.05, .largest_gradient = 1.0};
-  scarp::NoObserver nobody;
-  auto const placed = stepping.settle(newton, problem, 0.0, nobody);
+  examples::Newton const newton{.tolerance = 1e-9, .max_iterations = 40, .divergence_limit = 1e3};
+  scarp::LoadStepping const stepping{
+      .first = 0.05, .smallest = 1e-5, .largest = 0.05, .max_displacement_gradient = 1.0};
+  scarp::NoObserver no_observer;
+  auto const placed = stepping.settle(newton, problem, 0.0, no_observer);
   if (!placed.verdict.acceptable()) return {.run = placed, .note = "not placed"};
-  auto const run = scarp::joined(placed, stepping.run(newton, problem, 0.0, 2.0, nobody));
+  auto const run = scarp::joined(placed, stepping.run(newton, problem, 0.0, 2.0, no_observer));
   auto const& grid = problem.discretisation();
   return {static_cast<int>(grid.mesh().elements.size()), grid.dof_count(), run.load, run, watch.seconds()};
 }

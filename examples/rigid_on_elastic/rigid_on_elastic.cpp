@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Rigid and stiff footings on springs, on elastic ground and on an incline"};
   examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(1, 5));
-  app.add_option("--slide-gate", gate, "largest error in per cent of the tangent at which a block slides")
+  app.add_option("--max-slide-error", gate, "largest error in per cent of the tangent at which a block slides")
       ->check(CLI::Range(1e-6, 100.0));
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);

@@ -89,7 +89,8 @@ inline void compress(Packing packing, Choice const& choice, Result& result) {
   constexpr double strain_per_row = 2.5e-4;
   auto const law = study_law();
   scarp::TimeStepper<Packing> stepper;
-  scarp::Drive<Packing> drive(packing, law, scarp::drained_compression<2>(choice.strain_per_step, choice.pressure));
+  scarp::CellDriver<Packing> drive(packing, law,
+                                   scarp::drained_compression<2>(choice.strain_per_step, choice.pressure));
   double const first_area = packing.cell.determinant();
   result.rows.push_back(describe(packing, 0.0, 0.0, scarp::balance(packing, law).stress));
   long const steps = std::lround(choice.strain / choice.strain_per_step);

@@ -41,7 +41,7 @@ void declare_options(CLI::App& app, Options& options) {
   app.add_option("--pressure", choice.pressure, "of the consolidation and of the lateral stress [Pa]")
       ->check(number_from(0.0, false, 1e9));
   app.add_option("--strain", choice.strain, "axial logarithmic strain at the end")->check(number_from(0.0, false, 2.0));
-  app.add_option("--strain-per-step", choice.strain_per_step, "axial strain of one DEM step")
+  app.add_option("--strain-per-dem-step", choice.strain_per_step, "axial strain of one DEM step")
       ->check(number_from(0.0, false, 1e-3));
   app.add_option("--smoothing", options.smoothing, "strain window through which the table's peaks are read")
       ->check(number_from(0.0, false, 1.0));
@@ -84,8 +84,8 @@ std::vector<rve_biaxial::Result> run_all(Options const& options) {
 /// \throws InputError for a test that is shorter than the window through which its peaks are read
 void require_room_for_window(Options const& options) {
   if (options.smoothing > options.choice.strain) {
-    scarp::refuse("no window of {} lies in the test (its strain is {}): shear further or smooth less",
-                  options.smoothing, options.choice.strain);
+    scarp::throw_input_error("no window of {} lies in the test (its strain is {}): shear further or smooth less",
+                             options.smoothing, options.choice.strain);
   }
 }
 
@@ -99,7 +99,8 @@ void read_frictions(Options& options) {
   std::sort(frictions.begin(), frictions.end());
   auto const twice = std::adjacent_find(frictions.begin(), frictions.end());
   if (twice == frictions.end()) return;
-  scarp::refuse("preparation friction {} is given twice (its packings would count twice): give each once", *twice);
+  scarp::throw_input_error("preparation friction {} is given twice (its packings would count twice): give each once",
+                           *twice);
 }
 
 /// \throws InputError when a packing could not be prepared or sheared
@@ -107,7 +108,7 @@ void require_success(std::vector<rve_biaxial::Result> const& results, Options co
   for (auto const& result : results) {
     auto const& verdict = result.prepared.acceptable() ? result.sheared : result.prepared;
     if (verdict.acceptable()) continue;
-    scarp::refuse(
+    scarp::throw_input_error(
         "seed {} at preparation friction {} ended with {} ({}) during its {}: change the pressure, the number of "
         "grains or the rate",
         result.seed, result.preparation_friction, scarp::name(verdict.status), scarp::name(verdict.reason),
@@ -115,8 +116,8 @@ void require_success(std::vector<rve_biaxial::Result> const& results, Options co
   }
   for (auto const& result : results) {
     if (!std::isfinite(rve_biaxial::peak_angles(result.rows, options.smoothing).friction_angle)) {
-      scarp::refuse("no window of {} was filled (a step strains by {}): take smaller steps", options.smoothing,
-                    options.choice.strain_per_step);
+      scarp::throw_input_error("no window of {} was filled (a step strains by {}): take smaller steps",
+                               options.smoothing, options.choice.strain_per_step);
     }
   }
 }
@@ -129,7 +130,7 @@ int main(int argc, char** argv) {
   Options options;
   try {
     declare_options(app, options);
-    app.parse(argc, argv);
+    examples::parse(app, argc, argv);
   } catch (CLI::ParseError const& problem) {
     return app.exit(problem, std::cout, std::cerr) == 0 ? 0 : 2;
   }

@@ -12,8 +12,8 @@ PackingType make_cloud(Preparation const& choice) {
   using Shape = typename PackingType::Shape;
   auto const sizes = grading(std::type_identity<Shape>{}, choice);
   if (choice.largest < choice.smallest) {
-    scarp::refuse("the largest size {} is below the smallest {} (no size lies between them): exchange them",
-                  choice.largest, choice.smallest);
+    scarp::throw_input_error("the largest size {} is below the smallest {} (no size lies between them): exchange them",
+                             choice.largest, choice.smallest);
   }
   return scarp::Cloud<std::remove_const_t<decltype(sizes)>>{.grading = sizes,
                                                             .grains = choice.grains,
@@ -30,8 +30,9 @@ PackingType consolidate(PackingType const& cloud, typename PackingType::Law cons
   scarp::IsotropicPreparation const preparation{.pressure = choice.pressure, .preparation_friction = friction};
   auto prepared = preparation.prepare(cloud, law);
   if (!prepared.verdict.acceptable()) {
-    scarp::refuse("the consolidation at friction {} ended with {} ({}): change pressure, stiffness or number of grains",
-                  friction, scarp::name(prepared.verdict.status), scarp::name(prepared.verdict.reason));
+    scarp::throw_input_error(
+        "the consolidation at friction {} ended with {} ({}): change pressure, stiffness or number of grains", friction,
+        scarp::name(prepared.verdict.status), scarp::name(prepared.verdict.reason));
   }
   examples::say(stdout, "preparation friction {:.6f} gives void ratio {:.6f}\n", friction,
                 prepared.packing.void_ratio());
@@ -43,7 +44,7 @@ PackingType consolidate(PackingType const& cloud, typename PackingType::Law cons
 /// \throws InputError for a void ratio that lies outside what these give, or that the bisection jumps over
 template <class PackingType>
 PackingType reach_void_ratio(PackingType const& cloud, typename PackingType::Law law, Preparation& choice) {
-  constexpr int most_halvings = 16;
+  constexpr int max_halvings = 16;
   double const target = *choice.target_void_ratio;
   double low = 0.0;
   double high = law.friction_coefficient();
@@ -64,12 +65,12 @@ PackingType reach_void_ratio(PackingType const& cloud, typename PackingType::Law
     loosest = target + keep(consolidate(cloud, law, choice, high), high);
   }
   bool const between = densest <= target && target <= loosest;
-  for (int k = 0; between && k < most_halvings && std::abs(missing(nearest)) > choice.void_ratio_tolerance; ++k) {
+  for (int k = 0; between && k < max_halvings && std::abs(missing(nearest)) > choice.void_ratio_tolerance; ++k) {
     double const middle = (low + high) / 2.0;
     (keep(consolidate(cloud, law, choice, middle), middle) < 0.0 ? low : high) = middle;
   }
   if (std::abs(missing(nearest)) > choice.void_ratio_tolerance) {
-    scarp::refuse(
+    scarp::throw_input_error(
         "void ratio {} is not reached (frictions from 0 to {} give {:.6f} to {:.6f}, the nearest found is {:.6f} at "
         "{}): "
         "choose one in between, another seed or a wider tolerance",

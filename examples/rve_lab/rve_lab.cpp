@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
                              "--output,-o");
     declare_test(*shear_app, sheared);
     declare_replay(*replay_app, replayed);
-    app.parse(argc, argv);
+    examples::parse(app, argc, argv);
   } catch (CLI::ParseError const& problem) {
     return app.exit(problem, std::cout, std::cerr) == 0 ? 0 : 2;
   }

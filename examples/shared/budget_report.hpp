@@ -14,7 +14,7 @@
 
 namespace examples {
 
-/// Bounds in the place of the usual ones, each as "part=bound".
+/// Bounds instead of the default ones, each as "part=bound".
 /// \throws InputError for a part that has no bound, a bound that is not a number or negative
 inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given, scarp::ErrorBounds bounds = {}) {
   for (auto const& item : given) {
@@ -24,8 +24,8 @@ inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given, sc
     char* end = nullptr;
     double const bound = std::strtod(number.c_str(), &end);
     if (number.empty() || *end != '\0' || !(bound >= 0.0))
-      scarp::refuse("'{}' is no bound of an error budget (a part, '=' and a number are expected): write residual=1e-3",
-                    item);
+      scarp::throw_input_error(
+          "'{}' is no bound of an error budget (a part, '=' and a number are expected): write residual=1e-3", item);
     bool known = false;
     std::string names;
     scarp::ErrorBounds::members(bounds, [&](std::string_view part, double& value) {
@@ -35,7 +35,8 @@ inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given, sc
       value = bound;
       known = true;
     });
-    if (!known) scarp::refuse("an error budget has no bound for '{}' (it has {}): name one of these", name, names);
+    if (!known)
+      scarp::throw_input_error("an error budget has no bound for '{}' (it has {}): name one of these", name, names);
   }
   return bounds;
 }

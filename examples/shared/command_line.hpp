@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "renamed_options.hpp"
+
 namespace examples {
 
 /// Rejects NaN, infinity and text; CLI11's own range checks let NaN pass.
@@ -69,20 +71,29 @@ inline CLI::Validator seed_number() {
 /// Files with lines `option = value`: a value may hold commas, and editors may have put a byte order mark first.
 class ConfigFile : public CLI::ConfigTOML {
  public:
-  ConfigFile() { arraySeparator = '\x1f'; }
+  /// app: whose options the file names
+  explicit ConfigFile(CLI::App const& app) : app_(app) { arraySeparator = '\x1f'; }
 
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
     std::string text(std::istreambuf_iterator<char>(input), {});
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
     std::istringstream rest(text);
-    return CLI::ConfigTOML::from_config(rest);
+    auto items = CLI::ConfigTOML::from_config(rest);
+    for (auto& item : items) {
+      item.name = present_name(app_, item.name);
+      for (auto& value : item.inputs) value = present_value(item.name, value);
+    }
+    return items;
   }
+
+ private:
+  CLI::App const& app_;
 };
 
 /// One with an unknown option is refused when it is read.
 inline void declare_config(CLI::App& app, std::string const& what = "file with lines `option = value`") {
   app.set_config("--config", "", what);
-  app.config_formatter(std::make_shared<ConfigFile>());
+  app.config_formatter(std::make_shared<ConfigFile>(app));
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 

@@ -165,7 +165,7 @@ def convergence(run):
         return ""
     refused = sum(not one["accepted"] for one in attempts)
     worst = max((one["residual"] for one in attempts if one["accepted"]), default=math.nan)
-    lead = (f"{len(attempts) - refused} accepted and {refused} refused load steps, "
+    lead = (f"{len(attempts) - refused} accepted and {refused} rejected load steps, "
             f"{sum(one['iterations'] for one in attempts)} iterations; largest residual of an accepted step {worst:.2g}.")
     rows = [("" if one["accepted"] else "outside",
              (one["step"], f"{one['load']:.5f}", one["iterations"], f"{one['residual']:.2e}",

@@ -104,10 +104,10 @@ inline nlohmann::ordered_json json_of(scarp::RunRecord const& record) {
   return json;
 }
 
-/// What was asked for in numbers that memory depends on.
+/// What was requested in numbers that memory depends on.
 inline std::string sizes_asked(CLI::App const& app) {
   std::string text;
-  for (char const* name : {"triangles", "size", "columns", "rows", "cells", "mesh", "grains", "packings", "seeds"}) {
+  for (char const* name : {"elements", "size", "columns", "rows", "cells", "mesh", "grains", "packings", "seeds"}) {
     for (auto const& [option, value] : all_options(app)) {
       if (option == name && !value.empty()) text += fmt::format("{}--{} {}", text.empty() ? "" : " ", name, value);
     }
@@ -119,7 +119,7 @@ inline std::string sizes_asked(CLI::App const& app) {
 /// \return its exit code: 2 for a folder, checkpoint or other input that is refused, else 1
 inline int ended_by(std::exception const& problem, std::string const& program, CLI::App const& app) {
   if (dynamic_cast<std::bad_alloc const*>(&problem) != nullptr) {
-    examples::say(stderr, "{}: the memory is spent (asked for were {}): ask for less\n", program, sizes_asked(app));
+    examples::say(stderr, "{}: the memory is spent (requested: {}): request less\n", program, sizes_asked(app));
   } else {
     examples::say(stderr, "{}: {}\n", program, problem.what());
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "renamed_options.hpp"
 #include "scarp/core/build_info.hpp"
 
 namespace examples {
@@ -31,7 +32,7 @@ inline void declare_version(CLI::App& app) {
 /// \return exit code when the program is to end: 0 after --help and the like, 2 for options that are refused
 inline std::optional<int> ended_by_options(CLI::App& app, int argc, char** argv) {
   try {
-    app.parse(argc, argv);
+    parse(app, argc, argv);
   } catch (CLI::ParseError const& problem) {
     return app.exit(problem) == 0 ? 0 : 2;
   }

@@ -29,7 +29,7 @@ struct Footing {
   double bearing_pressure() const { return cohesion * cohesion_factor() + surcharge * surcharge_factor(); }
 
   /// How far Prandtl's mechanism reaches from the edge of the footing, and how deep [m].
-  double reach() const {
+  double interaction_range() const {
     double const rotation = std::exp(std::numbers::pi / 2.0 * std::tan(friction));
     return 2.0 * half_width * std::tan(std::numbers::pi / 4.0 + friction / 2.0) * rotation;
   }
@@ -51,7 +51,7 @@ struct Grading {
 template <class Element>
 scarp::Mesh<Element> half_space(Footing const& footing, Grading const& grading) {
   double const b = Footing::half_width;
-  double const width = b + 1.3 * footing.reach();
+  double const width = b + 1.3 * footing.interaction_range();
   double const depth = 1.5 * footing.depth();
   scarp::Spacing const along({{0.0, grading.size(b)}, {b, grading.size(0.0)}, {width, grading.size(width - b)}});
   scarp::Spacing const down({{-depth, grading.size(depth)}, {0.0, grading.size(0.0)}});
@@ -106,15 +106,15 @@ examples::Outcome press(Footing const& footing, Grading const& grading) {
   // Without associated flow the tangent is unsymmetric and may lose its definiteness: a share of the elastic one keeps it.
   bool const associated = footing.dilation == footing.friction;
   examples::Newton const newton{.tolerance = associated ? 1e-7 : 1e-4,
-                                .most_iterations = associated ? 20 : 60,
-                                .hopeless = 1e3,
+                                .max_iterations = associated ? 20 : 60,
+                                .divergence_limit = 1e3,
                                 .rule = {.floor = associated ? 1e-8 : 0.02}};
   scarp::LoadStepping const stepping{.first = 4e-3,
                                      .smallest = 1e-5,
                                      .largest = associated ? 0.04 : 0.01,
-                                     .largest_gradient = 1e3,
-                                     .few = associated ? 10 : 30,
-                                     .many = associated ? 14 : 50};
+                                     .max_displacement_gradient = 1e3,
+                                     .grow_below = associated ? 10 : 30,
+                                     .shrink_above = associated ? 14 : 50};
   auto const run = stepping.run(newton, problem, 0.0, 0.25, plateau);
   auto const& done = problem.discretisation();
   return {static_cast<int>(done.mesh().elements.size()), done.dof_count(), plateau.pressure, run, watch.seconds(),

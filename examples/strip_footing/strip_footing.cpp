@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   app.add_option("--only", choice.only, "angles of friction in degrees, a,b,c")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 40.0));
-  app.add_option("--gate", choice.gate,
+  app.add_option("--max-error", choice.gate,
                  "largest error in per cent on the finest mesh; 2.5 times as much without a third")
       ->check(CLI::Range(0.01, 100.0));
   app.option_defaults()->always_capture_default();

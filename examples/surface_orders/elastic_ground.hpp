@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../shared/elastic_solve.hpp"
-#include "scarp/bvp/usual_integration.hpp"
+#include "scarp/bvp/default_integration.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 

@@ -65,15 +65,15 @@ Pressures expand(Cylinder const& cylinder, int cells) {
     return sum / (std::numbers::pi / 2.0 * cylinder.inner);
   };
   examples::Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-9}};
-  scarp::LoadStepping const stepping{.first = 0.5, .smallest = 1e-5, .largest_gradient = 1e3};
-  scarp::NoObserver nobody;
+  scarp::LoadStepping const stepping{.first = 0.5, .smallest = 1e-5, .max_displacement_gradient = 1e3};
+  scarp::NoObserver no_observer;
   int const elements = static_cast<int>(done.mesh().elements.size());
   // So little that the strain measure's square, half the strain beside it, does not count.
   double const little = 1e-3;
-  auto const elastic = stepping.run(newton, problem, 0.0, little, nobody);
+  auto const elastic = stepping.run(newton, problem, 0.0, little, no_observer);
   double const stiffness = pressure() / (little * yield_move);
   Pressures answer{{elements, done.dof_count(), stiffness, elastic, watch.seconds()}, {}};
-  auto const plastic = stepping.run(newton, problem, little, 6.0, nobody);
+  auto const plastic = stepping.run(newton, problem, little, 6.0, no_observer);
   answer.limit = {elements, done.dof_count(), pressure(), plastic, watch.seconds()};
   return answer;
 }

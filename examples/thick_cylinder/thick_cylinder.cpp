@@ -54,9 +54,10 @@ int main(int argc, char** argv) {
   CLI::App app{"Thick cylinder and circular opening against mesh size and run time"};
   examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(2, 6));
-  app.add_option("--cylinder-gate", cylinder_gate, "largest error in per cent of stiffness and limit pressure")
+  app.add_option("--max-cylinder-error", cylinder_gate, "largest error in per cent of stiffness and limit pressure")
       ->check(CLI::Range(1e-6, 100.0));
-  app.add_option("--opening-gate", opening_gate, "largest error in per cent of the plastic radius and the stresses")
+  app.add_option("--max-opening-error", opening_gate,
+                 "largest error in per cent of the plastic radius and the stresses")
       ->check(CLI::Range(1e-6, 100.0));
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);

@@ -33,7 +33,7 @@ inline std::vector<Row> rve_test(Packing packing, Choice const& choice) {
   auto const law = contact_law();
   scarp::TimeStepper<Packing, decltype(Sand::damping)> stepper;
   scarp::Tensor<3> deformation = scarp::Tensor<3>::Identity();
-  scarp::Drive<Packing> drive(packing, law, column_path(rate, choice.pressure, deformation));
+  scarp::CellDriver<Packing> drive(packing, law, column_path(rate, choice.pressure, deformation));
   std::vector<Row> rows{{0.0, choice.pressure, 0.0, 0.0}};
   Row sum;
   for (long step = 1; - std::log(deformation(2, 2)) < -std::log(1.0 - choice.strain) + rate * steps_per_row; ++step) {

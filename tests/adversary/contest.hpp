@@ -51,7 +51,7 @@ struct Present {
 };
 inline Present present;
 
-/// Also called where a sanitizer ends the program: no memory is asked for.
+/// Also called where a sanitizer ends the program: no memory is requested.
 inline void tell_present() {
   char text[256];
   int const length = std::snprintf(text, sizeof text, "\nFOUND by --only '%s' --seed %llu --first %llu --inputs 1\n",

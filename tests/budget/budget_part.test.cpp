@@ -9,14 +9,14 @@
 #include "support/refusals.hpp"
 
 TEST_CASE(
-    "a companion's part is the difference over a size, either way, and outside where the companion has no answer") {
-  auto const part = scarp::companion_part("mesh", -14.0, -15.0, 25.0, 0.05, "place");
+    "a sensitivity run's part is the difference over a size, either way, and outside where the run has no answer") {
+  auto const part = scarp::sensitivity_part("mesh", -14.0, -15.0, 25.0, 0.05, "place");
   CHECK(part.name == "mesh");
   CHECK(part.value == samples::Approx(0.04).epsilon(1e-15));  // 1 m of 25 m
   CHECK(part.is_within());
-  CHECK(scarp::companion_part("mesh", -15.0, -14.0, 25.0, 0.05, "place").value == part.value);
-  CHECK_FALSE(scarp::companion_part("mesh", -14.0, -15.5, 25.0, 0.05, "place").is_within());
+  CHECK(scarp::sensitivity_part("mesh", -15.0, -14.0, 25.0, 0.05, "place").value == part.value);
+  CHECK_FALSE(scarp::sensitivity_part("mesh", -14.0, -15.5, 25.0, 0.05, "place").is_within());
   double const nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK_FALSE(scarp::companion_part("mesh", -14.0, nan, 25.0, 0.05, "place").is_within());
-  CHECK_REFUSED(scarp::companion_part("mesh", -14.0, -15.0, 0.0, 0.05, "place"), "size", "is 0");
+  CHECK_FALSE(scarp::sensitivity_part("mesh", -14.0, nan, 25.0, 0.05, "place").is_within());
+  CHECK_REFUSED(scarp::sensitivity_part("mesh", -14.0, -15.0, 0.0, 0.05, "place"), "size", "is 0");
 }

@@ -26,7 +26,7 @@ struct Relaxing {
   using Plan = int;
 
   int steps = 4;
-  int most_steps = 1000;
+  int max_steps = 1000;
   double start = 0.0;
   bool alternates = false;  ///< every other point has the stress with the other sign
 
@@ -36,7 +36,7 @@ struct Relaxing {
   scarp::VoigtStress<2> stress(State const& state) const { return {state.sign * state.s, state.sign * state.s, 0.0}; }
   scarp::VoigtTangent<2> tangent(State const&) const { return scarp::VoigtTangent<2>::Identity(); }
   Plan plan(State const&, scarp::Gradient<2> const&) const { return steps; }
-  Plan refined(Plan plan) const { return std::min(2 * plan, most_steps); }
+  Plan refined(Plan plan) const { return std::min(2 * plan, max_steps); }
   scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
     return respond(committed, increment, trial, steps);
   }
@@ -48,7 +48,7 @@ struct Relaxing {
     return {stress(trial), {}};
   }
 };
-static_assert(scarp::PlansWork<Relaxing>);
+static_assert(scarp::HasPlan<Relaxing>);
 
 /// What a budget sees of a problem, without any solver: all points are strained alike.
 class Points {
@@ -103,10 +103,9 @@ TEST_CASE("the mean of what is unbalanced is that of the packings that were look
 }
 
 TEST_CASE("the budget finds the known error of a law's steps in single increments and along the path") {
-  for (int const most_steps :
-       {1000, 4}) {  // by a refined plan, and in halves where no more than four steps are allowed
-    Points points(Relaxing{.steps = 4, .most_steps = most_steps}, 50);
-    scarp::ErrorBudget budget(points, {}, {.share = 1.0, .points_per_followed = 100, .followed = {7}});
+  for (int const max_steps : {1000, 4}) {  // by a refined plan, and in halves where no more than four steps are allowed
+    Points points(Relaxing{.steps = 4, .max_steps = max_steps}, 50);
+    scarp::ErrorBudget budget(points, {}, {.share = 1.0, .points_per_tracked = 100, .tracked = {7}});
     constexpr int increments = 10;
     for (int k = 0; k < increments; ++k) points.strain(increment, budget);
     REQUIRE(budget.samples().differences.size() >= 20);
@@ -116,9 +115,9 @@ TEST_CASE("the budget finds the known error of a law's steps in single increment
     double const start = 1.0 - relaxed(4, increment);
     double const once = 1.0 - start * std::pow(1.0 - increment / 4.0, 4 * (increments - 1));
     double const twice = 1.0 - start * std::pow(1.0 - increment / 8.0, 8 * (increments - 1));
-    REQUIRE(budget.followed().points.size() == 1);
-    CHECK(budget.followed().points[0].point == 7);
-    CHECK(budget.followed().points[0].apart == samples::Approx(1.0 - twice / once).epsilon(1e-10));
+    REQUIRE(budget.tracked().points.size() == 1);
+    CHECK(budget.tracked().points[0].point == 7);
+    CHECK(budget.tracked().points[0].apart == samples::Approx(1.0 - twice / once).epsilon(1e-10));
     CHECK(part(budget.parts(), "accumulated") ==
           samples::Approx(part(budget.parts(), "accumulated_apart")).epsilon(1e-10));
   }
@@ -127,7 +126,7 @@ TEST_CASE("the budget finds the known error of a law's steps in single increment
 TEST_CASE("points that have lost most of their stress are compared with what they carried at the beginning") {
   constexpr double start = 100.0;
   Points points(Relaxing{.start = start}, 50);
-  scarp::ErrorBudget budget(points, {}, {.share = 1.0, .points_per_followed = 100, .followed = {7}});
+  scarp::ErrorBudget budget(points, {}, {.share = 1.0, .points_per_tracked = 100, .tracked = {7}});
   constexpr double large = 0.5;
   constexpr int increments = 8;
   for (int k = 0; k < increments; ++k) points.strain(large, budget);
@@ -136,14 +135,14 @@ TEST_CASE("points that have lost most of their stress are compared with what the
   double const twice = std::pow(1.0 - large / 8.0, 8);
   double const before_last = (start - 1.0) * std::pow(once, increments - 1);
   CHECK(budget.samples().differences.back() == samples::Approx(before_last * (twice - once) / start).epsilon(1e-10));
-  double const followed = (start - 1.0) * once * (std::pow(twice, increments - 1) - std::pow(once, increments - 1));
-  CHECK(budget.followed().points[0].apart == samples::Approx(followed / start).epsilon(1e-10));
+  double const tracked = (start - 1.0) * once * (std::pow(twice, increments - 1) - std::pow(once, increments - 1));
+  CHECK(budget.tracked().points[0].apart == samples::Approx(tracked / start).epsilon(1e-10));
 }
 
-TEST_CASE("differences of followed points that cancel are no error of all of them") {
+TEST_CASE("differences of tracked points that cancel are no error of all of them") {
   Points points(Relaxing{.alternates = true}, 50);
-  scarp::ErrorBudget all(points, {}, {.points_per_followed = 100, .followed = {6, 7}});
-  scarp::ErrorBudget one(points, {}, {.points_per_followed = 100, .followed = {7}});
+  scarp::ErrorBudget all(points, {}, {.points_per_tracked = 100, .tracked = {6, 7}});
+  scarp::ErrorBudget one(points, {}, {.points_per_tracked = 100, .tracked = {7}});
   for (int k = 0; k < 5; ++k) {
     points.strain(increment, all);
     points.strain(increment, one);
@@ -157,7 +156,7 @@ TEST_CASE("an elastic law has no error of its steps beyond the third order of th
   Points points(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3), 400);
   scarp::ErrorBudget budget(points, {}, {});
   for (int k = 0; k < 5; ++k) points.strain(1e-4, budget);
-  CHECK(budget.followed().points.size() == 10);
+  CHECK(budget.tracked().points.size() == 10);
   REQUIRE(!budget.samples().differences.empty());
   // Of increments of 1e-4: halves differ by the square of the strain over 16, and the sum of strains is no smaller.
   CHECK(part(budget.parts(), "doubling_largest") < 1e-9);
@@ -167,7 +166,7 @@ TEST_CASE("an elastic law has no error of its steps beyond the third order of th
 
 TEST_CASE("samples take no more work than their share") {
   Points points(Relaxing{}, 100);
-  scarp::ErrorBudget budget(points, {}, {.share = 0.01, .most_samples = 50, .points_per_followed = 1000});
+  scarp::ErrorBudget budget(points, {}, {.share = 0.01, .max_samples = 50, .points_per_tracked = 1000});
   for (int k = 0; k < 20; ++k) points.strain(increment, budget);
   double const share = part(budget.parts(), "work_of_checks");
   CHECK(share <= 0.01);
@@ -180,7 +179,7 @@ TEST_CASE("a run outside its budget says by which part, with NaN counted as outs
   points.strain(increment, budget);
   CHECK(scarp::budget_headline(budget.parts()) == "OUTSIDE ITS ERROR BUDGET: residual is 0.0001, bound 1e-05\n");
   CHECK(!scarp::BudgetPart{.value = std::nan(""), .bound = 1.0}.is_within());
-  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.followed = {50}}), "point 50");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.tracked = {50}}), "point 50");
 }
 
 TEST_CASE("a quantile is not exceeded by its share of the samples, however few they are") {
@@ -199,12 +198,12 @@ TEST_CASE("a quantile is not exceeded by its share of the samples, however few t
 
 TEST_CASE("a step has as many samples as it may, none twice, and the most strained point in every other one") {
   Points points(Relaxing{}, 50);
-  scarp::ErrorBudget budget(points, {}, {.share = 10.0, .most_samples = 5});
+  scarp::ErrorBudget budget(points, {}, {.share = 10.0, .max_samples = 5});
   points.strain(increment, budget);
   points.strain(increment, budget);
   CHECK(budget.samples().differences.size() == 10);
   Points few(Relaxing{}, 3);
-  scarp::ErrorBudget small(few, {}, {.share = 10.0, .most_samples = 5});
+  scarp::ErrorBudget small(few, {}, {.share = 10.0, .max_samples = 5});
   few.strain(increment, small);
   CHECK(small.samples().differences.size() == 3);
 }
@@ -222,11 +221,11 @@ TEST_CASE("a number that is none puts a run outside its budget for good") {
 
 TEST_CASE("sampling that cannot be done is refused") {
   Points points(Relaxing{}, 50);
-  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.most_samples = -1}), "samples of a step is -1");
-  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.points_per_followed = 0}), "points for a followed one is 0");
-  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.most_followed = -1}), "followed points is -1");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.max_samples = -1}), "samples of a step is -1");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.points_per_tracked = 0}), "points for a tracked one is 0");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.max_tracked = -1}), "tracked points is -1");
   CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.share = std::nan("")}), "share of work for samples is nan");
-  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.loose_pressure = -1.0}), "loose pressure is -1");
+  CHECK_REFUSED(scarp::ErrorBudget(points, {}, {.pressure_floor = -1.0}), "pressure floor is -1");
 }
 
 TEST_CASE("the budget is complete whatever adaptor is around a packing") {
@@ -256,5 +255,5 @@ TEST_CASE("bounds that are negative or no number are refused, by name") {
   CHECK_REFUSED(scarp::ErrorBudget(points, {.residual = -1.0}), "budget's residual is -1");
   CHECK_REFUSED(scarp::ErrorBudget(points, {.accumulated = std::nan("")}), "budget's accumulated is nan");
   CHECK_NOTHROW(scarp::ErrorBudget(points, {.mesh = std::numeric_limits<double>::infinity()}));
-  CHECK_REFUSED(scarp::companion_part("mesh", -14.0, -15.0, 25.0, std::nan(""), "place"), "bound", "is nan");
+  CHECK_REFUSED(scarp::sensitivity_part("mesh", -14.0, -15.0, 25.0, std::nan(""), "place"), "bound", "is nan");
 }

@@ -3,7 +3,7 @@
 
 #include "../../examples/cook_membrane/membrane.hpp"
 #include "../../examples/mesh_orders/manufactured.hpp"
-#include "scarp/bvp/usual_integration.hpp"
+#include "scarp/bvp/default_integration.hpp"
 #include "support/approx.hpp"
 #include "support/elements.hpp"
 #include "support/refusals.hpp"

@@ -38,7 +38,7 @@ struct Bed {
 
   template <class Law>
   Problem<Law> problem(Law const& law, scarp::Vector<2> const& force, double moment,
-                       scarp::TimeFunction const& course = {}) {
+                       scarp::TimeFunction const& amplitude = {}) {
     scarp::RectangleMesh const shape{.width = 6.0, .height = 2.0, .columns = columns, .rows = columns / 3};
     Grid grid(shape.generate());
     auto const& mesh = grid.mesh();
@@ -59,7 +59,7 @@ struct Bed {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(grid.dof_count() + 3);
     load.tail<3>() << force, moment / arm;
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(load.size()));
-    loads.add(load, course);
+    loads.add(load, amplitude);
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
     scarp::MaterialPoints<2> points(Soil::from_young_poisson(young, 0.3), sites);
@@ -69,7 +69,7 @@ struct Bed {
   }
 };
 
-scarp::LoadStepping one_step() { return {.first = 1.0, .largest_gradient = 1.0}; }
+scarp::LoadStepping one_step() { return {.first = 1.0, .max_displacement_gradient = 1.0}; }
 
 }  // namespace
 
@@ -80,8 +80,8 @@ TEST_CASE("a rigid footing on springs settles and tilts as Winkler's bed") {
   double const force = 200e3;
   double const moment = 20e3;  // inside the core: W/M = 0.1 m < B/6, so that nothing lifts
   auto problem = bed.problem(springs, {0.0, -force}, moment);
-  scarp::NoObserver nobody;
-  auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);
+  scarp::NoObserver no_observer;
+  auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
   REQUIRE(run.verdict.acceptable());
   auto const& body = problem.attached().body().body();
   // Analytic: settlement W/(k B), tilt M/(k B^3/12); second order in the tilt, 1e-7.
@@ -95,8 +95,8 @@ TEST_CASE("the part of a footing that overhangs the ground carries nothing") {
   scarp::LinearFrictional const springs{.normal_stiffness = k, .tangential_stiffness = k, .friction = 0.5};
   double const force = 200e3;
   auto problem = bed.problem(springs, {0.0, -force}, 0.0);
-  scarp::NoObserver nobody;
-  REQUIRE(one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody).verdict.acceptable());
+  scarp::NoObserver no_observer;
+  REQUIRE(one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer).verdict.acceptable());
   // Analytic: Winkler's bed over the 6 m of the block.
   CHECK(2.0 - problem.attached().body().body().reference().y() == samples::Approx(force / (k * 6.0)).epsilon(1e-6));
 }
@@ -108,8 +108,8 @@ TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle
   double const force = 200e3;
   double const eccentricity = 0.5;
   auto problem = bed.problem(springs, {0.0, -force}, force * eccentricity);
-  scarp::NoObserver nobody;
-  auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);
+  scarp::NoObserver no_observer;
+  auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
   REQUIRE(run.verdict.acceptable());
   CHECK(run.refused == 0);
   double sum = 0.0;
@@ -145,11 +145,11 @@ TEST_CASE("a block slides when the tangential load passes friction, not before")
   scarp::SerialExecutor executor;
   Problem<scarp::LinearFrictional> sliding(grid, problem.points(), problem.constraints(), loads, executor,
                                            problem.attached());
-  scarp::NoObserver nobody;
-  scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-7, .largest_gradient = 1.0};
-  Newton const newton{.tolerance = 1e-9, .most_iterations = 12};
-  REQUIRE(stepping.settle(newton, sliding, 0.0, nobody).verdict.acceptable());
-  auto const run = stepping.run(newton, sliding, 0.0, 1.0, nobody);
+  scarp::NoObserver no_observer;
+  scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-7, .max_displacement_gradient = 1.0};
+  Newton const newton{.tolerance = 1e-9, .max_iterations = 12};
+  REQUIRE(stepping.settle(newton, sliding, 0.0, no_observer).verdict.acceptable());
+  auto const run = stepping.run(newton, sliding, 0.0, 1.0, no_observer);
   // Analytic: tan(theta) = mu.
   CHECK_FALSE(run.verdict.acceptable());
   CHECK(run.load <= mu * (1.0 + 1e-6));
@@ -211,11 +211,11 @@ TEST_CASE("a bonded interface holds tension up to its strength and has none once
   Bed bed{.rigid_ground = true};
   double const strength = 30e3;
   Tied const bonded{{.normal_stiffness = 1e9, .tangential_stiffness = 1e9, .friction = 0.5}, strength, infinity};
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   for (double const share : {0.99, 1.01}) {
     auto problem = bed.problem(bonded, {0.0, share * strength * bed.width}, 0.0);
-    auto const run = scarp::LoadStepping{.first = 0.25, .smallest = 1e-3, .largest_gradient = 1.0}.run(
-        Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);
+    auto const run = scarp::LoadStepping{.first = 0.25, .smallest = 1e-3, .max_displacement_gradient = 1.0}.run(
+        Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
     CHECK(run.verdict.acceptable() == (share < 1.0));
     if (share > 1.0) CHECK(run.load == samples::Approx(1.0 / share).epsilon(3e-3));
   }
@@ -225,10 +225,10 @@ TEST_CASE("a stiff tied interface presses an elastic bed as a rough rigid punch:
   Bed bed{.columns = 24};
   Tied const tied{{.normal_stiffness = 1e10, .tangential_stiffness = 1e10, .friction = 0.0}, infinity, infinity};
   auto problem = bed.problem(tied, {0.0, -1e3}, 50.0);
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   // Places of 3 m are rounded to 4e-16 m, times 1e10 Pa/m and 0.1 m2 at every point: about 1e-8 of the load.
   Newton const newton{.tolerance = 1e-7};
-  auto const run = one_step().run(newton, problem, 0.0, 1.0, nobody);
+  auto const run = one_step().run(newton, problem, 0.0, 1.0, no_observer);
   REQUIRE(run.verdict.acceptable());
   CHECK(run.iterations <= 5);
   auto const& body = problem.attached().body().body();
@@ -284,8 +284,8 @@ TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whe
     scarp::SerialExecutor executor;
     scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Contact> problem(
         grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, loads, executor, interface);
-    scarp::NoObserver nobody;
-    auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, nobody);
+    scarp::NoObserver no_observer;
+    auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
     REQUIRE(run.verdict.acceptable());
     // Analytic: vertical stress -p everywhere; updated-Lagrangian width is kept by the sides. Round-off of the contact's
     // stiffness over the soil's, 50, times the residual.

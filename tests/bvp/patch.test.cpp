@@ -52,7 +52,7 @@ void check_patch(double size, int iterations) {
   std::vector<scarp::Gradient<dim>> gradients(static_cast<std::size_t>(disc.point_count()));
   CHECK_FALSE(disc.gradients(increment, gradients).has_value());
   typename Provider::State trial;
-  auto const uniform = soil.respond({}, Motion::template seen<dim>(gradient), trial).stress;
+  auto const uniform = soil.respond({}, Motion::template material_gradient<dim>(gradient), trial).stress;
   for (auto const& stress : samples::answers(soil, disc, start, increment).stresses) {
     CHECK((stress - uniform).norm() < 1e-12 * 7e6);  // the answer to the affine gradient, relative to the modulus
   }

@@ -29,15 +29,15 @@ scarp::RigidFooting footing(scarp::Vector<2> const& left, scarp::Vector<2> const
 
 TEST_CASE("prescriptions that do not exist or contradict each other are refused") {
   scarp::Constraints constraints(scarp::RectangleMesh{}.generate(), 3);
-  CHECK_REFUSED(constraints.move_extra(3, 0.0), "degree of freedom 3 beside the mesh", "there are 3");
-  CHECK_REFUSED(constraints.move_extra(-1, 0.0), "degree of freedom -1 beside the mesh");
+  CHECK_REFUSED(constraints.move_extra(3, 0.0), "extra degree of freedom 3", "there are 3");
+  CHECK_REFUSED(constraints.move_extra(-1, 0.0), "extra degree of freedom -1");
   CHECK_REFUSED(constraints.move_extra(0, not_a_number), "rate of a prescribed displacement", "nan");
   constraints.move_extra(1, 2.0, scarp::TimeFunction::ramp(0.0, 1.0));
-  CHECK_REFUSED(constraints.move_extra(1, 2.0, scarp::TimeFunction::ramp(0.0, 2.0)), "degree of freedom 1 beside",
-                "different courses", "2");
+  CHECK_REFUSED(constraints.move_extra(1, 2.0, scarp::TimeFunction::ramp(0.0, 2.0)), "extra degree of freedom 1",
+                "different amplitudes", "2");
 }
 
-TEST_CASE("courses without knots or with knots out of order are refused") {
+TEST_CASE("amplitudes without knots or with knots out of order are refused") {
   using Knots = std::vector<std::pair<double, double>>;
   CHECK_REFUSED(scarp::TimeFunction(Knots{}), "no knots");
   CHECK_REFUSED(scarp::TimeFunction(Knots{{0.0, 1.0}, {0.0, 2.0}}), "knot 1 is at the load factor 0", "before at 0");

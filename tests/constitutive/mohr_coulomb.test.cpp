@@ -222,7 +222,7 @@ TEST_CASE("the consistent tangent is the derivative of the answer while strength
   scarp::SofteningStrength const strength{
       .peak = {.cohesion = 5.0, .friction = degrees(35.0), .dilation = degrees(10.0)},
       .residual = {.cohesion = 1.0, .friction = degrees(28.0), .dilation = 0.0},
-      .strain_to_residual = 0.08};
+      .softening_strain = 0.08};
   auto const plane = tangent_error<2>(strength, 2000);
   auto const space = tangent_error<3>(strength, 2000);
   MESSAGE("plane " << plane.worst << " in " << plane.compared << ", space " << space.worst << " in " << space.compared);
@@ -264,7 +264,7 @@ TEST_CASE("triaxial compression fails at the stress ratio of Mohr and Coulomb an
 
 TEST_CASE("strength that softens reaches its residual value and stays there") {
   scarp::SofteningStrength const strength{
-      .peak = {.cohesion = 10e3}, .residual = {.cohesion = 4e3}, .strain_to_residual = 0.02};
+      .peak = {.cohesion = 10e3}, .residual = {.cohesion = 4e3}, .softening_strain = 0.02};
   scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
       scarp::IsotropicElasticity::from_young_poisson(10e6, 0.3), strength, {}};
   auto state = clay.initial_state({});
@@ -284,7 +284,7 @@ TEST_CASE("strength that softens reaches its residual value and stays there") {
 
 TEST_CASE("softening too steep for the elastic unloading of a point comes to the residual strength at once") {
   scarp::SofteningStrength const strength{
-      .peak = {.cohesion = 10e3}, .residual = {.cohesion = 1e3}, .strain_to_residual = 1e-5};
+      .peak = {.cohesion = 10e3}, .residual = {.cohesion = 1e3}, .softening_strain = 1e-5};
   scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
       scarp::IsotropicElasticity::from_young_poisson(10e6, 0.3), strength, {}};
   auto const state = clay.initial_state({});
@@ -300,7 +300,7 @@ TEST_CASE("an increment to which no strength belongs is refused with a reason") 
   // Tension of 1 kPa is cut off until 1e-4 of plastic shear, then none. Stretched by 2e-3 the ground yields by 2e-3 below the
   // cut-off, so not by so little; without a cut-off its stresses of 26.9 and 11.5 kPa are elastic for a cohesion of 10 kPa.
   scarp::SofteningStrength const strength{
-      .peak = {.cohesion = 10e3, .tension = 1e3}, .residual = {.cohesion = 10e3}, .strain_to_residual = 1e-4};
+      .peak = {.cohesion = 10e3, .tension = 1e3}, .residual = {.cohesion = 10e3}, .softening_strain = 1e-4};
   scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
       scarp::IsotropicElasticity::from_young_poisson(10e6, 0.3), strength, {}};
   auto const state = clay.initial_state({});
@@ -385,7 +385,7 @@ TEST_CASE("a strength that cannot be is refused") {
 TEST_CASE("friction may soften to none: a cut-off holds on the way and no strength is NaN") {
   scarp::SofteningStrength const strength{.peak = {.cohesion = 20e3, .friction = 0.35},
                                           .residual = {.cohesion = 10e3, .friction = 0.0},
-                                          .strain_to_residual = 0.1};
+                                          .softening_strain = 0.1};
   for (double const shear : {0.0, 1e-6, 0.05, 0.0999, 0.1, 1.0}) {
     Strength const now = strength.at(shear);
     CAPTURE(shear);
@@ -421,6 +421,6 @@ TEST_CASE("a residual strength that cannot be is refused as the peak is") {
   soil.strength.residual.dilation = 0.5;
   CHECK_REFUSED(soil.initial_state({}), "dilation is 0.5");
   soil.strength = sound;
-  soil.strength.strain_to_residual = 0.0;
+  soil.strength.softening_strain = 0.0;
   CHECK_REFUSED(soil.initial_state({}), "from peak to residual strength is 0");
 }

@@ -61,7 +61,7 @@ struct Loosening {
   }
 };
 
-static_assert(scarp::PlansWork<Loosening>);
+static_assert(scarp::HasPlan<Loosening>);
 
 /// Makes a provider another one for each site, whatever is around it.
 template <class Provider>

@@ -64,9 +64,9 @@ TEST_CASE("settings of a packing as material that cannot be are refused") {
           {[](Rve& rve) { rve.inertial_number = -1.0; }, "inertial number is -1"},
           {[](Rve& rve) { rve.unbalanced_tolerance = 0.0; }, "unbalanced tolerance is 0"},
           {[](Rve& rve) { rve.time_step_share = inf; }, "share of the critical time step is inf"},
-          {[](Rve& rve) { rve.loose_pressure = -1.0; }, "loose pressure is -1"},
-          {[](Rve& rve) { rve.least_steps = 0; }, "least number of DEM steps of a response is 0"},
-          {[](Rve& rve) { rve.most_steps = 19; }, "most DEM steps of a response is 19"},
+          {[](Rve& rve) { rve.pressure_floor = -1.0; }, "pressure floor is -1"},
+          {[](Rve& rve) { rve.min_steps = 0; }, "least number of DEM steps of a response is 0"},
+          {[](Rve& rve) { rve.max_steps = 19; }, "most DEM steps of a response is 19"},
           {[](Rve& rve) { rve.law.friction = -0.1; }, "friction of the contact law is -0.1"},
           {[](Rve& rve) { rve.law.normal_stiffness = 0.0; }, "normal stiffness of the contact law is 0"},
           {[](Rve& rve) { rve.source.packing = {}; }, "a packing of zero grains"},
@@ -81,7 +81,7 @@ TEST_CASE("settings of a packing's tangent that cannot be are refused") {
           {[](Trial& rve) { rve.tangent_policy.strain = not_a_number; }, "strain of a packing's modes is nan"},
           {[](Trial& rve) { rve.tangent_policy.strain_steps = 0; }, "number of steps that strain a packing is 0"},
           {[](Trial& rve) { rve.tangent_policy.unbalanced_tolerance = 0.0; }, "of a settled packing is 0"},
-          {[](Trial& rve) { rve.tangent_policy.most_steps = 0; }, "most steps of a settling is 0"},
+          {[](Trial& rve) { rve.tangent_policy.max_steps = 0; }, "most steps of a settling is 0"},
           {[](Trial& rve) { rve.tangent_policy.check_every = 0; }, "between looks at the balance is 0"},
       });
   check_table<Condensed>(
@@ -113,16 +113,16 @@ TEST_CASE("parameters of elastic and plastic ground that cannot be are refused")
                      {[](Elastic& soil) { soil.initial.k0 = -0.5; }, "K0, is -0.5"},
                  });
   CHECK_REFUSED(elastic().initial_state({.index = 7, .depth = not_a_number}), "initial stress of point 7");
-  check_table<Soil>(soil(),
-                    {
-                        {[](Soil& soil) { soil.elasticity.shear_modulus = not_a_number; }, "shear modulus is nan"},
-                        {[](Soil& soil) { soil.strength.peak.cohesion = not_a_number; }, "cohesion is nan"},
-                        {[](Soil& soil) { soil.strength.residual.friction = 30.0; }, "friction angle is 30"},
-                        {[](Soil& soil) { soil.strength.peak.dilation = 0.6; }, "dilation is 0.6"},
-                        {[](Soil& soil) { soil.strength.strain_to_residual = not_a_number; },
-                         "from peak to residual strength is nan"},
-                        {[](Soil& soil) { soil.initial.k0 = not_a_number; }, "K0, is nan"},
-                    });
+  check_table<Soil>(
+      soil(),
+      {
+          {[](Soil& soil) { soil.elasticity.shear_modulus = not_a_number; }, "shear modulus is nan"},
+          {[](Soil& soil) { soil.strength.peak.cohesion = not_a_number; }, "cohesion is nan"},
+          {[](Soil& soil) { soil.strength.residual.friction = 30.0; }, "friction angle is 30"},
+          {[](Soil& soil) { soil.strength.peak.dilation = 0.6; }, "dilation is 0.6"},
+          {[](Soil& soil) { soil.strength.softening_strain = not_a_number; }, "from peak to residual strength is nan"},
+          {[](Soil& soil) { soil.initial.k0 = not_a_number; }, "K0, is nan"},
+      });
 }
 
 TEST_CASE("settings of adaptors that cannot be are refused") {
@@ -151,8 +151,8 @@ TEST_CASE("means over neighbours that cannot be are refused") {
   };
   CHECK_NOTHROW(means({.length = 2.0}));
   CHECK_REFUSED(means({.length = not_a_number}), "length that increments are averaged over is nan");
-  CHECK_REFUSED(means({.stiffness = -1.0}), "stiffness against unseen strain is -1");
-  CHECK_REFUSED(means({.fading = 0.0}), "strain after which unseen stress has faded is 0");
+  CHECK_REFUSED(means({.stiffness = -1.0}), "stiffness against fluctuation strain is -1");
+  CHECK_REFUSED(means({.fading = 0.0}), "strain after which fluctuation stress has faded is 0");
   std::vector<scarp::Neighbourhood> const one(1);
   CHECK_REFUSED(scarp::point_means<2>(sites, volumes, one, initial), "2 volumes and 1 lengths are given for 2 points");
   CHECK_REFUSED(scarp::point_means<2>(sites, volumes, std::vector<scarp::Neighbourhood>(2), {}),
@@ -164,8 +164,8 @@ TEST_CASE("means over neighbours that cannot be are refused") {
   };
   CHECK_NOTHROW(make({.length = 2.0}, volumes));
   CHECK_REFUSED(make({.length = not_a_number}, volumes), "length that increments are averaged over is nan");
-  CHECK_REFUSED(make({.stiffness = -1.0}, volumes), "stiffness against unseen strain is -1");
-  CHECK_REFUSED(make({.fading = 0.0}, volumes), "strain after which unseen stress has faded is 0");
+  CHECK_REFUSED(make({.stiffness = -1.0}, volumes), "stiffness against fluctuation strain is -1");
+  CHECK_REFUSED(make({.fading = 0.0}, volumes), "strain after which fluctuation stress has faded is 0");
   CHECK_REFUSED(make({}, std::vector{1.0}), "1 volumes and 2 lengths are given for 2 points");
   CHECK_REFUSED(make({.length = 2.0}, {}), "0 volumes and 2 lengths are given for 2 points");
 }

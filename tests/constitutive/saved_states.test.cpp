@@ -131,7 +131,7 @@ void points_come_back(Material const& material) {
   for (int point = 0; point < points.size(); ++point) {
     sent.unpack(point, points.pack(point));
     CHECK(sent.committed_stress(point) == points.committed_stress(point));
-    auto const alone = sent.alone(point, points.pack(point));
+    auto const alone = sent.extract(point, points.pack(point));
     CHECK(alone.committed_stress(0) == points.committed_stress(point));
     CHECK(alone.committed_tangent(0) == points.committed_tangent(point));
     CHECK(alone.quantities(0) == points.quantities(point));
@@ -143,7 +143,7 @@ void points_come_back(Material const& material) {
   other.commit();
   read(bits_of(elsewhere), other);
   CHECK(answer(other, 0.5) == answer(points, 0.5));
-  points.forget(2);
+  points.release(2);
   read(bits_of(elsewhere), points);
   CHECK(bits_of(points) == bits_of(elsewhere));
 }
@@ -160,7 +160,7 @@ PackingType lattice() {
 template <class PackingType>
 auto rve(typename PackingType::Law const& law, PackingType packing) {
   return scarp::DemRve<PackingType, scarp::SamePacking<PackingType>>{
-      .law = law, .source = {std::move(packing)}, .least_steps = 5, .most_steps = 20};
+      .law = law, .source = {std::move(packing)}, .min_steps = 5, .max_steps = 20};
 }
 
 auto discs() { return rve(samples::study_law(), lattice<Discs>()); }
@@ -240,7 +240,7 @@ TEST_CASE("what is saved comes back: points that see means of their neighbours")
   read(bits_of(points), loaded);
   CHECK(bits_of(loaded) == bits_of(points));
   CHECK(answer(loaded, 0.5) == answer(points, 0.5));
-  // Stresses against unseen strain belong to the means that they came from.
+  // Stresses against fluctuation strain belong to the means that they came from.
   for (auto const& other : {scarp::Neighbourhood{.length = 0.9}, scarp::Neighbourhood{.length = 1.2, .stiffness = 0.5},
                             scarp::Neighbourhood{.length = 1.2, .fading = 2e-3}}) {
     auto elsewhere = made(other);

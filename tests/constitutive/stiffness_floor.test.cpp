@@ -67,9 +67,10 @@ Problem column(double share, scarp::SerialExecutor& executor) {
 }
 
 scarp::RunReport load(Problem& problem, double to) {
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   scarp::QuasiNewton<scarp::ConsistentTangent> const solver{.tolerance = 1e-9};
-  return scarp::LoadStepping{.first = 0.5 * to, .largest_gradient = 1.0}.run(solver, problem, 0.0, to, nobody);
+  return scarp::LoadStepping{.first = 0.5 * to, .max_displacement_gradient = 1.0}.run(solver, problem, 0.0, to,
+                                                                                      no_observer);
 }
 
 }  // namespace

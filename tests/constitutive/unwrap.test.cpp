@@ -109,7 +109,7 @@ TEST_CASE("points tell through every adaptor around every adaptor what the provi
       });
 
       auto trial = before;
-      auto const doubled = points.doubled(1);
+      auto const doubled = points.doubled_response(1);
       auto const expected = scarp::answer_with_double_work(provider, before, increment, plan, trial);
       CHECK(doubled.work == 2 * points.work(1));
       CHECK(doubled.work == expected.work);
@@ -118,7 +118,7 @@ TEST_CASE("points tell through every adaptor around every adaptor what the provi
       CHECK(doubled.response.stress != points.committed_stress(1));
 
       bool const begins = followed.empty();
-      auto const answer = points.followed(1, followed);
+      auto const answer = points.doubled_path(1, followed);
       if (begins) {
         CHECK(answer.work == 0);
         CHECK(answer.response.stress == points.committed_stress(1));

@@ -16,7 +16,7 @@ namespace {
 using Elastic = scarp::LinearElastic<2>;
 using Varied = scarp::VariedParameters<Elastic>;
 
-static_assert(scarp::ConstitutiveProvider<Varied> && !scarp::PlansWork<Varied>);
+static_assert(scarp::ConstitutiveProvider<Varied> && !scarp::HasPlan<Varied>);
 
 Varied random_soil() {
   scarp::CorrelatedField<2> const field({.lengths = {20.0, 2.0}, .seed = 7});

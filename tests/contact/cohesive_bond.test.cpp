@@ -43,7 +43,7 @@ Memory bonded() {
 
 TEST_CASE("a bond pulls up to its tensile strength and then breaks for good") {
   Memory memory = bonded();
-  CHECK(law.reach() == samples::Approx(0.1).epsilon(1e-15));  // analytic: T / k_n; one rounding
+  CHECK(law.interaction_range() == samples::Approx(0.1).epsilon(1e-15));  // analytic: T / k_n; one rounding
   CHECK(law.respond(ContactKinematics<2, double>{-0.09, 0.0}, memory).normal == samples::Approx(-9.0).epsilon(1e-15));
   CHECK(Bond::is_intact(memory));
   CHECK(law.respond(ContactKinematics<2, double>{-0.11, 0.0}, memory).normal == 0.0);

@@ -40,7 +40,7 @@ struct RandomApproaches {
 
 template <class T>
 ContactKinematics<2, T> in_plane(ContactKinematics<3, double> const& a) {
-  auto const number = [](double value) { return scarp::constant<T>(value); };
+  auto const number = [](double value) { return scarp::broadcast<T>(value); };
   return {.overlap = number(a.overlap),
           .slip = number(a.slip[0]),
           .roll = number(a.roll[2]),

@@ -23,7 +23,7 @@ static_assert(scarp::RespondsToApproach<LawWithoutStiffness> && !scarp::ContactL
               "a law that cannot tell its stiffness must be refused");
 
 struct LawWithTooManyNumbers : Frictionless {
-  static constexpr scarp::ContactInputs needs{.scalars = scarp::most_contact_scalars + 1};
+  static constexpr scarp::ContactInputs needs{.scalars = scarp::max_contact_scalars + 1};
 };
 static_assert(!scarp::NamesContactNeeds<LawWithTooManyNumbers>, "no contact has room for that many numbers");
 

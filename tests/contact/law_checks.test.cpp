@@ -28,15 +28,15 @@ struct Sticky {
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>&) const {
-    using scarp::constant;
-    T const force = constant<T>(normal_stiffness) * approach.overlap;
-    return {.normal = scarp::lanes::select(approach.overlap > constant<T>(-gap), force, constant<T>(0))};
+    using scarp::broadcast;
+    T const force = broadcast<T>(normal_stiffness) * approach.overlap;
+    return {.normal = scarp::lanes::select(approach.overlap > broadcast<T>(-gap), force, broadcast<T>(0))};
   }
   scarp::ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
   double raech() const { return gap; }
 };
 struct StickySpeltRight : Sticky {
-  double reach() const { return gap; }
+  double interaction_range() const { return gap; }
 };
 
 /// Has a dashpot; the member of the misspelt name is to tell how strong it is.
@@ -47,9 +47,9 @@ struct Damped : scarp::Frictionless {
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>&) const {
-    T const rate = approach.closing / (approach.time_step + scarp::constant<T>(1e-12));
-    T const closed = scarp::lanes::at_least(approach.overlap, scarp::constant<T>(0));
-    return {.normal = scarp::constant<T>(normal_stiffness) * closed + scarp::constant<T>(damping) * rate};
+    T const rate = approach.closing / (approach.time_step + scarp::broadcast<T>(1e-12));
+    T const closed = scarp::lanes::at_least(approach.overlap, scarp::broadcast<T>(0));
+    return {.normal = scarp::broadcast<T>(normal_stiffness) * closed + scarp::broadcast<T>(damping) * rate};
   }
   double dampingratio() const { return damping; }
 };
@@ -57,7 +57,8 @@ struct DampedSpeltRight : Damped {
   double damping_ratio() const { return damping; }
 };
 
-static_assert(scarp::ContactLaw<Sticky> && !scarp::TellsReach<Sticky> && scarp::TellsReach<StickySpeltRight>);
+static_assert(scarp::ContactLaw<Sticky> && !scarp::HasInteractionRange<Sticky> &&
+              scarp::HasInteractionRange<StickySpeltRight>);
 
 struct RubsWithoutShear : scarp::LinearFrictional {
   static constexpr scarp::ContactInputs needs{};
@@ -85,7 +86,8 @@ TEST_CASE("a law that tells a stiffness without the need for its motion is refus
 }
 
 TEST_CASE("a law that pulls across a gap must tell how far") {
-  CHECK_THROWS_WITH_AS(scarp::require_consistent(Sticky{}, radius), doctest::Contains("reach()"), scarp::InputError);
+  CHECK_THROWS_WITH_AS(scarp::require_consistent(Sticky{}, radius), doctest::Contains("interaction_range()"),
+                       scarp::InputError);
   CHECK_NOTHROW(scarp::require_consistent(StickySpeltRight{}, radius));
 }
 

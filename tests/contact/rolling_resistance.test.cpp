@@ -29,7 +29,7 @@ ContactKinematics<2, double> rolled(double overlap, double roll) {
 }
 
 static_assert(RollingResistance<LinearFrictional>::needs.moment && RollingResistance<LinearFrictional>::needs.shear);
-static_assert(scarp::TellsStoredEnergy<RollingResistance<Frictionless>>);
+static_assert(scarp::HasStoredEnergy<RollingResistance<Frictionless>>);
 static_assert(!scarp::Frictional<RollingResistance<Frictionless>>, "the wrapper has no friction that its law lacks");
 
 struct ForgetsEnergy {
@@ -41,7 +41,7 @@ struct ForgetsEnergy {
   scarp::ContactStiffness stiffness(double, double) const { return {}; }
 };
 static_assert(scarp::ContactLaw<RollingResistance<ForgetsEnergy>>);
-static_assert(!scarp::TellsStoredEnergy<RollingResistance<ForgetsEnergy>>, "nor an energy that its law does not tell");
+static_assert(!scarp::HasStoredEnergy<RollingResistance<ForgetsEnergy>>, "nor an energy that its law does not tell");
 
 template <class Law>
 concept CanResistRolling = requires {
@@ -85,7 +85,8 @@ TEST_CASE("a bond that is pulled resists rolling by the size of its pull") {
   RollingResistance<Bond> const rolling_bond{.law = {.law = law.law, .tensile_strength = 30.0, .shear_strength = 1.0},
                                              .rolling_stiffness = 8.0,
                                              .rolling_friction = 0.1};
-  CHECK(rolling_bond.reach() == samples::Approx(0.3).epsilon(1e-15));  // analytic: T / k_n, told by the bond inside
+  CHECK(rolling_bond.interaction_range() ==
+        samples::Approx(0.3).epsilon(1e-15));  // analytic: T / k_n, told by the bond inside
   ContactMemory<2, double> memory;
   Bond::bond(memory);
   auto const force = rolling_bond.respond(rolled(-0.2, 1.0), memory);

@@ -23,12 +23,12 @@ Bond cement(double factor) {
 template <class PackingType>
 double unconfined_peak(PackingType packing, Bond const& law, double rate) {
   scarp::TimeStepper<PackingType> stepper;
-  REQUIRE(scarp::Servo{.most_steps = 200'000}
+  REQUIRE(scarp::Servo{.max_steps = 200'000}
               .reach(stepper, packing, law, scarp::Loading<2>::stress(scarp::VoigtStress<2>::Zero()))
               .acceptable());
   auto loading = scarp::drained_compression<2>(std::abs(rate), 0.0);
   if (rate > 0.0) loading = loading.reversed();
-  scarp::Drive<PackingType> drive(packing, law, loading);
+  scarp::CellDriver<PackingType> drive(packing, law, loading);
   double peak = 0.0;
   double side = 0.0;
   for (int step = 0; step < 8'000; ++step) {
@@ -88,6 +88,6 @@ TEST_CASE("grains that meet without any overlap are bonded where gaps are, else 
 TEST_CASE("grains without bonds are not asked for tension, nor for compression without a side pressure") {
   auto packing = samples::consolidated<samples::Discs>(80).packing;
   scarp::TimeStepper<samples::Discs> stepper;
-  scarp::Drive<samples::Discs> drive(packing, samples::study_law(), scarp::drained_compression<2>(1e-6, 0.0));
+  scarp::CellDriver<samples::Discs> drive(packing, samples::study_law(), scarp::drained_compression<2>(1e-6, 0.0));
   CHECK(drive.step(stepper) == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::unreachable});
 }

@@ -23,7 +23,7 @@ TEST_CASE("a drive looks before its first step and leaves a consolidated packing
   auto packing = samples::consolidated<Ellipses>(80).packing;
   scarp::TimeStepper<Ellipses> stepper;
   auto const loading = Loading<2>::stress(scarp::VoigtStress<2>(-samples::pressure, -samples::pressure, 0.0));
-  scarp::Drive<Ellipses> drive(packing, samples::study_law(), loading);
+  scarp::CellDriver<Ellipses> drive(packing, samples::study_law(), loading);
   REQUIRE(drive.step(stepper).acceptable());
   // The packing meets its target to 2e-4, so the answer is that share of pressure over modulus and response steps.
   double const modulus = scarp::spring_modulus(packing, samples::study_law());
@@ -36,9 +36,9 @@ TEST_CASE("a path towards zero, tension or not-a-number ends as unreachable with
   auto const before = packing;
   scarp::TimeStepper<Ellipses> stepper;
   for (double const pressure : {0.0, -1e5, std::numeric_limits<double>::quiet_NaN()}) {
-    scarp::Drive<Ellipses> lateral(packing, samples::study_law(), scarp::drained_compression<2>(1e-6, pressure));
+    scarp::CellDriver<Ellipses> lateral(packing, samples::study_law(), scarp::drained_compression<2>(1e-6, pressure));
     CHECK(lateral.step(stepper) == Verdict{Status::not_converged, Reason::unreachable});
-    scarp::Drive<Ellipses> mean(packing, samples::study_law(), scarp::constant_mean_stress<2>(1e-6, pressure));
+    scarp::CellDriver<Ellipses> mean(packing, samples::study_law(), scarp::constant_mean_stress<2>(1e-6, pressure));
     CHECK(mean.step(stepper) == Verdict{Status::not_converged, Reason::unreachable});
   }
   CHECK(packing == before);
@@ -49,7 +49,7 @@ TEST_CASE("held stresses stay within one percent along a path") {
   auto const law = samples::study_law();
   auto const worst_miss = [&](Loading<2> const& loading) {
     auto packing = samples::consolidated<Ellipses>(400).packing;
-    scarp::Drive<Ellipses> drive(packing, law, loading);
+    scarp::CellDriver<Ellipses> drive(packing, law, loading);
     double worst = 0.0;
     for (int step = 0; step < 2'000; ++step) {
       REQUIRE(drive.step(stepper).acceptable());
@@ -89,7 +89,7 @@ TEST_CASE("a path in halved steps changes the stress less the smaller its steps 
     auto packing = samples::consolidated<Ellipses>(80).packing;
     scarp::TimeStepper<Ellipses> stepper;
     scarp::HalvedPath<Ellipses> again(packing);
-    scarp::Drive<Ellipses> drive(packing, law, scarp::drained_compression<2>(strain_per_step, samples::pressure));
+    scarp::CellDriver<Ellipses> drive(packing, law, scarp::drained_compression<2>(strain_per_step, samples::pressure));
     for (double strain = 0.0; strain < 1e-3; strain += strain_per_step) {
       REQUIRE(drive.step(stepper).acceptable());
       again.add(drive.strain_step(), drive.seen().stress);

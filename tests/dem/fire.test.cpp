@@ -176,7 +176,7 @@ TEST_CASE("packings in turn on one stepper have the bits that each has on its ow
 TEST_CASE_TEMPLATE("a packing as material answers as with local damping, with the same bits each time", PackingType,
                    Discs, Ellipses) {
   using Source = scarp::SamePacking<PackingType>;
-  using Relaxing = scarp::DemRve<PackingType, Source, scarp::ElasticContactTangent, Fire>;
+  using Relaxing = scarp::DemRve<PackingType, Source, scarp::AffineTangent, Fire>;
   static_assert(scarp::ConstitutiveProvider<Relaxing>);
   Source const source{samples::consolidated<PackingType>(200).packing};
   Relaxing const relaxing{.law = samples::study_law(), .source = source};

@@ -51,7 +51,7 @@ std::vector<Meeting> all_meetings(PackingType const& packing, double skin) {
           double const distance = std::hypot(branch[0], branch[1]);
           if (distance > 2.0 * packing.population->largest_radius() + skin) continue;
           for (std::size_t k = 0; k < parts * parts; ++k) {
-            auto const touch = scarp::settled_touch<typename PackingType::Shape>(
+            auto const touch = scarp::converged_contact<typename PackingType::Shape>(
                 scarp::row_pose(packing, i * parts + k / parts), scarp::row_pose(packing, j * parts + k % parts),
                 branch, {branch[0] / distance, branch[1] / distance});
             if (-touch.overlap <= skin) add_meeting(meetings, i, j, -touch.overlap);
@@ -138,7 +138,8 @@ TEST_CASE_TEMPLATE(
   CHECK(longer.first.size() > listed.first.size());
   // The reach of 0.1 radii is as another skin of that width.
   auto wider = with_law<scarp::LinearFrictional>(grains);
-  REQUIRE(scarp::rebuild_pairs(wider, 0.1 * grains.population->largest_radius() + pulled.reach()).acceptable());
+  REQUIRE(
+      scarp::rebuild_pairs(wider, 0.1 * grains.population->largest_radius() + pulled.interaction_range()).acceptable());
   CHECK(longer == std::pair{wider.pairs.first, wider.pairs.second});
 }
 

@@ -44,7 +44,7 @@ TEST_CASE_TEMPLATE("dashpots, which resist the cell's strain too, do not keep th
   for (double const restitution : {0.9, 0.5}) {
     Law const law = Law::of(7e9, 0.2, 0.55, {.restitution = restitution});
     scarp::IsotropicPreparation preparation{.pressure = samples::pressure};
-    preparation.consolidation.most_steps = preparation.relaxation.most_steps = 40'000;
+    preparation.consolidation.max_steps = preparation.relaxation.max_steps = 40'000;
     auto const prepared = preparation.prepare(samples::loose_cloud<Grains>(60, 3), law);
     CHECK(prepared.verdict == Verdict{});
   }
@@ -67,7 +67,7 @@ TEST_CASE("a target that no packing can carry ends as unreachable without any wo
 TEST_CASE("a target beyond the strength ends within the allowed steps") {
   auto packing = samples::consolidated<Ellipses>(80).packing;
   scarp::TimeStepper<Ellipses> stepper;
-  scarp::Servo const servo{.most_steps = 3000};
+  scarp::Servo const servo{.max_steps = 3000};
   // A stress ratio of 20 would take a friction angle of 65 degrees.
   auto const loading = Loading<2>::stress(VoigtStress<2>(-2e4, -4e5, 0.0));
   auto const verdict = servo.reach(stepper, packing, samples::study_law(), loading);

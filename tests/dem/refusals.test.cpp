@@ -51,7 +51,7 @@ std::function<void()> reach_with(Change change) {
   return [change] {
     auto packing = lattice();
     scarp::TimeStepper<Discs> stepper;
-    scarp::Servo servo{.most_steps = 20};
+    scarp::Servo servo{.max_steps = 20};
     auto loading = scarp::drained_compression<2>(1e-6, samples::pressure);
     change(servo, loading);
     static_cast<void>(servo.reach(stepper, packing, samples::study_law(), loading));
@@ -100,7 +100,7 @@ TEST_CASE("parameters of a step are refused where they are first used") {
       {"no population",
        [] {
          Discs nothing;
-         scarp::Drive<Discs> const drive(nothing, samples::study_law(), scarp::oedometer<2>(1e-6));
+         scarp::CellDriver<Discs> const drive(nothing, samples::study_law(), scarp::oedometer<2>(1e-6));
        }},
   });
 }
@@ -119,7 +119,7 @@ TEST_CASE("parameters of a servo and of its loading are refused") {
   check_refused({
       {"between checks of the servo is 0", reach_with([](auto& servo, auto&) { servo.check_every = 0; })},
       {"between checks of the servo is -20", reach_with([](auto& servo, auto&) { servo.check_every = -20; })},
-      {"step limit of the servo is 0", reach_with([](auto& servo, auto&) { servo.most_steps = 0; })},
+      {"step limit of the servo is 0", reach_with([](auto& servo, auto&) { servo.max_steps = 0; })},
       {"stress tolerance of the servo is nan",
        reach_with([](auto& servo, auto&) { servo.stress_tolerance = no_number; })},
       {"unbalanced tolerance of the servo is 0",

@@ -65,9 +65,9 @@ struct Hardening {
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>&) const {
-    T const overlap = scarp::lanes::at_least(approach.overlap, scarp::constant<T>(0));
-    return {.normal = scarp::constant<T>(normal_stiffness) * overlap *
-                      (scarp::constant<T>(1) + scarp::constant<T>(growth / 2.0) * overlap)};
+    T const overlap = scarp::lanes::at_least(approach.overlap, scarp::broadcast<T>(0));
+    return {.normal = scarp::broadcast<T>(normal_stiffness) * overlap *
+                      (scarp::broadcast<T>(1) + scarp::broadcast<T>(growth / 2.0) * overlap)};
   }
   scarp::ContactStiffness stiffness(double overlap, double) const {
     return {.normal = normal_stiffness * (1.0 + growth * overlap)};
@@ -169,15 +169,15 @@ namespace {
 
 /// A disc whose touches are found up to an overlap, and not beyond.
 struct Reluctant : scarp::Disc {
-  static constexpr bool remembers_normal = true;
+  static constexpr bool warm_starts_normal = true;
   template <class T>
   static scarp::ContactGeometry<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
                                             scarp::Point<2, T> const& branch, scarp::Point<2, T> const& normal) {
     auto touch = scarp::Disc::touch<T>(first, second, branch, normal);
-    T const none = scarp::constant<T>(0);
-    T const never = scarp::constant<T>(std::numeric_limits<double>::infinity());
-    touch.unsettled = scarp::lanes::select(touch.overlap > scarp::constant<T>(1e-3), never, none);
-    if (scarp::lanes::any_of(touch.unsettled > none)) touch.normal[0] = scarp::constant<T>(0.5);
+    T const none = scarp::broadcast<T>(0);
+    T const never = scarp::broadcast<T>(std::numeric_limits<double>::infinity());
+    touch.normal_error = scarp::lanes::select(touch.overlap > scarp::broadcast<T>(1e-3), never, none);
+    if (scarp::lanes::any_of(touch.normal_error > none)) touch.normal[0] = scarp::broadcast<T>(0.5);
     return touch;
   }
 };
@@ -216,6 +216,7 @@ TEST_CASE("a packing whose list of pairs fails stays as it was") {
   packing.position.set_row(0, {0.01, 0.02});
   packing.position.set_row(1, {0.018, 0.02});  // 2 mm deep
   auto const before = packing;
-  CHECK(scarp::rebuild_pairs(packing, 1e-3) == scarp::Verdict{scarp::Status::failed, scarp::Reason::unsettled_touch});
+  CHECK(scarp::rebuild_pairs(packing, 1e-3) ==
+        scarp::Verdict{scarp::Status::failed, scarp::Reason::unconverged_normal});
   CHECK(packing == before);
 }

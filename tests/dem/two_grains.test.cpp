@@ -5,7 +5,7 @@
 
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/shape/clump.hpp"
-#include "scarp/shape/least_overlap.hpp"
+#include "scarp/shape/minimum_translation.hpp"
 #include "support/packings.hpp"
 
 #include "support/approx.hpp"
@@ -226,8 +226,8 @@ TEST_CASE("a pair whose normal stops being that of the least overlap takes the o
     auto const pose = [&](std::size_t grain) {
       return scarp::Ellipse::pose<double>(slender, {packing.orientation(grain, 0), packing.orientation(grain, 1)});
     };
-    auto const least = scarp::least_overlap<scarp::Ellipse>(pose(0), pose(1), branch);
-    REQUIRE(least.unsettled == 0.0);
+    auto const least = scarp::minimum_translation<scarp::Ellipse>(pose(0), pose(1), branch);
+    REQUIRE(least.normal_error == 0.0);
     scarp::StepObservation<2> seen{};
     REQUIRE(stepper.step<scarp::Observe::energy>(packing, smooth, Tensor<2>::Zero(), &seen).acceptable());
     double const stored = smooth.normal_stiffness * least.overlap * least.overlap / 2.0;

@@ -118,7 +118,7 @@ def check_threads(folder):
 
 
 def check_exhaustion(folder):
-    code, said = compress(folder, "Tri3", "--iterations", 1, "--halvings", 0)
+    code, said = compress(folder, "Tri3", "--iterations", 1, "--max-halvings", 0)
     expect(code == 3 and "iterations" in said, f"one iteration: ended with {code}\n{said}")
     expect(len(read(folder / "out.csv")[1]) == 1, "the row at rest is not kept")
 

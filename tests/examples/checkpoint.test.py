@@ -27,12 +27,12 @@ SCENES = {
 }
 if os.environ.get("SCARP_SCENES") == "all":
     for soil in ("dem", "mohr_coulomb", "elastic"):
-        for structure in ("free", "sticking", "frictional"):
+        for structure in ("free", "tied", "frictional"):
             case = ["--case", "free"] if structure == "free" else ["--case", "heavy", "--footing", structure]
             SCENES[f"{soil}, {structure}"] = ["--quick", "--grains", "49", "--soil", soil, *case,
                                               "--throw-over-depth", "0.005"]
-WALL_TIMES = ("threads", "cpu_seconds", "wall_seconds", "peak_memory_bytes", "share_of_time_in_rves",
-              "share_of_time_outside_rves", "run", "seconds", "seconds_in_points", "share_outside_points")
+WALL_TIMES = ("threads", "cpu_seconds", "wall_seconds", "peak_memory_bytes", "share_of_time_in_points",
+              "share_of_time_outside_points", "run", "seconds", "seconds_in_points", "share_outside_points")
 
 
 def command(scene, *more):

@@ -73,9 +73,9 @@ def check_bad_input():
         check_refusal(program, "unknown option", "--wings", "2", "--wings")
         check_refusal(program, "zero grains", "--grains", "0", "--grains")
         check_refusal(program, "text for a number", "--grains", "many", "--grains")
-        check_refusal(program, "number with a tail", "--strain-per-step", "1e-5m", "--strain-per-step")
-        check_refusal(program, "NaN", "--strain-per-step", "nan", "--strain-per-step")
-        check_refusal(program, "infinity", "--strain-per-step", "inf", "--strain-per-step")
+        check_refusal(program, "number with a tail", "--strain-per-dem-step", "1e-5m", "--strain-per-dem-step")
+        check_refusal(program, "NaN", "--strain-per-dem-step", "nan", "--strain-per-dem-step")
+        check_refusal(program, "infinity", "--strain-per-dem-step", "inf", "--strain-per-dem-step")
         check_refusal(program, "missing value", "--preparation-friction", None, "--preparation-friction")
         check_refusal(program, "missing folder", "--output", "no/where/out", "--output")
         check_refusal(program, "file as folder", "--output", "out/notes.txt", "--output")
@@ -92,17 +92,17 @@ def check_bad_input():
     check_refusal(FAULT, "unknown soil", "--soil", "cheese", "--soil")
     check_refusal(FAULT, "unknown footing", "--footing", "flying", "--footing")
     check_refusal(FAULT, "negative bearing pressure", "--bearing-pressure", "-1", "--bearing-pressure")
-    check_refusal(FAULT, "ground that carried less", "--preload", "0.9", "--preload")
+    check_refusal(FAULT, "ground that carried less", "--overconsolidation-ratio", "0.9", "--overconsolidation-ratio")
     check_refusal(FAULT, "grains wider than long", "--grain-aspect", "1.2", "--grain-aspect")
     check_refusal(FAULT, "NaN width of grains", "--grain-aspect", "nan", "--grain-aspect")
     check_refusal(FAULT, "negative friction of grains", "--grain-friction", "-0.1", "--grain-friction")
-    check_refusal(FAULT, "a vertical friction angle", "--peak-friction", "90", "--peak-friction")
-    check_refusal(FAULT, "softening at once", "--strain-to-residual", "0", "--strain-to-residual")
+    check_refusal(FAULT, "a vertical friction angle", "--peak-friction-angle", "90", "--peak-friction-angle")
+    check_refusal(FAULT, "softening at once", "--softening-strain", "0", "--softening-strain")
     check_refusal(FAULT, "a soil without stiffness", "--young-modulus", "0", "--young-modulus")
     check_refusal(FAULT, "a negative K0", "--k0", "-0.4", "--k0")
     on_mohr_coulomb = {"--soil": "mohr_coulomb"}
-    check_refusal(FAULT, "more dilation than friction", "--peak-dilation", "35", "--peak-dilation 35", also=on_mohr_coulomb)
-    check_refusal(FAULT, "a soil that hardens", "--residual-friction", "35", "--residual-friction 35", also=on_mohr_coulomb)
+    check_refusal(FAULT, "more dilation than friction", "--peak-dilation-angle", "35", "--peak-dilation-angle 35", also=on_mohr_coulomb)
+    check_refusal(FAULT, "a soil that hardens", "--residual-friction-angle", "35", "--residual-friction-angle 35", also=on_mohr_coulomb)
     check_refusal(FAULT, "negative threads", "--threads", "-2", "--threads")
     check_refusal(FAULT, "a value for a flag", "--quick=false", None, "quick was given", without=["--quick"])
     check_refusal(FAULT, "two sizes at once", "--study", None, "--study")
@@ -170,9 +170,9 @@ def check_materials():
             expect(code == 0, f"{given}: ended with {code}\n{said}")
             return (scratch / name / "surface.csv").read_text() if code == 0 else ""
 
-        for soil, options in ((sand, {"--grain-aspect": ("0.75", "0.6"), "--grain-friction": ("0.55", "0.3"), "--preload": ("1.25", "1.3")}),
-                              (plain, {"--peak-friction": ("30.8", "35"), "--peak-dilation": ("6.6", "3"), "--residual-friction": (None, "20"),
-                                       "--strain-to-residual": ("0.15", "0.02"), "--young-modulus": ("25e6", "10e6"), "--k0": ("0.4", "0.6")})):
+        for soil, options in ((sand, {"--grain-aspect": ("0.75", "0.6"), "--grain-friction": ("0.55", "0.3"), "--overconsolidation-ratio": ("1.25", "1.3")}),
+                              (plain, {"--peak-friction-angle": ("30.8", "35"), "--peak-dilation-angle": ("6.6", "3"), "--residual-friction-angle": (None, "20"),
+                                       "--softening-strain": ("0.15", "0.02"), "--young-modulus": ("25e6", "10e6"), "--k0": ("0.4", "0.6")})):
             usual = surface(f"usual{len(options)}", soil)
             given = {option: values[0] for option, values in options.items() if values[0] is not None}
             expect(surface(f"given{len(options)}", soil, given) == usual, f"{given} are not the defaults")

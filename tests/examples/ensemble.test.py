@@ -66,7 +66,7 @@ with tempfile.TemporaryDirectory() as scratch:
     for options, named in ((("--seeds", "1"), "--seed 1"), (("--seeds", "1,1"), "twice"), (("--seeds", "1,"), "--seeds"),
                            (("--seeds", "1,x"), "--seeds"), (("--seeds", "1,2", "--seed", "3"), "--seed"),
                            (("--seeds", "1,2", "--soil", "elastic"), "without packings"),
-                           (("--seeds", "1,2", "--budget-companions"), "--budget-companions")):
+                           (("--seeds", "1,2", "--sensitivity-runs"), "--sensitivity-runs")):
         refused = run(scratch, *options, "--output", "refused")
         expect(refused.returncode not in (0, 77) and named in refused.stderr and not (scratch / "refused").exists(),
                f"{options} is refused: {refused.stderr[-300:]}")

@@ -22,7 +22,7 @@ PART = [] if os.environ.get("SCARP_THROW") == "whole" else ["--throw-over-depth"
 SOILS = {"mohr_coulomb": ([], 1e-8, 0.05), "dem": (PART, 1e-2, 0.05)}
 with tempfile.TemporaryDirectory() as scratch:
     for soil, (more, unbalanced, refused) in SOILS.items():
-        for case, bases in (("free", ["sticking"]), ("light", ["sticking", "frictional"]), ("heavy", ["sticking", "frictional"])):
+        for case, bases in (("free", ["tied"]), ("light", ["tied", "frictional"]), ("heavy", ["tied", "frictional"])):
             for base in bases:
                 title = f"{soil}, {case}, {base}"
                 began = time.monotonic()
@@ -33,13 +33,13 @@ with tempfile.TemporaryDirectory() as scratch:
                 if done.returncode != 0:
                     continue
                 told = json.loads(pathlib.Path(scratch, title.replace(", ", "_"), "summary.json").read_text())
-                tries = told["steps"] + told["refused_steps"]
-                print(f"{title}: {told['steps']} steps, {told['refused_steps']} refused, {told['iterations']} iterations, "
+                tries = told["steps"] + told["rejected_steps"]
+                print(f"{title}: {told['steps']} steps, {told['rejected_steps']} refused, {told['iterations']} iterations, "
                       f"{time.monotonic() - began:.0f} s")
-                expect(told["refused_steps"] <= refused * tries, f"{title}: {told['refused_steps']} of {tries} attempts were refused")
-                # Of every part: a sticking footing's and a frictional one's are over its own weight.
+                expect(told["rejected_steps"] <= refused * tries, f"{title}: {told['rejected_steps']} of {tries} attempts were refused")
+                # Of every part: a tied footing's and a frictional one's are over its own weight.
                 expect(told["max_accepted_residual"] <= 1e-2, f"{title}: a residual of {told['max_accepted_residual']} was accepted")
                 expect(told["vertical_stress_error"] <= 1e-2, f"{title}: vertical stress is wrong by {told['vertical_stress_error']}")
                 if case != "free":
-                    expect(told["support_error"] <= unbalanced, f"{title}: the ground carries {told['support_error']} too much or little")
+                    expect(told["force_imbalance"] <= unbalanced, f"{title}: the ground carries {told['force_imbalance']} too much or little")
 finish()

@@ -20,7 +20,7 @@ SOIL = [*FAULT, "--soil", "mohr_coulomb"]
 LONG = ["fault_rupture", "--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "1", "--frames", "100000"]
 TINY = {
     "rve_biaxial": ["rve_biaxial", "--grains", "60", "--seeds", "1", "--strain", "0.01", "--smoothing", "0.005",
-                    "--strain-per-step", "2e-5"],
+                    "--strain-per-dem-step", "2e-5"],
     "rve_lab prepare": ["rve_lab", "prepare", "--grains", "60"],
     "rve_lab shear": ["rve_lab", "shear", "--grains", "60", "--strain", "0.002", "--strain-step", "2e-5"],
     "retaining_wall": ["retaining_wall", "--soil", "mohr_coulomb", "--size", "2", "--strain", "0.02"],
@@ -144,10 +144,10 @@ def check_folders(folder):
 
 
 def check_memory(folder):
-    code, said = run(["fault_rupture", "--triangles", "60000", "--threads", "1"], folder, 3 * 1024**3)
+    code, said = run(["fault_rupture", "--elements", "60000", "--threads", "1"], folder, 3 * 1024**3)
     expect(code == 2 and re.search(r"400 grains would take about 15\.\d GB of memory \(\d\.\d GB are left by .*ulimit", said),
            f"too many triangles: ended with {code}\n{said}")
-    code, said = run(["fault_rupture", "--triangles", "1000000", "--grains", "100000"], folder)
+    code, said = run(["fault_rupture", "--elements", "1000000", "--grains", "100000"], folder)
     expect(code == 2 and "GB are left by" in said, f"far too many: ended with {code}\n{said}")
     expect(not list(folder.iterdir()), "a run that would take too much memory leaves files")
     # Enough to start, by two megabytes: a packing of this size needs more than five.
@@ -164,7 +164,7 @@ def check_values(folder):
         refused(f"{title}, a negative seed", [*TINY[title], "--seed=-1"], folder, "--seed")
     refused("a probe beside the ground", [*SOIL, "--probe-a-x", "1000"], folder, "probe A", "1000")
     refused("a probe above the ground", [*SOIL, "--probe-b-y", "26"], folder, "probe B", "26")
-    refused("two sizes", [*SOIL, "--triangles", "500"], folder, "excludes", "--triangles")
+    refused("two sizes", [*SOIL, "--elements", "500"], folder, "excludes", "--elements")
     code, said = run(["provider_swap", "--help"], folder)
     expect(code == 0 and "--version" in said and "throw" not in said, f"provider_swap --help: ended with {code}\n{said}")
     code, said = run(["rve_biaxial", "--help"], folder)

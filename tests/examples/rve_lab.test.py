@@ -47,9 +47,9 @@ def replay(folder, path, strain, step, *more):
     return read(out)
 
 
-def rms(ours, theirs, most_strain):
+def rms(ours, theirs, max_strain):
     """Over all components and rows up to a strain, relative to the confining stress."""
-    errors = [(a[name] - b[name]) / PRESSURE for a, b in zip(ours, theirs) if b["strain"] <= most_strain * (1.0 + 1e-4)
+    errors = [(a[name] - b[name]) / PRESSURE for a, b in zip(ours, theirs) if b["strain"] <= max_strain * (1.0 + 1e-4)
               for name in COMPONENTS]
     return (sum(error**2 for error in errors) / len(errors)) ** 0.5
 
@@ -73,10 +73,10 @@ def check_paths(folder):
             error = abs(ours[0][name] - theirs[0][name])
             expect(error < 1e-8 * PRESSURE, f"{path}: {name} at the start is {ours[0][name]}")
         expect(ours[0]["n_contacts"] == theirs[0]["n_contacts"], f"{path}: {ours[0]['n_contacts']} contacts at first")
-        for most_strain, bound in bounds:
-            error = rms(ours, theirs, most_strain)
-            print(f"{path} to {most_strain}: rms {100.0 * error:.4f} % of the confining stress")
-            expect(error < bound, f"{path} to {most_strain}: rms {error} of the confining stress")
+        for max_strain, bound in bounds:
+            error = rms(ours, theirs, max_strain)
+            print(f"{path} to {max_strain}: rms {100.0 * error:.4f} % of the confining stress")
+            expect(error < bound, f"{path} to {max_strain}: rms {error} of the confining stress")
 
 
 def check_cell(folder):
@@ -134,7 +134,7 @@ def check_loose(folder):
 
 
 def check_relax(folder):
-    """Particles alone, without contacts, come to rest at the pressure that is asked for."""
+    """Particles alone, without contacts, come to rest at the pressure that is requested."""
     particles = ["--particles", SUDODEM / "G_particles.csv", "--cell", "0.16663676021512222,0,0,0.16670996462691512"]
     path = ["--path", "biaxial", "--strain", "1e-3", "--strain-step", "1e-5", "--out", "relaxed.csv"]
     code, said = run("replay", *particles, *path, "--relax", "2e5", folder=folder)

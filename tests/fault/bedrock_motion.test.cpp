@@ -64,7 +64,7 @@ double moment_of_step(double reach, int power) { return std::pow(reach, power + 
 
 }  // namespace
 
-TEST_CASE("the hanging wall slides down the fault plane, the foot wall stays, and both share the node at the tip") {
+TEST_CASE("the hanging wall slides down the fault plane, the footwall stays, and both share the node at the tip") {
   auto const mesh = ground();
   auto const constraints = scarp::bedrock_constraints(mesh, scarp::NormalFault{.dip = 60.0 * degree, .tip = 3.0});
   auto const moves = constraints.displacement(0.4);
@@ -168,7 +168,7 @@ TEST_CASE("a dip out of range is refused, with a hint when it looks like degrees
   CHECK_REFUSED(scarp::NormalFault{.dip = 60.0}.right(), "dip is 60 rad", "degrees");
 }
 
-TEST_CASE("a tip outside the bottom, in its outermost facets or, where a node is asked for, beside one is refused") {
+TEST_CASE("a tip outside the bottom, in its outermost facets or, where a node is requested, beside one is refused") {
   auto const mesh = ground();
   for (double const tip : {0.0, 8.0, 0.5, 7.5, 100.0, std::numeric_limits<double>::quiet_NaN()}) {
     CHECK_REFUSED(scarp::bedrock_constraints(mesh, scarp::NormalFault{.tip = tip}),

@@ -294,7 +294,7 @@ TEST_CASE_TEMPLATE("any element fills the layer once between its boundaries", El
 }
 
 TEST_CASE(
-    "a layer in space has as many equal cells along the strike as are asked for, in the plane they do not matter") {
+    "a layer in space has as many equal cells along the strike as are requested, in the plane they do not matter") {
   FaultMesh const one{.size = 5.0, .strike = 12.0};
   FaultMesh const three{.size = 5.0, .strike = 12.0, .strike_cells = 3};
   auto const mesh = three.generate<scarp::Hex8>();
@@ -375,9 +375,9 @@ TEST_CASE("of the sizes around the ideal one that with the nearest count is take
 
 TEST_CASE("patterns that the elements cannot follow are refused") {
   CHECK_THROWS_WITH_AS((FaultMesh{.pattern = Pattern::quads}.generate()),
-                       doctest::Contains("triangles are asked for in the pattern 'quads'"), scarp::InputError);
+                       doctest::Contains("triangles are requested in the pattern 'quads'"), scarp::InputError);
   CHECK_THROWS_WITH_AS((FaultMesh{.pattern = Pattern::left}.generate<scarp::Quad8>()),
-                       doctest::Contains("the pattern 'left' is asked for with elements of 8 nodes"),
+                       doctest::Contains("the pattern 'left' is requested with elements of 8 nodes"),
                        scarp::InputError);
   CHECK_REFUSED((FaultMesh{.pattern = Pattern::right}.element_count<scarp::Tet10>()), "'right'", "10 nodes");
   for (auto const pattern : {Pattern::crossed, Pattern::quads}) {

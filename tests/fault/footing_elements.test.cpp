@@ -4,7 +4,7 @@
 
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/frictional_footing.hpp"
-#include "scarp/fault/sticking_footing.hpp"
+#include "scarp/fault/tied_footing.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
@@ -22,14 +22,14 @@ double tilt(Structure const& structure) {
   scene.structure = structure;
   scene.throw_to = 0.05;
   scene.solver.tolerance = 1e-9;
-  scene.stepping.largest_gradient = 0.02;
+  scene.stepping.max_displacement_gradient = 0.02;
   scarp::SerialExecutor executor;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(executor);
-  REQUIRE(scene.settle(problem, nobody).verdict.acceptable());
-  REQUIRE(scene.place(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.settle(problem, no_observer).verdict.acceptable());
+  REQUIRE(scene.place(problem, no_observer).verdict.acceptable());
   double const placed = structure.motion(problem).tilt;
-  REQUIRE(scene.rupture(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.rupture(problem, no_observer).verdict.acceptable());
   auto const motion = structure.motion(problem);
   double const weight = structure.footing.bearing * structure.footing.width;
   CHECK(scarp::support(motion) == samples::Approx(weight).epsilon(1e-6));
@@ -41,7 +41,7 @@ double tilt(Structure const& structure) {
 TEST_CASE("footings on quadratic elements tilt as on linear ones and are carried by the ground") {
   scarp::FrictionalFooting<> rigid;
   rigid.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = 0.5};
-  double const sticking = tilt<scarp::Quad8>(scarp::StickingFooting{});
+  double const sticking = tilt<scarp::Quad8>(scarp::TiedFooting{});
   double const frictional = tilt<scarp::Quad8>(rigid);
   CHECK(sticking > 0.0);
   // The same settlements below both: a tenth for what the base lets slip.

@@ -7,7 +7,7 @@
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/frictional_footing.hpp"
-#include "scarp/fault/sticking_footing.hpp"
+#include "scarp/fault/tied_footing.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
@@ -33,7 +33,7 @@ Scene<Structure> scene(Structure const& structure, double cohesion) {
   made.throw_to = 0.25;
   made.solver.tolerance = 1e-10;
   made.solver.rule.floor = 1e-4;
-  made.stepping.largest_gradient = 0.02;
+  made.stepping.max_displacement_gradient = 0.02;
   return made;
 }
 
@@ -45,12 +45,12 @@ struct Outcome {
 template <class Structure>
 Outcome run(Scene<Structure> const& scene) {
   scarp::SerialExecutor executor;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(executor);
-  REQUIRE(scene.settle(problem, nobody).verdict.acceptable());
-  REQUIRE(scene.place(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.settle(problem, no_observer).verdict.acceptable());
+  REQUIRE(scene.place(problem, no_observer).verdict.acceptable());
   Outcome outcome{scene.structure.motion(problem), {}};
-  auto const report = scene.rupture(problem, nobody);
+  auto const report = scene.rupture(problem, no_observer);
   REQUIRE(report.verdict.acceptable());
   CHECK(report.load == 0.25);
   outcome.ruptured = scene.structure.motion(problem);
@@ -78,8 +78,8 @@ TEST_CASE("a rigid footing with friction stands through a rupture: no tension, i
   CHECK(outcome.ruptured.settlement > outcome.placed.settlement);
 }
 
-TEST_CASE("a sticking footing stands through a rupture with its weight carried to 1e-8") {
-  auto const outcome = run(scene(scarp::StickingFooting{}, 1e3));
+TEST_CASE("a tied footing stands through a rupture with its weight carried to 1e-8") {
+  auto const outcome = run(scene(scarp::TiedFooting{}, 1e3));
   for (auto const& motion : {outcome.placed, outcome.ruptured})
     CHECK(scarp::support(motion) == samples::Approx(weight).epsilon(1e-8));
   CHECK(outcome.ruptured.tilt > outcome.placed.tilt + noticeable);
@@ -99,7 +99,7 @@ TEST_CASE("a footing of 1e3 to 1e6 times the soil's stiffness and a rigid one co
   double const limit = tilt_of(scene(rigid, strong));
   std::vector<double> tilts;
   for (double const contrast : {1e3, 1e4, 1e5, 1e6}) {
-    scarp::StickingFooting footing;
+    scarp::TiedFooting footing;
     footing.block = scarp::LinearElastic<2>::from_young_poisson(contrast * 25e6, 0.25);
     tilts.push_back(tilt_of(scene(footing, strong)));
     MESSAGE("stiffness contrast " << contrast << ": tilt " << tilts.back() << ", " << tilts.back() / limit - 1.0

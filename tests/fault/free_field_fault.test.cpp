@@ -63,8 +63,8 @@ void check_same_bits(Outcome const& a, Outcome const& b) {
 Outcome const& serial_sand() {
   static Outcome const made = [] {
     scarp::ThreadExecutor executor(1);
-    scarp::NoObserver nobody;
-    return run_sand(executor, nobody);
+    scarp::NoObserver no_observer;
+    return run_sand(executor, no_observer);
   }();
   return made;
 }
@@ -104,8 +104,8 @@ TEST_CASE("elastic ground starts in balance with the given stress ratio and the 
   auto problem = scene.problem(executor);
   // Analytic: stress linear in depth balances weight and surcharge, and one point per triangle integrates it exactly.
   CHECK(problem.evaluate_committed().residual < 1e-13);
-  scarp::NoObserver nobody;
-  auto const rest = scene.settle(problem, nobody);
+  scarp::NoObserver no_observer;
+  auto const rest = scene.settle(problem, no_observer);
   CHECK(rest.verdict == Verdict{});
   CHECK(rest.iterations == 1);
   for (int point = 0; point < problem.discretisation().point_count(); ++point) {
@@ -118,14 +118,14 @@ TEST_CASE("elastic ground starts in balance with the given stress ratio and the 
   }
 }
 
-TEST_CASE("the fault moves the hanging wall by the throw and leaves the foot wall") {
+TEST_CASE("the fault moves the hanging wall by the throw and leaves the footwall") {
   auto const scene = samples::elastic_ground();
   scarp::ThreadExecutor executor(1);
   auto problem = scene.problem(executor);
-  scarp::NoObserver nobody;
-  REQUIRE(scene.settle(problem, nobody).verdict == Verdict{});
+  scarp::NoObserver no_observer;
+  REQUIRE(scene.settle(problem, no_observer).verdict == Verdict{});
   auto const rest = scarp::ground_at_rest(problem);
-  auto const run = scene.rupture(problem, nobody);
+  auto const run = scene.rupture(problem, no_observer);
   REQUIRE(run.verdict == Verdict{});
   CHECK(run.load == scene.throw_to);
   CHECK(run.largest_residual <= scene.solver.tolerance);
@@ -176,8 +176,8 @@ TEST_CASE("ground of packings ruptures to the asked throw") {
 TEST_CASE("any number of threads gives the same bits") {
   for (int const threads : {2, 4, 7}) {
     scarp::ThreadExecutor executor(threads);
-    scarp::NoObserver nobody;
-    check_same_bits(run_sand(executor, nobody), serial_sand());
+    scarp::NoObserver no_observer;
+    check_same_bits(run_sand(executor, no_observer), serial_sand());
   }
 }
 
@@ -193,9 +193,10 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
   whole.seen = &files;
   scarp::Observers observers(scarp::FieldSeries(folder.path(), scene.throw_to, 4, unit),
                              scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, 4, unit),
-                             scarp::RveProbe(folder / "probe.csv", 3, unit),
-                             scarp::PackingSeries(folder.path(), "probe", 3, scene.throw_to, {0.0, 0.5, 1.0}, unit),
-                             scarp::ConvergenceLog(folder / "convergence.csv", unit), whole, scarp::TimeLimit(0.0));
+                             scarp::RveProbe(folder / "probe.csv", 3, scarp::LoadMeasure{unit}),
+                             scarp::PackingSeries(folder.path(), "probe", 3, scene.throw_to, {0.0, 0.5, 1.0}, {unit}),
+                             scarp::ConvergenceLog(folder / "convergence.csv", scarp::LoadMeasure{unit}), whole,
+                             scarp::TimeLimit(0.0));
   check_same_bits(run_sand(executor, observers), serial_sand());
   CHECK(files == 5);  // analytic: at rest and at each quarter of the throw
 }

@@ -31,10 +31,10 @@ SceneType elastic(SceneType scene) {
 template <class SceneType>
 Eigen::VectorXd ruptured(SceneType const& scene, std::vector<double> const& places) {
   scarp::ThreadExecutor executor(1);
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(executor);
-  REQUIRE(scene.settle(problem, nobody).verdict.acceptable());
-  REQUIRE(scene.rupture(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.settle(problem, no_observer).verdict.acceptable());
+  REQUIRE(scene.rupture(problem, no_observer).verdict.acceptable());
   auto const& grid = problem.discretisation();
   constexpr int up = SceneType::dim - 1;
   std::vector<std::pair<double, double>> profile;

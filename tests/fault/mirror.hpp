@@ -62,9 +62,10 @@ std::vector<scarp::Vector<2>> ruptured(Scene scene, bool mirrored) {
   scene.ground.mirrored = mirrored;
   scene.fault.mirrored = mirrored;
   scarp::ThreadExecutor threads;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(threads);
-  if (!scene.settle(problem, nobody).verdict.acceptable() || !scene.rupture(problem, nobody).verdict.acceptable())
+  if (!scene.settle(problem, no_observer).verdict.acceptable() ||
+      !scene.rupture(problem, no_observer).verdict.acceptable())
     return {};
   auto places = problem.discretisation().positions();
   for (auto& place : places) place.x() *= mirrored ? -1.0 : 1.0;

@@ -36,7 +36,7 @@ Soil softening_soil() {
   soil.elasticity = scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3);
   soil.strength = {.peak = {.cohesion = 1e3, .friction = 31.0 * degree, .dilation = 7.0 * degree},
                    .residual = {.cohesion = 1e3, .friction = 26.0 * degree, .dilation = 0.0},
-                   .strain_to_residual = 0.15};
+                   .softening_strain = 0.15};
   soil.initial = {.surcharge = 4e3, .unit_weight = 15.68e3, .k0 = 0.4};
   return soil;
 }

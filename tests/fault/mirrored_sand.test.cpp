@@ -24,7 +24,7 @@ std::vector<scarp::Vector<2>> ruptured(bool mirrored_scene, bool mirrored_packin
   scene.soil.length = 12.0;
   scene.throw_to = 0.2;
   scene.solver.tolerance = 1e-4;
-  scene.stepping.largest_gradient = 0.005;
+  scene.stepping.max_displacement_gradient = 0.005;
   scarp::LevelGround<scarp::EllipseGrading> ground;
   ground.cloud = {.grading = samples::grading<Grains>(),
                   .grains = 40,
@@ -32,7 +32,7 @@ std::vector<scarp::Vector<2>> ruptured(bool mirrored_scene, bool mirrored_packin
                   .thickness = samples::thickness};
   auto& soil = scene.soil.provider.provider;
   soil.law = samples::study_law();
-  soil.loose_pressure = 2e3;
+  soil.pressure_floor = 2e3;
   soil.source = ground.make<Grains>(soil.law, scene.soil_depths());
   for (auto& packing : soil.source.packings) {
     if (mirrored_packings) packing = scarp::mirrored(std::move(packing));

@@ -71,9 +71,9 @@ TEST_CASE("a ground, a motion and a structure of one's own make a scene without 
   scene.soil = Soil::from_young_poisson(20e6, 0.3, {scene.surcharge, scene.unit_weight, 0.4});
   scene.throw_to = 0.01;
   scarp::SerialExecutor serial;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(serial);
-  REQUIRE(scene.settle(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.settle(problem, no_observer).verdict.acceptable());
   auto const settlement = [&](double x) {
     auto const& grid = problem.discretisation();
     for (int const node : boundary_nodes(grid.mesh(), "surface")) {
@@ -83,12 +83,12 @@ TEST_CASE("a ground, a motion and a structure of one's own make a scene without 
     return std::nan("");
   };
   CHECK(std::abs(settlement(5.5)) < 1e-9);  // analytic: the ground was at rest
-  REQUIRE(scene.place(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.place(problem, no_observer).verdict.acceptable());
   double const placed = settlement(5.5);
   // Less than a strip that is loaded everywhere would settle: p H / M with M = 26.9 MPa.
   CHECK(placed > 0.3 * 20e3 * 4.0 / 26.9e6);
   CHECK(placed < 20e3 * 4.0 / 26.9e6);
-  REQUIRE(scene.rupture(problem, nobody).verdict.acceptable());
+  REQUIRE(scene.rupture(problem, no_observer).verdict.acceptable());
   CHECK(settlement(15.0) == samples::Approx(0.01).epsilon(0.02));  // the far side sinks by the throw
   CHECK(settlement(1.0) < 0.1 * 0.01);                             // and the near one stays
 }

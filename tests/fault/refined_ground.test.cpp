@@ -98,5 +98,5 @@ TEST_CASE("a strip that is none is refused before anything is refined") {
   CHECK(refused({.half_width = -1.0}) == samples::Naming({"half width of the strip", "-1"}));
   CHECK(refused({.fine = 0.0}) == samples::Naming({"size of elements in the strip", "0"}));
   CHECK(refused({.fine = 2.0, .coarse = 1.0}) == samples::Naming({"far from the strip", "1"}));
-  CHECK(refused({.transition = 0.0}) == samples::Naming({"transition beside the strip", "0"}));
+  CHECK(refused({.transition = 0.0}) == samples::Naming({"transition next to the strip", "0"}));
 }

@@ -45,7 +45,7 @@ TEST_CASE("the shares of a linear scarp lie where its line passes them") {
   CHECK(found.surface_x50 == samples::Approx(-10.0).epsilon(round_off));
   CHECK(found.surface_x95 == samples::Approx(-1.0).epsilon(round_off));
   CHECK(found.surface_slope_max == samples::Approx(0.1).epsilon(round_off));
-  CHECK(found.mid_line_dip == samples::Approx(std::atan(2.5)).epsilon(round_off));
+  CHECK(found.rupture_dip == samples::Approx(std::atan(2.5)).epsilon(round_off));
   CHECK(found.largest_share == 1.0);
   CHECK(found.outcrop_x == samples::Approx(-20.0).epsilon(round_off));
   CHECK(found.outcrop_width == samples::Approx(20.0).epsilon(round_off));
@@ -64,7 +64,7 @@ TEST_CASE("normal and reverse faults and those that move both walls are alike") 
   auto const normal = scarp::rupture_measures(profile_of(scarp_at), {.tip = -1.0, .hanging = 1.0}, depth);
   auto const same = [&](scarp::RuptureMeasures const& other, double slope) {
     for (auto const measure : {&scarp::RuptureMeasures::surface_x05, &scarp::RuptureMeasures::surface_x50,
-                               &scarp::RuptureMeasures::surface_x95, &scarp::RuptureMeasures::mid_line_dip,
+                               &scarp::RuptureMeasures::surface_x95, &scarp::RuptureMeasures::rupture_dip,
                                &scarp::RuptureMeasures::outcrop_x, &scarp::RuptureMeasures::outcrop_width}) {
       CHECK(other.*measure == samples::Approx(normal.*measure).epsilon(round_off));
     }
@@ -89,7 +89,7 @@ TEST_CASE("in a graben the main scarp is the first passage, and its share says h
 
 TEST_CASE("a middle line that leans over the hanging wall dips by more than a right angle") {
   auto const found = scarp::rupture_measures(profile_of(scarp_at), {.tip = -35.0, .hanging = 1.0}, depth);
-  CHECK(found.mid_line_dip ==
+  CHECK(found.rupture_dip ==
         samples::Approx(0.75 * std::numbers::pi).epsilon(round_off));  // 25 m up, 25 m to the right
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("a share that is passed in a gap, before the profile begins or nowhere
   auto const found = scarp::rupture_measures(gap, {.hanging = 1.0}, depth);
   CHECK(found.surface_x05 == samples::Approx(0.5).epsilon(round_off));
   CHECK(std::isnan(found.surface_x50));
-  CHECK(std::isnan(found.mid_line_dip));
+  CHECK(std::isnan(found.rupture_dip));
   CHECK(found.surface_x95 == samples::Approx(3.5).epsilon(round_off));
   CHECK(found.surface_slope_max == samples::Approx(0.1).epsilon(round_off));  // across the gap 0.4
   auto const late = scarp::rupture_measures({{0.0, 0.0, 0.2}, {1.0, 1.0, 0.7}}, {.hanging = 1.0}, depth);

@@ -28,11 +28,11 @@ Run run(double forgotten) {
       20e6, 0.3, {scene.surcharge, (1.0 - forgotten) * scene.unit_weight, samples::k0});
   scene.throw_to = 0.02;
   scarp::SerialExecutor serial;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(serial);
-  REQUIRE(scene.settle(problem, nobody).verdict == scarp::Verdict{});
+  REQUIRE(scene.settle(problem, no_observer).verdict == scarp::Verdict{});
   auto const rest = scarp::ground_at_rest(problem);
-  REQUIRE(scene.rupture(problem, nobody).verdict == scarp::Verdict{});
+  REQUIRE(scene.rupture(problem, no_observer).verdict == scarp::Verdict{});
   auto const& grid = problem.discretisation();
   return {grid.mesh(), rest.of(grid.mesh()), grid.positions(), {.tip = scene.fault.tip, .hanging = scene.throw_to}};
 }
@@ -50,7 +50,7 @@ void check_alike(scarp::RuptureSurvey const& a, scarp::RuptureSurvey const& b, d
   CHECK(a.surface.surface_x50 == samples::Approx(b.surface.surface_x50).epsilon(tolerance));
   CHECK(a.surface.surface_x95 == samples::Approx(b.surface.surface_x95).epsilon(tolerance));
   CHECK(a.surface.surface_slope_max == samples::Approx(b.surface.surface_slope_max).epsilon(tolerance));
-  CHECK(a.surface.mid_line_dip == samples::Approx(b.surface.mid_line_dip).epsilon(tolerance));
+  CHECK(a.surface.rupture_dip == samples::Approx(b.surface.rupture_dip).epsilon(tolerance));
   CHECK(a.surface.outcrop_x == samples::Approx(b.surface.outcrop_x).epsilon(tolerance));
   for (std::size_t k = 0; k < 3; ++k) {
     CHECK(a.bands[k].band_x50 == samples::Approx(b.bands[k].band_x50).epsilon(tolerance));
@@ -112,7 +112,7 @@ TEST_CASE("a fault that has not moved has no rupture") {
   still.now = still.rest;
   auto const found = survey(still);
   CHECK(std::isnan(found.surface.surface_x50));
-  CHECK(std::isnan(found.surface.mid_line_dip));
+  CHECK(std::isnan(found.surface.rupture_dip));
   CHECK(found.surface.surface_slope_max == 0.0);
   CHECK(std::isnan(found.bands[1].band_x50));
   CHECK(std::isnan(found.bands[1].band_dip));

@@ -10,7 +10,7 @@
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/ground.hpp"
-#include "scarp/fault/sticking_footing.hpp"
+#include "scarp/fault/tied_footing.hpp"
 #include "support/approx.hpp"
 #include "support/files.hpp"
 #include "support/refusals.hpp"
@@ -96,7 +96,7 @@ TEST_CASE_TEMPLATE("a block on the base shares its nodes", Element, PLANE_ELEMEN
   CHECK(levels.count(25.75) == 1);  // two rows, though one of 1.5 m is nearer to the wanted 2 m
 }
 
-TEST_CASE("the sticking footing on crossed triangles is the one of former releases") {
+TEST_CASE("the tied footing on crossed triangles is the one of former releases") {
   // Regression: at commit e668971 FaultMesh{.size = 1.25, .footing = Footing{-12.0, 7.0, 1.5}} had these numbers; the
   // places of all nodes were compared bit for bit when the block came here.
   auto mesh = scarp::FaultMesh{}.generate({-15.5, -8.5});
@@ -172,7 +172,7 @@ TEST_CASE(
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   auto const refused = [](scarp::StripFooting const& footing, std::string_view what) {
     CHECK_REFUSED(footing.validate(), what);
-    CHECK_REFUSED(scarp::StickingFooting{.footing = footing}.edges(), what);
+    CHECK_REFUSED(scarp::TiedFooting{.footing = footing}.edges(), what);
     CHECK_REFUSED(scarp::FrictionalFooting<>{.footing = footing}.edges(), what);
   };
   refused({.centre = nan}, "centre of the footing");
@@ -182,6 +182,6 @@ TEST_CASE(
   refused({.bearing = nan}, "mean pressure below the footing");
   samples::ScratchFolder const folder;
   for (double const to : {0.0, -1.0, nan})
-    CHECK_REFUSED(scarp::FootingLog(folder.path(), scarp::StickingFooting{}, to, 10, 1.0), "distance between profiles");
-  CHECK_REFUSED(scarp::FootingLog(folder.path(), scarp::StickingFooting{}, 1.0, 0, 1.0), "distance between profiles");
+    CHECK_REFUSED(scarp::FootingLog(folder.path(), scarp::TiedFooting{}, to, 10, 1.0), "distance between profiles");
+  CHECK_REFUSED(scarp::FootingLog(folder.path(), scarp::TiedFooting{}, 1.0, 0, 1.0), "distance between profiles");
 }

@@ -68,7 +68,7 @@ Peak strength(PackingType packing, LinearFrictional const& law, double pressure,
   constexpr int dim = PackingType::dim;
   double const rate = 2e-4 / stiffness_number;
   scarp::TimeStepper<PackingType> stepper;
-  scarp::Drive<PackingType> drive(packing, law, scarp::drained_compression<dim>(rate, pressure));
+  scarp::CellDriver<PackingType> drive(packing, law, scarp::drained_compression<dim>(rate, pressure));
   Peak peak;
   for (long step = 0; step < 40'000 && step - peak.step < 1000; ++step) {
     REQUIRE(drive.step(stepper).acceptable());

@@ -118,7 +118,7 @@ template <class PackingType>
 std::vector<double> path(PackingType packing, LinearFrictional const& law, double pressure, double rate, int steps) {
   constexpr int dim = PackingType::dim;
   scarp::TimeStepper<PackingType> stepper;
-  scarp::Drive<PackingType> drive(packing, law, scarp::drained_compression<dim>(rate, pressure));
+  scarp::CellDriver<PackingType> drive(packing, law, scarp::drained_compression<dim>(rate, pressure));
   std::vector<double> ratios;
   for (int step = 0; step < steps; ++step) {
     REQUIRE(drive.step(stepper).acceptable());
@@ -199,7 +199,7 @@ TEST_CASE("the work of the contacts is that of the stress, Hill and Mandel's con
   Discs const start = discs();
   Discs moved = start;
   scarp::TimeStepper<Discs> stepper;
-  scarp::StepObservation<2> seen;  // not looked at; Drive needs the same step
+  scarp::StepObservation<2> seen;  // not looked at; CellDriver needs the same step
   Tensor<2> strain;
   strain << 3e-6, 1e-6, 1e-6, -1e-5;
   Tensor<2> deformation = Tensor<2>::Identity();
@@ -288,7 +288,7 @@ TEST_CASE("a doubled cell has the same stress and the same tangents") {
   auto const law = samples::study_law();
   Discs one = discs();
   scarp::TimeStepper<Discs> stepper;
-  scarp::StepObservation<2> seen;  // not looked at; Drive needs the same step
+  scarp::StepObservation<2> seen;  // not looked at; CellDriver needs the same step
   Tensor<2> strain;
   strain << 1e-5, 1e-5, 0.0, -1e-5;
   for (int step = 0; step < 300; ++step)

@@ -22,7 +22,7 @@ template <class PackingType>
 EnergyLedger<PackingType::dim> ledger_of(PackingType packing, scarp::LinearFrictional const& law,
                                          Loading<PackingType::dim> const& loading, int steps) {
   scarp::TimeStepper<PackingType> stepper;
-  scarp::Drive<PackingType, Observe::energy> drive(packing, law, loading);
+  scarp::CellDriver<PackingType, Observe::energy> drive(packing, law, loading);
   EnergyLedger<PackingType::dim> ledger;
   for (int step = 0; step < steps; ++step) {
     double const volume = packing.volume();
@@ -55,7 +55,8 @@ TEST_CASE_TEMPLATE("the energy of a sheared plane packing is accounted for", Pac
 TEST_CASE("the balance closes over reversals, whose steps belong to the motion before them") {
   auto packing = samples::consolidated<samples::Ellipses>(80).packing;
   scarp::TimeStepper<samples::Ellipses> stepper;
-  scarp::Drive<samples::Ellipses, Observe::energy> drive(packing, samples::study_law(), scarp::simple_shear<2>(1e-5));
+  scarp::CellDriver<samples::Ellipses, Observe::energy> drive(packing, samples::study_law(),
+                                                              scarp::simple_shear<2>(1e-5));
   EnergyLedger<2> ledger;
   for (int step = 0; step < 2000; ++step) {
     if (step % 20 == 10) drive.load(drive.loading().reversed());

@@ -39,10 +39,10 @@ TEST_CASE_TEMPLATE("the share of sliding contacts goes linearly from none of the
   VoigtTangent<2> const all = UniformStrain{.sliding = {.shear_share = 1.0}}(packing, law);
   VoigtTangent<2> const half = UniformStrain{.sliding = {.shear_share = 0.5}}(packing, law);
   VoigtTangent<2> const none = UniformStrain{}(packing, law);
-  CHECK((all - affine(packing, law)).norm() < 1e-12 * all.norm());     // analytic, round-off
-  CHECK((half - (all + none) / 2.0).norm() < 1e-12 * all.norm());      // analytic, round-off
-  CHECK((all - none).norm() > 1e-3 * all.norm());                      // something slides, or the case says nothing
-  CHECK(samples::least_eigenvalue(all - none) > -1e-12 * all.norm());  // a spring taken away never stiffens
+  CHECK((all - affine(packing, law)).norm() < 1e-12 * all.norm());   // analytic, round-off
+  CHECK((half - (all + none) / 2.0).norm() < 1e-12 * all.norm());    // analytic, round-off
+  CHECK((all - none).norm() > 1e-3 * all.norm());                    // something slides, or the case says nothing
+  CHECK(samples::min_eigenvalue(all - none) > -1e-12 * all.norm());  // a spring taken away never stiffens
   CHECK((none - none.transpose()).norm() < 1e-12 * none.norm());
 }
 

@@ -22,7 +22,7 @@ PackingType listed(PackingType packing, typename PackingType::Law const& law) {
   return packing;
 }
 
-/// A consolidated packing of 80 grains in the course of pure shear, at 0.5 %; many of its contacts slide.
+/// A consolidated packing of 80 grains in the amplitude of pure shear, at 0.5 %; many of its contacts slide.
 template <class PackingType>
 PackingType const& sheared() {
   static PackingType const packing = [] {
@@ -70,7 +70,7 @@ struct UniformStrain {
   }
 };
 
-inline double least_eigenvalue(VoigtTangent<2> const& tangent) {
+inline double min_eigenvalue(VoigtTangent<2> const& tangent) {
   return eigenvalues((tangent + tangent.transpose()) / 2.0)(0);
 }
 

@@ -26,7 +26,7 @@ int loaded(CheckpointFiles const& files) {
 
 }  // namespace
 
-TEST_CASE("a run is saved by time alone and starts afresh, unless it is asked for more") {
+TEST_CASE("a run is saved by time alone and starts afresh, unless it is requested more") {
   CHECK_FALSE(scarp::CheckpointSettings{}.resume);
   CHECK(scarp::CheckpointSettings{}.every_attempts == 0);
   CHECK_FALSE(CheckpointFiles{}.saves());

@@ -21,7 +21,7 @@ scarp::CsvColumns table(std::string_view text, scarp::CsvSeparator separator = s
   return {text, "grains.csv", separator};
 }
 
-/// What is said when a column of a table with one number column `r` is asked for.
+/// What is said when a column of a table with one number column `r` is requested.
 std::string complaint(std::string_view text, std::string_view column = "r") {
   return samples::message_of([&] { static_cast<void>(table(text).column(column)); });
 }

@@ -30,7 +30,7 @@ scarp::StepReport two_iterations() {
   first.points.add(2, scarp::Status::not_converged, 44);
   report.history[1] = {
       .residual = 0.125, .linear_residual = 1e-15, .inner_steps = 20, .material_seconds = 1.5, .seconds = 1.75};
-  report.largest_gradient = 0.01;
+  report.max_displacement_gradient = 0.01;
   report.condition = 1e6;
   report.seconds = 4.0;
   return report;
@@ -40,7 +40,7 @@ scarp::StepReport two_iterations() {
 
 TEST_CASE("every iteration and every attempt is a line of JSON beside the table") {
   ScratchFolder const folder;
-  scarp::ConvergenceLog log(folder / "convergence.csv", 2.0);
+  scarp::ConvergenceLog log(folder / "convergence.csv", {2.0, "axial_strain"});
   log.attempted(NoProblem{}, two_iterations());
   auto refused = two_iterations();
   refused.history.resize(1);
@@ -53,7 +53,7 @@ TEST_CASE("every iteration and every attempt is a line of JSON beside the table"
   Fields const first{R"("kind":"iteration")",
                      R"("attempt":1,)",
                      R"("step":3,)",
-                     R"("throw_over_depth":0.25,)",
+                     R"("axial_strain":0.25,)",
                      R"("iteration":1,)",
                      R"("residual":0.5,)",
                      R"("rate":null,)",
@@ -75,7 +75,7 @@ TEST_CASE("every iteration and every attempt is a line of JSON beside the table"
                         R"("weak_dof":-1,)",
                         R"("iterations":2,)",
                         R"("residual":0.125,)",
-                        R"("largest_gradient":0.01,)",
+                        R"("max_displacement_gradient":0.01,)",
                         R"("condition":1000000,)",
                         R"("dem_steps":84,)",
                         R"("seconds":4,)",
@@ -98,8 +98,8 @@ TEST_CASE("every iteration and every attempt is a line of JSON beside the table"
   CHECK_FALSE(std::getline(lines, line));
   std::string const table = content(folder / "convergence.csv");
   CHECK(std::count(table.begin(), table.end(), '\n') == 4);  // header and three iterations
-  CHECK(table.find(",dem_steps,seconds,seconds_in_points\n") != std::string::npos);
-  CHECK(table.find(",64,2,1.5\n") != std::string::npos);  // in the words of the lines
+  CHECK(table.find(",dem_steps,seconds,seconds_in_points,largest_gradient\n") != std::string::npos);
+  CHECK(table.find(",64,2,1.5,0.01\n") != std::string::npos);  // in the words of the lines
 }
 
 TEST_CASE("the slowest points are those with the most work, equal ones by number") {
@@ -117,7 +117,7 @@ TEST_CASE("text in JSON keeps to one line and its quotes") {
 
 TEST_CASE("a step of a problem with parts tells the residual of each") {
   ScratchFolder const folder;
-  scarp::ConvergenceLog log(folder / "convergence.csv", 2.0);
+  scarp::ConvergenceLog log(folder / "convergence.csv", {2.0, "axial_strain"});
   auto report = two_iterations();
   report.parts = {{"all", 0.125}, {"a \"light\" footing", 0.0625}};
   log.attempted(NoProblem{}, report);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "scarp/bvp/default_integration.hpp"
 #include "scarp/bvp/discretisation.hpp"
-#include "scarp/bvp/usual_integration.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet4.hpp"

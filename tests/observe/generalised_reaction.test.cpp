@@ -30,10 +30,11 @@ double reaction(Grid grid, scarp::MaterialPoints<2> points, double rate, double 
   scarp::SerialExecutor serial;
   scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(std::move(grid), std::move(points),
                                                                  std::move(constraints), {}, serial);
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   CHECK(scarp::generalised_reaction(problem) == 0.0);
-  CHECK(scarp::LoadStepping{}.run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0, load, nobody).verdict ==
-        scarp::Verdict{});
+  CHECK(scarp::LoadStepping{}
+            .run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0, load, no_observer)
+            .verdict == scarp::Verdict{});
   return scarp::generalised_reaction(problem);
 }
 

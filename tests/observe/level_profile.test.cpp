@@ -81,7 +81,7 @@ TEST_CASE_TEMPLATE("a band at a level has the place, widths and dip of the field
     CHECK(band.band_dip == samples::Approx(dip).epsilon(1e-12));
   }
   CHECK(survey.surface.surface_x50 == samples::Approx(15.0 - depth / std::tan(dip)).epsilon(1e-12));
-  CHECK(survey.surface.mid_line_dip == samples::Approx(dip).epsilon(1e-12));
+  CHECK(survey.surface.rupture_dip == samples::Approx(dip).epsilon(1e-12));
 }
 
 TEST_CASE("a level through rows of nodes finds each of them once") {

@@ -41,9 +41,7 @@ Rve sand() { return {.law = samples::study_law(), .source = {samples::consolidat
 
 scarp::StepReport accepted(double load) { return {.load = load}; }
 
-std::vector<double> throws_in(std::filesystem::path const& list) {
-  return scarp::read_csv(list).column("throw_over_depth");
-}
+std::vector<double> throws_in(std::filesystem::path const& list) { return scarp::read_csv(list).column("load"); }
 
 }  // namespace
 
@@ -51,7 +49,7 @@ TEST_CASE_TEMPLATE("packings are written at the first steps that have come to th
                    scarp::StiffnessFloor<Rve>, Any) {
   ScratchFolder const folder;
   OnePoint const problem(Material(scarp::StiffnessFloor<Rve>{.provider = sand()}));
-  scarp::PackingSeries series(folder.path(), "A", 0, 2.0, {0.0, 0.25, 0.3, 0.5, 1.0}, 8.0);
+  scarp::PackingSeries series(folder.path(), "A", 0, 2.0, {0.0, 0.25, 0.3, 0.5, 1.0}, {8.0});
   series.attempted(problem, accepted(-1.0));
   CHECK_FALSE(std::filesystem::exists(folder / "packings"));
   series.attempted(problem, {.load = 0.0, .verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced}});
@@ -89,12 +87,12 @@ TEST_CASE("a series that goes on from a checkpoint has the packings before it in
   OnePoint const problem(sand());
   scarp::StateWriter saved;
   {
-    scarp::PackingSeries series(folder.path(), "B", 0, 1.0, {0.0, 0.5, 1.0}, 1.0);
+    scarp::PackingSeries series(folder.path(), "B", 0, 1.0, {0.0, 0.5, 1.0}, {1.0});
     series.attempted(problem, accepted(0.0));
     saved("series", std::as_const(series));
     series.attempted(problem, accepted(0.6));  // lost with the process
   }
-  scarp::PackingSeries series(folder.path(), "B", 0, 1.0, {0.0, 0.5, 1.0}, 1.0);
+  scarp::PackingSeries series(folder.path(), "B", 0, 1.0, {0.0, 0.5, 1.0}, {1.0});
   scarp::StateReader reader(saved.bits());
   reader("series", series);
   series.attempted(problem, accepted(0.5));
@@ -104,7 +102,7 @@ TEST_CASE("a series that goes on from a checkpoint has the packings before it in
 TEST_CASE("a point without a packing leaves nothing behind") {
   ScratchFolder const folder;
   OnePoint const problem(Any(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3)));
-  scarp::PackingSeries series(folder.path(), "A", 0, 1.0, {0.0, 1.0}, 1.0);
+  scarp::PackingSeries series(folder.path(), "A", 0, 1.0, {0.0, 1.0}, {1.0});
   series.attempted(problem, accepted(0.0));
   series.ended(problem, 0.5);
   CHECK(std::filesystem::is_empty(folder.path()));
@@ -113,13 +111,13 @@ TEST_CASE("a point without a packing leaves nothing behind") {
 TEST_CASE("shares, ends, units and points that cannot be are refused") {
   ScratchFolder const folder;
   for (auto const& shares : {std::vector{0.5, 0.5}, std::vector{-0.1}, std::vector{1.1}, std::vector{std::nan("")}})
-    CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, 1.0, shares, 1.0),
+    CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, 1.0, shares, {1.0}),
                   fmt::format("share {} of the load", shares.back()));
-  CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, std::nan(""), {0.5}, 1.0), "end of the load is nan");
-  CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, 1.0, {0.5}, 0.0), "unit of the load is 0");
+  CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, std::nan(""), {0.5}, {1.0}), "end of the load is nan");
+  CHECK_REFUSED(scarp::PackingSeries(folder.path(), "A", 0, 1.0, {0.5}, {0.0}), "unit of the load is 0");
   OnePoint const problem(sand());
   for (int const point : {-1, 1}) {
-    scarp::PackingSeries series(folder.path(), "A", point, 1.0, {0.0}, 1.0);
+    scarp::PackingSeries series(folder.path(), "A", point, 1.0, {0.0}, {1.0});
     CHECK_REFUSED(series.attempted(problem, accepted(0.0)), fmt::format("point {} is to be observed", point));
   }
 }

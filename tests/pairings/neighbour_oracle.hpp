@@ -68,12 +68,12 @@ Answer<Shape::dim> oracle(Smooth<Shape> const& packing, double reach, double sti
         for (double const component : branch) squared += component * component;
         for (std::size_t a = 0; a < dim; ++a) start[a] = branch[a] / std::sqrt(squared);
         auto const touch =
-            scarp::settled_touch<Shape>(scarp::row_pose(packing, i), scarp::row_pose(packing, j), branch, start);
+            scarp::converged_contact<Shape>(scarp::row_pose(packing, i), scarp::row_pose(packing, j), branch, start);
         if (touch.overlap < -reach) continue;
         answer.meetings.emplace_back(i, j, shift);
-        double const shallow = 0.3 * std::min(Shape::least_curvature_radius(packing.population->size(i / parts)),
-                                              Shape::least_curvature_radius(packing.population->size(j / parts)));
-        if (Shape::remembers_normal && touch.overlap > shallow) {
+        double const shallow = 0.3 * std::min(Shape::min_curvature_radius(packing.population->size(i / parts)),
+                                              Shape::min_curvature_radius(packing.population->size(j / parts)));
+        if (Shape::warm_starts_normal && touch.overlap > shallow) {
           answer.too_deep[i / parts] = answer.too_deep[j / parts] = true;
         }
         Vector<dim> const force =
@@ -240,7 +240,7 @@ void check_narrow_cells() {
     auto const before = packing;
     Verdict const verdict = scarp::rebuild_pairs(packing, reach);
     // A grain may meet another one on several sides, but itself only where the cell is thinner than its diameter.
-    if (scarp::least_height<dim>(reduced) <= narrowest) {
+    if (scarp::min_height<dim>(reduced) <= narrowest) {
       CHECK(verdict == Verdict{Status::failed, Reason::cell_collapsed});
       CHECK(packing == before);
       ++refused;
@@ -259,7 +259,7 @@ void check_narrow_cells() {
   }
   CHECK(refused > 5);
   CHECK(compared > 15);
-  CHECK((felt > 10 || Shape::remembers_normal));
+  CHECK((felt > 10 || Shape::warm_starts_normal));
   CHECK(met_twice > 5);
 }
 

@@ -102,8 +102,8 @@ TEST_CASE_TEMPLATE("a hidden provider answers as it would in the open", Provider
   CHECK(hidden.packing_balance(0).has_packing == is_sand);
   CHECK(hidden.packing_balance(0).inertial_number == seen.packing_balance(0).inertial_number);
   CHECK(hidden.picture<scarp::PackingPicture>(0).has_value() == is_sand);
-  CHECK(hidden.doubled(0).work == seen.doubled(0).work);
-  CHECK(hidden.doubled(0).response.stress == seen.doubled(0).response.stress);
+  CHECK(hidden.doubled_response(0).work == seen.doubled_response(0).work);
+  CHECK(hidden.doubled_response(0).response.stress == seen.doubled_response(0).response.stress);
 }
 
 TEST_CASE("states of a hidden provider and itself are shown as what they are, and as nothing else") {
@@ -141,7 +141,7 @@ TEST_CASE("saved states of a hidden provider are read by its own points") {
   loaded.unpack(0, saved);
   CHECK(loaded.pack(0) == saved);
   CHECK(loaded.committed_stress(0) == points.committed_stress(0));
-  CHECK(loaded.alone(0, saved).pack(0) == saved);
+  CHECK(loaded.extract(0, saved).pack(0) == saved);
   CHECK_REFUSED(loaded.unpack(0, saved.substr(0, saved.size() / 2)), "save it again");
 }
 
@@ -161,6 +161,6 @@ TEST_CASE("what a hidden provider cannot do it refuses") {
   CHECK_REFUSED(unlisted.unpack(0, ""), "states of a provider", "members");
   CHECK_REFUSED(bits(unlisted), "states of a provider", "members");
   std::string followed;
-  CHECK(unlisted.followed(0, followed).work == 0);
+  CHECK(unlisted.doubled_path(0, followed).work == 0);
   CHECK(followed.empty());
 }

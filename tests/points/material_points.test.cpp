@@ -175,7 +175,7 @@ TEST_CASE("points are planned once for a load step, and answer from what is comm
   CHECK(points.initial_tangent(2) == provider.tangent(start));
   CHECK(points.respond(serial).inner_steps > planned);  // planned anew, from a longer path
 
-  points.rest(serial);
+  points.evaluate_committed(serial);
   CHECK(points.stresses() == stresses);
   CHECK(points.gradients() == Points::Gradients(3, scarp::Gradient<2>::Zero()));
   CHECK(points.own_gradients() == points.gradients());
@@ -266,14 +266,14 @@ TEST_CASE("a process asks its own points only, and has no states of others until
   Points const all(packing, sites);
   CHECK(own.committed_stress(2) == all.committed_stress(2));
   CHECK(own.committed_stress(1).isZero(0.0));
-  auto const alone = own.alone(1, all.pack(1));
+  auto const alone = own.extract(1, all.pack(1));
   CHECK(alone.size() == 1);
   CHECK(alone.committed_stress(0) == all.committed_stress(1));
   CHECK(own.committed_stress(1).isZero(0.0));
   own.unpack(1, all.pack(1));
   CHECK_REFUSED(own.unpack(1, all.pack(1) + "x"), "more than a state");
   CHECK(own.committed_stress(1) == all.committed_stress(1));
-  own.forget(1);
+  own.release(1);
   CHECK(own.committed_stress(1).isZero(0.0));
 }
 
@@ -306,7 +306,7 @@ TEST_CASE("states that cannot be left empty or name no members are refused where
   strain(points, 1e-4);
   CHECK(points.respond(serial).verdict.acceptable());
   CHECK_REFUSED(points.pack(0), "name no members");
-  CHECK_REFUSED(points.forget(0), "no default constructor");
+  CHECK_REFUSED(points.release(0), "no default constructor");
   CHECK_REFUSED(Points(Stateful{}, sites, {}, [](int point) { return point == 0; }), "no default constructor");
 }
 

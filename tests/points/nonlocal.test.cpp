@@ -100,21 +100,21 @@ TEST_CASE("a length of zero, or one that reaches no neighbour, gives the local a
   scarp::SerialExecutor executor;
   samples::Softening const soil{.reference_strain = 0.02};
   scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto local = Local::make(soil, executor);
-  auto const expected = scarp::LoadStepping{.first = 0.005}.run(solver, local, 0.0, 0.01, nobody);
+  auto const expected = scarp::LoadStepping{.first = 0.005}.run(solver, local, 0.0, 0.01, no_observer);
   REQUIRE(expected.verdict.acceptable());
   REQUIRE(expected.iterations > 2 * expected.steps);
   for (double const length : {0.0, 1e-3}) {
     auto problem = block({.length = length}, soil, executor);
-    auto const run = scarp::LoadStepping{.first = 0.005}.run(solver, problem, 0.0, 0.01, nobody);
+    auto const run = scarp::LoadStepping{.first = 0.005}.run(solver, problem, 0.0, 0.01, no_observer);
     CHECK(run.iterations == expected.iterations);
     CHECK(problem.discretisation().positions() == local.discretisation().positions());
     CHECK(problem.committed_stresses() == local.committed_stresses());
   }
   // The same with a length does something else.
   auto other = block({.length = 0.5}, soil, executor);
-  CHECK(scarp::LoadStepping{.first = 0.005}.run(solver, other, 0.0, 0.01, nobody).verdict.acceptable());
+  CHECK(scarp::LoadStepping{.first = 0.005}.run(solver, other, 0.0, 0.01, no_observer).verdict.acceptable());
   CHECK(other.discretisation().positions() != local.discretisation().positions());
 }
 
@@ -196,9 +196,9 @@ TEST_CASE("means and what is solved with them are the same bits on any number of
     auto const& grid = local.discretisation();
     scarp::EquilibriumProblem<Local::Grid, std::remove_reference_t<decltype(executor)>> problem(
         grid, {wide(soil, {.length = 0.5}), sites(grid), volumes(grid)}, local.constraints(), local.loads(), executor);
-    scarp::NoObserver nobody;
-    auto const run =
-        scarp::LoadStepping{.first = 0.005}.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 0.01, nobody);
+    scarp::NoObserver no_observer;
+    auto const run = scarp::LoadStepping{.first = 0.005}.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0,
+                                                             0.01, no_observer);
     REQUIRE(run.verdict.acceptable());
     return problem.discretisation().positions();
   };
@@ -206,7 +206,7 @@ TEST_CASE("means and what is solved with them are the same bits on any number of
   CHECK(positions(serial()) == positions(three));
 }
 
-TEST_CASE("the work of a problem with a length balances, the stress against unseen strain included") {
+TEST_CASE("the work of a problem with a length balances, the stress against fluctuation strain included") {
   scarp::SerialExecutor executor;
   samples::Softening const soil{.reference_strain = 0.02};
   auto const gap = [&](double largest) {

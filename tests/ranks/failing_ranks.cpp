@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What one rank throws ends all ranks with its words: `mpirun -np 3 failing_ranks WHO`, where WHO throws: "task" (of a point of rank 1),
-// "first" (the first rank, while the others serve), "answer" (rank 2, when it is asked) or "nobody".
+// "first" (the root rank, while the others serve), "answer" (rank 2, when it is asked) or "nobody".
 #define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ void run(std::string_view who) {
   executor.on_first(
       [&] {
         if (who == "first") throw std::runtime_error("the log cannot be written");
-        if (executor.ask(2) != "2") throw std::logic_error("an answer is wrong");
+        if (executor.fetch(2) != "2") throw std::logic_error("an answer is wrong");
       },
       [&](int point) {
         if (who == "answer") throw std::runtime_error("the state cannot be read");

@@ -41,7 +41,7 @@ void rupture(Scene const& scene, int threads_of_a_rank, scarp::CheckpointFiles f
   scarp::ThreadExecutor threads(threads_of_a_rank);
   scarp::RankExecutor executor(threads);
   auto problem = scene.problem(executor);
-  scarp::OnFirstRank observer(executor, [&] { return Stop{attempts}; });
+  scarp::OnRootRank observer(executor, [&] { return Stop{attempts}; });
   NoNotes notes;
   bool const resumes = files.resumes();
   scarp::CheckpointedRun stages(files, observer, notes);

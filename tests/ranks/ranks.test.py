@@ -21,7 +21,7 @@ environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
 
 
 def run(ranks, *arguments, resumes=0):
-    """What the first rank prints. Every packing is held once, and evenly; `resumes` ranks go on from a checkpoint."""
+    """What the root rank prints. Every packing is held once, and evenly; `resumes` ranks go on from a checkpoint."""
     done = subprocess.run(["mpirun", "-np", str(ranks), PROGRAM, *map(str, arguments)], env=environment,
                           capture_output=True, text=True, timeout=300)
     print(done.stdout, done.stderr, sep="")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """[nightly] States of every adaptor around every adaptor have the same bits on one and two MPI ranks, in one go and from checkpoints, and observers
-on the first rank see the same. Environment: SCARP_TEST_PROGRAMS, the folder of states_on_ranks (skipped, exit 77, without it or mpirun)."""
+on the root rank see the same. Environment: SCARP_TEST_PROGRAMS, the folder of states_on_ranks (skipped, exit 77, without it or mpirun)."""
 import os
 import pathlib
 import re
@@ -20,7 +20,7 @@ environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
 
 
 def run(ranks):
-    """What the first rank prints."""
+    """What the root rank prints."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(["mpirun", "-np", str(ranks), PROGRAM, folder], env=environment, capture_output=True, text=True,
                               timeout=300)

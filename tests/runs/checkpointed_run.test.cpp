@@ -111,12 +111,13 @@ Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending e
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   Outcome outcome;
   Budget budget;
-  if (has_budget) budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 8});
+  if (has_budget) budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_tracked = 8});
   scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}, start}},
                              scarp::ObserverRef(budget), ending);
   scarp::CheckpointedRun run(files, observers, outcome.notes);
   scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
-  scarp::LoadStepping const stepping{.first = 1e-3, .smallest = 1e-6, .largest = 4e-3, .largest_gradient = 0.1};
+  scarp::LoadStepping const stepping{
+      .first = 1e-3, .smallest = 1e-6, .largest = 4e-3, .max_displacement_gradient = 0.1};
   run.stage([&] {
     auto const report = stepping.settle(solver, problem, 0.0, run);
     outcome.notes.settled_residual = 0.25;
@@ -337,7 +338,7 @@ TEST_CASE("a run of three hundred steps holds no more memory than one of thirty"
   scarp::SerialExecutor serial;
   auto problem = Block::make({}, serial);
   Budget budget;
-  budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 8});
+  budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_tracked = 8});
   std::vector<std::size_t> bytes;
   bytes.reserve(2);
   scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}}},

@@ -160,7 +160,7 @@ TEST_CASE("a wrong name of the checkpoints does not start a run afresh over anot
   CHECK_FALSE(contains(typo, "--overwrite"));
   run(folder, "stopped", files(folder, "other", true), true, "interrupted");
   CHECK(contains(refusal(folder, [&] { run(folder, "stopped", files(folder, "otehr", true)); }),
-                 "give that folder to go on"));
+                 "give that folder to resume"));
 }
 
 TEST_CASE("a run that was killed before its first checkpoint starts afresh where it was") {

@@ -49,7 +49,7 @@ struct Trapezoids {
 
 TEST_CASE("a sweep of the trapezoidal rule finds its second order and its exact errors") {
   error_vs_time::Sweep sweep("trapezoids", Settings{}, integral);
-  sweep.least_seconds = 0.0;
+  sweep.min_seconds = 0.0;
   sweep.exact(exact_integral());
   sweep.vary("size", &Settings::size, {0.25, 0.125, 0.0625, 0.03125});
   auto const table = sweep.run();
@@ -135,7 +135,7 @@ TEST_CASE("samples have references of their own, their scatter is told, and fail
     return measured;
   };
   error_vs_time::Sweep sweep("samples", Settings{}, measure);
-  sweep.least_seconds = 0.0;
+  sweep.min_seconds = 0.0;
   sweep.reference({.size = 0.0});
   sweep.vary("size", [](Settings& settings, double value) { settings.size = value; }, {0.1, 0.5, 2.0});
   sweep.vary_sample("sides", [](Settings& settings, double) { settings.size = 0.0; }, {0.7 * 7.0});
@@ -158,7 +158,7 @@ TEST_CASE("an order is that of the runs that were answered") {
     if (settings.size == 0.125) measured.verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced};
     return measured;
   });
-  sweep.least_seconds = 0.0;
+  sweep.min_seconds = 0.0;
   sweep.exact(exact_integral());
   sweep.vary("size", &Settings::size, {0.25, 0.125, 0.0625, 0.03125});
   auto const table = sweep.run();
@@ -168,7 +168,7 @@ TEST_CASE("an order is that of the runs that were answered") {
 
 TEST_CASE("lists of types are settings like any other") {
   error_vs_time::Sweep sweep("rules", Settings{}, integral);
-  sweep.least_seconds = 0.0;
+  sweep.min_seconds = 0.0;
   sweep.exact(exact_integral());
   sweep.vary_over<Rectangles, Trapezoids>("rule", {"rectangles", "trapezoids"},
                                           [](auto rule, Settings const& settings) {

@@ -99,26 +99,26 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
   auto problem = block(provider, executor);
   Outcome outcome;
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
-  scarp::ErrorBudget budget(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_followed = 3});
+  scarp::ErrorBudget budget(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_tracked = 3});
   std::filesystem::create_directories(folder / "fields");
-  scarp::OnFirstRank observers(executor, [&] {
-    return scarp::Observers(
-        scarp::FieldSeries(folder, to, 3, 1.0), scarp::RveProbe(folder / "probe.csv", 1, 1.0, start),
-        scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, 1.0),
-        scarp::ConvergenceLog(folder / "convergence.csv", 1.0, start),
-        scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::ObserverRef(budget), Stop{attempts});
+  scarp::OnRootRank observers(executor, [&] {
+    return scarp::Observers(scarp::FieldSeries(folder, to, 3, 1.0), scarp::RveProbe(folder / "probe.csv", 1, {}, start),
+                            scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, {}),
+                            scarp::ConvergenceLog(folder / "convergence.csv", {}, start),
+                            scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::ObserverRef(budget),
+                            Stop{attempts});
   });
   NoNotes notes;
   scarp::CheckpointedRun run(files, observers, notes);
   scarp::QuasiNewton<> const solver{.tolerance = wanted.tolerance};
   scarp::LoadStepping const stepping{
-      .first = to / 8.0, .smallest = to / 1e4, .largest = to / 4.0, .largest_gradient = 0.1};
+      .first = to / 8.0, .smallest = to / 1e4, .largest = to / 4.0, .max_displacement_gradient = 0.1};
   run.stage([&] { return stepping.settle(solver, problem, 0.0, run); });
   run.stage([&] { return stepping.run(solver, problem, 0.0, to, run); });
   outcome.report = run.report();
   if (outcome.report.verdict.reason == scarp::Reason::interrupted) return outcome;
   observers.ended(problem, outcome.report.load);
-  scarp::on_first_rank(problem, [&] {
+  scarp::on_root_rank(problem, [&] {
     scarp::StateWriter positions;
     positions("positions", problem.discretisation().positions());
     outcome.states = positions.bits();
@@ -144,7 +144,7 @@ template <class Provider, class Executor>
 Outcome pull_in_parts(Provider const& provider, Executor& executor, std::filesystem::path const& folder,
                       Pull const& wanted) {
   scarp::CheckpointSettings const settings{
-      .folder = folder / "states", .resume = true, .every_seconds = 1e9, .locks = scarp::is_first_rank(executor)};
+      .folder = folder / "states", .resume = true, .every_seconds = 1e9, .locks = scarp::is_root_rank(executor)};
   for (int parts = 0; parts < 100; ++parts) {
     auto outcome = pull(provider, executor, folder, wanted, {settings, "a block\n"}, 1);
     if (outcome.report.verdict.reason != scarp::Reason::interrupted) return outcome;

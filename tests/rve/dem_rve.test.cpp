@@ -25,7 +25,7 @@ using scarp::Verdict;
 using scarp::VoigtStress;
 using Rve = scarp::DemRve<Ellipses, scarp::SamePacking<Ellipses>>;
 
-static_assert(scarp::PlansWork<Rve> && !scarp::PlansWork<Rve::State>);
+static_assert(scarp::HasPlan<Rve> && !scarp::HasPlan<Rve::State>);
 static_assert(!scarp::PackingSource<scarp::SamePacking<samples::Discs>, Ellipses>,
               "a source of other grains must be refused");
 
@@ -71,7 +71,7 @@ TEST_CASE("a packing that is turned keeps its stress in its own frame through a 
   REQUIRE(provider.respond(committed, shear_increment(2e-3), sheared).verdict.acceptable());
   Rve::State settled;
   auto still = provider;
-  still.least_steps = 4000;
+  still.min_steps = 4000;
   REQUIRE(still.respond(sheared, Gradient<2>::Zero(), settled).verdict.acceptable());
   constexpr double quarter = 3.141592653589793 / 2.0;
   auto const first = turn_round(provider, settled, quarter, 90);
@@ -108,15 +108,15 @@ TEST_CASE("with a fixed plan the answer is a smooth function of the increment") 
 TEST_CASE("the plan follows strain and rate within its bounds") {
   auto provider = rve(80);
   auto const committed = provider.initial_state({});
-  CHECK(provider.plan(committed, Gradient<2>::Zero()) == provider.least_steps);
-  CHECK(provider.plan(committed, Gradient<2>::Constant(std::nan(""))) == provider.least_steps);
-  CHECK(provider.plan(committed, shear_increment(1e3)) == provider.most_steps);
+  CHECK(provider.plan(committed, Gradient<2>::Zero()) == provider.min_steps);
+  CHECK(provider.plan(committed, Gradient<2>::Constant(std::nan(""))) == provider.min_steps);
+  CHECK(provider.plan(committed, shear_increment(1e3)) == provider.max_steps);
   provider.inertial_number = 1e9;  // no limit of the rate
   Gradient<2> gradient = Gradient<2>::Zero();
   gradient(0, 0) = 1e-3;
   CHECK(std::abs(provider.plan(committed, gradient) - 100) <= 1);  // analytic: 1e-3 / 1e-5 steps, rounded up
   gradient << 0.0, -0.5, 0.5, 0.0;
-  CHECK(provider.plan(committed, gradient) == provider.least_steps);  // a spin strains nothing
+  CHECK(provider.plan(committed, gradient) == provider.min_steps);  // a spin strains nothing
   // The same strain in other axes: the work does not depend on how the mesh lies.
   gradient << 1e-3, 0.0, 0.0, -1e-3;
   for (double const angle : {0.3, 0.7853981633974483, 1.2}) {
@@ -161,7 +161,7 @@ TEST_CASE("pulled apart, a packing becomes a fluid without stress") {
 
 TEST_CASE("a cell pressed flat fails as collapsed and an inverted increment as not finite") {
   auto provider = rve(30);  // five grains across: a fifth of that is thinner than two
-  provider.most_steps = 2000;
+  provider.max_steps = 2000;
   auto const committed = provider.initial_state({});
   Gradient<2> flat = Gradient<2>::Zero();
   flat(0, 0) = -0.8;
@@ -302,7 +302,7 @@ TEST_CASE("points with packings plan once for a load step and commit all togethe
   auto const planned = points.provider<Rve>(1).plan(points.state<Rve::State>(1), shear_increment(1e-3));
   for (double const part : {1.0, 0.5}) {
     points.gradient(1) = part * shear_increment(1e-3);
-    CHECK(points.respond(serial, 0).inner_steps == planned + 2 * points.provider<Rve>(0).least_steps);
+    CHECK(points.respond(serial, 0).inner_steps == planned + 2 * points.provider<Rve>(0).min_steps);
     CHECK(points.work(1) == planned);
     CHECK(points.committed_stress(1) == before);
   }
@@ -333,7 +333,7 @@ TEST_CASE("a packing tells its quantities, its picture and its balance, a loose 
   CHECK(balance.has_packing);
   CHECK(balance.unbalanced_ratio == state.unbalanced_ratio);
   auto loose = provider;
-  loose.loose_pressure = -2.0 * state.stress.head<2>().sum();  // four times the pressure
+  loose.pressure_floor = -2.0 * state.stress.head<2>().sum();  // four times the pressure
   CHECK(loose.balance(state).unbalanced_ratio == samples::Approx(0.25 * state.unbalanced_ratio));
   CHECK(loose.balance(state).kinetic_share == samples::Approx(0.25 * state.kinetic_share));
 }

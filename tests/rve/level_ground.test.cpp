@@ -23,7 +23,7 @@ TEST_CASE("ground that once carried a quarter more has its overburden at every d
                   .thickness = 0.2,
                   .seed = 1};
   auto const plain = ground.make<Grains>(law, {3.0, 12.0});
-  ground.preload = 1.25;
+  ground.overconsolidation_ratio = 1.25;
   auto const preloaded = ground.make<Grains>(law, {3.0, 12.0});
   for (std::size_t k = 0; k < 2; ++k) {
     auto const before = scarp::balance(plain.packings[k], law).stress;
@@ -59,8 +59,8 @@ TEST_CASE("settings of level ground that cannot be are refused") {
   auto const none = [](auto&) {};
   refused(none, {}, {"no depths are given"});
   refused(none, {3.0, nan}, {"depth of a packing", "nan"});
-  refused([](auto& g) { g.preload = 0.99; }, {3.0}, {"preload", "0.99"});
-  refused([](auto& g) { g.preload = nan; }, {3.0}, {"preload", "nan"});
+  refused([](auto& g) { g.overconsolidation_ratio = 0.99; }, {3.0}, {"overconsolidation ratio", "0.99"});
+  refused([](auto& g) { g.overconsolidation_ratio = nan; }, {3.0}, {"overconsolidation ratio", "nan"});
   refused([](auto& g) { g.unit_weight = -1.0; }, {3.0}, {"unit weight", "-1"});
   refused([](auto& g) { g.surcharge = nan; }, {3.0}, {"surcharge", "nan"});
   refused([](auto& g) { g.preparation.pressure = 5e3; }, {0.0, 3.0}, {"prepared at 5000 Pa", "carries 4000 Pa"});
@@ -74,8 +74,8 @@ TEST_CASE("packings that do not come to their stress end the preparation in word
     CHECK(samples::message_of<scarp::PreparationError>([&] { ground.make<Grains>(law, {3.0}); }) ==
           samples::Naming(parts));
   };
-  ended([](auto& g) { g.preparation.consolidation.most_steps = 1; }, {"did not reach 2000 Pa"});
-  ended([](auto& g) { g.compression.servo.most_steps = 1; }, {"stopped at 51040 Pa"});
+  ended([](auto& g) { g.preparation.consolidation.max_steps = 1; }, {"did not reach 2000 Pa"});
+  ended([](auto& g) { g.compression.servo.max_steps = 1; }, {"stopped at 51040 Pa"});
 }
 
 TEST_CASE("depths are the same by their overburden, in models of any size") {

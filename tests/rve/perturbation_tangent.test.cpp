@@ -100,7 +100,7 @@ TEST_CASE_TEMPLATE("trials that relax take fewer steps to the tangent of trials 
 TEST_CASE("a packing that does not settle within the most steps is complained of") {
   auto const law = samples::study_law();
   complaints = 0;
-  PerturbationTangent<> const hasty{.most_steps = 10, .complain = count_complaint};
+  PerturbationTangent<> const hasty{.max_steps = 10, .on_fallback = count_complaint};
   VoigtTangent<2> const tangent = hasty(samples::settled_after_shear<Discs>(), law);
   CHECK(complaints == 1);
   CHECK(tangent.allFinite());

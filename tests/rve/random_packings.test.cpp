@@ -132,7 +132,7 @@ TEST_CASE("points draw from a pool, alike with any number of threads") {
 
 TEST_CASE("a packing that does not settle is reported with its point") {
   auto hasty = recipe();
-  hasty.preparation.consolidation.most_steps = 10;
+  hasty.preparation.consolidation.max_steps = 10;
   Source const source{hasty, 7};
   auto const message_of = [](auto const& attempt) { return samples::message_of<scarp::PreparationError>(attempt); };
   std::string const alone = message_of([&] { source.at(point(41)); });

@@ -70,8 +70,8 @@ struct RandomPair {
 
   scarp::ContactGeometry<2, double> settled() const {
     double const distance = std::hypot(branch[0], branch[1]);
-    return scarp::settled_touch<Ellipse>(first.pose(), second.pose(), branch,
-                                         {branch[0] / distance, branch[1] / distance});
+    return scarp::converged_contact<Ellipse>(first.pose(), second.pose(), branch,
+                                             {branch[0] / distance, branch[1] / distance});
   }
 };
 
@@ -168,7 +168,7 @@ TEST_CASE_TEMPLATE("lanes meet as single numbers do", T, scarp::lanes::Pack<doub
     auto const touch = Ellipse::touch<T>(first, second, branch, start);
     for (std::size_t lane = 0; lane < T::size(); ++lane) {
       CHECK(std::abs(static_cast<double>(touch.overlap[lane]) - single[lane].overlap) < round_off);
-      CHECK(std::abs(static_cast<double>(touch.unsettled[lane]) - single[lane].unsettled) < round_off);
+      CHECK(std::abs(static_cast<double>(touch.normal_error[lane]) - single[lane].normal_error) < round_off);
       for (std::size_t a = 0; a < 2; ++a) {
         CHECK(std::abs(static_cast<double>(touch.normal[a][lane]) - single[lane].normal[a]) < round_off);
         CHECK(std::abs(static_cast<double>(touch.arm_first[a][lane]) - single[lane].arm_first[a]) < round_off);
@@ -187,8 +187,8 @@ TEST_CASE("an ellipse of aspect one is a disc") {
     Point<2, double> const branch{distance * std::cos(direction), distance * std::sin(direction)};
     auto const disc = Disc::touch<double>({first}, {second}, branch, {});
     auto const start = Point<2, double>{std::cos(direction + 0.3), std::sin(direction + 0.3)};
-    auto const ellipse = scarp::settled_touch<Ellipse>(Placed{first, first, 0.4}.pose(),
-                                                       Placed{second, second, 1.4}.pose(), branch, start);
+    auto const ellipse = scarp::converged_contact<Ellipse>(Placed{first, first, 0.4}.pose(),
+                                                           Placed{second, second, 1.4}.pose(), branch, start);
     // Analytic: the same circle; round-off of sizes near one.
     CHECK(std::abs(disc.overlap - (first + second - distance)) < 1e-15);
     CHECK(std::abs(ellipse.overlap - disc.overlap) < 1e-14);
@@ -201,14 +201,14 @@ TEST_CASE("an ellipse of aspect one is a disc") {
   CHECK(Ellipse::content({0.7, 0.7}) == samples::Approx(Disc::content({0.7})).epsilon(1e-15));
   CHECK(Ellipse::gyration_squared({0.7, 0.7}) == samples::Approx(Disc::gyration_squared({0.7})).epsilon(1e-15));
   CHECK(Ellipse::eccentricity({0.7, 0.7}) == Disc::eccentricity({0.7}));
-  CHECK(Ellipse::least_curvature_radius({0.7, 0.7}) == samples::Approx(0.7).epsilon(1e-15));
+  CHECK(Ellipse::min_curvature_radius({0.7, 0.7}) == samples::Approx(0.7).epsilon(1e-15));
 }
 
 TEST_CASE("area, inertia and curvature of an ellipse follow its axes") {
   // Analytic: area pi a b, second moment (a^2 + b^2)/4 per area, least radius of curvature b^2/a.
   CHECK(Ellipse::content({2.0, 1.5}) == samples::Approx(3.0 * std::numbers::pi).epsilon(1e-15));
   CHECK(Ellipse::gyration_squared({2.0, 1.5}) == samples::Approx(6.25 / 4.0).epsilon(1e-15));
-  CHECK(Ellipse::least_curvature_radius({2.0, 1.5}) == samples::Approx(2.25 / 2.0).epsilon(1e-15));
+  CHECK(Ellipse::min_curvature_radius({2.0, 1.5}) == samples::Approx(2.25 / 2.0).epsilon(1e-15));
   CHECK(Ellipse::bounding_radius({1.5, 2.0}) == 2.0);
   auto const tip = Ellipse::support(Placed{2.0, 1.5, 0.0}.pose(), Point<2, double>{1.0, 0.0});
   CHECK(tip.value == samples::Approx(2.0).epsilon(1e-15));
@@ -220,9 +220,9 @@ TEST_CASE("the same pair seen from the other grain has the opposite normal") {
   scarp::Random random(9);
   RandomPair const pair(random);
   auto const touch = pair.settled();
-  auto const back = scarp::settled_touch<Ellipse>(pair.second.pose(), pair.first.pose(),
-                                                  Point<2, double>{-pair.branch[0], -pair.branch[1]},
-                                                  Point<2, double>{-touch.normal[0], -touch.normal[1]});
+  auto const back = scarp::converged_contact<Ellipse>(pair.second.pose(), pair.first.pose(),
+                                                      Point<2, double>{-pair.branch[0], -pair.branch[1]},
+                                                      Point<2, double>{-touch.normal[0], -touch.normal[1]});
   CHECK(std::abs(back.overlap - touch.overlap) < 1e-14);  // analytic symmetry, round-off
   for (std::size_t a = 0; a < 2; ++a) {
     CHECK(std::abs(back.normal[a] + touch.normal[a]) < 1e-12);

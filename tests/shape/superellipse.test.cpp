@@ -74,7 +74,7 @@ struct RandomPair {
     return Superellipse::touch(first.pose(), second.pose(), branch, start);
   }
   ContactGeometry<2, double> settled() const {
-    return scarp::settled_touch<Superellipse>(first.pose(), second.pose(), branch, branch);
+    return scarp::converged_contact<Superellipse>(first.pose(), second.pose(), branch, branch);
   }
 };
 
@@ -93,7 +93,7 @@ TEST_CASE("a superellipse of exponent one is an ellipse") {
     };
     auto const touch = pair.settled();
     auto const ellipse =
-        scarp::settled_touch<Ellipse>(pose_of(pair.first), pose_of(pair.second), pair.branch, touch.normal);
+        scarp::converged_contact<Ellipse>(pose_of(pair.first), pose_of(pair.second), pair.branch, touch.normal);
     // Analytic: the same curve; the normal's round-off is that of sizes near one over radii of curvature above 0.1.
     CHECK(std::abs(touch.overlap - ellipse.overlap) < 1e-14);
     for (std::size_t a = 0; a < 2; ++a) {
@@ -107,7 +107,7 @@ TEST_CASE("a superellipse of exponent one is an ellipse") {
   CHECK(Superellipse::gyration_squared(size) == samples::Approx(Ellipse::gyration_squared({2.0, 1.5})).epsilon(1e-12));
   CHECK(Superellipse::bounding_radius(size) == 2.0);
   CHECK(Superellipse::eccentricity(size) == samples::Approx(Ellipse::eccentricity({2.0, 1.5})).epsilon(1e-7));
-  CHECK(Superellipse::least_curvature_radius(size) == Ellipse::least_curvature_radius({2.0, 1.5}));
+  CHECK(Superellipse::min_curvature_radius(size) == Ellipse::min_curvature_radius({2.0, 1.5}));
 }
 
 TEST_CASE("area and inertia are those of the curve") {
@@ -156,7 +156,7 @@ TEST_CASE("no boundary point is farther than the bounding radius and no slope ex
       // The grid misses an extremum by its curvature, up to a few hundred near a flat side, times (step/2)^2 = 1.5e-9.
       CHECK(Superellipse::bounding_radius(size) == samples::Approx(farthest).epsilon(1e-6));
       CHECK(std::abs(Superellipse::eccentricity(size) - steepest) < 1e-6 * Superellipse::bounding_radius(size));
-      if (eps <= 1.0) CHECK(Superellipse::least_curvature_radius(size) == samples::Approx(sharpest).epsilon(1e-6));
+      if (eps <= 1.0) CHECK(Superellipse::min_curvature_radius(size) == samples::Approx(sharpest).epsilon(1e-6));
     }
   }
 }

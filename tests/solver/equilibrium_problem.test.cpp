@@ -66,8 +66,8 @@ TEST_CASE("a body that is pressed from all sides by dead loads, with reactions o
   auto constraints = held_as_a_body(grid);
   auto points = points_on(grid);
   Problem<> problem(std::move(grid), std::move(points), std::move(constraints), loads, serial);
-  scarp::NoObserver nobody;
-  auto const run = scarp::LoadStepping{}.settle(Newton{.tolerance = 1e-3}, problem, 0.0, nobody);
+  scarp::NoObserver no_observer;
+  auto const run = scarp::LoadStepping{}.settle(Newton{.tolerance = 1e-3}, problem, 0.0, no_observer);
   CHECK(run.verdict == scarp::Verdict{});
   CHECK(run.iterations <= 3);
   is_pressed(problem);
@@ -85,8 +85,8 @@ TEST_CASE("a body that a fluid presses from all sides converges, though there ar
   auto points = points_on(grid);
   Problem<scarp::FollowingPressure<>> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial,
                                               scarp::FollowingPressure<>(facets, pressure));
-  scarp::NoObserver nobody;
-  auto const run = scarp::LoadStepping{}.settle(Newton{.tolerance = 1e-3}, problem, 0.0, nobody);
+  scarp::NoObserver no_observer;
+  auto const run = scarp::LoadStepping{}.settle(Newton{.tolerance = 1e-3}, problem, 0.0, no_observer);
   CHECK(run.verdict == scarp::Verdict{});
   CHECK(run.iterations <= 3);
   is_pressed(problem);
@@ -104,8 +104,8 @@ TEST_CASE_TEMPLATE("a law is tested on one element all of whose nodes are moved"
   REQUIRE(constraints.free_count() == 0);
   auto points = points_on(grid);
   Problem<> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
-  scarp::NoObserver nobody;
-  auto const run = scarp::LoadStepping{}.run(Solver{}, problem, 0.0, 1e-4, nobody);
+  scarp::NoObserver no_observer;
+  auto const run = scarp::LoadStepping{}.run(Solver{}, problem, 0.0, 1e-4, no_observer);
   CHECK(run.verdict == scarp::Verdict{});
   CHECK(run.load == 1e-4);
   // Analytic: uniaxial compression, to the strain's square.

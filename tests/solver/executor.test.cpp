@@ -167,7 +167,7 @@ TEST_CASE("threads that cannot be started end in words, not in a wait for ever" 
       return std::string(error.what());
     }
   });
-  CHECK(words.find("200 threads were asked for") != std::string::npos);
+  CHECK(words.find("200 threads were requested") != std::string::npos);
   CHECK(words.find("could be started") != std::string::npos);
 }
 

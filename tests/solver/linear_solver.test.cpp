@@ -156,9 +156,9 @@ TEST_CASE("a body that nothing holds is found out: a singular system, and which 
   scarp::SerialExecutor executor;
   scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites},
                                                                  constraints, load, executor);
-  scarp::NoObserver nobody;
-  auto const run =
-      scarp::LoadStepping{.first = 1.0}.run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0, 1.0, nobody);
+  scarp::NoObserver no_observer;
+  auto const run = scarp::LoadStepping{.first = 1.0}.run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0,
+                                                         1.0, no_observer);
   CHECK(run.verdict.reason == Reason::singular_system);
   REQUIRE(run.weak_dof >= 0);
   auto const words = describe_dof(grid.mesh(), run.weak_dof);

@@ -19,7 +19,9 @@ using SoftBlock = samples::Block<Softening>;
 static_assert(scarp::ObservesSteps<scarp::NoObserver, SoftBlock::Problem> &&
               !scarp::ObservesSteps<scarp::SerialExecutor, SoftBlock::Problem>);
 
-scarp::LoadStepping stepping() { return {.first = 1e-3, .smallest = 1e-6, .largest = 4e-3, .largest_gradient = 0.1}; }
+scarp::LoadStepping stepping() {
+  return {.first = 1e-3, .smallest = 1e-6, .largest = 4e-3, .max_displacement_gradient = 0.1};
+}
 
 double largest_strain(SoftBlock::Problem const& problem) {
   double largest = 0.0;
@@ -150,7 +152,7 @@ TEST_CASE("iterations that are used up are a failure and nothing is committed") 
   auto problem = SoftBlock::make({.reference_strain = 0.02}, serial);
   auto witness = samples::watch(problem);
   samples::Committed<SoftBlock::Problem> const before(problem);
-  scarp::QuasiNewton<> const solver{.tolerance = 1e-30, .most_iterations = 3};
+  scarp::QuasiNewton<> const solver{.tolerance = 1e-30, .max_iterations = 3};
   auto const run = stepping().run(solver, problem, 0.0, 0.01, witness);
   CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
   CHECK(run.last_failure == Reason::iterations_spent);
@@ -203,12 +205,12 @@ TEST_CASE("the prediction's largest gradient limits every step before it is trie
   auto steps = stepping();
   steps.largest = 1.0;
   steps.first = 1.0;
-  steps.largest_gradient = 2e-3;
+  steps.max_displacement_gradient = 2e-3;
   auto const run = steps.run(scarp::QuasiNewton<>{}, problem, 0.0, 0.02, witness);
   CHECK(run.verdict == Verdict{});
   CHECK(run.refused == 0);
   CHECK(run.steps >= 10);  // analytic: the mean strain alone, 0.02, takes ten steps of at most 2e-3
-  for (auto const& report : witness.reports) CHECK(report.largest_gradient <= 1.001 * 2e-3);
+  for (auto const& report : witness.reports) CHECK(report.max_displacement_gradient <= 1.001 * 2e-3);
 }
 
 TEST_CASE("a prediction that turns elements inside out is cut before it is tried") {
@@ -228,7 +230,7 @@ TEST_CASE("a prediction that turns elements inside out is cut before it is tried
   steps.largest = steps.first = 10.0;  // [m]: the block of 1 m would become narrower by four times its width
   steps.run(scarp::QuasiNewton<>{}, problem, 0.0, 10.0, first);
   CHECK(first.seen.verdict == Verdict{});
-  CHECK(first.seen.largest_gradient <= 1.001 * steps.largest_gradient);
+  CHECK(first.seen.max_displacement_gradient <= 1.001 * steps.max_displacement_gradient);
 }
 
 TEST_CASE("a body that nothing holds is not called balanced") {
@@ -239,8 +241,8 @@ TEST_CASE("a body that nothing holds is not called balanced") {
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
   Eigen::VectorXd const load = Eigen::VectorXd::Constant(grid.dof_count(), 1e3);
   SoftBlock::Problem problem(grid, {Softening{}, sites}, scarp::Constraints(grid.mesh()), load, serial);
-  scarp::NoObserver nobody;
-  auto const run = stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, nobody);
+  scarp::NoObserver no_observer;
+  auto const run = stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, no_observer);
   CHECK_FALSE(run.verdict.acceptable());
   CHECK(run.steps == 0);
   CHECK(problem.discretisation().positions() == grid.positions());
@@ -289,11 +291,11 @@ TEST_CASE("a step that cannot begin is reported with its load and its reason, an
 TEST_CASE("a run refuses bounds that are no numbers") {
   scarp::SerialExecutor serial;
   auto problem = SoftBlock::make({}, serial);
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   double const nan = std::nan("");
   scarp::QuasiNewton<> const solver;
   auto const run = [&](scarp::LoadStepping const& steps, double from, double to) {
-    return steps.run(solver, problem, from, to, nobody);
+    return steps.run(solver, problem, from, to, no_observer);
   };
   CHECK_THROWS_WITH_AS(run(stepping(), 0.0, nan), doctest::Contains("load factor"), scarp::InputError);
   CHECK_REFUSED(run(stepping(), nan, 1.0), "load factor", "nan");
@@ -302,7 +304,7 @@ TEST_CASE("a run refuses bounds that are no numbers") {
   CHECK_REFUSED(run({.first = nan}, 0.0, 1.0), "first load increment", "nan");
   CHECK_REFUSED(run({.first = 0.0}, 0.0, 1.0), "first load increment", "is 0");
   CHECK_REFUSED(run({.smallest = -1.0}, 0.0, 1.0), "smallest", "-1");
-  CHECK_REFUSED(run({.largest_gradient = nan}, 0.0, 1.0), "gradient", "nan");
+  CHECK_REFUSED(run({.max_displacement_gradient = nan}, 0.0, 1.0), "gradient", "nan");
   // Nothing to do is no error.
   CHECK(run(stepping(), 1.0, 1.0).verdict == Verdict{});
   CHECK(run(stepping(), 1.0, 1.0).steps == 0);

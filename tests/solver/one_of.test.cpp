@@ -18,8 +18,8 @@ template <class Solver>
 std::vector<scarp::Vector<2>> pulled(Solver const& solver, int& iterations) {
   scarp::SerialExecutor serial;
   auto problem = Block::make({.reference_strain = 5e-3}, serial);
-  scarp::NoObserver nobody;
-  auto const run = scarp::LoadStepping{}.run(solver, problem, 0.0, 2e-3, nobody);
+  scarp::NoObserver no_observer;
+  auto const run = scarp::LoadStepping{}.run(solver, problem, 0.0, 2e-3, no_observer);
   REQUIRE(run.verdict.acceptable());
   iterations = static_cast<int>(run.iterations);
   return problem.discretisation().positions();
@@ -28,7 +28,7 @@ std::vector<scarp::Vector<2>> pulled(Solver const& solver, int& iterations) {
 }  // namespace
 
 TEST_CASE_TEMPLATE("a solver that was chosen does as it does alone", Solver, Secant, Consistent) {
-  Solver const solver{.tolerance = 1e-6, .most_iterations = 50};
+  Solver const solver{.tolerance = 1e-6, .max_iterations = 50};
   int alone_iterations = 0;
   int chosen_iterations = 0;
   auto const alone = pulled(solver, alone_iterations);

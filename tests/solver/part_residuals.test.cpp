@@ -71,7 +71,7 @@ double value_of(std::vector<scarp::PartResidual> const& parts, std::string const
 TEST_CASE("nine hundredths of a light block that nothing carries are no equilibrium, however heavy the ground") {
   scarp::SerialExecutor serial;
   auto problem = ground_with_block(samples::elastic_soil(), serial);
-  problem.aim(1.0);
+  problem.set_load(1.0);
   auto const unbalanced = unsupported(problem, 0.09);
   auto const parts = problem.residuals(unbalanced);
   REQUIRE(parts.size() == 2);  // the ground has reactions of its own
@@ -86,7 +86,7 @@ TEST_CASE("nine hundredths of a light block that nothing carries are no equilibr
 TEST_CASE("forces that turn a block without pushing it count as well") {
   scarp::SerialExecutor serial;
   auto problem = ground_with_block(samples::elastic_soil(), serial);
-  problem.aim(1.0);
+  problem.set_load(1.0);
   auto const base = base_of_block(problem);
   REQUIRE(base.size() == 5);
   Eigen::VectorXd unbalanced = Eigen::VectorXd::Zero(problem.dof_count());
@@ -101,7 +101,7 @@ TEST_CASE("forces that turn a block without pushing it count as well") {
 TEST_CASE("a block that is not placed yet has nothing to be measured against") {
   scarp::SerialExecutor serial;
   auto problem = ground_with_block(samples::elastic_soil(), serial);
-  problem.aim(0.0);
+  problem.set_load(0.0);
   auto const parts = problem.residuals(unsupported(problem, 0.09));
   CHECK(value_of(parts, "footing") == 0.0);
 }
@@ -121,7 +121,7 @@ TEST_CASE("a step is iterated until the light block is carried, and tells the re
   // Tells a tangent twice too stiff in shear, so that predictions are wrong.
   auto problem = ground_with_block(samples::Planning{}, serial);
   scarp::QuasiNewton<> const solver{.tolerance = 1e-3};
-  scarp::LoadStepping const stepping{.first = 1.0, .largest_gradient = 1.0};
+  scarp::LoadStepping const stepping{.first = 1.0, .max_displacement_gradient = 1.0};
   auto witness = samples::watch(problem);
   REQUIRE(stepping.settle(solver, problem, 0.0, witness).verdict == scarp::Verdict{});
   REQUIRE(stepping.run(solver, problem, 0.0, 1.0, witness).verdict == scarp::Verdict{});

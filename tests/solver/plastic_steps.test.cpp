@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "bvp/sample_problems.hpp"
-#include "scarp/bvp/usual_integration.hpp"
+#include "scarp/bvp/default_integration.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
@@ -54,9 +54,9 @@ void check_plastic_patch() {
       });
   REQUIRE(problem.constraints().free_count() > 0);
   constexpr int steps = 4;
-  scarp::LoadStepping const equal{.first = 1.0 / steps, .largest = 1.0 / steps, .largest_gradient = 1.0};
-  scarp::NoObserver nobody;
-  auto const run = equal.run(Newton{.tolerance = 1e-11, .rule = {.floor = 1e-6}}, problem, 0.0, 1.0, nobody);
+  scarp::LoadStepping const equal{.first = 1.0 / steps, .largest = 1.0 / steps, .max_displacement_gradient = 1.0};
+  scarp::NoObserver no_observer;
+  auto const run = equal.run(Newton{.tolerance = 1e-11, .rule = {.floor = 1e-6}}, problem, 0.0, 1.0, no_observer);
   REQUIRE(run.verdict.acceptable());
   REQUIRE(run.steps == steps);
   // The answer of one point to the same increments: a uniform gradient is in equilibrium on any mesh.
@@ -64,7 +64,7 @@ void check_plastic_patch() {
   auto state = soil.initial_state({});
   for (int step = 0; step < steps; ++step) {
     auto const before = state;
-    soil.respond(before, scarp::SmallStrain::seen<dim>(gradient / steps), state);
+    soil.respond(before, scarp::SmallStrain::material_gradient<dim>(gradient / steps), state);
   }
   REQUIRE(state.plastic_shear > 1e-3);
   for (int point = 0; point < problem.points().size(); ++point) {
@@ -130,7 +130,7 @@ TEST_CASE("Newton's residuals fall quadratically on smooth plastic steps") {
         }
       },
       young);
-  scarp::LoadStepping const stepping{.first = 0.1, .largest = 0.1, .largest_gradient = 1.0};
+  scarp::LoadStepping const stepping{.first = 0.1, .largest = 0.1, .max_displacement_gradient = 1.0};
   SmoothSteps smooth;
   // A step that repeats the motion of the last one begins too near to its end to show the order of the decay.
   auto const run = stepping.run(Newton{.tolerance = 1e-9, .repeats_motion = false}, problem, 0.0, 1.0, smooth);

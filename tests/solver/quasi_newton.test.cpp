@@ -75,9 +75,9 @@ TEST_CASE("large strains converge to the same state with every tangent rule") {
   constexpr int enough = 100;
   using Frozen = scarp::QuasiNewton<samples::Frozen>;
   using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
-  auto const secant = one_step(scarp::QuasiNewton<>{.tolerance = tolerance, .most_iterations = enough}, first, 0.2);
-  auto const frozen = one_step(Frozen{.tolerance = tolerance, .most_iterations = enough}, second, 0.2);
-  auto const newton = one_step(Newton{.tolerance = tolerance, .most_iterations = enough}, third, 0.2);
+  auto const secant = one_step(scarp::QuasiNewton<>{.tolerance = tolerance, .max_iterations = enough}, first, 0.2);
+  auto const frozen = one_step(Frozen{.tolerance = tolerance, .max_iterations = enough}, second, 0.2);
+  auto const newton = one_step(Newton{.tolerance = tolerance, .max_iterations = enough}, third, 0.2);
   REQUIRE(secant.verdict == Verdict{});
   REQUIRE(frozen.verdict == Verdict{});
   REQUIRE(newton.verdict == Verdict{});
@@ -161,7 +161,7 @@ TEST_CASE("points that never converge fail the step with their own reason") {
   auto problem = Block::make({.needed = 2'000'000'000}, serial);
   auto witness = samples::watch(problem);
   scarp::LoadStepping const stepping{.first = 1e-3, .smallest = 1e-4};
-  scarp::QuasiNewton<> const solver{.most_iterations = 4, .most_refinements = 2};
+  scarp::QuasiNewton<> const solver{.max_iterations = 4, .max_refinements = 2};
   auto const run = stepping.run(solver, problem, 0.0, 1e-3, witness);
   CHECK(run.verdict == Verdict{Status::not_converged, Reason::step_too_small});
   CHECK(run.last_failure == Reason::unbalanced);
@@ -209,10 +209,10 @@ TEST_CASE("contact is followed within the linear system: material that is linear
   Wall const wall{.place = 1e-4, .stiffness = 1e9, .nodes = scarp::boundary_nodes(grid.mesh(), "left")};
   scarp::EquilibriumProblem<samples::Block<samples::Softening>::Grid, scarp::SerialExecutor, Wall> problem(
       grid, bare.points(), bare.constraints(), bare.loads(), serial, wall);
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   // The block is stretched: its left side comes inwards and meets the wall.
   scarp::QuasiNewton<> const newton{.tolerance = 1e-9, .repeats_motion = false};
-  auto const run = scarp::LoadStepping{.first = 2e-4, .largest = 2e-4}.run(newton, problem, 0.0, 2e-3, nobody);
+  auto const run = scarp::LoadStepping{.first = 2e-4, .largest = 2e-4}.run(newton, problem, 0.0, 2e-3, no_observer);
   REQUIRE(run.verdict.acceptable());
   CHECK(run.iterations == run.steps);
   int touching = 0;

@@ -33,19 +33,20 @@ TEST_CASE("load stepping refuses settings with which a run would not end or not 
   refuses(&LoadStepping::first, {not_a_number, infinity, 0.0, -1e-3, 1e-9}, "first load increment");
   refuses(&LoadStepping::smallest, {not_a_number, infinity, 0.0, -1e-3}, "smallest load increment");
   refuses(&LoadStepping::largest, {not_a_number, 0.0, -1.0, 1e-9}, "largest load increment");
-  refuses(&LoadStepping::largest_gradient, {not_a_number, infinity, 0.0, -1.0}, "largest gradient of a load step");
+  refuses(&LoadStepping::max_displacement_gradient, {not_a_number, infinity, 0.0, -1.0},
+          "largest gradient of a load step");
   refuses(&LoadStepping::growth, {not_a_number, infinity, 0.0, -1.4, 0.9}, "growth of the load increment");
   refuses(&LoadStepping::shrinkage, {not_a_number, infinity, 0.0, -0.5, 1.1}, "shrinkage of the load increment");
-  refuses(&LoadStepping::few, {-1}, "iterations up to which the load increment grows");
-  refuses(&LoadStepping::many, {5, -1}, "iterations beyond which the load increment shrinks");
+  refuses(&LoadStepping::grow_below, {-1}, "iterations up to which the load increment grows");
+  refuses(&LoadStepping::shrink_above, {5, -1}, "iterations beyond which the load increment shrinks");
 }
 
 TEST_CASE("solvers refuse settings with which no step could be accepted") {
   using Newton = scarp::QuasiNewton<>;
   refuses(&Newton::tolerance, {not_a_number, infinity, 0.0, -1e-3}, "tolerance of the force residual");
-  refuses(&Newton::most_iterations, {0, -1}, "most iterations of a load step");
-  refuses(&Newton::hopeless, {not_a_number, 0.0, 1e-3}, "residual beyond which a step is given up");
-  refuses(&Newton::most_refinements, {-1}, "most refinements of an iteration");
+  refuses(&Newton::max_iterations, {0, -1}, "most iterations of a load step");
+  refuses(&Newton::divergence_limit, {not_a_number, 0.0, 1e-3}, "residual beyond which a step is given up");
+  refuses(&Newton::max_refinements, {-1}, "most refinements of an iteration");
 }
 
 TEST_CASE("tangent rules refuse shares outside of their range, also within a solver") {
@@ -53,7 +54,7 @@ TEST_CASE("tangent rules refuse shares outside of their range, also within a sol
   using scarp::PointwiseBroyden;
   refuses(&PointwiseBroyden::provider_share, {not_a_number, -0.1, 1.1}, "share of the provider's tangent");
   refuses(&PointwiseBroyden::floor, {not_a_number, 1.1, infinity}, "floor of a learned tangent");
-  refuses(&PointwiseBroyden::least_strain_change, {not_a_number, -1e-7, infinity}, "least change of strain");
+  refuses(&PointwiseBroyden::min_strain_change, {not_a_number, -1e-7, infinity}, "least change of strain");
   refuses(&ConsistentTangent::floor, {not_a_number, -0.1, 1.1}, "share of the first tangent");
   CHECK_REFUSED(scarp::QuasiNewton<>{.rule = {.provider_share = 2.0}}.validate(),
                 "share of the provider's tangent is 2");

@@ -13,9 +13,9 @@ using Solver = scarp::QuasiNewton<>;
 
 /// Nearly to the peak in equal steps.
 scarp::RunReport pulled(Block::Problem& problem, Solver const& solver) {
-  scarp::NoObserver nobody;
-  scarp::LoadStepping const stepping{.first = 1e-3, .largest = 1e-3, .largest_gradient = 0.1};
-  return stepping.run(solver, problem, 0.0, 0.012, nobody);
+  scarp::NoObserver no_observer;
+  scarp::LoadStepping const stepping{.first = 1e-3, .largest = 1e-3, .max_displacement_gradient = 0.1};
+  return stepping.run(solver, problem, 0.0, 0.012, no_observer);
 }
 
 /// One step of the load factor, accepted if it ends in equilibrium.
@@ -53,7 +53,7 @@ TEST_CASE("steps that repeat the last motion take fewer iterations to the same s
 TEST_CASE("a prediction is the last step's motion, scaled by the load, where that motion led to equilibrium") {
   scarp::SerialExecutor serial;
   auto problem = Block::make({.reference_strain = 0.02}, serial);
-  Solver const solver{.tolerance = 1e-8, .most_iterations = 8};
+  Solver const solver{.tolerance = 1e-8, .max_iterations = 8};
   Solver::Session<Block::Problem> session(solver, problem);
   auto const before = problem.discretisation().positions();
   REQUIRE(step(session, 0.0, 4e-3).verdict.acceptable());

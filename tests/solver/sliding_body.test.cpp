@@ -58,12 +58,12 @@ Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion, doub
 
 /// In one step; a refused one is tried again in smaller ones, down to the smallest.
 scarp::RunReport in_one_step(Problem& problem, double smallest = 0.9) {
-  scarp::LoadStepping const stepping{.first = 1.0, .smallest = smallest, .largest_gradient = 1.0};
+  scarp::LoadStepping const stepping{.first = 1.0, .smallest = smallest, .max_displacement_gradient = 1.0};
   scarp::QuasiNewton<scarp::ConsistentTangent> const newton{.tolerance = 1e-9};
-  scarp::NoObserver nobody;
-  auto const settled = stepping.settle(newton, problem, 0.0, nobody);
+  scarp::NoObserver no_observer;
+  auto const settled = stepping.settle(newton, problem, 0.0, no_observer);
   REQUIRE(settled.verdict.acceptable());
-  return stepping.run(newton, problem, 0.0, 1.0, nobody);
+  return stepping.run(newton, problem, 0.0, 1.0, no_observer);
 }
 
 }  // namespace

@@ -69,7 +69,9 @@ using Block = samples::Block<Ground>;
 
 Ground softening() { return {.law = {.reference_strain = 0.02}}; }
 
-scarp::LoadStepping stepping() { return {.first = 2e-3, .smallest = 1e-6, .largest = 2e-3, .largest_gradient = 0.1}; }
+scarp::LoadStepping stepping() {
+  return {.first = 2e-3, .smallest = 1e-6, .largest = 2e-3, .max_displacement_gradient = 0.1};
+}
 
 }  // namespace
 
@@ -102,17 +104,17 @@ TEST_CASE("one poisoned point among good ones is found, named, never committed, 
 
 TEST_CASE("another tangent rule brings a softening block past its peak to the same state") {
   scarp::SerialExecutor serial;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = Block::make(softening(), serial);
   auto same = Block::make(softening(), serial);
   auto steps = stepping();
-  steps.many = 1000;
-  scarp::QuasiNewton<samples::Frozen> const solver{.tolerance = 1e-8, .most_iterations = 1000};
-  auto const run = steps.run(solver, problem, 0.0, 0.02, nobody);
+  steps.shrink_above = 1000;
+  scarp::QuasiNewton<samples::Frozen> const solver{.tolerance = 1e-8, .max_iterations = 1000};
+  auto const run = steps.run(solver, problem, 0.0, 0.02, no_observer);
   REQUIRE(run.verdict == Verdict{});
   CHECK(run.largest_residual <= solver.tolerance);
-  scarp::QuasiNewton<> const other{.tolerance = 1e-8, .most_iterations = 100};
-  REQUIRE(stepping().run(other, same, 0.0, 0.02, nobody).verdict == Verdict{});
+  scarp::QuasiNewton<> const other{.tolerance = 1e-8, .max_iterations = 100};
+  REQUIRE(stepping().run(other, same, 0.0, 0.02, no_observer).verdict == Verdict{});
   // The law knows the total strain only, so that the path does not matter: a residual of 1e-8 of the reactions, magnified by the
   // mild loss of stiffness past the peak.
   for (std::size_t n = 0; n < same.discretisation().positions().size(); ++n) {
@@ -122,9 +124,9 @@ TEST_CASE("another tangent rule brings a softening block past its peak to the sa
 
 TEST_CASE("a change of stress that a refined plan makes does not pass for stiffness") {
   scarp::SerialExecutor serial;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = Block::make({.first_plan = 1, .jump = 1e3}, serial);
-  auto const run = stepping().run(scarp::QuasiNewton<>{.tolerance = 1e-9}, problem, 0.0, 1e-3, nobody);
+  auto const run = stepping().run(scarp::QuasiNewton<>{.tolerance = 1e-9}, problem, 0.0, 1e-3, no_observer);
   CHECK(run.verdict == Verdict{});
   CHECK(run.steps == 1);
   // Analytic: the tangent is exact, so that one correction balances the jump of the first iteration.

@@ -18,9 +18,7 @@ using Tangent = scarp::VoigtTangent<2>;
 
 Tangent elastic() { return scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3).tangent({}); }
 
-double least_eigenvalue(Tangent const& tangent) {
-  return samples::eigenvalues((tangent + tangent.transpose()) / 2.0)(0);
-}
+double min_eigenvalue(Tangent const& tangent) { return samples::eigenvalues((tangent + tangent.transpose()) / 2.0)(0); }
 
 // Of one update of numbers of order 1e7.
 constexpr double round_off = 1e-13;
@@ -32,7 +30,7 @@ TEST_CASE("after an update the tangent maps the last change of strain to the cha
   Strain const strain(1e-3, -2e-3, 5e-4);
   Stress const stress = 0.7 * elastic() * strain;
   Tangent const updated = rule.update<2>(elastic(), elastic(), strain, stress);
-  CHECK(least_eigenvalue(updated) > rule.floor * elastic().trace() / 3.0);  // the floor does not disturb this
+  CHECK(min_eigenvalue(updated) > rule.floor * elastic().trace() / 3.0);  // the floor does not disturb this
   CHECK((updated * strain - stress).norm() < round_off * stress.norm());
   // Analytic (Broyden 1965): directions at right angles to the change keep their answer.
   Strain const across = Strain(2e-3, 1e-3, 0.0);
@@ -45,14 +43,14 @@ TEST_CASE("a tangent that softens is raised to the floor") {
   Strain const strain(1e-3, -1e-3, 0.0);
   Tangent const updated = rule.update<2>(elastic(), elastic(), strain, -2.0 * elastic() * strain);
   double const floor = 0.1 * elastic().trace() / 3.0;
-  CHECK(least_eigenvalue(updated) == samples::Approx(floor).epsilon(1e-9));
+  CHECK(min_eigenvalue(updated) == samples::Approx(floor).epsilon(1e-9));
   scarp::PointwiseBroyden const no_floor{.floor = -1e300};
   Tangent const lowered = no_floor.update<2>(elastic(), elastic(), strain, -2.0 * elastic() * strain);
-  CHECK(least_eigenvalue(lowered) < 0.0);
+  CHECK(min_eigenvalue(lowered) < 0.0);
 }
 
 TEST_CASE("a change of strain that is noise teaches nothing") {
-  scarp::PointwiseBroyden const rule{.least_strain_change = 1e-7};
+  scarp::PointwiseBroyden const rule{.min_strain_change = 1e-7};
   Stress const noise(1e3, -2e3, 1e3);
   CHECK(rule.update<2>(elastic(), elastic(), Strain(0.9e-7, 0.0, 0.0), noise) == elastic());
   CHECK(rule.update<2>(elastic(), elastic(), Strain::Zero(), noise) == elastic());

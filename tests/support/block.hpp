@@ -117,7 +117,7 @@ struct Frozen {
 };
 
 static_assert(scarp::TangentRule<Frozen, 2> && scarp::TangentRule<Frozen, 3>);
-static_assert(scarp::ConstitutiveProvider<Softening> && !scarp::PlansWork<Softening> && scarp::PlansWork<Planning>);
+static_assert(scarp::ConstitutiveProvider<Softening> && !scarp::HasPlan<Softening> && scarp::HasPlan<Planning>);
 
 /// Block of 1 m x 1 m, fixed at the bottom; its top moves up by the load factor [m], or is free.
 template <class Provider, class Motion = scarp::SmallStrain>

@@ -43,7 +43,7 @@ inline scarp::FreeFieldFault<Sand> const& sandy_ground() {
                     .seed = 1};
     scene.soil.law = {.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
     scene.soil.source = ground.make<Grains>(scene.soil.law, depths);
-    scene.soil.loose_pressure = scene.surcharge / 4.0;
+    scene.soil.pressure_floor = scene.surcharge / 4.0;
     scene.solver.tolerance = 2e-3;  // so that most steps iterate
     return scene;
   }();

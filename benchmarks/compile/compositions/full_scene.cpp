@@ -13,7 +13,7 @@
 #include "scarp/observe/field_series.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/run/checkpointed_run.hpp"
-#include "scarp/run/first_rank.hpp"
+#include "scarp/run/root_rank.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/level_ground.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
@@ -38,7 +38,7 @@ Scene make_scene() {
   scene.structure.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = 0.5};
   Sand sand;
   sand.law = {.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
-  sand.loose_pressure = scene.surcharge / 4.0;
+  sand.pressure_floor = scene.surcharge / 4.0;
   scarp::LevelGround<scarp::EllipseGrading> const ground{{{4e-3, 6e-3, 0.75}, 36, 2650.0, 0.2}};
   sand.source = ground.make<Grains>(sand.law, scene.soil_depths());
   scene.soil = {.provider = sand, .length = 6.0};
@@ -48,10 +48,11 @@ Scene make_scene() {
 auto observers(Scene const& scene, std::filesystem::path const& folder) {
   constexpr int frames = 4;
   double const depth = scene.ground.layer.depth;
-  return scarp::Observers(scarp::FieldSeries(folder, scene.throw_to, frames, depth),
-                          scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, frames, depth),
-                          scarp::FootingLog(folder, scene.structure, scene.throw_to, frames, depth),
-                          scarp::ConvergenceLog(folder / "convergence.csv", depth));
+  return scarp::Observers(
+      scarp::FieldSeries(folder, scene.throw_to, frames, depth),
+      scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, frames, depth),
+      scarp::FootingLog(folder, scene.structure, scene.throw_to, frames, depth),
+      scarp::ConvergenceLog(folder / "convergence.csv", scarp::LoadMeasure{depth, "throw_over_depth"}));
 }
 
 /// What a program has to save of itself.
@@ -74,7 +75,7 @@ int main(int argc, char** argv) {
   auto& executor = threads;
 #endif
   auto problem = scene.problem(executor);
-  scarp::OnFirstRank watching(executor, [&] { return observers(scene, folder); });
+  scarp::OnRootRank watching(executor, [&] { return observers(scene, folder); });
   Nothing notes;
   scarp::CheckpointFiles files({.folder = folder / "states", .every_attempts = 1}, "the full scene\n");
   scarp::CheckpointedRun run(files, watching, notes);

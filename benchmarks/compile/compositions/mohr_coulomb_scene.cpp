@@ -15,8 +15,8 @@ int main() {
   scene.solver.rule.floor = 1e-4;  // of the elastic stiffness: a point that flows has none
   scene.throw_to = 0.02;
   scarp::ThreadExecutor executor;
-  scarp::NoObserver nobody;
+  scarp::NoObserver no_observer;
   auto problem = scene.problem(executor);
-  if (!scene.settle(problem, nobody).verdict.acceptable()) return 1;
-  return scene.rupture(problem, nobody).verdict.acceptable() ? 0 : 1;
+  if (!scene.settle(problem, no_observer).verdict.acceptable()) return 1;
+  return scene.rupture(problem, no_observer).verdict.acceptable() ? 0 : 1;
 }

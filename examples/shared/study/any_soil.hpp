@@ -21,10 +21,10 @@ using PackingWriter = std::function<void(std::filesystem::path const&)>;
 struct AnySoil {
   scarp::AnyProvider<2> provider;
   AnySolver solver;
-  double tolerance = 0.0;         ///< of the force residual
-  double largest_gradient = 0.0;  ///< of a load step
-  double loose_pressure = 0.0;    ///< [Pa], below which a point's balance counts less
-  PackingWriter write_packing{};  ///< nothing for soils without packings
+  double tolerance = 0.0;                  ///< of the force residual
+  double max_displacement_gradient = 0.0;  ///< of a load step
+  double pressure_floor = 0.0;             ///< [Pa], below which a point's balance counts less
+  PackingWriter write_packing{};           ///< nothing for soils without packings
 };
 
 /// sites: of all points that will be soil

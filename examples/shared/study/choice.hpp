@@ -16,18 +16,18 @@ inline constexpr double surcharge = 4e3;        ///< [Pa]
 
 enum class Case { free, heavy, light };
 enum class Soil { dem, mohr_coulomb, elastic };
-enum class Base { sticking, frictional };
+enum class Base { tied, frictional };
 enum class MeshPattern { crossed, left, right, quads, jittered };
 
 /// What a user may choose; the study's free field on a mesh for a ten-minute run.
 struct Choice {
   Case scene = Case::free;
   Soil soil = Soil::dem;
-  Base base = Base::sticking;
+  Base base = Base::tied;
   bool quick = false;        ///< looser defaults of tolerance and load steps with packings
   double size = 2.5;         ///< [m], cell width in the band, or size of the elements in the strip
   double strip_width = 0.0;  ///< [m], twice the margin around `strained` with small elements; 0 for a uniform mesh
-  int triangles = 0;         ///< wanted number of elements instead of `size`; 0 for none
+  int elements = 0;          ///< wanted number of elements instead of `size`; 0 for none
   std::optional<MeshPattern> pattern;  ///< crossed, or quads where elements are quadrilaterals
   double aspect = 1.0;                 ///< height of a cell over its width
   std::uint64_t mesh_seed = 1;         ///< of the jittered mesh
@@ -38,25 +38,25 @@ struct Choice {
   bool mirrored_packings = false;  ///< draws among their mirror images too
   std::uint64_t seed = 1;
   double preparation_friction = 0.09;
-  double preload = 1.0;                     ///< what the sand once carried over its overburden
-  double grain_aspect = 0.75;               ///< width over length of the ellipses
-  double grain_friction = 0.55;             ///< coefficient between grains
-  double peak_friction = 30.8;              ///< [degrees], of Mohr-Coulomb ground, as the next three
-  double peak_dilation = 6.6;               ///< [degrees]
-  std::optional<double> residual_friction;  ///< [degrees]; Bolton's, peak friction less 0.8 of the dilation
-  double strain_to_residual = 0.15;         ///< plastic shear strain
-  double young_modulus = 25e6;              ///< [Pa], of ground without packings, as the next one
-  double k0 = 0.4;                          ///< horizontal over vertical stress before faulting
+  double overconsolidation_ratio = 1.0;           ///< what the sand once carried over its overburden
+  double grain_aspect = 0.75;                     ///< width over length of the ellipses
+  double grain_friction = 0.55;                   ///< coefficient between grains
+  double peak_friction_angle = 30.8;              ///< [degrees], of Mohr-Coulomb ground, as the next three
+  double peak_dilation_angle = 6.6;               ///< [degrees]
+  std::optional<double> residual_friction_angle;  ///< [degrees]; Bolton's, peak friction less 0.8 of the dilation
+  double softening_strain = 0.15;                 ///< plastic shear strain
+  double young_modulus = 25e6;                    ///< [Pa], of ground without packings, as the next one
+  double k0 = 0.4;                                ///< horizontal over vertical stress before faulting
   double throw_over_depth = 0.085;
   double dip = 60.0;     ///< [degrees]
   bool reverse = false;  ///< the hanging wall goes up
   double tip = 0.0;      ///< [m]
   std::optional<double>
       tolerance;  ///< of the force residual; packings 1e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10
-  std::optional<double> largest_gradient;  ///< of a load step; 0.005 with packings, else 0.02
-  int most_iterations = 30;
+  std::optional<double> max_displacement_gradient;  ///< of a load step; 0.005 with packings, else 0.02
+  int max_iterations = 30;
   double strain_per_step = 1e-5;
-  int least_dem_steps = 20;
+  int min_dem_steps = 20;
   double unbalanced_tolerance = 0.05;
   double footing_centre = -10.5;  ///< x [m]
   double footing_width = 10.0;    ///< [m]
@@ -70,8 +70,8 @@ struct Choice {
   double probe_b_y = 12.0;
   double time_limit = 0.0;          ///< [s], 0 for none
   std::vector<std::string> budget;  ///< bounds of the error budget, part=bound; the others are the usual ones
-  bool budget_companions = false;   ///< runs the scene once more for each part of the budget that needs another run
-  std::string companions;           ///< file of what companions came to
+  bool sensitivity_runs = false;    ///< runs the scene once more for each part of the budget that needs another run
+  std::string sensitivity_file;     ///< file of what sensitivity runs came to
   std::string checkpoint;           ///< folder; empty: nothing is saved
   double checkpoint_every = 600.0;  ///< [s]
   bool resume = false;
@@ -86,7 +86,7 @@ struct Choice {
     visit("quick", self.quick);
     visit("size", self.size);
     visit("strip-width", self.strip_width);
-    visit("triangles", self.triangles);
+    visit("elements", self.elements);
     visit("pattern", self.pattern);
     visit("aspect", self.aspect);
     visit("mesh-seed", self.mesh_seed);
@@ -97,24 +97,24 @@ struct Choice {
     visit("mirrored-packings", self.mirrored_packings);
     visit("seed", self.seed);
     visit("preparation-friction", self.preparation_friction);
-    visit("preload", self.preload);
+    visit("overconsolidation-ratio", self.overconsolidation_ratio);
     visit("grain-aspect", self.grain_aspect);
     visit("grain-friction", self.grain_friction);
-    visit("peak-friction", self.peak_friction);
-    visit("peak-dilation", self.peak_dilation);
-    visit("residual-friction", self.residual_friction);
-    visit("strain-to-residual", self.strain_to_residual);
+    visit("peak-friction-angle", self.peak_friction_angle);
+    visit("peak-dilation-angle", self.peak_dilation_angle);
+    visit("residual-friction-angle", self.residual_friction_angle);
+    visit("softening-strain", self.softening_strain);
     visit("young-modulus", self.young_modulus);
     visit("k0", self.k0);
     visit("throw-over-depth", self.throw_over_depth);
     visit("dip", self.dip);
     visit("tip", self.tip);
     visit("tolerance", self.tolerance);
-    visit("largest-gradient", self.largest_gradient);
-    visit("most-iterations", self.most_iterations);
-    visit("strain-per-step", self.strain_per_step);
-    visit("least-dem-steps", self.least_dem_steps);
-    visit("unbalanced", self.unbalanced_tolerance);
+    visit("max-displacement-gradient", self.max_displacement_gradient);
+    visit("max-iterations", self.max_iterations);
+    visit("strain-per-dem-step", self.strain_per_step);
+    visit("min-dem-steps", self.min_dem_steps);
+    visit("unbalanced-tolerance", self.unbalanced_tolerance);
     visit("footing-centre", self.footing_centre);
     visit("footing-width", self.footing_width);
     visit("bearing-pressure", self.bearing_pressure);

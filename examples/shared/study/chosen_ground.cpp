@@ -51,7 +51,7 @@ void choose_strip(Choice& choice) {
   auto const size = std::stod(fmt::format("{:.3g}", share * choice.length));  // as it may be given
   if (!(choice.length > 0.0 && size < Choice{}.size)) return;
   if (choice.length < shortest) {
-    scarp::refuse(
+    scarp::throw_input_error(
         "--length is {} m (from {} m on the mesh is made for it): choose a longer one, or give --size for a uniform "
         "mesh",
         choice.length, shortest);
@@ -81,7 +81,7 @@ ChosenGround<E> ground_of(Choice const& choice) {
       layer.seed = choice.mesh_seed;
       break;
   }
-  if (choice.triangles > 0) layer = layer.with_about<E>(choice.triangles);
+  if (choice.elements > 0) layer = layer.with_about<E>(choice.elements);
   if (choice.strained.empty()) return {.layer = layer};
   make_coarse(layer, choice.size);
   return {.layer = layer,

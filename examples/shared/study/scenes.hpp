@@ -7,7 +7,7 @@
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/frictional_footing.hpp"
-#include "scarp/fault/sticking_footing.hpp"
+#include "scarp/fault/tied_footing.hpp"
 
 namespace fault_rupture {
 
@@ -22,7 +22,7 @@ inline scarp::StripFooting footing_of(Choice const& choice) {
 
 /// What the choice says of a structure.
 inline void set(scarp::NoStructure&, Choice const&) {}
-inline void set(scarp::StickingFooting& structure, Choice const& choice) { structure.footing = footing_of(choice); }
+inline void set(scarp::TiedFooting& structure, Choice const& choice) { structure.footing = footing_of(choice); }
 inline void set(RigidFooting& structure, Choice const& choice) {
   structure.footing = footing_of(choice);
   // Overlap of a millimetre under the heavy footing: small against any settlement, and soft enough for the solver.

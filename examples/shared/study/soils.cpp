@@ -26,12 +26,13 @@ template <class Soil>
 AnySoil solved(Choice const& choice, Soil const& soil, typename Soil::Solver solver) {
   double const tolerance = choice.tolerance.value_or(Soil::tolerance(choice));
   solver.tolerance = tolerance;
-  solver.most_iterations = choice.most_iterations;
+  solver.max_iterations = choice.max_iterations;
   return {.provider = soil,
           .solver = {solver},
           .tolerance = tolerance,
-          .largest_gradient = choice.largest_gradient.value_or(Soil::largest_gradient(choice.quick)),
-          .loose_pressure = 0.25 * surcharge};
+          .max_displacement_gradient =
+              choice.max_displacement_gradient.value_or(Soil::max_displacement_gradient(choice.quick)),
+          .pressure_floor = 0.25 * surcharge};
 }
 
 scarp::IsotropicElasticity soil_elasticity(Choice const& choice) {
@@ -39,19 +40,21 @@ scarp::IsotropicElasticity soil_elasticity(Choice const& choice) {
 }
 
 /// \throws scarp::InputError
-void require_angles_in_order(Choice const& choice, double residual_friction) {
-  if (choice.peak_dilation > choice.peak_friction)
-    scarp::refuse(
-        "--peak-dilation {} is above --peak-friction {} degrees (flow would create energy): give less dilation",
-        choice.peak_dilation, choice.peak_friction);
-  if (residual_friction > choice.peak_friction)
-    scarp::refuse("--residual-friction {} is above --peak-friction {} degrees (the soil would harden): give less",
-                  residual_friction, choice.peak_friction);
+void require_angles_in_order(Choice const& choice, double residual_friction_angle) {
+  if (choice.peak_dilation_angle > choice.peak_friction_angle)
+    scarp::throw_input_error(
+        "--peak-dilation-angle {} is above --peak-friction-angle {} degrees (flow would create energy): give less "
+        "dilation",
+        choice.peak_dilation_angle, choice.peak_friction_angle);
+  if (residual_friction_angle > choice.peak_friction_angle)
+    scarp::throw_input_error(
+        "--residual-friction-angle {} is above --peak-friction-angle {} degrees (the soil would harden): give less",
+        residual_friction_angle, choice.peak_friction_angle);
 }
 
 std::size_t images_of(Choice const& choice) { return choice.mirrored_packings ? 2 : 1; }
 
-/// No more than what points draw, at the same time where threads are asked for.
+/// No more than what points draw, at the same time where threads are requested.
 Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   auto const law = examples::study_law(choice.grain_friction);
   scarp::LevelGround<scarp::EllipseGrading> ground;
@@ -59,7 +62,7 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
   ground.unit_weight = unit_weight;
   ground.surcharge = surcharge;
   ground.preparation.preparation_friction = choice.preparation_friction;
-  ground.preload = choice.preload;
+  ground.overconsolidation_ratio = choice.overconsolidation_ratio;
   auto depths = drawn_depths(choice, sites);
   std::size_t const count = depths.size();
   std::size_t const images = images_of(choice);
@@ -98,21 +101,23 @@ Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   packings.law = examples::study_law(choice.grain_friction);
   packings.source = make_columns(choice, sites);
   packings.strain_per_step = choice.strain_per_step;
-  packings.least_steps = choice.least_dem_steps;
+  packings.min_steps = choice.min_dem_steps;
   packings.unbalanced_tolerance = choice.unbalanced_tolerance;
-  packings.loose_pressure = surcharge / 2.0;
+  packings.pressure_floor = surcharge / 2.0;
   return sand;
 }
 
 FrictionalSoil make_frictional_soil(Choice const& choice) {
   constexpr double degree = std::numbers::pi / 180.0;
-  double const residual_friction = choice.residual_friction.value_or(choice.peak_friction - 0.8 * choice.peak_dilation);
-  require_angles_in_order(choice, residual_friction);
-  scarp::Strength const peak{
-      .cohesion = 1e3, .friction = choice.peak_friction * degree, .dilation = choice.peak_dilation * degree};
-  scarp::Strength const residual{.cohesion = 1e3, .friction = residual_friction * degree, .dilation = 0.0};
+  double const residual_friction_angle =
+      choice.residual_friction_angle.value_or(choice.peak_friction_angle - 0.8 * choice.peak_dilation_angle);
+  require_angles_in_order(choice, residual_friction_angle);
+  scarp::Strength const peak{.cohesion = 1e3,
+                             .friction = choice.peak_friction_angle * degree,
+                             .dilation = choice.peak_dilation_angle * degree};
+  scarp::Strength const residual{.cohesion = 1e3, .friction = residual_friction_angle * degree, .dilation = 0.0};
   return {{soil_elasticity(choice),
-           {.peak = peak, .residual = residual, .strain_to_residual = choice.strain_to_residual},
+           {.peak = peak, .residual = residual, .softening_strain = choice.softening_strain},
            ground_at_rest(choice)}};
 }
 
@@ -123,7 +128,7 @@ AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites)
     case Soil::dem: {
       auto const sand = make_sand(choice, sites);
       auto soil = solved(choice, sand, {});
-      soil.loose_pressure = sand.provider.loose_pressure;
+      soil.pressure_floor = sand.provider.pressure_floor;
       auto const& columns = sand.provider.source.sources;
       auto const& packings =
           std::ranges::find_if(columns, [](auto const& column) { return !column.packings.empty(); })->packings;

@@ -29,7 +29,7 @@ struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, Columns>> {
     if (choice.scene != Case::free) return 5e-3;  // of the footing's weight too, which is to be carried to 1e-2
     return choice.quick ? 1e-2 : 1e-3;
   }
-  static double largest_gradient(bool quick) { return quick ? 0.02 : 0.005; }
+  static double max_displacement_gradient(bool quick) { return quick ? 0.02 : 0.005; }
 };
 
 /// Mohr-Coulomb, by default with the study's angles at the peak, 30.8 and 6.6 degrees, and Bolton's angle at constant volume, phi - 0.8 psi
@@ -39,13 +39,13 @@ struct FrictionalSoil : scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::
   static constexpr double tangent_floor = 1e-4;  ///< of the solver's rule
   /// Where a point is just at the corner of its yield surface, iterations may go round and round at 1e-10 to 1e-8.
   static double tolerance(Choice const&) { return 1e-8; }
-  static double largest_gradient(bool) { return 0.02; }
+  static double max_displacement_gradient(bool) { return 0.02; }
 };
 
 struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
   using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
   static double tolerance(Choice const&) { return 1e-10; }
-  static double largest_gradient(bool) { return 0.02; }
+  static double max_displacement_gradient(bool) { return 0.02; }
 };
 
 /// Depths [m] at which points draw each column of packings, increasing; an image goes with what it mirrors.

@@ -22,8 +22,9 @@ SceneType make(Choice const& choice) {
   using SoilType = decltype(SceneType::soil);
   auto scene = without_soil<SceneType>(choice);
   scene.solver.tolerance = choice.tolerance.value_or(SoilType::tolerance(choice));
-  scene.solver.most_iterations = choice.most_iterations;
-  scene.stepping.largest_gradient = choice.largest_gradient.value_or(SoilType::largest_gradient(choice.quick));
+  scene.solver.max_iterations = choice.max_iterations;
+  scene.stepping.max_displacement_gradient =
+      choice.max_displacement_gradient.value_or(SoilType::max_displacement_gradient(choice.quick));
   if constexpr (std::is_same_v<SoilType, Sand>) {
     scene.soil = make_sand(choice, scene.soil_sites());
   } else if constexpr (std::is_same_v<SoilType, FrictionalSoil>) {

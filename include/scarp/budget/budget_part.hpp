@@ -49,15 +49,15 @@ inline std::string budget_table(BudgetParts const& parts) {
   return text;
 }
 
-/// Part of an error budget that a run cannot see itself: how far its answer is from that of a companion, the same scene with one
+/// Part of an error budget that a run cannot see itself: how far its answer is from that of a sensitivity run, the same scene with one
 /// choice made otherwise - a mesh of other directions, smaller load steps.
-/// own, companion: the same measure of both runs; size: what an error is relative to, in the measure's unit
+/// own, other: the same measure of both runs; size: what an error is relative to, in the measure's unit
 /// \throws InputError for a size that is not finite and positive, and for a bound that is negative or NaN
-inline BudgetPart companion_part(std::string name, double own, double companion, double size, double bound,
-                                 std::string meaning) {
-  require_positive("size that a companion's difference is relative to", size);
-  require_at_least("bound of a companion's difference", bound, 0.0);
-  return {std::move(name), std::abs(companion - own) / size, bound, std::move(meaning)};
+inline BudgetPart sensitivity_part(std::string name, double own, double other, double size, double bound,
+                                   std::string meaning) {
+  require_positive("size that a sensitivity run's difference is relative to", size);
+  require_at_least("bound of a sensitivity run's difference", bound, 0.0);
+  return {std::move(name), std::abs(other - own) / size, bound, std::move(meaning)};
 }
 
 /// Beyond which numbers a run says that it is outside its error budget. All are relative; docs/error-budget.md gives the reasons.
@@ -75,9 +75,9 @@ struct ErrorBounds {
   double held_stress = 1e-2;      ///< of a single packing: missing from what a servo holds, root mean square
   double doubling_median = 1e-2;  ///< of the samples: stress with twice the work against the accepted one
   double doubling_95 = 5e-2;      ///< of nineteen samples in twenty
-  double accumulated = 0.05;      ///< of the followed points together, on their whole paths
-  double mesh = 4e-2;             ///< against a companion on another mesh
-  double load_step = 2e-2;        ///< against a companion with smaller load steps
+  double accumulated = 0.05;      ///< of the tracked points together, on their whole paths
+  double mesh = 4e-2;             ///< against a sensitivity run on another mesh
+  double load_step = 2e-2;        ///< against a sensitivity run with smaller load steps
 
   /// Infinite: no bound. \throws InputError for a bound that is negative or NaN
   void validate() const {
@@ -93,21 +93,21 @@ struct ErrorBounds {
 
 /// Where an error budget looks.
 struct ErrorSampling {
-  double share = 0.04;           ///< of the run's work that all checks may take; followed points come first
-  int most_samples = 2;          ///< of one step
-  int points_per_followed = 40;  ///< one of so many points is followed through the run,
-  int most_followed = 24;        ///< at most so many,
-  std::vector<int> followed{};   ///< and these
-  double loose_pressure =
+  double share = 0.04;          ///< of the run's work that all checks may take; tracked points come first
+  int max_samples = 2;          ///< of one step
+  int points_per_tracked = 40;  ///< one of so many points is tracked through the run,
+  int max_tracked = 24;         ///< at most so many,
+  std::vector<int> tracked{};   ///< and these
+  double pressure_floor =
       0.0;  ///< [Pa]; stresses that were below this pressure from the beginning count as large as it
 
   /// \throws InputError for numbers that are negative or not finite
   void validate() const {
     require_not_negative("share of work for samples", share);
-    require_not_negative("loose pressure", loose_pressure);
-    require_at_least("number of samples of a step", most_samples, 0);
-    require_at_least("number of followed points", most_followed, 0);
-    require_at_least("number of points for a followed one", points_per_followed, 1);
+    require_not_negative("pressure floor", pressure_floor);
+    require_at_least("number of samples of a step", max_samples, 0);
+    require_at_least("number of tracked points", max_tracked, 0);
+    require_at_least("number of points for a tracked one", points_per_tracked, 1);
   }
 };
 

@@ -49,7 +49,7 @@ struct WorkBalanceOf<Problem> {
 /// carries nothing that its error could be compared with. It changes nothing.
 /// Where points are shared out among processes it looks at those of the first.
 /// \code
-/// ErrorBudget budget(problem, {.residual = 1e-3}, {.loose_pressure = 2e3});
+/// ErrorBudget budget(problem, {.residual = 1e-3}, {.pressure_floor = 2e3});
 /// ... run ...
 /// fmt::print("{}{}", budget_headline(budget.parts()), budget_table(budget.parts()));
 /// \endcode
@@ -65,13 +65,13 @@ class ErrorBudget : public NeverStops {
     sampling.validate();
     int const points = problem.points().size();
     at_rest_.resize(detail::index(points));
-    double const least = sampling.loose_pressure * std::sqrt(static_cast<double>(dim));
+    double const least = sampling.pressure_floor * std::sqrt(static_cast<double>(dim));
     for (int point = 0; point < points; ++point) {
       if (!owns_point(problem.executor(), point)) continue;
       seen_.push_back(point);
       at_rest_[detail::index(point)] = std::max(stress_size<dim>(problem.points().committed_stress(point)), least);
     }
-    followed_ = FollowedPoints::choose(problem, seen_, sampling);
+    tracked_ = TrackedPoints::choose(problem, seen_, sampling);
   }
 
   void attempted(Problem const& problem, StepReport const& report) {
@@ -85,9 +85,9 @@ class ErrorBudget : public NeverStops {
     residual_ = nan_max(residual_, report.residual());
     balance_.attempted(problem, report);
     packings_.look(problem, seen_);
-    followed_.follow(problem, at_rest_);
+    tracked_.follow(problem, at_rest_);
     auto const affordable = static_cast<long>(sampling_.share * static_cast<double>(all_work()));
-    samples_.sample(problem, seen_, at_rest_, sampling_, affordable - followed_.work);
+    samples_.sample(problem, seen_, at_rest_, sampling_, affordable - tracked_.work);
   }
 
   /// What came out so far; parts without anything to look at are left out.
@@ -117,27 +117,27 @@ class ErrorBudget : public NeverStops {
       add("doubling_95", samples_.quantile(0.95), bounds_.doubling_95, "of nineteen samples in twenty");
       add("doubling_largest", samples_.quantile(1.0), none, "of one sample");
     }
-    if (followed_.any()) {
-      add("accumulated", followed_.together(), bounds_.accumulated,
+    if (tracked_.any()) {
+      add("accumulated", tracked_.together(), bounds_.accumulated,
           "the same of the sum of points' stresses when all increments take it, root mean square over the steps");
-      add("accumulated_apart", followed_.apart(), none, "the same of single points");
-      add("accumulated_largest", followed_.farthest(), none, "of one followed point at any time");
+      add("accumulated_apart", tracked_.apart(), none, "the same of single points");
+      add("accumulated_largest", tracked_.farthest(), none, "of one tracked point at any time");
     }
     add("work_of_checks", share_of_checks(), none, "what the last ones took, over the points' work of the run");
     return parts;
   }
 
   DoubledSamples const& samples() const { return samples_; }
-  FollowedPoints const& followed() const { return followed_; }
+  TrackedPoints const& tracked() const { return tracked_; }
 
   SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, seen_, at_rest_), balance_, packings_, samples_,
-                       followed_, residual_, linear_residual_, condition_, work_, answers_)
+                       tracked_, residual_, linear_residual_, condition_, work_, answers_)
 
  private:
   long all_work() const { return work_ > 0 ? work_ : answers_; }
 
   double share_of_checks() const {
-    long const checks = samples_.work + followed_.work;
+    long const checks = samples_.work + tracked_.work;
     return checks == 0 ? 0.0 : static_cast<double>(checks) / static_cast<double>(all_work());
   }
 
@@ -149,7 +149,7 @@ class ErrorBudget : public NeverStops {
   typename detail::WorkBalanceOf<Problem>::Type balance_;
   PackingSurvey packings_;
   DoubledSamples samples_;
-  FollowedPoints followed_;
+  TrackedPoints tracked_;
   double residual_ = 0.0;
   double linear_residual_ = 0.0;
   double condition_ = 0.0;

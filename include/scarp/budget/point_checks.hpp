@@ -61,7 +61,7 @@ struct DoubledSamples {
     std::vector<long> works(chosen.size());
     problem.executor().for_each(static_cast<int>(chosen.size()), [&](int task) {
       auto const k = detail::index(task);
-      auto const answer = problem.points().doubled(chosen[k]);
+      auto const answer = problem.points().doubled_response(chosen[k]);
       found[k] = stress_difference(problem.points().committed_stress(chosen[k]), answer.response,
                                    at_rest[detail::index(chosen[k])]);
       works[k] = answer.work;
@@ -86,10 +86,10 @@ struct DoubledSamples {
   std::vector<int> choose(Problem const& problem, std::vector<int> const& points, ErrorSampling const& sampling,
                           long afforded) const {
     std::vector<int> chosen;
-    auto const room = std::min(detail::index(sampling.most_samples), points.size());
+    auto const room = std::min(detail::index(sampling.max_samples), points.size());
     for (long planned = work; chosen.size() < room;) {
       std::size_t turn = differences.size() + chosen.size();
-      int point = turn % 2 == 0 ? most_strained(problem, points) : spread(points, turn);
+      int point = turn % 2 == 0 ? max_strained(problem, points) : spread(points, turn);
       while (std::find(chosen.begin(), chosen.end(), point) != chosen.end()) point = spread(points, ++turn);
       planned += 2 * std::max(1L, problem.points().work(point));
       if (planned > afforded) break;
@@ -99,7 +99,7 @@ struct DoubledSamples {
   }
 
   template <class Problem>
-  static int most_strained(Problem const& problem, std::vector<int> const& points) {
+  static int max_strained(Problem const& problem, std::vector<int> const& points) {
     auto const size = [&](int point) { return problem.gradients()[detail::index(point)].squaredNorm(); };
     return *std::max_element(points.begin(), points.end(), [&](int a, int b) { return size(a) < size(b); });
   }
@@ -114,7 +114,7 @@ struct DoubledSamples {
 
 /// A point whose increments are answered a second time along the whole run, with twice the work and from the second answer's own
 /// states: how far the two have come apart is what the steps of the point's inner work have added up to on its path.
-struct FollowedPoint {
+struct TrackedPoint {
   int point = -1;
   std::string bits{};       ///< second state; empty before the first step, and for a state that names no members
   double apart = 0.0;       ///< relative difference of the stresses now
@@ -124,8 +124,8 @@ struct FollowedPoint {
   SCARP_MEMBERS(point, bits, apart, farthest, square_sum)
 };
 
-struct FollowedPoints {
-  std::vector<FollowedPoint> points{};
+struct TrackedPoints {
+  std::vector<TrackedPoint> points{};
   int steps = 0;
   long work = 0;            ///< that they took
   double square_sum = 0.0;  ///< over all steps, see together()
@@ -133,22 +133,23 @@ struct FollowedPoints {
   /// Spread over the points that this process sees, and those that are named.
   /// \throws InputError for points that the problem does not have
   template <class Problem>
-  static FollowedPoints choose(Problem const& problem, std::vector<int> const& seen, ErrorSampling const& sampling) {
+  static TrackedPoints choose(Problem const& problem, std::vector<int> const& seen, ErrorSampling const& sampling) {
     int const count = problem.points().size();
-    auto const spread = detail::index(std::min(count / sampling.points_per_followed, sampling.most_followed));
+    auto const spread = detail::index(std::min(count / sampling.points_per_tracked, sampling.max_tracked));
     std::vector<int> chosen;
     for (std::size_t k = 0; k < spread && !seen.empty(); ++k)
       chosen.push_back(seen[(2 * k + 1) * seen.size() / (2 * spread)]);
-    for (int const point : sampling.followed) {
+    for (int const point : sampling.tracked) {
       if (point < 0 || point >= count)
-        refuse("point {} is to be followed (there are points 0 to {}): choose one of these", point, count - 1);
+        throw_input_error("point {} is to be tracked (there are points 0 to {}): choose one of these", point,
+                          count - 1);
       if (owns_point(problem.executor(), point)) chosen.push_back(point);
     }
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    FollowedPoints followed;
-    for (int const point : chosen) followed.points.push_back({.point = point});
-    return followed;
+    TrackedPoints tracked;
+    for (int const point : chosen) tracked.points.push_back({.point = point});
+    return tracked;
   }
 
   /// After an accepted step, the first of which they begin with. at_rest [Pa]: sizes of all points' stresses when the run
@@ -160,8 +161,8 @@ struct FollowedPoints {
     std::vector<VoigtStress<dim>> differences(points.size());
     std::vector<double> carried(points.size());
     problem.executor().for_each(detail::count(points), [&](int task) {
-      FollowedPoint& one = points[detail::index(task)];
-      auto const answer = problem.points().followed(one.point, one.bits);
+      TrackedPoint& one = points[detail::index(task)];
+      auto const answer = problem.points().doubled_path(one.point, one.bits);
       auto const stress = problem.points().committed_stress(one.point);
       double const least = at_rest[detail::index(one.point)];
       one.apart = stress_difference(stress, answer.response, least);

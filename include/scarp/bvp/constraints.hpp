@@ -16,7 +16,7 @@
 namespace scarp {
 
 /// Prescribed displacements of nodes: displacement [m] = rate * load factor, in the unit that the load factor has, or rate *
-/// course(load factor). Degree of freedom = dim * node + axis; those of bodies beside the mesh follow.
+/// amplitude(load factor). Degree of freedom = dim * node + axis; those of bodies beside the mesh follow.
 class Constraints {
  public:
   /// extra_dofs: degrees of freedom that follow those of the nodes
@@ -35,23 +35,23 @@ class Constraints {
   }
 
   /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different motion
-  void move(int node, int axis, double rate, TimeFunction course = {}) {
+  void move(int node, int axis, double rate, TimeFunction amplitude = {}) {
     if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
-      refuse("node {}, axis {} is prescribed (the mesh has nodes 0 to {} and axes 0 to {}): check the numbers", node,
-             axis, nodes_ - 1, dim_ - 1);
+      throw_input_error(
+          "node {}, axis {} is prescribed (the mesh has nodes 0 to {} and axes 0 to {}): check the numbers", node, axis,
+          nodes_ - 1, dim_ - 1);
     }
-    prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(course));
+    prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(amplitude));
   }
 
   /// A degree of freedom beside the mesh, counted from 0.
   /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
-  void move_extra(int number, double rate, TimeFunction course = {}) {
+  void move_extra(int number, double rate, TimeFunction amplitude = {}) {
     if (number < 0 || number >= extra_dofs_) {
-      refuse("degree of freedom {} beside the mesh is prescribed (there are {}): check the number", number,
-             extra_dofs_);
+      throw_input_error("extra degree of freedom {} is prescribed (there are {}): check the number", number,
+                        extra_dofs_);
     }
-    prescribe(dim_ * nodes_ + number, fmt::format("degree of freedom {} beside the mesh", number), rate,
-              std::move(course));
+    prescribe(dim_ * nodes_ + number, fmt::format("extra degree of freedom {}", number), rate, std::move(amplitude));
   }
 
   int dof_count() const { return dim_ * nodes_ + extra_dofs_; }
@@ -83,8 +83,8 @@ class Constraints {
   Eigen::VectorXd displacement(double from, double to) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(dof_count());
     for (std::size_t k = 0; k < dofs_.size(); ++k) {
-      auto const& course = courses_[k];
-      all(dofs_[k]) = rates_[k] * (course == TimeFunction{} ? to - from : course(to) - course(from));
+      auto const& amplitude = amplitudes_[k];
+      all(dofs_[k]) = rates_[k] * (amplitude == TimeFunction{} ? to - from : amplitude(to) - amplitude(from));
     }
     return all;
   }
@@ -93,22 +93,24 @@ class Constraints {
   Eigen::VectorXd displacement(double load) const { return displacement(0.0, load); }
 
  private:
-  void prescribe(int dof, std::string const& what, double rate, TimeFunction course) {
+  void prescribe(int dof, std::string const& what, double rate, TimeFunction amplitude) {
     require_finite("rate of a prescribed displacement", rate);
     auto const place = std::lower_bound(dofs_.begin(), dofs_.end(), dof);
     auto const k = place - dofs_.begin();
     if (place == dofs_.end() || *place != dof) {
       rates_.insert(rates_.begin() + k, rate);
-      courses_.insert(courses_.begin() + k, std::move(course));
+      amplitudes_.insert(amplitudes_.begin() + k, std::move(amplitude));
       dofs_.insert(place, dof);
       return;
     }
     auto const known = detail::index(k);
     if (rates_[known] != rate) {
-      refuse("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, rates_[known], rate);
+      throw_input_error("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, rates_[known],
+                        rate);
     }
-    if (rate != 0.0 && !(courses_[known] == course)) {
-      refuse("{} is prescribed twice (by different courses of the rate {}): decide for one of them", what, rate);
+    if (rate != 0.0 && !(amplitudes_[known] == amplitude)) {
+      throw_input_error("{} is prescribed twice (by different amplitudes of the rate {}): decide for one of them", what,
+                        rate);
     }
   }
 
@@ -117,7 +119,7 @@ class Constraints {
   int extra_dofs_;
   std::vector<int> dofs_;
   std::vector<double> rates_;
-  std::vector<TimeFunction> courses_;
+  std::vector<TimeFunction> amplitudes_;
 };
 
 /// A degree of freedom in words: node, place, axis and the regions that the node belongs to.
@@ -127,7 +129,7 @@ std::string describe_dof(Mesh<Element> const& mesh, int dof) {
   int const node = dof / dim;
   if (dof < 0) return "an unknown degree of freedom";
   if (node >= detail::count(mesh.nodes))
-    return fmt::format("degree of freedom {} beside the mesh", dof - dim * detail::count(mesh.nodes));
+    return fmt::format("extra degree of freedom {}", dof - dim * detail::count(mesh.nodes));
   std::set<std::string> regions;
   for (int e = 0; e < detail::count(mesh.elements); ++e) {
     auto const& nodes = mesh.elements[detail::index(e)];

@@ -84,7 +84,8 @@ class SCARP_EXPORT Discretisation {
   void commit(Eigen::VectorXd const& increment) {
     require_length("displacement increment", increment.size(), dof_count());
     if (!increment.allFinite()) {
-      refuse("the displacement increment is not finite (a diverged step must not be committed): cut the load step");
+      throw_input_error(
+          "the displacement increment is not finite (a diverged step must not be committed): cut the load step");
     }
     positions_ = moved(increment);
   }
@@ -110,8 +111,8 @@ class SCARP_EXPORT Discretisation {
 
   static void require_length(char const* what, std::ptrdiff_t length, int wanted) {
     if (length != wanted) {
-      refuse("{}: {} entries are given ({} are needed): size it by dof_count, point_count or node_count", what, length,
-             wanted);
+      throw_input_error("{}: {} entries are given ({} are needed): size it by dof_count, point_count or node_count",
+                        what, length, wanted);
     }
   }
 
@@ -181,7 +182,7 @@ Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, doub
     : mesh_((validate(mesh), std::move(mesh))), thickness_(thickness), positions_(mesh_.nodes), sparsity_(mesh_) {
   require_positive("thickness", thickness);
   if (dim == 3 && thickness != 1.0) {
-    refuse("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
+    throw_input_error("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
   }
 }
 
@@ -202,7 +203,7 @@ std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::Vec
   for_each_element(reference(), [&](int element, Shapes const& shapes) {
     auto const gradients = Scheme::template gradients<Motion>(shapes, element_part(increment, element));
     for (std::size_t p = 0; p < gradients.size(); ++p) {
-      out[first_point(element) + p] = Motion::template seen<dim>(gradients[p]);
+      out[first_point(element) + p] = Motion::template material_gradient<dim>(gradients[p]);
       if (Motion::follows_motion && !inverted && !((Tensor<dim>::Identity() + gradients[p]).determinant() > 0.0)) {
         inverted = element;
       }

@@ -22,13 +22,14 @@ namespace detail {
 /// \throws InputError for facets that are none, or one that is there twice, whatever the order of its nodes
 template <class Facet>
 void require_facets(std::string_view what, std::vector<Facet> facets) {
-  if (facets.empty()) refuse("{} has no facets (nothing can touch or load it): name a boundary with facets", what);
+  if (facets.empty())
+    throw_input_error("{} has no facets (nothing can touch or load it): name a boundary with facets", what);
   for (auto& facet : facets) std::sort(facet.begin(), facet.end());
   std::sort(facets.begin(), facets.end());
   auto const twice = std::adjacent_find(facets.begin(), facets.end());
   if (twice != facets.end()) {
-    refuse("{} has the facet of the nodes ({}) twice (it would count twice): name each facet once", what,
-           listed(*twice));
+    throw_input_error("{} has the facet of the nodes ({}) twice (it would count twice): name each facet once", what,
+                      listed(*twice));
   }
 }
 }  // namespace detail
@@ -39,7 +40,7 @@ class FacetChain {
   using Facet = std::array<int, Line2::nodes>;
 
   /// A place on the chain: facet, local coordinate in [0, 1], and whether the chain ends there.
-  struct Foot {
+  struct ClosestPoint {
     int facet = 0;
     double xi = 0.0;
     bool at_end = false;
@@ -54,7 +55,7 @@ class FacetChain {
 
   std::vector<Facet> const& facets() const { return facets_; }
 
-  Vector<2> place(Foot const& foot, std::vector<Vector<2>> const& nodes) const {
+  Vector<2> place(ClosestPoint const& foot, std::vector<Vector<2>> const& nodes) const {
     auto const& [a, b] = ends(foot.facet, nodes);
     return (1.0 - foot.xi) * a + foot.xi * b;
   }
@@ -67,10 +68,11 @@ class FacetChain {
 
   /// The place of the chain that a point is opposite to along a direction, a unit vector out of the body: the nearest one on that
   /// line, on either side of the point; without one the nearest end.
-  Foot opposite(Vector<2> const& point, Vector<2> const& direction, std::vector<Vector<2>> const& nodes) const {
+  ClosestPoint project_along(Vector<2> const& point, Vector<2> const& direction,
+                             std::vector<Vector<2>> const& nodes) const {
     constexpr double round_off = 1e-12;
     constexpr double grazing = 0.1;  // cosine: steeper facets are not met by this side
-    std::optional<Foot> best;
+    std::optional<ClosestPoint> best;
     double least = std::numeric_limits<double>::infinity();
     for (int f = 0; f < detail::count(facets_); ++f) {
       auto const& [a, b] = ends(f, nodes);
@@ -83,21 +85,21 @@ class FacetChain {
       double const distance = std::abs((side.y() * from.x() - side.x() * from.y()) / cross);
       if (!(distance < least)) continue;
       least = distance;
-      best = Foot{f, std::clamp(xi, 0.0, 1.0), false};
+      best = ClosestPoint{f, std::clamp(xi, 0.0, 1.0), false};
     }
     if (best) return *best;
-    Foot end = nearest(point, nodes);
+    ClosestPoint end = nearest(point, nodes);
     end.at_end = true;
     return end;
   }
 
   /// The nearest place of the chain to a point.
-  Foot nearest(Vector<2> const& point, std::vector<Vector<2>> const& nodes) const {
-    Foot best;
+  ClosestPoint nearest(Vector<2> const& point, std::vector<Vector<2>> const& nodes) const {
+    ClosestPoint best;
     double least = std::numeric_limits<double>::infinity();
     for (int f = 0; f < detail::count(facets_); ++f) {
       auto const& [a, b] = ends(f, nodes);
-      Foot const foot{f, std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0), false};
+      ClosestPoint const foot{f, std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0), false};
       double const distance = (point - place(foot, nodes)).squaredNorm();
       if (!(distance < least)) continue;
       least = distance;

@@ -31,7 +31,7 @@ template <class Policy, class Element>
 inline constexpr std::size_t material_points = std::tuple_size_v<decltype(Policy::template points<Element>())>;
 
 /// gradients<Motion>(shapes, moves): the displacement gradient of each point for nodal moves from the shapes'
-/// configuration, before Motion::seen. A point that the moves turn inside out keeps a gradient G with det(I + G) <= 0.
+/// configuration, before Motion::material_gradient. A point that the moves turn inside out keeps a gradient G with det(I + G) <= 0.
 template <class Policy, class Element>
 concept GivesGradients = PlacesPoints<Policy, Element> &&
     requires(ElementShapes<Element, material_points<Policy, Element>> const& shapes,
@@ -72,7 +72,7 @@ struct ReducedRule {
 
 /// The displacement method as it stands: every point sees the displacement gradient at its own place.
 template <class Rule>
-struct PointByPoint {
+struct PointwiseIntegration {
   template <class Element>
     requires PlacesPoints<Rule, Element>
   static auto points() { return Rule::template points<Element>(); }
@@ -126,10 +126,10 @@ struct PointByPoint {
 
 /// All points of the element's rule: the stiffness of an undistorted element is exact. Low-order elements lock when the
 /// material hardly changes its volume.
-using FullIntegration = PointByPoint<FullRule>;
+using FullIntegration = PointwiseIntegration<FullRule>;
 
 /// One order lower: cheap, does not lock, but some motions of an element have no stiffness (see its header). Quad8 and
 /// Hex20 do not share theirs with their neighbours; Quad4 and Hex8 do, and need a boundary that prevents them.
-using ReducedIntegration = PointByPoint<ReducedRule>;
+using ReducedIntegration = PointwiseIntegration<ReducedRule>;
 
 }  // namespace scarp

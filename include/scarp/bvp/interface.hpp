@@ -12,7 +12,7 @@
 namespace scarp {
 
 /// The body that stands on a mesh's outline: how its places move. place(k): committed; place(k, nodes, increment): after an
-/// increment; along(k, ...): unit vector along its base there, body on the left; levers_at(k, ...): what moves it. Its own
+/// increment; along(k, ...): unit vector along its base there, body on the left; jacobians_at(k, ...): what moves it. Its own
 /// degrees of freedom begin where those of the mesh's nodes end.
 template <class Body>
 concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k, std::vector<Vector<2>> const& nodes,
@@ -23,7 +23,7 @@ concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k,
   { constant.place(k, nodes) } -> std::same_as<Vector<2>>;
   { constant.place(k, nodes, increment) } -> std::same_as<Vector<2>>;
   { constant.along(k, nodes, increment) } -> std::same_as<Vector<2>>;
-  {constant.levers_at(k, nodes, increment)};
+  {constant.jacobians_at(k, nodes, increment)};
   {body.commit(nodes, increment)};
 };
 
@@ -115,7 +115,7 @@ class Interface {
 
  private:
   struct State {
-    FacetChain::Foot foot{};
+    FacetChain::ClosestPoint foot{};
     Memory memory{};
     Vector<2> place = Vector<2>::Zero();
     Vector<2> along = Vector<2>::UnitX();
@@ -165,7 +165,7 @@ class Interface {
     state.place = body_.place(k, nodes, increment);
     state.along = -body_.along(k, nodes, increment);
     Vector<2> const normal = outward(state.along);
-    state.foot = ground_.opposite(state.place, normal, moved);
+    state.foot = ground_.project_along(state.place, normal, moved);
     Vector<2> const apart = state.place - ground_.place(state.foot, moved);
     state.overlap = state.foot.at_end ? -apart.norm() : -apart.dot(normal);
     Vector<2> const relative =
@@ -207,14 +207,14 @@ class Interface {
   /// Degrees of freedom that move a point relative to its foot.
   void couple(std::size_t k, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) {
     couplings_.resize(trial_.size());
-    auto& levers = couplings_[k];
-    levers.clear();
-    for (auto const& lever : body_.levers_at(k, nodes, increment)) levers.push_back(lever);
+    auto& jacobians = couplings_[k];
+    jacobians.clear();
+    for (auto const& lever : body_.jacobians_at(k, nodes, increment)) jacobians.push_back(lever);
     auto const& foot = trial_[k].foot;
     auto const& facet = ground_.facets()[detail::index(foot.facet)];
     for (int axis = 0; axis < 2; ++axis) {
-      levers.push_back({2 * facet[0] + axis, -(1.0 - foot.xi) * Vector<2>::Unit(axis)});
-      levers.push_back({2 * facet[1] + axis, -foot.xi * Vector<2>::Unit(axis)});
+      jacobians.push_back({2 * facet[0] + axis, -(1.0 - foot.xi) * Vector<2>::Unit(axis)});
+      jacobians.push_back({2 * facet[1] + axis, -foot.xi * Vector<2>::Unit(axis)});
     }
   }
 
@@ -223,7 +223,7 @@ class Interface {
   FacetChain ground_;
   std::vector<State> committed_;
   std::vector<State> trial_;
-  std::vector<std::vector<Lever>> couplings_;
+  std::vector<std::vector<DofJacobian>> couplings_;
 };
 
 }  // namespace scarp

@@ -11,15 +11,15 @@ namespace scarp {
 /// `follows_motion`: commits move the configuration that gradients refer to, and forces are balanced in the
 /// configuration at the end of the increment.
 template <class Policy>
-concept TellsConfiguration = requires {
+concept HasConfiguration = requires {
   { Policy::follows_motion } -> std::convertible_to<bool>;
 };
 
 /// seen(gradient): the part of a displacement gradient that the material is driven by.
 template <class Policy>
 concept FiltersGradient = requires(Gradient<2> const& plane, Gradient<3> const& space) {
-  { Policy::template seen<2>(plane) } -> std::same_as<Gradient<2>>;
-  { Policy::template seen<3>(space) } -> std::same_as<Gradient<3>>;
+  { Policy::template material_gradient<2>(plane) } -> std::same_as<Gradient<2>>;
+  { Policy::template material_gradient<3>(space) } -> std::same_as<Gradient<3>>;
 };
 
 /// flux_change(L, stress, tangent): change of what the internal force integrates against the shape gradients, per
@@ -31,7 +31,7 @@ concept GivesFluxChange = requires(Gradient<2> const& further, VoigtStress<2> co
 };
 
 template <class Policy>
-concept Kinematics = TellsConfiguration<Policy> && FiltersGradient<Policy> && GivesFluxChange<Policy>;
+concept Kinematics = HasConfiguration<Policy> && FiltersGradient<Policy> && GivesFluxChange<Policy>;
 
 /// Large displacements and rotations. The increment's gradient refers to the configuration at the start of the step;
 /// \f$ f_a = \int_v \sigma \nabla N_a\,dv \f$ is integrated over the one at its end.
@@ -39,7 +39,7 @@ struct UpdatedLagrangian {
   static constexpr bool follows_motion = true;
 
   template <int Dim>
-  static Gradient<Dim> seen(Gradient<Dim> const& gradient) {
+  static Gradient<Dim> material_gradient(Gradient<Dim> const& gradient) {
     return gradient;
   }
 
@@ -64,7 +64,7 @@ struct SmallStrain {
 
   /// The symmetric part: the rotation would turn the stress.
   template <int Dim>
-  static Gradient<Dim> seen(Gradient<Dim> const& gradient) {
+  static Gradient<Dim> material_gradient(Gradient<Dim> const& gradient) {
     return (gradient + gradient.transpose()) / 2.0;
   }
 

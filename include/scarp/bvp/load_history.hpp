@@ -19,13 +19,15 @@ class TimeFunction {
   /// knots: (load factor, value), increasing in the load factor
   /// \throws InputError for knots that are not finite or not increasing
   explicit TimeFunction(std::vector<std::pair<double, double>> knots) : knots_(std::move(knots)) {
-    if (knots_.empty()) refuse("a time function has no knots (it needs at least one): give (load factor, value) pairs");
+    if (knots_.empty())
+      throw_input_error("a time function has no knots (it needs at least one): give (load factor, value) pairs");
     for (std::size_t k = 0; k < knots_.size(); ++k) {
       require_finite("load factor of a knot", knots_[k].first);
       require_finite("value of a knot", knots_[k].second);
       if (k > 0 && !(knots_[k].first > knots_[k - 1].first)) {
-        refuse("knot {} is at the load factor {}, the one before at {} (they must increase): order the knots", k,
-               knots_[k].first, knots_[k - 1].first);
+        throw_input_error(
+            "knot {} is at the load factor {}, the one before at {} (they must increase): order the knots", k,
+            knots_[k].first, knots_[k - 1].first);
       }
     }
   }
@@ -37,9 +39,9 @@ class TimeFunction {
 
   /// Zero up to a load factor, then the load factor beyond it.
   static TimeFunction after(double start) {
-    TimeFunction course({{start, 0.0}});
-    course.slope_at_end_ = 1.0;
-    return course;
+    TimeFunction amplitude({{start, 0.0}});
+    amplitude.slope_at_end_ = 1.0;
+    return amplitude;
   }
 
   friend bool operator==(TimeFunction const&, TimeFunction const&) = default;
@@ -60,7 +62,7 @@ class TimeFunction {
   double slope_at_end_ = 0.0;
 };
 
-/// Nodal forces [N] of a problem over its load factor: a sum of fixed patterns, each with its course. Without a pattern
+/// Nodal forces [N] of a problem over its load factor: a sum of fixed patterns, each with its amplitude. Without a pattern
 /// it has no size of its own, and a problem takes it for no load at all.
 class LoadHistory {
  public:
@@ -73,12 +75,13 @@ class LoadHistory {
   }
 
   /// \throws InputError for a pattern of another size or one that is not finite
-  void add(Eigen::VectorXd forces, TimeFunction course) {
+  void add(Eigen::VectorXd forces, TimeFunction amplitude) {
     if (!parts_.empty() && forces.size() != size()) {
-      refuse("a load has {} entries (the others have {}): size it by the degrees of freedom", forces.size(), size());
+      throw_input_error("a load has {} entries (the others have {}): size it by the degrees of freedom", forces.size(),
+                        size());
     }
-    if (!forces.allFinite()) refuse("a load is not finite (it holds NaN or infinity): check its values");
-    parts_.emplace_back(std::move(forces), std::move(course));
+    if (!forces.allFinite()) throw_input_error("a load is not finite (it holds NaN or infinity): check its values");
+    parts_.emplace_back(std::move(forces), std::move(amplitude));
   }
 
   /// Degrees of freedom of the patterns; zero where there is none.
@@ -86,7 +89,7 @@ class LoadHistory {
 
   Eigen::VectorXd at(double load) const {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size());
-    for (auto const& [forces, course] : parts_) sum += course(load) * forces;
+    for (auto const& [forces, amplitude] : parts_) sum += amplitude(load) * forces;
     return sum;
   }
 

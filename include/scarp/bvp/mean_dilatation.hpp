@@ -43,7 +43,7 @@ struct MeanDilatation {
   template <class Motion, class Element, std::size_t Points>
   static std::array<Gradient<Element::dim>, Points> gradients(std::array<SpatialShape<Element>, Points> const& shapes,
                                                               Corners<Element, Element::dim> const& moves) {
-    auto gradients = PointByPoint<Rule>::template gradients<Motion>(shapes, moves);
+    auto gradients = PointwiseIntegration<Rule>::template gradients<Motion>(shapes, moves);
     Tensor<Element::dim> const identity = Tensor<Element::dim>::Identity();
     std::array<double, Points> changes;  // J, or the trace
     double volume = 0.0;

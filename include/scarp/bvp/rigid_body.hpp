@@ -10,7 +10,7 @@
 namespace scarp {
 
 /// How a degree of freedom moves a place: derivative of the position with respect to it.
-struct Lever {
+struct DofJacobian {
   int dof = -1;
   Vector<2> direction = Vector<2>::Zero();
 };
@@ -20,7 +20,7 @@ struct Lever {
 class RigidBody {
  public:
   static constexpr int extra_dofs = 3;
-  static constexpr int levers = 3;
+  static constexpr int jacobians = 3;
 
   /// reference [m]: the point that loads act on; arm [m]: such as half the width
   RigidBody(Vector<2> const& reference, double arm) : reference_(reference), arm_(require_positive("arm", arm)) {}
@@ -42,7 +42,8 @@ class RigidBody {
     return turned(increment(first + 2)) * own;
   }
 
-  std::array<Lever, levers> levers_at(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
+  std::array<DofJacobian, jacobians> jacobians_at(Vector<2> const& own, Eigen::VectorXd const& increment,
+                                                  int first) const {
     Vector<2> const arm = turned(increment(first + 2)) * own;
     return {{{first, Vector<2>::UnitX()},
              {first + 1, Vector<2>::UnitY()},

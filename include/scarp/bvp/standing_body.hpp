@@ -13,7 +13,7 @@ namespace scarp {
 /// Points of a base on the ground below it: two Gauss points between all neighbouring nodes of either side, so that every product of a linear
 /// pressure and a linear shape function is integrated exactly while the two stay opposite each other (the contact patch test).
 struct BasePoint {
-  double along = 0.0;   ///< 0 to 1 over the part of the base that was asked for
+  double along = 0.0;   ///< 0 to 1 over the part of the base that was requested
   double weight = 0.0;  ///< share of that part
 };
 
@@ -49,7 +49,7 @@ class RigidFooting {
         length_((right - left).norm()) {
     require_positive("thickness", thickness);
     if (!(left.allFinite() && right.allFinite() && left.x() < right.x())) {
-      refuse(
+      throw_input_error(
           "the base of a footing goes from ({} m, {} m) to ({} m, {} m) (it must go from left to right): give its ends "
           "in this order",
           left.x(), left.y(), right.x(), right.y());
@@ -74,9 +74,9 @@ class RigidFooting {
   Vector<2> along(std::size_t, std::vector<Vector<2>> const&, Eigen::VectorXd const& increment) const {
     return body_.turned(base_, increment, first_);
   }
-  std::array<Lever, RigidBody::levers> levers_at(std::size_t k, std::vector<Vector<2>> const&,
-                                                 Eigen::VectorXd const& increment) const {
-    return body_.levers_at(own_[k], increment, first_);
+  std::array<DofJacobian, RigidBody::jacobians> jacobians_at(std::size_t k, std::vector<Vector<2>> const&,
+                                                             Eigen::VectorXd const& increment) const {
+    return body_.jacobians_at(own_[k], increment, first_);
   }
   void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const& increment) { body_.commit(increment, first_); }
 
@@ -116,7 +116,7 @@ class MeshedFooting {
   Vector<2> place(std::size_t k, std::vector<Vector<2>> const& nodes) const { return base_.place(at_[k], nodes); }
   Vector<2> place(std::size_t k, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) const {
     Vector<2> moved = place(k, nodes);
-    for (auto const& lever : levers_at(k, nodes, increment)) moved += lever.direction * increment(lever.dof);
+    for (auto const& lever : jacobians_at(k, nodes, increment)) moved += lever.direction * increment(lever.dof);
     return moved;
   }
   Vector<2> along(std::size_t k, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) const {
@@ -124,7 +124,7 @@ class MeshedFooting {
     Vector<2> const side = base_.place({at_[k].facet, 1.0}, nodes) - base_.place({at_[k].facet, 0.0}, nodes);
     return (side + increment.segment<2>(2 * b) - increment.segment<2>(2 * a)).normalized();
   }
-  std::array<Lever, 4> levers_at(std::size_t k, std::vector<Vector<2>> const&, Eigen::VectorXd const&) const {
+  std::array<DofJacobian, 4> jacobians_at(std::size_t k, std::vector<Vector<2>> const&, Eigen::VectorXd const&) const {
     auto const& [a, b] = base_.facets()[detail::index(at_[k].facet)];
     double const xi = at_[k].xi;
     return {{{2 * a, (1.0 - xi) * Vector<2>::UnitX()},
@@ -139,7 +139,7 @@ class MeshedFooting {
 
  private:
   FacetChain base_;
-  std::vector<FacetChain::Foot> at_;
+  std::vector<FacetChain::ClosestPoint> at_;
   std::vector<double> area_;
 };
 

@@ -49,7 +49,7 @@ concept Responds = HasState<Model> && HasDimension<Model> &&
 
 /// stress(state): the Cauchy stress [Pa] that a state carries.
 template <class Model>
-concept TellsStress = HasState<Model> && HasDimension<Model> &&
+concept HasStress = HasState<Model> && HasDimension<Model> &&
     requires(Model const& model, typename Model::State const& state) {
   { model.stress(state) } -> std::same_as<VoigtStress<Model::dim>>;
 };
@@ -63,13 +63,13 @@ concept GivesTangent = HasState<Model> && HasDimension<Model> &&
 
 /// A material model at an integration point: immutable parameters plus a copyable state.
 template <class Model>
-concept ConstitutiveProvider = MakesInitialState<Model> && Responds<Model> && TellsStress<Model> && GivesTangent<Model>;
+concept ConstitutiveProvider = MakesInitialState<Model> && Responds<Model> && HasStress<Model> && GivesTangent<Model>;
 
 /// A provider whose work for a load step is fixed once, from the step's first increment, so that its answer stays a
 /// smooth function of the increment while the solver iterates: plan(committed, predicted), respond(..., plan). Where an answer
 /// is `not_converged` in the end, refined(plan) works harder.
 template <class Model>
-concept PlansWork = ConstitutiveProvider<Model> && requires {
+concept HasPlan = ConstitutiveProvider<Model> && requires {
   typename Model::Plan;
 } && requires(Model const& model, typename Model::State const& committed, Gradient<Model::dim> const& increment,
               typename Model::State& trial, typename Model::Plan const& plan) {
@@ -88,7 +88,7 @@ template <class Model>
 struct PlanOf {
   using type = NoPlan;
 };
-template <PlansWork Model>
+template <HasPlan Model>
 struct PlanOf<Model> {
   using type = typename Model::Plan;
 };
@@ -103,7 +103,7 @@ template <ConstitutiveProvider Model>
 Response<Model::dim> respond_as_planned(Model const& model, typename Model::State const& committed,
                                         Gradient<Model::dim> const& increment, typename Model::State& trial,
                                         PlanOf<Model> const& plan) {
-  if constexpr (PlansWork<Model>) {
+  if constexpr (HasPlan<Model>) {
     return model.respond(committed, increment, trial, plan);
   } else {
     static_cast<void>(plan);
@@ -126,7 +126,7 @@ struct MissingOfProvider<Model, true> {
   static_assert(Responds<Model>,
                 "scarp: a provider needs `Response<dim> respond(State const& committed, Gradient<dim> const& "
                 "increment, State& trial) const`");
-  static_assert(TellsStress<Model>, "scarp: a provider needs `VoigtStress<dim> stress(State const&) const` [Pa]");
+  static_assert(HasStress<Model>, "scarp: a provider needs `VoigtStress<dim> stress(State const&) const` [Pa]");
   static_assert(GivesTangent<Model>, "scarp: a provider needs `VoigtTangent<dim> tangent(State const&) const` [Pa]");
   static constexpr bool nothing = false;
 };
@@ -149,7 +149,7 @@ typename Provider::State empty_state(Provider const& provider, Site<Provider::di
     return {};
   } else {
     static_cast<void>(provider), static_cast<void>(site);
-    refuse(
+    throw_input_error(
         "a state cannot be sent to another process (it has no default constructor, and its provider makes no blank "
         "one): give it one");
   }

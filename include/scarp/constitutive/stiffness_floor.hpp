@@ -51,7 +51,8 @@ struct StiffnessFloor {
     if (!(shear_modulus > 0.0)) {
       auto const whole = isotropic_part(provider.tangent(own));
       if (!(whole.shear_modulus > 0.0)) {
-        refuse("point {} has no initial stiffness (it may be fluid): give the floor's shear modulus", site.index);
+        throw_input_error("point {} has no initial stiffness (it may be fluid): give the floor's shear modulus",
+                          site.index);
       }
       elasticity = {share * whole.lame_lambda, share * whole.shear_modulus};
     }
@@ -69,10 +70,10 @@ struct StiffnessFloor {
     return state.fluid ? VoigtTangent<dim>(own + state.elasticity.template stiffness<dim>()) : own;
   }
 
-  Plan plan(State const& committed, Gradient<dim> const& increment) const requires PlansWork<Provider> {
+  Plan plan(State const& committed, Gradient<dim> const& increment) const requires HasPlan<Provider> {
     return provider.plan(committed.own, increment);
   }
-  Plan refined(Plan const& plan) const requires PlansWork<Provider> { return provider.refined(plan); }
+  Plan refined(Plan const& plan) const requires HasPlan<Provider> { return provider.refined(plan); }
 
   /// \param plan the provider's, or none
   template <class... PlanType>

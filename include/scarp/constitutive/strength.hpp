@@ -30,18 +30,19 @@ struct Strength {
   void validate() const {
     require_not_negative("cohesion", cohesion);
     if (!(friction >= 0.0 && friction < 0.999 * std::numbers::pi / 2.0)) {
-      refuse("the friction angle is {} rad (it must be from 0 to below a right angle): {}", friction,
-             friction > 1.5 && friction < 90.0 ? "was it given in degrees?" : "give radians");
+      throw_input_error("the friction angle is {} rad (it must be from 0 to below a right angle): {}", friction,
+                        friction > 1.5 && friction < 90.0 ? "was it given in degrees?" : "give radians");
     }
     if (!(dilation >= 0.0 && dilation <= friction)) {
-      refuse(
+      throw_input_error(
           "the angle of dilation is {} rad with a friction of {} rad (beyond it flow would create energy): choose one "
           "from 0 to the friction",
           dilation, friction);
     }
     if (!(tension >= 0.0)) {
-      refuse("the tensile strength is {} Pa (it must not be negative): give zero for none, infinity for no cut-off",
-             tension);
+      throw_input_error(
+          "the tensile strength is {} Pa (it must not be negative): give zero for none, infinity for no cut-off",
+          tension);
     }
   }
 };
@@ -74,10 +75,10 @@ struct SofteningStrength {
 
   Strength peak{};
   Strength residual{};
-  double strain_to_residual = 0.1;  ///< plastic shear strain at which the residual strength is reached
+  double softening_strain = 0.1;  ///< plastic shear strain at which the residual strength is reached
 
   Strength at(double plastic_shear) const {
-    double const done = std::clamp(plastic_shear / strain_to_residual, 0.0, 1.0);
+    double const done = std::clamp(plastic_shear / softening_strain, 0.0, 1.0);
     auto const between = [&](double from, double to) {
       if (from == to || done == 0.0 || std::isinf(to)) return done < 1.0 ? from : to;
       return done == 1.0 || std::isinf(from) ? to : from + done * (to - from);
@@ -88,7 +89,7 @@ struct SofteningStrength {
 
   /// \throws InputError for a peak or residual strength that cannot be, or a fall over no strain
   void validate() const {
-    require_positive("plastic shear strain from peak to residual strength", strain_to_residual);
+    require_positive("plastic shear strain from peak to residual strength", softening_strain);
     peak.validate();
     residual.validate();
   }

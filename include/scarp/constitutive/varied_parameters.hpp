@@ -28,7 +28,7 @@ struct VariedParameters {
     std::shared_ptr<Provider const> provider;
     PlanOf<Provider> own{};
 
-    explicit operator long() const requires PlansWork<Provider> { return static_cast<long>(own); }
+    explicit operator long() const requires HasPlan<Provider> { return static_cast<long>(own); }
   };
 
   struct State {
@@ -48,7 +48,8 @@ struct VariedParameters {
 
   /// \throws InputError without a function that varies
   void validate() const {
-    if (!vary) refuse("points have no parameters of their own (no function varies the common ones): give `vary`");
+    if (!vary)
+      throw_input_error("points have no parameters of their own (no function varies the common ones): give `vary`");
   }
 
   /// \throws InputError as validate() does, and whatever the function that varies throws
@@ -67,11 +68,11 @@ struct VariedParameters {
   VoigtStress<dim> stress(State const& state) const { return state.provider->stress(state.own); }
   VoigtTangent<dim> tangent(State const& state) const { return state.provider->tangent(state.own); }
 
-  Plan plan(State const& committed, Gradient<dim> const& increment) const requires PlansWork<Provider> {
+  Plan plan(State const& committed, Gradient<dim> const& increment) const requires HasPlan<Provider> {
     return {committed.provider, committed.provider->plan(committed.own, increment)};
   }
 
-  Plan refined(Plan const& plan) const requires PlansWork<Provider> {
+  Plan refined(Plan const& plan) const requires HasPlan<Provider> {
     return plan.provider ? Plan{plan.provider, plan.provider->refined(plan.own)} : plan;
   }
 
@@ -80,7 +81,7 @@ struct VariedParameters {
     return committed.provider->respond(committed.own, increment, trial.own);
   }
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial,
-                        Plan const& plan) const requires PlansWork<Provider> {
+                        Plan const& plan) const requires HasPlan<Provider> {
     trial.provider = committed.provider;
     return committed.provider->respond(committed.own, increment, trial.own, plan.own);
   }

@@ -13,7 +13,7 @@ namespace scarp {
 
 /// A law of constant stiffness whose springs a bond can go on using where the law itself would open or slide.
 template <class Law>
-concept HasLinearSprings = Frictional<Law> && TellsStoredEnergy<Law> && requires(Law const& law) {
+concept HasLinearSprings = Frictional<Law> && HasStoredEnergy<Law> && requires(Law const& law) {
   { law.normal_stiffness } -> std::convertible_to<double>;
   { law.tangential_stiffness } -> std::convertible_to<double>;
   { law.friction } -> std::convertible_to<double>;
@@ -26,7 +26,7 @@ concept HasLinearSprings = Frictional<Law> && TellsStoredEnergy<Law> && requires
 /// tensile strength T and shear strength C [N]. What a bond stored beyond the law's share is dissipated when it breaks;
 /// for tension it is taken at the end of the breaking step, first order in the step.
 template <HasLinearSprings Law>
-  requires(Law::needs.scalars < most_contact_scalars)
+  requires(Law::needs.scalars < max_contact_scalars)
 struct CohesiveBond {
   static constexpr ContactInputs needs = [] {
     ContactInputs all = Law::needs;
@@ -49,30 +49,31 @@ struct CohesiveBond {
   /// Bonds a contact, free of stress at zero overlap.
   template <int Dim, class T>
   static void bond(ContactMemory<Dim, T>& memory) {
-    memory.scalars[state] = constant<T>(intact);
+    memory.scalars[state] = broadcast<T>(intact);
   }
 
   template <int Dim, class T>
   static auto is_intact(ContactMemory<Dim, T> const& memory) {
-    return memory.scalars[state] == constant<T>(intact);
+    return memory.scalars[state] == broadcast<T>(intact);
   }
 
   template <int Dim, class T>
   static auto is_broken(ContactMemory<Dim, T> const& memory) {
-    return memory.scalars[state] == constant<T>(broken);
+    return memory.scalars[state] == broadcast<T>(broken);
   }
 
   template <int Dim, class T>
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
-    T const zero = constant<T>(0);
-    T const normal = constant<T>(law.normal_stiffness) * approach.overlap;
+    T const zero = broadcast<T>(0);
+    T const normal = broadcast<T>(law.normal_stiffness) * approach.overlap;
     Tangential<Dim, T> const shear = stretched<Dim, T>(memory.shear, approach.slip);
-    T const strength = lanes::at_least(constant<T>(shear_strength) + constant<T>(law.friction) * normal, zero);
+    T const strength = lanes::at_least(broadcast<T>(shear_strength) + broadcast<T>(law.friction) * normal, zero);
     auto const bonded = is_intact(memory);
-    auto const holds = bonded && normal >= constant<T>(-tensile_strength) && squared_size(shear) <= strength * strength;
+    auto const holds =
+        bonded && normal >= broadcast<T>(-tensile_strength) && squared_size(shear) <= strength * strength;
 
     T const state_after =
-        lanes::select(holds, constant<T>(intact), lanes::select(bonded, constant<T>(broken), memory.scalars[state]));
+        lanes::select(holds, broadcast<T>(intact), lanes::select(bonded, broadcast<T>(broken), memory.scalars[state]));
     T const released = lanes::select(bonded, pull_energy(approach.overlap), zero);
     ContactForce<Dim, T> force = law.respond(approach, memory);
     memory.shear = lanes::select(holds, shear, memory.shear);
@@ -90,11 +91,11 @@ struct CohesiveBond {
 
   template <int Dim, class T>
   T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
-    T const pulled = lanes::select(is_intact(memory), pull_energy(approach.overlap), constant<T>(0));
+    T const pulled = lanes::select(is_intact(memory), pull_energy(approach.overlap), broadcast<T>(0));
     return law.stored_energy(approach, memory) + pulled;
   }
 
-  double reach() const { return tensile_strength / law.normal_stiffness; }
+  double interaction_range() const { return tensile_strength / law.normal_stiffness; }
   double damping_ratio() const { return damping_ratio_of(law); }
 
  private:
@@ -104,7 +105,7 @@ struct CohesiveBond {
 
   template <int Dim, class T>
   Tangential<Dim, T> stretched(Tangential<Dim, T> force, Tangential<Dim, T> const& slip) const {
-    T const stiffness = constant<T>(law.tangential_stiffness);
+    T const stiffness = broadcast<T>(law.tangential_stiffness);
     if constexpr (Dim == 2) {
       force = force - stiffness * slip;
     } else {
@@ -115,8 +116,8 @@ struct CohesiveBond {
 
   template <class T>
   T pull_energy(T const& overlap) const {
-    T const pulled = lanes::at_most(overlap, constant<T>(0));
-    return constant<T>(law.normal_stiffness / 2.0) * pulled * pulled;
+    T const pulled = lanes::at_most(overlap, broadcast<T>(0));
+    return broadcast<T>(law.normal_stiffness / 2.0) * pulled * pulled;
   }
 };
 
@@ -124,6 +125,6 @@ template <class Law>
 CohesiveBond(Law, double, double) -> CohesiveBond<Law>;
 
 static_assert(Frictional<CohesiveBond<LinearFrictional>>);
-static_assert(TellsStoredEnergy<CohesiveBond<LinearFrictional>>);
+static_assert(HasStoredEnergy<CohesiveBond<LinearFrictional>>);
 
 }  // namespace scarp

@@ -44,14 +44,14 @@ struct ContactKinematics {
 };
 
 /// The most numbers that a law, with all that is wrapped around it, may ask for in `ContactInputs::scalars`.
-inline constexpr int most_contact_scalars = 4;
+inline constexpr int max_contact_scalars = 4;
 
 /// What a contact remembers from step to step, as far as its law needs it.
 template <int Dim, class T>
 struct ContactMemory {
   Tangential<Dim, T> shear{};  ///< tangential force on the second grain [N]
   Turning<Dim, T> moment{};    ///< on the second grain [N m]
-  std::array<T, most_contact_scalars> scalars{};
+  std::array<T, max_contact_scalars> scalars{};
 
   SCARP_MEMBERS(shear, moment, scalars)
 };
@@ -87,14 +87,14 @@ concept RespondsInPacks = requires(Law const& law, ContactKinematics<2, lanes::P
 };
 
 template <class Law>
-concept TellsContactStiffness = requires(Law const& law) {
+concept HasContactStiffness = requires(Law const& law) {
   { law.stiffness(0.0, 0.0) } -> std::same_as<ContactStiffness>;  // at an overlap and a reduced radius [m]
 };
 
 template <class Law>
 concept NamesContactNeeds = requires {
   { Law::needs } -> std::convertible_to<ContactInputs>;
-  requires Law::needs.scalars <= most_contact_scalars;
+  requires Law::needs.scalars <= max_contact_scalars;
 };
 
 /// A law with a friction coefficient needs a shear force that is remembered: without it none would be computed.
@@ -106,7 +106,7 @@ concept RemembersItsShear = !requires(Law & law) {
 
 template <class Law>
 concept ContactLaw = std::is_aggregate_v<Law> && NamesContactNeeds<Law> && RemembersItsShear<Law> &&
-    RespondsToApproach<Law> && RespondsInPacks<Law> && TellsContactStiffness<Law>;
+    RespondsToApproach<Law> && RespondsInPacks<Law> && HasContactStiffness<Law>;
 
 /// A law whose friction coefficient can be exchanged, as the preparation of a packing needs.
 template <class Law>
@@ -116,22 +116,22 @@ concept Frictional = ContactLaw<Law> && requires(Law law) {
 
 /// stored_energy(approach, memory): what the contact would give back [J].
 template <class Law>
-concept TellsStoredEnergy = ContactLaw<Law> &&
+concept HasStoredEnergy = ContactLaw<Law> &&
     requires(Law const& law, ContactKinematics<2, double> const& approach, ContactMemory<2, double> const& memory) {
   { law.stored_energy(approach, memory) } -> std::same_as<double>;
 };
 
-/// reach(): the widest gap [m] across which the law still acts, such as a bond that is pulled. A law that has none acts on
-/// closed contacts only; say `static_assert(TellsReach<MyLaw>)` beside one that has, so that no misspelling is passed over.
+/// interaction_range(): the widest gap [m] across which the law still acts, such as a bond that is pulled. A law that has none acts on
+/// closed contacts only; say `static_assert(HasInteractionRange<MyLaw>)` beside one that has, so that no misspelling is passed over.
 template <class Law>
-concept TellsReach = requires(Law const& law) {
-  { law.reach() } -> std::convertible_to<double>;
+concept HasInteractionRange = requires(Law const& law) {
+  { law.interaction_range() } -> std::convertible_to<double>;
 };
 
 template <class Law>
-double reach_of(Law const& law) {
-  if constexpr (TellsReach<Law>) {
-    return law.reach();
+double interaction_range_of(Law const& law) {
+  if constexpr (HasInteractionRange<Law>) {
+    return law.interaction_range();
   } else {
     return 0.0;
   }
@@ -145,13 +145,13 @@ concept Bonds = requires(ContactMemory<2, double>& memory) {
 
 /// damping_ratio(): share of critical damping that the law's dashpots may reach; the time step is the shorter for it.
 template <class Law>
-concept TellsDampingRatio = requires(Law const& law) {
+concept HasDampingRatio = requires(Law const& law) {
   { law.damping_ratio() } -> std::convertible_to<double>;
 };
 
 template <class Law>
 double damping_ratio_of(Law const& law) {
-  if constexpr (TellsDampingRatio<Law>) {
+  if constexpr (HasDampingRatio<Law>) {
     return law.damping_ratio();
   } else {
     return 0.0;
@@ -191,7 +191,7 @@ struct MissingOfContactLaw {
                 "scarp: a contact law is an aggregate of parameters: no constructors, no private or virtual members");
   static_assert(NamesContactNeeds<Law>,
                 "scarp: a contact law needs `static constexpr ContactInputs needs{...}`, with at most "
-                "most_contact_scalars scalars");
+                "max_contact_scalars scalars");
   static_assert(
       !NamesContactNeeds<Law> || RemembersItsShear<Law>,
       "scarp: a contact law with friction_coefficient() needs `.shear = true` in its needs: nothing would rub");
@@ -201,9 +201,9 @@ struct MissingOfContactLaw {
       "const&, ContactMemory<Dim, T>&) const`");
   static_assert(
       !RespondsToApproach<Law> || RespondsInPacks<Law>,
-      "scarp: a contact law is asked for several contacts at once: make respond a template over the scalar T");
+      "scarp: a contact law is requested several contacts at once: make respond a template over the scalar T");
   static_assert(
-      TellsContactStiffness<Law>,
+      HasContactStiffness<Law>,
       "scarp: a contact law needs `ContactStiffness stiffness(double overlap, double reduced_radius) const` [N/m]");
   static constexpr bool nothing = false;
 };

@@ -15,7 +15,7 @@ namespace scarp {
 template <int Dim, class T>
 T coulomb_slide(Tangential<Dim, T>& force, Tangential<Dim, T> const& slip, T const& stiffness, T const& limit) {
   using std::sqrt;
-  T const halved_compliance = constant<T>(0.5) / lanes::at_least(stiffness, tiny<T>());
+  T const halved_compliance = broadcast<T>(0.5) / lanes::at_least(stiffness, smallest_normal<T>());
   if constexpr (Dim == 2) {
     T const trial = force - stiffness * slip;
     T const limited = lanes::at_least(lanes::at_most(trial, limit), -limit);
@@ -25,8 +25,9 @@ T coulomb_slide(Tangential<Dim, T>& force, Tangential<Dim, T> const& slip, T con
   } else {
     std::array<T, 3> trial;
     for (std::size_t k = 0; k < 3; ++k) trial[k] = force[k] - stiffness * slip[k];
-    T const scale = lanes::at_most(limit / sqrt(lanes::at_least(squared_size(trial), tiny<T>())), constant<T>(1));
-    T lost = constant<T>(0);
+    T const scale =
+        lanes::at_most(limit / sqrt(lanes::at_least(squared_size(trial), smallest_normal<T>())), broadcast<T>(1));
+    T lost = broadcast<T>(0);
     for (std::size_t k = 0; k < 3; ++k) {
       T const limited = trial[k] * scale;
       lost = lost + (force[k] + limited) * (trial[k] - limited) * halved_compliance;

@@ -18,20 +18,20 @@ struct Frictionless {
 
   template <int Dim, class T>
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
-    return {.normal = lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0))};
+    return {.normal = lanes::at_least(broadcast<T>(normal_stiffness) * approach.overlap, broadcast<T>(0))};
   }
 
   ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
 
   template <int Dim, class T>
   T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const&) const {
-    T const closed = lanes::at_least(approach.overlap, constant<T>(0));
-    return constant<T>(normal_stiffness / 2.0) * closed * closed;
+    T const closed = lanes::at_least(approach.overlap, broadcast<T>(0));
+    return broadcast<T>(normal_stiffness / 2.0) * closed * closed;
   }
 };
 
 static_assert(ContactLaw<Frictionless>);
-static_assert(TellsStoredEnergy<Frictionless>);
+static_assert(HasStoredEnergy<Frictionless>);
 
 template <>
 inline constexpr bool is_precompiled<Frictionless> = detail::has_library;

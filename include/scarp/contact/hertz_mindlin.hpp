@@ -26,11 +26,11 @@ struct NoContactDamping {
 
   template <int Dim, class T>
   T push(T const&, ContactKinematics<Dim, T> const&) const {
-    return constant<T>(0);
+    return broadcast<T>(0);
   }
   template <int Dim, class T>
   T drag(Tangential<Dim, T>&, T const&, T const&, ContactKinematics<Dim, T> const&) const {
-    return constant<T>(0);
+    return broadcast<T>(0);
   }
 };
 
@@ -88,8 +88,8 @@ struct HertzRestitution {
   template <int Dim, class T>
   T stiffness_of_step(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
     using std::sqrt;
-    T const dashpot = constant<T>(2.0 * damping_ratio) * sqrt(approach.reduced_mass * stiffness);
-    return lanes::select(approach.time_step > constant<T>(0), dashpot / approach.time_step, constant<T>(0));
+    T const dashpot = broadcast<T>(2.0 * damping_ratio) * sqrt(approach.reduced_mass * stiffness);
+    return lanes::select(approach.time_step > broadcast<T>(0), dashpot / approach.time_step, broadcast<T>(0));
   }
 };
 
@@ -142,14 +142,14 @@ struct HertzMindlin {
   template <int Dim, class T>
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     using std::sqrt;
-    T const overlap = lanes::at_least(approach.overlap, constant<T>(0));
+    T const overlap = lanes::at_least(approach.overlap, broadcast<T>(0));
     T const contact_radius = sqrt(approach.reduced_radius * overlap);
-    T const elastic = constant<T>(4.0 / 3.0 * reduced_modulus) * contact_radius * overlap;
-    T const tangential_stiffness = constant<T>(8.0 * reduced_shear_modulus) * contact_radius;
+    T const elastic = broadcast<T>(4.0 / 3.0 * reduced_modulus) * contact_radius * overlap;
+    T const tangential_stiffness = broadcast<T>(8.0 * reduced_shear_modulus) * contact_radius;
 
-    T const viscous = damping.push(constant<T>(2.0 * reduced_modulus) * contact_radius, approach);
-    T const normal = lanes::at_least(elastic + viscous, constant<T>(0));
-    T const limit = constant<T>(friction) * normal;
+    T const viscous = damping.push(broadcast<T>(2.0 * reduced_modulus) * contact_radius, approach);
+    T const normal = lanes::at_least(elastic + viscous, broadcast<T>(0));
+    T const limit = broadcast<T>(friction) * normal;
 
     T lost = (normal - elastic) * approach.closing;
     lost = lost + resize(contact_radius, approach.slip, memory);
@@ -175,9 +175,9 @@ struct HertzMindlin {
   template <int Dim, class T>
   T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     using std::sqrt;
-    T const overlap = lanes::at_least(approach.overlap, constant<T>(0));
+    T const overlap = lanes::at_least(approach.overlap, broadcast<T>(0));
     T const contact_radius = sqrt(approach.reduced_radius * overlap);
-    return constant<T>(8.0 / 15.0 * reduced_modulus) * contact_radius * overlap * overlap +
+    return broadcast<T>(8.0 / 15.0 * reduced_modulus) * contact_radius * overlap * overlap +
            shear_energy<Dim, T>(memory.shear, contact_radius);
   }
 
@@ -185,7 +185,8 @@ struct HertzMindlin {
   template <int Dim, class T>
   T shear_energy(Tangential<Dim, T> const& shear, T const& contact_radius) const {
     // An open contact has neither force nor stiffness.
-    return squared_size(shear) / lanes::at_least(constant<T>(16.0 * reduced_shear_modulus) * contact_radius, tiny<T>());
+    return squared_size(shear) /
+           lanes::at_least(broadcast<T>(16.0 * reduced_shear_modulus) * contact_radius, smallest_normal<T>());
   }
 
   /// Gives the remembered shear spring the new contact radius.
@@ -194,18 +195,19 @@ struct HertzMindlin {
   T resize(T const& contact_radius, Tangential<Dim, T> const& slip, ContactMemory<Dim, T>& memory) const {
     T const former_radius = memory.scalars[0];
     T const former_energy = shear_energy<Dim, T>(memory.shear, former_radius);
-    T const kept = lanes::at_most(contact_radius / lanes::at_least(former_radius, tiny<T>()), constant<T>(1));
+    T const kept =
+        lanes::at_most(contact_radius / lanes::at_least(former_radius, smallest_normal<T>()), broadcast<T>(1));
     T const work_of_former = inner_product(memory.shear, slip);
     memory.shear = scaled(memory.shear, kept);
     memory.scalars[0] = contact_radius;
     return former_energy - shear_energy<Dim, T>(memory.shear, contact_radius) -
-           constant<T>(0.5) * (constant<T>(1) - kept) * work_of_former;
+           broadcast<T>(0.5) * (broadcast<T>(1) - kept) * work_of_former;
   }
 };
 
 static_assert(ContactLaw<HertzMindlin<HertzRestitution>>);
 static_assert(Frictional<HertzMindlin<>>);
-static_assert(TellsStoredEnergy<HertzMindlin<>>);
+static_assert(HasStoredEnergy<HertzMindlin<>>);
 
 template <>
 inline constexpr bool is_precompiled<HertzMindlin<>> = detail::has_library;

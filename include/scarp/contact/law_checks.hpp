@@ -7,7 +7,7 @@
 namespace scarp {
 
 /// Refuses a law whose parameters its own validate() refuses, or whose members contradict each other, which compiles but
-/// gives wrong forces: a stiffness against a motion that `needs` does not name, a force across a gap without reach(), a
+/// gives wrong forces: a stiffness against a motion that `needs` does not name, a force across a gap without interaction_range(), a
 /// dashpot without damping_ratio(). A reach of more than the grain's diameter is refused too: pairs with others between them
 /// would act on each other, and the cell would have to be wider still.
 /// radius [m]: of a grain, for the size of overlap and gap that are tried, 1e-6 of it
@@ -15,9 +15,9 @@ namespace scarp {
 template <ContactLaw Law>
 void require_consistent(Law const& law, double radius) {
   detail::validated(law);
-  double const reach = reach_of(law);
+  double const reach = interaction_range_of(law);
   if (!(reach >= 0.0 && reach <= 2.0 * radius)) {
-    refuse(
+    throw_input_error(
         "the contact law acts across gaps of up to {} m (grains of a diameter of {} m have others between them there): "
         "give "
         "less strength, or stiffer springs",
@@ -26,18 +26,18 @@ void require_consistent(Law const& law, double radius) {
   double const depth = 1e-6 * radius;
   ContactStiffness const stiffness = law.stiffness(depth, radius / 2.0);
   if (!Law::needs.shear && stiffness.tangential != 0.0) {
-    refuse(
-        "the contact law tells a tangential stiffness of {} N/m (its needs do not name .shear, so no shear force would "
-        "act): add `.shear = true` to its needs, or tell no tangential stiffness",
+    throw_input_error(
+        "the contact law has a tangential stiffness of {} N/m (its needs do not name .shear, so no shear force would "
+        "act): add `.shear = true` to its needs, or give no tangential stiffness",
         stiffness.tangential);
   }
   if (!Law::needs.moment && stiffness.rolling != 0.0) {
-    refuse(
-        "the contact law tells a rolling stiffness of {} N m/rad (its needs do not name .moment, so no moment would "
-        "act): add `.moment = true` to its needs, or tell no rolling stiffness",
+    throw_input_error(
+        "the contact law has a rolling stiffness of {} N m/rad (its needs do not name .moment, so no moment would "
+        "act): add `.moment = true` to its needs, or give no rolling stiffness",
         stiffness.rolling);
   }
-  if constexpr (Law::needs.motion && !TellsDampingRatio<Law>) {
+  if constexpr (Law::needs.motion && !HasDampingRatio<Law>) {
     auto const normal_force = [&](double closing) {
       ContactMemory<2, double> memory;
       ContactKinematics<2, double> const closed{.overlap = depth,
@@ -49,8 +49,8 @@ void require_consistent(Law const& law, double radius) {
       return law.respond(closed, memory).normal;
     };
     if (normal_force(1e-3 * depth) != normal_force(0.0)) {
-      refuse(
-          "the contact law's normal force depends on how fast the contact closes (it tells no damping_ratio(), so the "
+      throw_input_error(
+          "the contact law's normal force depends on how fast the contact closes (it has no damping_ratio(), so the "
           "time step would be that of its springs alone): give it `double damping_ratio() const`, the share of "
           "critical "
           "damping that its dashpots reach");
@@ -63,9 +63,10 @@ void require_consistent(Law const& law, double radius) {
       .overlap = -depth, .slip = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
   double const force = law.respond(apart, memory).normal;
   if (force != 0.0) {
-    refuse(
-        "the contact law has a force of {} N across a gap of {} m (it has no reach(), so pairs that far apart would be "
-        "left out): give it `double reach() const` [m], or no force without overlap",
+    throw_input_error(
+        "the contact law has a force of {} N across a gap of {} m (it has no interaction_range(), so pairs that far "
+        "apart would be "
+        "left out): give it `double interaction_range() const` [m], or no force without overlap",
         force, depth);
   }
 }

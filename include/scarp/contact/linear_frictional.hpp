@@ -27,9 +27,9 @@ struct LinearFrictional {
 
   template <int Dim, class T>
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
-    T const normal = lanes::at_least(constant<T>(normal_stiffness) * approach.overlap, constant<T>(0));
-    T const lost = coulomb_slide<Dim, T>(memory.shear, approach.slip, constant<T>(tangential_stiffness),
-                                         constant<T>(friction) * normal);
+    T const normal = lanes::at_least(broadcast<T>(normal_stiffness) * approach.overlap, broadcast<T>(0));
+    T const lost = coulomb_slide<Dim, T>(memory.shear, approach.slip, broadcast<T>(tangential_stiffness),
+                                         broadcast<T>(friction) * normal);
     return {.normal = normal, .shear = memory.shear, .dissipated = lost};
   }
 
@@ -41,15 +41,15 @@ struct LinearFrictional {
 
   template <int Dim, class T>
   T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
-    T const closed = lanes::at_least(approach.overlap, constant<T>(0));
-    T const normal = constant<T>(normal_stiffness / 2.0) * closed * closed;
+    T const closed = lanes::at_least(approach.overlap, broadcast<T>(0));
+    T const normal = broadcast<T>(normal_stiffness / 2.0) * closed * closed;
     if (tangential_stiffness == 0.0) return normal;
-    return normal + constant<T>(0.5 / tangential_stiffness) * squared_size(memory.shear);
+    return normal + broadcast<T>(0.5 / tangential_stiffness) * squared_size(memory.shear);
   }
 };
 
 static_assert(Frictional<LinearFrictional>);
-static_assert(TellsStoredEnergy<LinearFrictional>);
+static_assert(HasStoredEnergy<LinearFrictional>);
 
 template <>
 inline constexpr bool is_precompiled<LinearFrictional> = detail::has_library;

@@ -37,8 +37,8 @@ struct RollingResistance {
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     using std::abs;
     ContactForce<Dim, T> force = law.respond(approach, memory);
-    T const limit = constant<T>(rolling_friction) * approach.reduced_radius * abs(force.normal);
-    T const lost = coulomb_slide<Dim, T>(memory.moment, approach.roll, constant<T>(rolling_stiffness), limit);
+    T const limit = broadcast<T>(rolling_friction) * approach.reduced_radius * abs(force.normal);
+    T const lost = coulomb_slide<Dim, T>(memory.moment, approach.roll, broadcast<T>(rolling_stiffness), limit);
     force.moment = memory.moment;
     force.dissipated = force.dissipated + lost;
     return force;
@@ -53,15 +53,15 @@ struct RollingResistance {
   double& friction_coefficient() requires Frictional<Law> { return law.friction_coefficient(); }
 
   template <int Dim, class T>
-    requires TellsStoredEnergy<Law> T stored_energy(ContactKinematics<Dim, T> const& approach,
-                                                    ContactMemory<Dim, T> const& memory)
+    requires HasStoredEnergy<Law> T stored_energy(ContactKinematics<Dim, T> const& approach,
+                                                  ContactMemory<Dim, T> const& memory)
   const {
     T const base = law.stored_energy(approach, memory);
     if (rolling_stiffness == 0.0) return base;
-    return base + constant<T>(0.5 / rolling_stiffness) * squared_size(memory.moment);
+    return base + broadcast<T>(0.5 / rolling_stiffness) * squared_size(memory.moment);
   }
 
-  double reach() const { return reach_of(law); }
+  double interaction_range() const { return interaction_range_of(law); }
   double damping_ratio() const { return damping_ratio_of(law); }
 };
 
@@ -69,6 +69,6 @@ template <class Law>
 RollingResistance(Law, double, double) -> RollingResistance<Law>;
 
 static_assert(Frictional<RollingResistance<LinearFrictional>>);
-static_assert(TellsStoredEnergy<RollingResistance<LinearFrictional>>);
+static_assert(HasStoredEnergy<RollingResistance<LinearFrictional>>);
 
 }  // namespace scarp

@@ -93,12 +93,12 @@ SCARP_GMRES_DEFINITIONS Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap
   // Iterations of a load step are as many with 1e-3 as with 1e-8.
   constexpr double accuracy = 1e-4;  // of the preconditioned residual
   constexpr int directions = 60;
-  constexpr int most_products = 300;
+  constexpr int max_products = 300;
   detail::AppliedMatrix const applied(matrix, right.size());
   Eigen::GMRES<detail::AppliedMatrix, detail::AppliedPreconditioner> iteration;
   iteration.preconditioner().map = &preconditioner;
   iteration.setTolerance(accuracy).set_restart(directions);
-  iteration.setMaxIterations(most_products).compute(applied);
+  iteration.setMaxIterations(max_products).compute(applied);
   return iteration.solve(right);
 }
 

@@ -21,19 +21,19 @@ enum class Status : std::uint8_t {
 enum class Reason : std::uint8_t {
   none,
   no_contacts,
-  unbalanced,        ///< the packing did not settle to the asked unbalanced-force ratio
-  unreachable,       ///< a servo target was not reached within the allowed work
-  not_finite,        ///< NaN or infinity in state or answer
-  unsettled_touch,   ///< the search for a contact's normal did not come to its end
-  too_deep,          ///< grains overlap more deeply than their curvature allows
-  cell_collapsed,    ///< the periodic cell is inverted or thinner than a grain's diameter and the skin
-  lost_grain,        ///< a grain lies so many cells away that its place in the cell is round-off
-  element_inverted,  ///< an element's Jacobian is not positive
-  no_return = 11,    ///< no admissible stress was found for a trial stress
-  iterations_spent,  ///< the iteration limit was reached above the asked residual
-  singular_system,   ///< the linear system could not be factorised
-  step_too_small,    ///< cutting the load step went below its smallest size
-  interrupted        ///< stopped from outside
+  unbalanced,          ///< the packing did not settle to the asked unbalanced-force ratio
+  unreachable,         ///< a servo target was not reached within the allowed work
+  not_finite,          ///< NaN or infinity in state or answer
+  unconverged_normal,  ///< the search for a contact's normal did not come to its end
+  too_deep,            ///< grains overlap more deeply than their curvature allows
+  cell_collapsed,      ///< the periodic cell is inverted or thinner than a grain's diameter and the skin
+  lost_grain,          ///< a grain lies so many cells away that its place in the cell is round-off
+  element_inverted,    ///< an element's Jacobian is not positive
+  no_return = 11,      ///< no admissible stress was found for a trial stress
+  iterations_spent,    ///< the iteration limit was reached above the asked residual
+  singular_system,     ///< the linear system could not be factorised
+  step_too_small,      ///< cutting the load step went below its smallest size
+  interrupted          ///< stopped from outside
 };
 
 struct Verdict {
@@ -64,7 +64,7 @@ constexpr std::string_view name(Reason reason) {
     case Reason::unbalanced: return "unbalanced";
     case Reason::unreachable: return "unreachable";
     case Reason::not_finite: return "not_finite";
-    case Reason::unsettled_touch: return "unsettled_touch";
+    case Reason::unconverged_normal: return "unconverged_normal";
     case Reason::too_deep: return "too_deep";
     case Reason::cell_collapsed: return "cell_collapsed";
     case Reason::lost_grain: return "lost_grain";

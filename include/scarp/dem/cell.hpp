@@ -10,7 +10,7 @@ namespace scarp {
 
 /// Smallest distance between opposite faces of the cell [m].
 template <int Dim>
-double least_height(Tensor<Dim> const& cell) {
+double min_height(Tensor<Dim> const& cell) {
   Tensor<Dim> const normals = cell.inverse();
   return 1.0 / std::sqrt(normals.rowwise().squaredNorm().maxCoeff());
 }

@@ -38,7 +38,8 @@ struct Cloud {
   void validate() const {
     detail::validated(grading);
     if (grains < 1)
-      refuse("a packing of {} grains was asked for (nothing can carry stress): give at least one grain", grains);
+      throw_input_error("a packing of {} grains was requested (nothing can carry stress): give at least one grain",
+                        grains);
     require_positive("share of the cell filled by the cloud", filled_share);
     require_between("share of the cell filled by the cloud", filled_share, 0.0, 1.0);
   }
@@ -66,15 +67,15 @@ struct Cloud {
     packing.rest();
 
     double const first_axis = random.uniform();
-    constexpr long most_trials = 1'000'000;  // ordinary clouds need some ten per grain
+    constexpr long max_trials = 1'000'000;  // ordinary clouds need some ten per grain
     std::vector<Vector<dim>> placed;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       double const radius = Shape::bounding_radius(sizes[i]);
       bool free = false;
       for (long trial = 0; !free; ++trial) {
-        if (trial == most_trials) {
-          refuse("grain {} of {} found no free place (the cloud fills {} of its cell): use a smaller share", i + 1,
-                 grains, filled_share);
+        if (trial == max_trials) {
+          throw_input_error("grain {} of {} found no free place (the cloud fills {} of its cell): use a smaller share",
+                            i + 1, grains, filled_share);
         }
         Vector<dim> place;
         for (int a = 0; a < dim; ++a) place(a) = random.uniform(0.0, side);

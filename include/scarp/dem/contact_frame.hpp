@@ -82,7 +82,7 @@ void carry_to_frame(std::array<T, 3>& remembered, std::array<T, 3> const& mean_t
       tangential_part(std::array<T, 3>{remembered[0] + twist * turned[0], remembered[1] + twist * turned[1],
                                        remembered[2] + twist * turned[2]},
                       normal);
-  T const scale = sqrt(squared_size(remembered) / lanes::at_least(squared_size(laid), tiny<T>()));
+  T const scale = sqrt(squared_size(remembered) / lanes::at_least(squared_size(laid), smallest_normal<T>()));
   for (std::size_t k = 0; k < 3; ++k) remembered[k] = laid[k] * scale;
 }
 

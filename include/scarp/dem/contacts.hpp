@@ -42,7 +42,7 @@ void read_tangential(SoaArray<Scalar, Count> const& columns, std::size_t row, Ta
 
 /// What the contact of a near pair remembers.
 template <class Shape, class Law, class Scalar>
-ContactMemory<Shape::dim, double> contact_memory(NearPairs<Shape, Law, Scalar> const& pairs, std::size_t pair) {
+ContactMemory<Shape::dim, double> contact_memory(VerletList<Shape, Law, Scalar> const& pairs, std::size_t pair) {
   constexpr int dim = Shape::dim;
   ContactMemory<dim, double> memory;
   detail::read_tangential<dim>(pairs.shear, pair, memory.shear);

@@ -83,7 +83,7 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
 
 /// Share of `critical_step` that is used as the time step. The bound is sharp in rows of grains, so that this is the share of the
 /// true limit there; in random packings it is 0.51 to 0.59 of it.
-inline constexpr double usual_time_step_share = 0.78;
+inline constexpr double default_time_step_share = 0.78;
 
 /// Largest stable time step [s] of the explicit scheme, \f$ \Delta t = 2/\omega_{max} \f$, as a lower bound: every grain's
 /// mass and inertia is shared out among its near pairs and the stiffest single pair, spin included, bounds the whole packing

@@ -56,8 +56,8 @@ struct LocalDamping {
   T next_velocity(T const& velocity, T const& force, T const& mobility) const {
     using std::abs;
     using std::copysign;
-    T const damped = force - constant<T>(factor) * copysign(abs(force), velocity);
-    return constant<T>(1.0 - drag) * velocity + damped * mobility;
+    T const damped = force - broadcast<T>(factor) * copysign(abs(force), velocity);
+    return broadcast<T>(1.0 - drag) * velocity + damped * mobility;
   }
 };
 

@@ -61,7 +61,8 @@ double depth_of_contacts(PackingType const& packing) {
 /// A law's springs at an overlap of a thousandth of the radius; which one matters only where the stiffness depends on it.
 template <class PackingType>
 ContactStiffness slight_springs(PackingType const& packing, typename PackingType::Law const& law) {
-  if (!packing.population) refuse("a packing without grains was to be moved (it has no population): make or load one");
+  if (!packing.population)
+    throw_input_error("a packing without grains was to be moved (it has no population): make or load one");
   double const radius = packing.population->largest_radius();
   return law.stiffness(1e-3 * radius, radius / 2.0);
 }
@@ -87,12 +88,12 @@ double dashpot_modulus(PackingType const& packing, typename PackingType::Law con
 
 /// Moves a packing step by step under a loading, whatever it says. Looks before its first step.
 template <class PackingType, Observe what = Observe::balance>
-class Drive {
+class CellDriver {
  public:
   static constexpr int dim = PackingType::dim;
   using Law = typename PackingType::Law;
 
-  Drive(PackingType& packing, Law const& law, Loading<dim> const& loading, ServoGains const& feedback = {})
+  CellDriver(PackingType& packing, Law const& law, Loading<dim> const& loading, ServoGains const& feedback = {})
       : packing_(packing),
         law_(law),
         loading_(detail::validated(loading)),
@@ -147,7 +148,7 @@ struct Servo {
   ServoGains feedback{};
   double stress_tolerance = 1e-4;  ///< relative to the largest target, to 0.001 of the springs' modulus for none
   double unbalanced_tolerance = 1e-4;
-  long most_steps = 400'000;
+  long max_steps = 400'000;
   int check_every = 20;  ///< steps between tests of the stopping rule
 
   /// \throws InputError
@@ -155,11 +156,11 @@ struct Servo {
     feedback.validate();
     require_positive("stress tolerance of the servo", stress_tolerance);
     require_positive("unbalanced tolerance of the servo", unbalanced_tolerance);
-    require_at_least("step limit of the servo", most_steps, 1L);
+    require_at_least("step limit of the servo", max_steps, 1L);
     require_at_least("number of steps between checks of the servo", check_every, 1);
   }
 
-  /// \return not_converged / unreachable or unbalanced after `most_steps`, or at once for a target no packing can carry
+  /// \return not_converged / unreachable or unbalanced after `max_steps`, or at once for a target no packing can carry
   template <class Stepper, class PackingType>
   Verdict reach(Stepper& stepper, PackingType& packing, typename PackingType::Law const& law,
                 Loading<PackingType::dim> const& loading) const {
@@ -168,8 +169,8 @@ struct Servo {
     constexpr double slight = 1e-3;  // of the springs, where no stress at all is asked
     double const asked = loading.stress_scale();
     double const tolerance = stress_tolerance * (asked > 0.0 ? asked : slight * spring_modulus(packing, law));
-    Drive<PackingType> drive(packing, law, loading, feedback);
-    for (long step = 1; step <= most_steps; ++step) {
+    CellDriver<PackingType> drive(packing, law, loading, feedback);
+    for (long step = 1; step <= max_steps; ++step) {
       if (Verdict const verdict = drive.step(stepper); !verdict.acceptable()) return verdict;
       if (step % check_every != 0) continue;
       if (loading.worst_missing(drive.seen().stress) <= tolerance &&

@@ -30,7 +30,7 @@ struct Fire {
 
   template <class PackingType, class Forces>
   void before_move(PackingType const& packing, Forces const& forces, double time_step) {
-    double power = 0.0, motion = 0.0, pull = tiny<double>();  // P, |v|^2, |F|^2
+    double power = 0.0, motion = 0.0, pull = smallest_normal<double>();  // P, |v|^2, |F|^2
     auto const add = [&](double velocity, double force, double inverse_inertia) {
       power += force * velocity;
       motion += velocity * velocity / inverse_inertia;
@@ -51,7 +51,7 @@ struct Fire {
 
   template <class T>
   T next_velocity(T const& velocity, T const& force, T const& mobility) const {
-    return constant<T>(kept) * velocity + constant<T>(pushed) * force * mobility;
+    return broadcast<T>(kept) * velocity + broadcast<T>(pushed) * force * mobility;
   }
 };
 static_assert(DampsMotion<Fire>);

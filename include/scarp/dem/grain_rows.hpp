@@ -93,10 +93,10 @@ std::size_t fill_ghost_rows(PackingType const& packing, typename PackingType::Sc
       row[a] += static_cast<Scalar>(offset);
     }
   }
-  std::size_t const nobody = own + pairs.ghost_owner.size();
-  std::copy(rows, rows + Layout::size, rows + nobody * Layout::size);
-  rows[nobody * Layout::size] += static_cast<Scalar>(1e3 * packing.population->largest_radius());
-  return nobody;
+  std::size_t const sentinel_row = own + pairs.ghost_owner.size();
+  std::copy(rows, rows + Layout::size, rows + sentinel_row * Layout::size);
+  rows[sentinel_row * Layout::size] += static_cast<Scalar>(1e3 * packing.population->largest_radius());
+  return sentinel_row;
 }
 
 template <class Layout, class Scalar>

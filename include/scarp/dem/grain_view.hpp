@@ -3,7 +3,7 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/dem/packing.hpp"
-#include "scarp/shape/settled_touch.hpp"
+#include "scarp/shape/converged_contact.hpp"
 
 namespace scarp {
 
@@ -75,11 +75,11 @@ struct NearTouch {
     Point<dim, double> start{};
     for (std::size_t a = 0; a < branch.size(); ++a) {
       branch[a] -= from[a];
-      if constexpr (Shape::remembers_normal) start[a] = static_cast<double>(pairs.normal(pair, static_cast<int>(a)));
+      if constexpr (Shape::warm_starts_normal) start[a] = static_cast<double>(pairs.normal(pair, static_cast<int>(a)));
     }
     first = row_pose(packing, row_first);
     second = row_pose(packing, row_second);
-    touch = settled_touch<Shape>(first, second, branch, start);
+    touch = converged_contact<Shape>(first, second, branch, start);
   }
 };
 

@@ -43,7 +43,7 @@ PackingType mirrored(PackingType packing, int axis = 0) {
   turn_axial(packing.spin, grains);
   if constexpr (Shape::orientation_count == 2) turn(packing.orientation, 1, grains);
   auto& pairs = packing.pairs;
-  if constexpr (Shape::remembers_normal) turn(pairs.normal, axis, pairs.count());
+  if constexpr (Shape::warm_starts_normal) turn(pairs.normal, axis, pairs.count());
   if constexpr (Law::needs.shear) turn(pairs.shear, dim == 2 ? 0 : axis, pairs.count());
   if constexpr (Law::needs.moment) turn_axial(pairs.moment, pairs.count());
   for (auto& shift : pairs.ghost_shift)

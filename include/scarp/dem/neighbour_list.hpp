@@ -97,7 +97,7 @@ Point<Shape::dim, double> start_normal(Normals const& remembered, FormerPair<Sha
   for (std::size_t a = 0; a < start.size(); ++a) {
     start[a] = distance > 0.0 ? branch[a] / distance : (a == 0 ? 1.0 : 0.0);
   }
-  if constexpr (Shape::remembers_normal) {
+  if constexpr (Shape::warm_starts_normal) {
     if (former != nullptr) {
       double const sign = former->swapped ? -1.0 : 1.0;
       for (std::size_t a = 0; a < start.size(); ++a) {
@@ -157,9 +157,9 @@ std::optional<std::vector<NearPair<Shape::dim>>> find_near_pairs(Population<Shap
           for (std::size_t a = 0; a < branch.size(); ++a) name.shift[a] = partner.shift[a];
           auto const* const known = find_former(former, name);
           auto const start = start_normal<Shape>(remembered, known, branch, std::sqrt(squared));
-          auto const touch = settled_touch<Shape>(poses[row], poses[partner_row], branch, start);
+          auto const touch = converged_contact<Shape>(poses[row], poses[partner_row], branch, start);
           if (touch.overlap < -reach) continue;
-          if (touch.unsettled != 0.0) return std::nullopt;
+          if (touch.normal_error != 0.0) return std::nullopt;
           found.push_back({name.first, static_cast<std::int32_t>(point) * parts + other, touch.normal, known});
         }
       }
@@ -210,8 +210,8 @@ void write_members(Pairs& next, std::vector<NearPair<Dim>> const& found, GrainsA
 
 /// Normals of all pairs, and what the contacts remember of those that were listed before.
 template <class Shape, class Law, class Scalar>
-void write_memory(NearPairs<Shape, Law, Scalar>& next, std::vector<NearPair<Shape::dim>> const& found,
-                  NearPairs<Shape, Law, Scalar> const& former) {
+void write_memory(VerletList<Shape, Law, Scalar>& next, std::vector<NearPair<Shape::dim>> const& found,
+                  VerletList<Shape, Law, Scalar> const& former) {
   constexpr int dim = Shape::dim;
   next.normal.resize(found.size());
   next.shear.resize(found.size());
@@ -227,7 +227,7 @@ void write_memory(NearPairs<Shape, Law, Scalar>& next, std::vector<NearPair<Shap
   };
   for (std::size_t p = 0; p < found.size(); ++p) {
     auto const& pair = found[p];
-    if constexpr (Shape::remembers_normal) {
+    if constexpr (Shape::warm_starts_normal) {
       for (int a = 0; a < dim; ++a) next.normal(p, a) = static_cast<Scalar>(pair.normal[detail::index(a)]);
     }
     if (pair.former == nullptr) continue;
@@ -236,7 +236,7 @@ void write_memory(NearPairs<Shape, Law, Scalar>& next, std::vector<NearPair<Shap
     next.moment.set_row(p, carried(former.moment.row(row), pair.former->swapped));
     next.scalars.set_row(p, former.scalars.row(row));
   }
-  if constexpr (Shape::remembers_normal) {
+  if constexpr (Shape::warm_starts_normal) {
     for (std::size_t p = found.size(); p < next.normal.padded_rows(); ++p) next.normal.column(0)[p] = Scalar(1);
   }
 }
@@ -250,14 +250,14 @@ bool cell_is_wide_enough(PackingType const& packing, double reach) {
   constexpr int dim = PackingType::dim;
   if (!(packing.cell.allFinite() && packing.cell.determinant() > 0.0)) return false;
   Tensor<dim> const reduced = packing.cell * lattice_reduction<dim>(packing.cell).template cast<double>();
-  return least_height<dim>(reduced) > 2.0 * packing.population->largest_radius() + reach;
+  return min_height<dim>(reduced) > 2.0 * packing.population->largest_radius() + reach;
 }
 
 /// Makes the Verlet list: the pairs whose gap is below `skin` + `law_reach` [m] (nanoflann k-d tree over grains and ghosts), carrying
 /// over normals and memories of pairs that stay. The list is good until gaps have shrunk by the skin; `law_reach` is the gap
 /// across which the contact law acts. Reduces the cell and wraps positions. Deterministic; a packing whose list fails stays as it was.
 /// \return failed / cell_collapsed for a cell too thin for its grains, failed / not_finite for positions that are no
-/// numbers, failed / lost_grain for one that is more than a million cells away, failed / unsettled_touch where the shape
+/// numbers, failed / lost_grain for one that is more than a million cells away, failed / unconverged_normal where the shape
 /// does not find how two grains touch
 template <class PackingType>
 Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0) {
@@ -279,7 +279,7 @@ Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0)
   auto const all = detail::grains_and_images<dim>(cell, places, 2.0 * packing.population->largest_radius() + reach);
   auto const sorted =
       detail::find_near_pairs(*packing.population, detail::row_poses(packing), all, former, pairs.normal, reach);
-  if (!sorted) return {Status::failed, Reason::unsettled_touch};
+  if (!sorted) return {Status::failed, Reason::unconverged_normal};
   auto const found = detail::interleaved(*sorted);
   decltype(packing.pairs) next;
   next.skin = skin;

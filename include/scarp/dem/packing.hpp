@@ -20,8 +20,8 @@
 
 namespace scarp::detail {
 
-inline void refuse_unless(bool sound, std::string_view what) {
-  if (!sound) refuse("its {} (no packing is like that): save it again", what);
+inline void require_valid(bool sound, std::string_view what) {
+  if (!sound) throw_input_error("its {} (no packing is like that): save it again", what);
 }
 
 /// Whether columns have a row for each of `rows`; columns that hold nothing always do.
@@ -37,23 +37,23 @@ bool has_rows(SoaArray<Scalar, Count> const& columns, std::size_t rows) {
 /// What a hash that fits does not show: the numbers of a packing that was read must not lead outside its arrays.
 /// \throws InputError
 template <class PackingType>
-void refuse_unsound(PackingType const& packing) {
+void require_valid_packing(PackingType const& packing) {
   auto const& pairs = packing.pairs;
   std::size_t const grains = packing.grain_count();
   std::size_t const sizes = packing.population ? packing.population->count() : 0;
   auto const rows = static_cast<std::int64_t>(packing.row_count());
   auto const ghosts = static_cast<std::int64_t>(pairs.ghost_owner.size());
-  refuse_unless(sizes == grains && has_rows(packing.velocity, grains) && has_rows(packing.spin, grains) &&
+  require_valid(sizes == grains && has_rows(packing.velocity, grains) && has_rows(packing.spin, grains) &&
                     has_rows(packing.orientation, grains),
                 "arrays of grains differ in length");
-  refuse_unless(packing.cell.allFinite() && packing.cell.determinant() > 0.0, "cell has no positive content");
-  refuse_unless(pairs.second.size() == pairs.count() && has_rows(pairs.normal, pairs.count()) &&
+  require_valid(packing.cell.allFinite() && packing.cell.determinant() > 0.0, "cell has no positive content");
+  require_valid(pairs.second.size() == pairs.count() && has_rows(pairs.normal, pairs.count()) &&
                     has_rows(pairs.shear, pairs.count()) && has_rows(pairs.moment, pairs.count()) &&
                     has_rows(pairs.scalars, pairs.count()) && pairs.ghost_shift.size() == pairs.ghost_owner.size(),
                 "arrays of pairs differ in length");
-  for (std::int32_t const owner : pairs.ghost_owner) refuse_unless(owner >= 0 && owner < rows, "ghosts have no owner");
+  for (std::int32_t const owner : pairs.ghost_owner) require_valid(owner >= 0 && owner < rows, "ghosts have no owner");
   for (std::size_t p = 0; p < pairs.count(); ++p) {
-    refuse_unless(pairs.first[p] >= 0 && pairs.first[p] < rows && pairs.second[p] > pairs.first[p] &&
+    require_valid(pairs.first[p] >= 0 && pairs.first[p] < rows && pairs.second[p] > pairs.first[p] &&
                       pairs.second[p] < rows + ghosts,
                   "pairs name grains that are not there");
   }
@@ -89,14 +89,14 @@ struct ListBasis {
 /// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
 /// moved by cell x `ghost_shift[g]`. What a shape or law does not remember takes no room.
 template <CheckedShape Shape, CheckedContactLaw Law, class Scalar>
-struct NearPairs {
+struct VerletList {
   static constexpr int dim = Shape::dim;
   static constexpr int tangential_count = dim == 2 ? 1 : 3;
   using Shift = std::array<std::int8_t, static_cast<std::size_t>(dim)>;
 
   std::vector<std::int32_t> first;
   std::vector<std::int32_t> second;
-  SoaArray<Scalar, Shape::remembers_normal ? dim : 0> normal;
+  SoaArray<Scalar, Shape::warm_starts_normal ? dim : 0> normal;
   SoaArray<Scalar, Law::needs.shear ? tangential_count : 0> shear;    ///< tangential force on the second grain [N]
   SoaArray<Scalar, Law::needs.moment ? tangential_count : 0> moment;  ///< on the second grain [N m]
   SoaArray<Scalar, Law::needs.scalars> scalars;
@@ -113,7 +113,7 @@ struct NearPairs {
   SCARP_MEMBERS(first, second, normal, shear, moment, scalars, ghost_owner, ghost_shift, drift, skin, critical_step,
                 basis)
 
-  friend bool operator==(NearPairs const&, NearPairs const&) = default;
+  friend bool operator==(VerletList const&, VerletList const&) = default;
 };
 
 /// How grains and cell moved in the step that led to where they are: what slip and closing at the contacts follow from,
@@ -151,7 +151,7 @@ struct Packing {
   SoaArray<Scalar, spin_size<dim>> spin;
   SoaArray<Scalar, Shape::orientation_count> orientation;
   LastMove<dim> last_move;
-  NearPairs<Shape, Law, Scalar> pairs;
+  VerletList<Shape, Law, Scalar> pairs;
 
   std::size_t grain_count() const { return position.rows(); }
   /// Rows of the pair list without ghosts: one for each part of each grain.
@@ -166,7 +166,7 @@ struct Packing {
   SCARP_MEMBERS(population, cell, position, velocity, spin, orientation, last_move, pairs)
 
   /// \throws InputError for numbers that no packing has
-  void after_loading() const { detail::refuse_unsound(*this); }
+  void after_loading() const { detail::require_valid_packing(*this); }
 
   /// No velocities and no last move, as of grains that were just placed. Grains that have moved are stopped by TimeStepper.
   void rest() {
@@ -183,7 +183,8 @@ struct Packing {
 template <class PackingType>
 ListBasis list_basis(PackingType const& packing, typename PackingType::Law const& law, double skin) {
   auto const& population = *packing.population;
-  ListBasis basis{.reach = reach_of(law), .damping_ratio = damping_ratio_of(law), .mass = population.mass()};
+  ListBasis basis{
+      .reach = interaction_range_of(law), .damping_ratio = damping_ratio_of(law), .mass = population.mass()};
   std::size_t k = 0;
   for (double const radius : {population.smallest_radius(), population.largest_radius()}) {
     for (double const depth : {skin, 2.0 * skin}) {

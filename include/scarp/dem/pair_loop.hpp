@@ -3,7 +3,7 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/dem/detail/pair_block.hpp"
-#include "scarp/shape/settled_touch.hpp"
+#include "scarp/shape/converged_contact.hpp"
 
 namespace scarp {
 
@@ -24,20 +24,20 @@ class PairResponse {
     // Dashpots look at the last move however often they are asked, springs only once.
     bool const answered = packing.last_move.answered;
     LastMove<dim> const move = answered && !Law::needs.motion ? LastMove<dim>{} : packing.last_move;
-    settled_angle_ = packing.population->settled_angle();
-    certain_depth_ = packing.population->certain_depth();
-    unanswered_ = constant<Lanes>(answered ? 0.0 : 1.0);
-    step_ = constant<Lanes>(move.duration);
+    largest_normal_change_ = packing.population->largest_normal_change();
+    unique_minimum_depth_ = packing.population->unique_minimum_depth();
+    unanswered_ = broadcast<Lanes>(answered ? 0.0 : 1.0);
+    step_ = broadcast<Lanes>(move.duration);
     affine_turn_ = affine_turn<dim, Lanes>(move.gradient);
     for (int a = 0; a < dim; ++a) {
-      for (int b = 0; b < dim; ++b) affine_[detail::index(a * dim + b)] = constant<Lanes>(move.gradient(a, b));
+      for (int b = 0; b < dim; ++b) affine_[detail::index(a * dim + b)] = broadcast<Lanes>(move.gradient(a, b));
     }
   }
 
   /// Where the first `used` pairs of the block touch, which are the pairs `start` and following of the list; searched from
   /// their last normals. A pass of its own, so that the one for the law has registers enough.
   void search(Block& block, std::size_t used, std::size_t start) {
-    Lanes unsettled{};
+    Lanes normal_error{};
     Lanes deepest{};
     for (std::size_t at = 0; at < used; at += Lanes::size()) {
       Point<dim, Lanes> last;
@@ -48,12 +48,12 @@ class PairResponse {
       block.write(Block::overlap, at, touch.overlap);
       block.write(Block::normal, at, touch.normal);
       block.write(Block::arm_first, at, touch.arm_first);
-      block.write(Block::unsettled, at, touch.unsettled);
-      unsettled = max(unsettled, touch.unsettled);
+      block.write(Block::normal_error, at, touch.normal_error);
+      normal_error = max(normal_error, touch.normal_error);
       deepest = max(deepest, touch.overlap);
     }
-    if (lanes::any_of(unsettled > constant<Lanes>(settled_angle_)) ||
-        lanes::any_of(deepest > constant<Lanes>(certain_depth_))) [[unlikely]]
+    if (lanes::any_of(normal_error > broadcast<Lanes>(largest_normal_change_)) ||
+        lanes::any_of(deepest > broadcast<Lanes>(unique_minimum_depth_))) [[unlikely]]
       settle(block, used, start);
   }
 
@@ -67,7 +67,7 @@ class PairResponse {
     ContactMemory<dim, Lanes> memory;
     auto const turn_first = turn(block, Block::spin_first, at);
     auto const turn_second = turn(block, Block::spin_second, at);
-    auto const twist = scaled(scaled(sum(turn_first, turn_second), constant<Lanes>(0.5)), unanswered_);
+    auto const twist = scaled(scaled(sum(turn_first, turn_second), broadcast<Lanes>(0.5)), unanswered_);
     if constexpr (Law::needs.shear || Law::needs.motion) {
       auto const velocity = block.template read<axes>(Block::velocity, at);
       auto const swing_first = turned_motion(turn_first, touch.arm_first);
@@ -86,7 +86,7 @@ class PairResponse {
         approach.closing = -dot(meeting, n);
         approach.sweep = approach.slip;
         if constexpr (Law::needs.shear) approach.slip = scaled(approach.slip, unanswered_);
-        approach.reduced_mass = constant<Lanes>(1.0) / block.template read<1>(Block::inverse_mass, at)[0];
+        approach.reduced_mass = broadcast<Lanes>(1.0) / block.template read<1>(Block::inverse_mass, at)[0];
         approach.time_step = step_;
       }
     }
@@ -125,7 +125,7 @@ class PairResponse {
 
     if constexpr (what != Observe::nothing) {
       sums_.force += sqrt(dot(force, force));
-      sums_.contacts += lanes::select(answer.normal != constant<Lanes>(0), constant<Lanes>(1), constant<Lanes>(0));
+      sums_.contacts += lanes::select(answer.normal != broadcast<Lanes>(0), broadcast<Lanes>(1), broadcast<Lanes>(0));
       sums_.deepest = max(sums_.deepest, touch.overlap / approach.reduced_radius);
       for (std::size_t a = 0; a < axes; ++a) {
         for (std::size_t b = 0; b < axes; ++b) sums_.moment[a * axes + b] += force[a] * branch[b];
@@ -149,7 +149,7 @@ class PairResponse {
   }
 
   ContactGeometry<dim, Lanes> touch_of(Block const& block, std::size_t at, Point<dim, Lanes> const& branch) const {
-    if constexpr (Shape::remembers_normal) {
+    if constexpr (Shape::warm_starts_normal) {
       ContactGeometry<dim, Lanes> touch{.overlap = block.template read<1>(Block::overlap, at)[0],
                                         .normal = block.template read<axes>(Block::normal, at),
                                         .arm_first = block.template read<axes>(Block::arm_first, at),
@@ -168,8 +168,8 @@ class PairResponse {
       for (std::size_t k = 0; k < Count; ++k) values[k] = static_cast<double>(block.fields[field + k][pair]);
     };
     for (std::size_t pair = 0; pair < used; ++pair) {
-      if (!(static_cast<double>(block.fields[Block::unsettled][pair]) > settled_angle_ ||
-            static_cast<double>(block.fields[Block::overlap][pair]) > certain_depth_))
+      if (!(static_cast<double>(block.fields[Block::normal_error][pair]) > largest_normal_change_ ||
+            static_cast<double>(block.fields[Block::overlap][pair]) > unique_minimum_depth_))
         continue;
       PoseOf<Shape> first;
       PoseOf<Shape> second;
@@ -179,9 +179,9 @@ class PairResponse {
       read(Block::pose_second, pair, second);
       read(Block::branch, pair, branch);
       read(Block::normal, pair, normal);
-      auto const touch = settled_touch<Shape>(first, second, branch, normal);
+      auto const touch = converged_contact<Shape>(first, second, branch, normal);
       if (!std::isfinite(touch.overlap)) continue;  // of grains that are lost: seen where they move
-      settled_ = settled_ && touch.unsettled == 0.0;
+      settled_ = settled_ && touch.normal_error == 0.0;
       block.fields[Block::overlap][pair] = static_cast<Scalar>(touch.overlap);
       for (std::size_t a = 0; a < axes; ++a) {
         block.fields[Block::normal + a][pair] = static_cast<Scalar>(touch.normal[a]);
@@ -203,15 +203,15 @@ class PairResponse {
     }
   }
 
-  NearPairs<Shape, Law, Scalar>& pairs_;
+  VerletList<Shape, Law, Scalar>& pairs_;
   Law law_;
   Lanes unanswered_;
   Lanes step_;
   std::array<Lanes, axes * axes> affine_;
   Turning<dim, Lanes> affine_turn_;
   LaneSums<dim, Lanes> sums_;
-  double settled_angle_;
-  double certain_depth_;
+  double largest_normal_change_;
+  double unique_minimum_depth_;
   bool settled_ = true;
 };
 
@@ -247,7 +247,7 @@ template <Observe what, class PackingType, class Law>
     block.name_pairs(pairs.first.data() + start, pairs.second.data() + start, present, nobody);
     std::size_t const used = (present + width - 1) / width * width;
     for (std::size_t at = 0; at < used; at += width) block.gather(rows, at);
-    if constexpr (Shape::remembers_normal) response.search(block, used, start);
+    if constexpr (Shape::warm_starts_normal) response.search(block, used, start);
     for (std::size_t at = 0; at < used; at += width) response.answer(block, at, start + at);
     for (std::size_t at = 0; at < used; at += width) block.scatter(forces, at);
   }

@@ -31,10 +31,11 @@ class Population {
     require_positive("grain density", density);
     require_positive("out-of-plane thickness", thickness);
     if (Shape::dim == 3 && thickness != 1.0) {
-      refuse("out-of-plane thickness of grains in space is {} m (stresses would be off by it): leave it 1", thickness);
+      throw_input_error("out-of-plane thickness of grains in space is {} m (stresses would be off by it): leave it 1",
+                        thickness);
     }
     if (sizes.empty())
-      refuse("a packing of zero grains was asked for (nothing can carry stress): give at least one grain");
+      throw_input_error("a packing of zero grains was requested (nothing can carry stress): give at least one grain");
     size_.resize(sizes.size(), Scalar(1));
     inverse_mass_.resize(sizes.size());
     inverse_inertia_.resize(sizes.size());
@@ -48,7 +49,7 @@ class Population {
       double const mass = density * content * thickness;
       double const inertia = mass * Shape::gyration_squared(grain);
       if (!(std::isnormal(mass) && std::isnormal(inertia) && std::isfinite(1.0 / inertia))) {
-        refuse(
+        throw_input_error(
             "a grain of size {} has a mass of {} kg and an inertia of {} kg m2 (beyond what a number here can hold): "
             "check "
             "the units of its size and density",
@@ -61,13 +62,13 @@ class Population {
       smallest_radius_ = std::min(smallest_radius_, Shape::bounding_radius(grain));
       largest_radius_ = std::max(largest_radius_, Shape::bounding_radius(grain));
       double const width = content / (std::numbers::pi * std::pow(Shape::bounding_radius(grain), Shape::dim - 1));
-      settled_angle_ = std::min(settled_angle_, 0.01 / (0.5 + Shape::eccentricity(grain) / width));
+      largest_normal_change_ = std::min(largest_normal_change_, 0.01 / (0.5 + Shape::eccentricity(grain) / width));
       largest_eccentricity_ = std::max(largest_eccentricity_, Shape::eccentricity(grain));
     }
     // In a loop of its own: a product that is used twice is fused with no sum, which would change an inertia's last digit.
-    if constexpr (TellsInnerRadius<Shape>) {
+    if constexpr (HasInnerRadius<Shape>) {
       for (std::size_t i = 0; i < sizes.size(); ++i)
-        certain_depth_ = std::min(certain_depth_, 2.0 * Shape::least_curvature_radius(size(i)));
+        unique_minimum_depth_ = std::min(unique_minimum_depth_, 2.0 * Shape::min_curvature_radius(size(i)));
     }
   }
 
@@ -83,11 +84,11 @@ class Population {
 
   /// Up to this angle [rad] one Newton step for the normal of a contact leaves an error of the overlap below 1e-6 of the
   /// grains' size: it grows with the cube of the angle and with how fast curvature changes.
-  double settled_angle() const { return settled_angle_; }
+  double largest_normal_change() const { return largest_normal_change_; }
 
   /// Up to this overlap [m] of any two grains a normal at which it is stationary is that of the least overlap. Infinite for
   /// shapes that cannot tell.
-  double certain_depth() const { return certain_depth_; }
+  double unique_minimum_depth() const { return unique_minimum_depth_; }
 
   Size size(std::size_t grain) const {
     Size values;
@@ -107,7 +108,7 @@ class Population {
   template <class Visit>
   static void members(Population const& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(density_, thickness_, content_, mass_, smallest_radius_, largest_radius_, largest_eccentricity_,
-                      settled_angle_, certain_depth_, size_, inverse_mass_, inverse_inertia_);
+                      largest_normal_change_, unique_minimum_depth_, size_, inverse_mass_, inverse_inertia_);
     visit("density", self.density_);
     visit("thickness", self.thickness_);
     visit("content", self.content_);
@@ -135,8 +136,8 @@ class Population {
     auto population = std::make_shared<Population const>(sizes, density, thickness);
     constexpr double round_off = 1e-12;  // sums of the same numbers by another compiler's code
     if (!(std::abs(content - population->content()) <= round_off * population->content())) {
-      refuse(
-          "its grains have a content of {} (of the shape asked for they would have {}): load it as the shape that was "
+      throw_input_error(
+          "its grains have a content of {} (of the requested shape they would have {}): load it as the shape that was "
           "saved",
           content, population->content());
     }
@@ -151,8 +152,8 @@ class Population {
   double smallest_radius_ = std::numeric_limits<double>::infinity();
   double largest_radius_ = 0.0;
   double largest_eccentricity_ = 0.0;
-  double settled_angle_ = 1.0;
-  double certain_depth_ = std::numeric_limits<double>::infinity();
+  double largest_normal_change_ = 1.0;
+  double unique_minimum_depth_ = std::numeric_limits<double>::infinity();
   SoaArray<Scalar, Shape::size_count> size_;
   SoaArray<Scalar, 1> inverse_mass_;
   SoaArray<Scalar, 1> inverse_inertia_;

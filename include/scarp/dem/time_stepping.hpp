@@ -60,7 +60,7 @@ class TimeStepper {
   /// rebuilt more often. Of the law only its reach comes on top, so that laws that act in touch share one list.
   double skin_ratio = 0.1;
 
-  double time_step_share = usual_time_step_share;  ///< of the lower bound of the critical step
+  double time_step_share = default_time_step_share;  ///< of the lower bound of the critical step
 
   /// \throws InputError for parameters that no step can be made with; every call asks
   void validate() const {
@@ -132,11 +132,11 @@ class TimeStepper {
 
   [[gnu::noinline, gnu::cold]] Verdict renew(PackingType& packing, Law const& law) const {
     if (!packing.population)
-      refuse("a packing without grains was to be moved (it has no population): make or load one");
+      throw_input_error("a packing without grains was to be moved (it has no population): make or load one");
     double const skin = skin_ratio * packing.population->largest_radius();
     if (!packing.pairs.basis.agrees_with(list_basis(packing, law, packing.pairs.skin)))
       require_consistent(law, packing.population->largest_radius());
-    Verdict const verdict = rebuild_pairs(packing, skin, reach_of(law));
+    Verdict const verdict = rebuild_pairs(packing, skin, interaction_range_of(law));
     if (!verdict.acceptable()) return verdict;
     packing.pairs.critical_step = critical_step(packing, law);
     packing.pairs.basis = list_basis(packing, law, skin);
@@ -149,7 +149,7 @@ class TimeStepper {
     if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
     double const time_step = time_step_share * packing.pairs.critical_step;
     ContactSums<dim> const sums = pair_forces<what>(packing, law, scratch_);
-    if (!sums.settled) return {Status::failed, Reason::unsettled_touch};
+    if (!sums.settled) return {Status::failed, Reason::unconverged_normal};
     if constexpr (what != Observe::nothing) *observed = observe(packing, sums);
     if constexpr (SeesAllGrains<Damping, PackingType>)
       damping.before_move(std::as_const(packing), NetForces<PackingType>{scratch_.forces.data()}, time_step);
@@ -169,7 +169,7 @@ class TimeStepper {
   Verdict observe_here(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
     if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
     auto const sums = pair_forces<Observe::balance>(packing, law, scratch_);
-    if (!sums.settled) return {Status::failed, Reason::unsettled_touch};
+    if (!sums.settled) return {Status::failed, Reason::unconverged_normal};
     observed = observe(packing, sums);
     return {};
   }
@@ -211,7 +211,7 @@ class TimeStepper {
     Lanes const after = damping.next_velocity(before, force, inverse_inertia * dt);
     lanes::store(after, velocities);
     if constexpr (what == Observe::energy) {
-      Lanes const inertia = Lanes(Scalar(1)) / max(inverse_inertia, tiny<Lanes>());  // padding never moves
+      Lanes const inertia = Lanes(Scalar(1)) / max(inverse_inertia, smallest_normal<Lanes>());  // padding never moves
       damped += (before + after) * Lanes(Scalar(0.5)) * (force * dt - (after - before) * inertia);
       kinetic += (before * before + after * after) * inertia * Lanes(Scalar(0.25));
     }
@@ -224,7 +224,7 @@ class TimeStepper {
     constexpr std::size_t width = Lanes::size();
     constexpr std::size_t force_size = Layout::force_size;
     auto const& population = *packing.population;
-    Lanes const dt = constant<Lanes>(time_step);
+    Lanes const dt = broadcast<Lanes>(time_step);
     Lanes fastest(Scalar(0));
     Lanes fastest_spin(Scalar(0));
     Lanes everything(Scalar(0));  // a sum keeps what is no number, a maximum may pass over it
@@ -232,7 +232,7 @@ class TimeStepper {
     Lanes kinetic(Scalar(0));
     std::array<Lanes, static_cast<std::size_t>(dim * dim)> cell;
     for (int a = 0; a < dim; ++a) {
-      for (int b = 0; b < dim; ++b) cell[detail::index(a * dim + b)] = constant<Lanes>(cell_step(a, b));
+      for (int b = 0; b < dim; ++b) cell[detail::index(a * dim + b)] = broadcast<Lanes>(cell_step(a, b));
     }
     std::size_t const grains = packing.grain_count();
     std::size_t const padded = packing.position.padded_rows();

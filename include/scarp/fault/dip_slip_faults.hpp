@@ -45,13 +45,13 @@ SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
     if (std::abs(line - tip) < std::abs(nearest - tip)) nearest = line;
   }
   if (std::abs(nearest - tip) <= detail::StepAtTip::same_place * (lines.back() - lines.front())) return;
-  refuse(
+  throw_input_error(
       "the fault tip is at x = {} m (the nearest corner of the mesh's bottom is at {} m): put a node there or move the "
       "tip",
       tip, nearest);
 }
 
-/// The sides "left" and "right" of a mesh and its "bottom" move with the two sides of a fault, by course(load factor)
+/// The sides "left" and "right" of a mesh and its "bottom" move with the two sides of a fault, by amplitude(load factor)
 /// in units of throw; in between, at the tip, the bottom takes the step as detail::StepAtTip says. The first axis is
 /// horizontal, the last vertical; in space the fault strikes along the second, where nothing moves on "front", "back"
 /// and the prescribed sides. A motion that changes along its strike moves each node by its share there.
@@ -59,7 +59,7 @@ SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
 /// boundaries
 template <BedrockMotion Motion, class Element>
 SCARP_EXPORT Constraints bedrock_constraints(Mesh<Element> const& mesh, Motion const& motion, int extra_dofs = 0,
-                                             TimeFunction const& course = {}) {
+                                             TimeFunction const& amplitude = {}) {
   constexpr int dim = Element::dim;
   Vector<2> const left = motion.left();
   Vector<2> const right = motion.right();
@@ -69,8 +69,8 @@ SCARP_EXPORT Constraints bedrock_constraints(Mesh<Element> const& mesh, Motion c
     Vector<2> rate = left + share * (right - left);
     if constexpr (dim == 3 && ChangesAlongStrike<Motion>)
       rate *= motion.share_along(mesh.nodes[detail::index(node)](1));
-    constraints.move(node, 0, rate.x(), course);
-    constraints.move(node, dim - 1, rate.y(), course);
+    constraints.move(node, 0, rate.x(), amplitude);
+    constraints.move(node, dim - 1, rate.y(), amplitude);
     if constexpr (dim == 3) constraints.fix(node, 1);
   };
   for (int const node : boundary_nodes(mesh, "left")) move(node, 0.0);
@@ -91,8 +91,8 @@ namespace detail {
 inline double heave_per_throw(double dip) {
   constexpr double vertical = std::numbers::pi / 2.0;
   if (!(dip > 0.0 && dip <= vertical * (1.0 + 4.0 * std::numeric_limits<double>::epsilon()))) {
-    refuse("the dip is {} rad (a fault dips by more than 0 and at most pi/2): {}", dip,
-           dip > vertical && dip <= 90.0 ? "was it given in degrees?" : "choose a dip in this range");
+    throw_input_error("the dip is {} rad (a fault dips by more than 0 and at most pi/2): {}", dip,
+                      dip > vertical && dip <= 90.0 ? "was it given in degrees?" : "choose a dip in this range");
   }
   double const along = std::cos(dip);
   return std::abs(along) < std::numeric_limits<double>::epsilon() ? 0.0 : along / std::sin(dip);
@@ -138,8 +138,9 @@ struct TaperedSlip : Fault {
   /// \throws InputError for ends that are not finite or in the wrong order
   double share_along(double y) const {
     if (!(std::isfinite(full_to) && std::isfinite(ends_at) && full_to < ends_at)) {
-      refuse("the slip is full up to y = {} m and ends at {} m (it dies out along the strike): put the end beyond",
-             full_to, ends_at);
+      throw_input_error(
+          "the slip is full up to y = {} m and ends at {} m (it dies out along the strike): put the end beyond",
+          full_to, ends_at);
     }
     double const beyond = std::clamp((y - full_to) / (ends_at - full_to), 0.0, 1.0);
     return (1.0 + std::cos(std::numbers::pi * beyond)) / 2.0;

@@ -79,9 +79,9 @@ struct FaultMesh {
   FaultMesh with_about(int elements) const {
     detail::require_shape(*this);
     if (int const least = elements_per_cell<Element>(pattern) * cells_along_strike<Element>();
-        elements < least || elements > most_elements) {
-      refuse("a mesh of {} elements is asked for (from {} to {} are possible): choose another number", elements, least,
-             most_elements);
+        elements < least || elements > max_elements) {
+      throw_input_error("a mesh of {} elements is requested (from {} to {} are possible): choose another number",
+                        elements, least, max_elements);
     }
     auto const sized = [this](double size_of_cells) {
       FaultMesh probe = *this;
@@ -97,7 +97,7 @@ struct FaultMesh {
   }
 
  private:
-  static constexpr int most_elements = 10'000'000;
+  static constexpr int max_elements = 10'000'000;
 
   Spacing columns() const {
     double const from = std::clamp(band_left, left, right);
@@ -178,9 +178,10 @@ struct FaultMesh {
     detail::require_shape(*this);
     detail::require_inside(*this, edges);
     detail::require_apart(fixed_columns(edges), size);
-    if (double const ideal = ideal_elements<Element>(); !(ideal <= 1.1 * most_elements)) {
-      refuse("elements of {} m would give about {:.3g} of them (more than {} are not supported): choose a larger size",
-             size, ideal, most_elements);
+    if (double const ideal = ideal_elements<Element>(); !(ideal <= 1.1 * max_elements)) {
+      throw_input_error(
+          "elements of {} m would give about {:.3g} of them (more than {} are not supported): choose a larger size",
+          size, ideal, max_elements);
     }
   }
 };

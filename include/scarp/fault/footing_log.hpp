@@ -40,7 +40,7 @@ struct StripFooting {
 /// How a footing has moved from where the mesh has it, and what the ground presses with against its base.
 struct FootingMotion {
   double settlement = 0.0;  ///< of the centre of the base, positive down [m]
-  double sideways = 0.0;    ///< along x [m]
+  double horizontal = 0.0;  ///< along x [m]
   double tilt = 0.0;        ///< [rad], clockwise: towards the hanging wall
   std::vector<InterfacePoint> base;
 };
@@ -88,8 +88,10 @@ class FootingLog : public NeverStops {
   FootingLog(std::filesystem::path const& folder, Structure structure, double to, int profiles, double load_unit,
              CsvStart start = CsvStart::anew)
       : motion_(folder / "footing.csv",
-                {"load", "throw_over_depth", "settlement", "sideways", "tilt", "support", "pressure_min",
-                 "pressure_max", "pressed_share"},
+                {"load", "throw_over_depth", "settlement", "horizontal_displacement", "tilt", "vertical_reaction",
+                 "pressure_min", "pressure_max", "contact_share",
+                 // as before version 0.2, until version 0.3
+                 "sideways", "support", "pressed_share"},
                 start),
         base_(folder / "footing_base.csv", {"throw_over_depth", "x", "y", "area", "pressure", "shear", "gap"}, start),
         structure_(std::move(structure)),
@@ -103,8 +105,9 @@ class FootingLog : public NeverStops {
     FootingMotion const motion = structure_.motion(problem);
     auto const pressure = base_pressure(motion);
     double const fault_throw = std::max(report.load, 0.0) / load_unit_;
-    motion_.add(report.load, fault_throw, motion.settlement, motion.sideways, motion.tilt, support(motion),
-                pressure.least, pressure.largest, pressure.pressed);
+    motion_.add(report.load, fault_throw, motion.settlement, motion.horizontal, motion.tilt, support(motion),
+                pressure.least, pressure.largest, pressure.pressed, motion.horizontal, support(motion),
+                pressure.pressed);
     if (report.load < next_ && report.load < end_) return;
     while (next_ <= report.load) next_ += between_;
     for (auto const& point : motion.base)

@@ -39,7 +39,7 @@ struct StripSize {
     require_finite("widening of the strip", widening);
     require_positive("size of elements in the strip", fine);
     require_at_least("size of elements far from the strip", coarse, fine);
-    require_positive("transition beside the strip", transition);
+    require_positive("transition next to the strip", transition);
   }
 
   double size(Vector<2> const& place) const {

@@ -82,7 +82,7 @@ struct RuptureMeasures {
   double surface_x50;        ///< half of the offset: the middle of the rupture
   double surface_x95;        ///< 95 % of it: where the scarp ends, further off where a graben lies behind it
   double surface_slope_max;  ///< largest |change of settlement / distance| between joined points
-  double mid_line_dip;       ///< of the line from the fault's tip to surface_x50, see line_dip [rad]
+  double rupture_dip;        ///< of the line from the fault's tip to surface_x50, see line_dip [rad]
   double largest_share;      ///< of the offset that any point has gone: above 1 in a graben
   double outcrop_x;          ///< see Outcrop, as the next two
   double steepest_x;
@@ -107,7 +107,7 @@ inline RuptureMeasures rupture_measures(std::vector<SurfacePoint> const& profile
           .surface_x50 = middle,
           .surface_x95 = first_passage(profile, fault, 0.95),
           .surface_slope_max = slope,
-          .mid_line_dip = line_dip(fault.tip - middle, depth),
+          .rupture_dip = line_dip(fault.tip - middle, depth),
           .largest_share = share,
           .outcrop_x = outcrop_x,
           .steepest_x = steepest_x,

@@ -36,9 +36,9 @@ VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
 /// motions by its own order only, because the forces A lie in the range of a symmetric K.
 struct CondensedTangent {
   SlidingContacts sliding{};
-  double regularisation = 1e-9;                     ///< spring to the ground of every motion, over the mean k_n
-  bool initial_stress = true;                       ///< with the terms of the present stress; never in the fallback
-  TangentComplaint complain = complain_of_tangent;  ///< hears of each fallback
+  double regularisation = 1e-9;  ///< spring to the ground of every motion, over the mean k_n
+  bool initial_stress = true;    ///< with the terms of the present stress; never in the fallback
+  TangentFallback on_fallback = report_tangent_fallback;  ///< hears of each fallback
 
   /// \throws InputError for springs to the ground that are negative or not finite
   void validate() const {
@@ -46,12 +46,12 @@ struct CondensedTangent {
     require_not_negative("spring to the ground of a condensed packing", regularisation);
   }
 
-  /// The condensed tangent, or the one under uniform strain after `complain` was told why.
+  /// The condensed tangent, or the one under uniform strain after `on_fallback` was told why.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     auto const answer = condense(packing, law);
-    if (!answer.verdict.acceptable() && complain != nullptr) {
-      complain("a packing's tangent could not be condensed, the one under uniform strain is taken", answer.verdict);
+    if (!answer.verdict.acceptable() && on_fallback != nullptr) {
+      on_fallback("a packing's tangent could not be condensed, the one under uniform strain is taken", answer.verdict);
     }
     return answer.tangent;
   }
@@ -177,10 +177,10 @@ struct CondensedTangent {
   }
 
   static bool solve_symmetric(Matrix const& matrix, Eigen::MatrixXd const& right, Eigen::MatrixXd& solution) {
-    constexpr double least_pivot = 1e-13;  // over the largest: below it round-off decides
+    constexpr double min_pivot = 1e-13;  // over the largest: below it round-off decides
     Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver(matrix);
     if (solver.info() != Eigen::Success) return false;
-    if (!(solver.vectorD().minCoeff() > least_pivot * solver.vectorD().maxCoeff())) return false;
+    if (!(solver.vectorD().minCoeff() > min_pivot * solver.vectorD().maxCoeff())) return false;
     solution = solver.solve(right);
     return true;
   }

@@ -21,10 +21,10 @@ struct TangentAnswer {
 };
 
 /// Hears of tangents that a policy had to replace or could not make to its accuracy; may be called by several threads.
-using TangentComplaint = void (*)(std::string_view what, Verdict verdict);
+using TangentFallback = void (*)(std::string_view what, Verdict verdict);
 
 /// One line for each on standard error.
-inline void complain_of_tangent(std::string_view what, Verdict verdict) {
+inline void report_tangent_fallback(std::string_view what, Verdict verdict) {
   fmt::print(stderr, "scarp: {} ({}, {})\n", what, name(verdict.status), name(verdict.reason));
 }
 

@@ -14,14 +14,14 @@ namespace scarp {
 struct SlidingContacts {
   double shear_share = 0.0;  ///< of the tangential stiffness that stays along the direction of sliding
   bool coupled = false;      ///< the shear force follows the normal force, \f$ dF_t = \mu\,dF_n \f$; not symmetric
-  /// Shear force that is asked for, as a share of the contact's force. While grains move, contacts that slide under a
+  /// Shear force that is requested, as a share of the contact's force. While grains move, contacts that slide under a
   /// growing normal force stand a little below the limit: it grows once more after their last slip.
   double nearness = 1e-2;
 
   /// \throws InputError for shares out of range
   void validate() const {
     require_between("share of a sliding contact's tangential stiffness", shear_share, 0.0, 1.0);
-    require_positive("shear force that sliding contacts are asked for, as a share,", nearness);
+    require_positive("shear force above which contacts count as sliding, as a share,", nearness);
   }
 
   template <int Dim, class Law>

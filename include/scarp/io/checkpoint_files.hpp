@@ -29,7 +29,7 @@ struct CheckpointSettings {
   void validate() const {
     require_not_negative("time between two checkpoints [s]", every_seconds);
     if (every_attempts < 0)
-      refuse("the attempts between two checkpoints are {} (0 counts none): give 0 or more", every_attempts);
+      throw_input_error("the attempts between two checkpoints are {} (0 counts none): give 0 or more", every_attempts);
   }
 };
 
@@ -52,8 +52,9 @@ inline void refuse_other_scene(std::string const& saved, std::string const& aske
     bool const other = static_cast<bool>(std::getline(theirs, their));
     more = one || other;
   }
-  refuse("it is of another scene ('{}' there, '{}' here): ask for the scene that was saved, or choose another folder",
-         their, our);
+  throw_input_error(
+      "it is of another scene ('{}' there, '{}' here): request the scene that was saved, or choose another folder",
+      their, our);
 }
 
 }  // namespace detail

@@ -110,7 +110,8 @@ class CsvScanner {
       cell += text.substr(0, end);
       text.remove_prefix(end);
       if (text.empty()) {
-        if (rest_.empty()) refuse("line {} of '{}' opens quotes (they never close): close them", opened, file_);
+        if (rest_.empty())
+          throw_input_error("line {} of '{}' opens quotes (they never close): close them", opened, file_);
         cell += '\n';
         text = take_line();
       } else if (text.starts_with("\"\"")) {
@@ -122,8 +123,9 @@ class CsvScanner {
       }
     }
     if (!text.empty() && !text.starts_with(',')) {
-      refuse("line {} of '{}' has text behind closed quotes (a comma must follow): double quotes inside quotes",
-             number_, file_);
+      throw_input_error(
+          "line {} of '{}' has text behind closed quotes (a comma must follow): double quotes inside quotes", number_,
+          file_);
     }
     return cell;
   }
@@ -136,7 +138,7 @@ class CsvScanner {
 
 }  // namespace detail
 
-/// A table of a file: named columns, whose cells become numbers when a column is asked for, so that other columns may
+/// A table of a file: named columns, whose cells become numbers when a column is requested, so that other columns may
 /// hold anything. Does not depend on the locale.
 class CsvColumns {
  public:
@@ -145,17 +147,18 @@ class CsvColumns {
   CsvColumns(std::string_view text, std::string file, CsvSeparator separator = CsvSeparator::comma)
       : file_(std::move(file)) {
     detail::CsvScanner scanner(text, file_, separator);
-    if (!scanner.next(header_)) refuse("'{}' is empty (a table begins with the names of its columns): add them", file_);
+    if (!scanner.next(header_))
+      throw_input_error("'{}' is empty (a table begins with the names of its columns): add them", file_);
     for (auto name = header_.cells.begin(); name != header_.cells.end(); ++name) {
       if (std::find(header_.cells.begin(), name, *name) != name) {
-        refuse("line {} of '{}' names two columns '{}' (they cannot be told apart): rename one", header_.number, file_,
-               *name);
+        throw_input_error("line {} of '{}' names two columns '{}' (they cannot be distinguished): rename one",
+                          header_.number, file_, *name);
       }
     }
     for (detail::CsvLine line; scanner.next(line);) {
       if (line.cells.size() != header_.cells.size()) {
-        refuse("line {} of '{}' has {} cells (the header names {} columns): give one cell for each", line.number, file_,
-               line.cells.size(), header_.cells.size());
+        throw_input_error("line {} of '{}' has {} cells (the header names {} columns): give one cell for each",
+                          line.number, file_, line.cells.size(), header_.cells.size());
       }
       rows_.push_back(std::move(line));
     }
@@ -180,10 +183,10 @@ class CsvColumns {
   }
 
   /// Refuses the value in one cell, naming file, line and column.
-  [[noreturn]] void refuse_cell(std::size_t row, std::string_view name, std::string_view why,
-                                std::string_view suggestion) const {
-    refuse("line {} of '{}' has '{}' in column '{}' ({}): {}", line(row), file_, rows_[row].cells[require(name)], name,
-           why, suggestion);
+  [[noreturn]] void throw_cell_error(std::size_t row, std::string_view name, std::string_view why,
+                                     std::string_view suggestion) const {
+    throw_input_error("line {} of '{}' has '{}' in column '{}' ({}): {}", line(row), file_,
+                      rows_[row].cells[require(name)], name, why, suggestion);
   }
 
  private:
@@ -196,8 +199,8 @@ class CsvColumns {
   std::size_t require(std::string_view name) const {
     auto const place = find(name);
     if (!place) {
-      refuse("'{}' has no column '{}' (line {} names {}): add it or rename one", file_, name, header_.number,
-             listed(header_.cells));
+      throw_input_error("'{}' has no column '{}' (line {} names {}): add it or rename one", file_, name, header_.number,
+                        listed(header_.cells));
     }
     return *place;
   }
@@ -210,14 +213,14 @@ class CsvColumns {
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     auto const& name = header_.cells[place];
     if (error == std::errc::result_out_of_range) {
-      refuse_cell(row, name, "its size is beyond what a number here can hold", "check the value and its unit");
+      throw_cell_error(row, name, "its size is beyond what a number here can hold", "check the value and its unit");
     }
     if (error != std::errc() || end != text.data() + text.size()) {
-      if constexpr (std::integral<Number>) refuse_cell(row, name, "it is no whole number", "write digits only");
-      refuse_cell(row, name, "it is no number", "write a decimal number with a point, such as 2.5e-3");
+      if constexpr (std::integral<Number>) throw_cell_error(row, name, "it is no whole number", "write digits only");
+      throw_cell_error(row, name, "it is no number", "write a decimal number with a point, such as 2.5e-3");
     }
     if constexpr (std::floating_point<Number>) {
-      if (!std::isfinite(value)) refuse_cell(row, name, "it is not finite", "give an ordinary number");
+      if (!std::isfinite(value)) throw_cell_error(row, name, "it is not finite", "give an ordinary number");
     }
     return value;
   }

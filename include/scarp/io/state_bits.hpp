@@ -134,8 +134,8 @@ class StateReader {
   /// count values of the given bytes each, in any memory
   void take(std::string_view name, void* values, std::size_t bytes, std::size_t count = 1) {
     if (count > rest_.size() / bytes) {
-      refuse("it ends inside '{}' (for {} numbers of {} bytes only {} bytes are left): save it again", name, count,
-             bytes, rest_.size());
+      throw_input_error("it ends inside '{}' (for {} numbers of {} bytes only {} bytes are left): save it again", name,
+                        count, bytes, rest_.size());
     }
     if (count > 0) std::memcpy(values, rest_.data(), count * bytes);
     rest_.remove_prefix(count * bytes);
@@ -150,7 +150,7 @@ class StateReader {
     std::uint8_t stored = 0;
     expect(name, sizeof(value));
     take(name, &stored, sizeof(stored));
-    if (stored > 1) refuse("'{}' is {} (it can be 0 or 1): save it again", name, stored);
+    if (stored > 1) throw_input_error("'{}' is {} (it can be 0 or 1): save it again", name, stored);
     value = stored == 1;
   }
   void operator()(std::string_view name, std::string& text) {
@@ -180,7 +180,8 @@ class StateReader {
     expect_list<T>(name);
     std::size_t const length = take_length(name, element_bytes<T>());
     if (length != values.size()) {
-      refuse("it has {} '{}' (the scene has {}): load it into the scene that was saved", length, name, values.size());
+      throw_input_error("it has {} '{}' (the scene has {}): load it into the scene that was saved", length, name,
+                        values.size());
     }
     elements(name, values);
   }
@@ -204,7 +205,8 @@ class StateReader {
       shared_[number].second = T::restored(*this);
     }
     if (number >= shared_.size() || shared_[number].first != typeid(T) || !shared_[number].second) {
-      refuse("'{}' is number {} of the shared parts (there is none of this kind): save it again", name, number);
+      throw_input_error("'{}' is number {} of the shared parts (there is none of this kind): save it again", name,
+                        number);
     }
     shared = std::static_pointer_cast<T const>(shared_[number].second);
   }
@@ -247,8 +249,8 @@ class StateReader {
     take(name, saved.data(), sizeof(char), letters);
     take(name, &bytes, sizeof(bytes));
     if (saved != name || bytes != element) {
-      refuse("it has '{}' of {} bytes where '{}' of {} bytes should be: load it as the type that was saved", saved,
-             bytes, name, element);
+      throw_input_error("it has '{}' of {} bytes where '{}' of {} bytes should be: load it as the type that was saved",
+                        saved, bytes, name, element);
     }
   }
 
@@ -257,7 +259,7 @@ class StateReader {
     std::uint64_t length = 0;
     take(name, &length, sizeof(length));
     if (length > rest_.size() / bytes) {
-      refuse("'{}' has a length of {} (only {} bytes follow): save it again", name, length, rest_.size());
+      throw_input_error("'{}' has a length of {} (only {} bytes follow): save it again", name, length, rest_.size());
     }
     return static_cast<std::size_t>(length);
   }

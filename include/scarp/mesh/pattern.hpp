@@ -34,13 +34,13 @@ int elements_per_cell(Pattern pattern) {
   constexpr int dim = Element::dim;
   constexpr bool simplex = LinearOf<Element>::nodes == dim + 1;
   if (dim == 2 && simplex && pattern == Pattern::quads) {
-    refuse(
-        "triangles are asked for in the pattern 'quads' (it does not divide the rectangles): use 'crossed', 'left' "
+    throw_input_error(
+        "triangles are requested in the pattern 'quads' (it does not divide the rectangles): use 'crossed', 'left' "
         "or 'right', or quadrilaterals");
   }
   if (!(dim == 2 && simplex) && (pattern == Pattern::left || pattern == Pattern::right)) {
-    refuse(
-        "the pattern '{}' is asked for with elements of {} nodes in {} dimensions (only triangles follow its "
+    throw_input_error(
+        "the pattern '{}' is requested with elements of {} nodes in {} dimensions (only triangles follow its "
         "diagonals): use 'quads', or triangles",
         name(pattern), Element::nodes, dim);
   }

@@ -19,13 +19,14 @@ namespace scarp {
 class ConvergenceLog : public NeverStops {
  public:
   /// \throws FileError when a file cannot be written
-  ConvergenceLog(std::filesystem::path const& file, double load_unit, CsvStart start = CsvStart::anew)
+  ConvergenceLog(std::filesystem::path const& file, LoadMeasure measure, CsvStart start = CsvStart::anew)
       : table_(file,
-               {"step", "throw_over_depth", "iteration", "residual", "accepted", "reason", "largest_gradient",
-                "dem_steps", "seconds", "seconds_in_points"},
+               {"step", measure.name, "iteration", "residual", "accepted", "reason", "max_displacement_gradient",
+                "dem_steps", "seconds", "seconds_in_points",
+                "largest_gradient"},  // as before version 0.2, until version 0.3
                start),
         lines_(std::filesystem::path(file).replace_extension(".jsonl"), start == CsvStart::resumed),
-        load_unit_(require_positive("unit of the load", load_unit)) {}
+        measure_(detail::validated(std::move(measure))) {}
 
   template <class Problem>
   void attempted(Problem const&, StepReport const& report) {
@@ -35,22 +36,22 @@ class ConvergenceLog : public NeverStops {
     for (auto const& record : report.history) {
       ++iteration;
       bool const accepted = report.verdict.acceptable() && iteration == report.iterations();
-      table_.add(report.step, report.load / load_unit_, iteration, record.residual, accepted ? 1 : 0,
-                 name(report.verdict.reason), report.largest_gradient, record.inner_steps, record.seconds,
-                 record.material_seconds);
+      table_.add(report.step, measure_.of(report.load), iteration, record.residual, accepted ? 1 : 0,
+                 name(report.verdict.reason), report.max_displacement_gradient, record.inner_steps, record.seconds,
+                 record.material_seconds, report.max_displacement_gradient);
       lines_.add(line_of(report, record, iteration, before));
       before = record.residual;
     }
     lines_.add(line_of(report));
   }
 
-  SCARP_MEMBERS_EXCEPT((load_unit_), table_, lines_, attempt_)
+  SCARP_MEMBERS_EXCEPT((measure_), table_, lines_, attempt_)
 
  private:
   JsonObject begun(std::string_view kind, StepReport const& report) const {
     JsonObject line;
     line.add("kind", kind).add("attempt", attempt_).add("step", report.step);
-    line.add("throw_over_depth", report.load / load_unit_);
+    line.add(measure_.name, measure_.of(report.load));
     return line;
   }
 
@@ -86,14 +87,15 @@ class ConvergenceLog : public NeverStops {
       for (auto const& part : report.parts) parts.add(part.name, part.value);
       line.add("residuals", parts);
     }
-    line.add("largest_gradient", report.largest_gradient).add("condition", report.condition);
+    line.add("max_displacement_gradient", report.max_displacement_gradient).add("condition", report.condition);
+    line.add("largest_gradient", report.max_displacement_gradient);  // as before version 0.2
     line.add("dem_steps", inner_steps).add("seconds", report.seconds).add("seconds_in_points", in_points);
     return line.add("share_outside_points", 1.0 - in_points / report.seconds);
   }
 
   CsvLog table_;
   JsonLog lines_;
-  double load_unit_;
+  LoadMeasure measure_;
   int attempt_ = 0;
 };
 

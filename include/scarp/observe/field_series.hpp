@@ -13,7 +13,7 @@
 #include "scarp/io/vtu.hpp"
 #include "scarp/observe/deformation.hpp"
 #include "scarp/observe/observers.hpp"
-#include "scarp/run/first_rank.hpp"
+#include "scarp/run/root_rank.hpp"
 #include "scarp/tensor/geo.hpp"
 
 namespace scarp {
@@ -141,7 +141,8 @@ class FieldSeries : public NeverStops {
     for (auto const& [name, column] : at_elements.quantities) {
       if (std::any_of(fields.at_elements.begin(), fields.at_elements.end(),
                       [&, &own = name](auto const& field) { return field.name == own; }))
-        refuse("an own quantity is named '{}' (fields of that name are written already): give it another name", name);
+        throw_input_error(
+            "an own quantity is named '{}' (fields of that name are written already): give it another name", name);
       fields.at_elements.push_back({name, 1, std::span<double const>(column), {}});
     }
     auto const file = std::filesystem::path("fields") / fmt::format("step_{:04}.vtu", frame_++);

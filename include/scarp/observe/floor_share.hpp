@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "scarp/run/first_rank.hpp"
+#include "scarp/run/root_rank.hpp"
 
 namespace scarp {
 

@@ -3,6 +3,7 @@
 
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -70,6 +71,16 @@ struct ObserverRef {
   }
 };
 
+/// How tables and messages express the load: divided by a unit, under a name.
+struct LoadMeasure {
+  double unit = 1.0;
+  std::string name = "load";
+
+  /// \throws InputError for a unit that is not positive
+  void validate() const { require_positive("unit of the load", unit); }
+  double of(double load) const { return load / unit; }
+};
+
 /// When a series writes: at load 0, whenever the load has grown by to / count, and at the end.
 struct LoadSchedule {
   double to = 0.0;
@@ -109,7 +120,7 @@ template <class Problem>
 int require_point(Problem const& problem, int point) {
   int const count = problem.points().size();
   if (point < 0 || point >= count)
-    refuse("point {} is to be observed (there are points 0 to {}): choose one of these", point, count - 1);
+    throw_input_error("point {} is to be observed (there are points 0 to {}): choose one of these", point, count - 1);
   return point;
 }
 }  // namespace detail

@@ -10,7 +10,7 @@
 #include "scarp/dem/packing_picture.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
 #include "scarp/observe/observers.hpp"
-#include "scarp/run/first_rank.hpp"
+#include "scarp/run/root_rank.hpp"
 
 namespace scarp {
 
@@ -23,18 +23,19 @@ class PackingSeries : public NeverStops {
   /// shares: of `to`, from 0 to 1, increasing
   /// \throws InputError for other shares, and for an end or a unit that is not positive
   PackingSeries(std::filesystem::path const& folder, std::string name, int point, double to, std::vector<double> shares,
-                double load_unit)
+                LoadMeasure measure)
       : folder_(folder / "packings"),
         name_(std::move(name)),
         point_(point),
         to_(require_positive("end of the load", to)),
         shares_(std::move(shares)),
-        load_unit_(require_positive("unit of the load", load_unit)) {
+        measure_(detail::validated(std::move(measure))) {
     double before = -1.0;
     for (double const share : shares_) {
       if (!(share >= 0.0 && share <= 1.0 && share > before))
-        refuse("packings are to be written at a share {} of the load (after {}): give increasing shares from 0 to 1",
-               share, before);
+        throw_input_error(
+            "packings are to be written at a share {} of the load (after {}): give increasing shares from 0 to 1",
+            share, before);
       before = share;
     }
   }
@@ -53,7 +54,7 @@ class PackingSeries : public NeverStops {
     if (load > 0.0 && load > last_) write(problem, load);
   }
 
-  SCARP_MEMBERS_EXCEPT((folder_, name_, point_, to_, shares_, load_unit_), next_, last_, throws_)
+  SCARP_MEMBERS_EXCEPT((folder_, name_, point_, to_, shares_, measure_), next_, last_, throws_)
 
  private:
   template <class Problem>
@@ -65,8 +66,8 @@ class PackingSeries : public NeverStops {
     if (!picture) return;
     std::filesystem::create_directories(folder_);
     write_packing_tables(folder_, *picture, stem(throws_.size()));
-    throws_.push_back(load / load_unit_);
-    CsvTable list({"throw_over_depth", "packing"});
+    throws_.push_back(measure_.of(load));
+    CsvTable list({measure_.name, "packing"});
     for (std::size_t k = 0; k < throws_.size(); ++k) list.add(throws_[k], stem(k));
     list.write(folder_ / (name_ + ".csv"));
   }
@@ -78,7 +79,7 @@ class PackingSeries : public NeverStops {
   int point_;
   double to_;
   std::vector<double> shares_;
-  double load_unit_;
+  LoadMeasure measure_;
   int next_ = 0;
   double last_ = -1.0;
   std::vector<double> throws_{};  ///< of the packings that are written, over the unit

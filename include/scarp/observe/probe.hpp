@@ -30,13 +30,13 @@ class RveProbe : public NeverStops {
  public:
   /// point: number of a material point, see nearest_point
   /// \throws InputError for a unit that is not positive
-  RveProbe(std::filesystem::path const& file, int point, double load_unit, CsvStart start = CsvStart::anew)
+  RveProbe(std::filesystem::path const& file, int point, LoadMeasure measure, CsvStart start = CsvStart::anew)
       : log_(file,
-             {"throw_over_depth", "eps_q", "eps_v", "p", "q", "contact_fabric", "particle_fabric", "void_ratio", "sxx",
-              "syy", "sxy"},
+             {measure.name, "eps_q", "eps_v", "p", "q", "contact_fabric", "particle_fabric", "void_ratio", "sxx", "syy",
+              "sxy"},
              start),
         point_(point),
-        load_unit_(require_positive("unit of the load", load_unit)) {}
+        measure_(detail::validated(std::move(measure))) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
@@ -54,16 +54,16 @@ class RveProbe : public NeverStops {
         if (name == "void_ratio") void_ratio = value;
       }
     });
-    log_.add(report.load / load_unit_, strain.deviatoric, strain.volumetric, geo_stress.p, geo_stress.q,
+    log_.add(measure_.of(report.load), strain.deviatoric, strain.volumetric, geo_stress.p, geo_stress.q,
              fabric_of_contacts, fabric_of_particles, void_ratio, -stress(0), -stress(1), -stress(2));
   }
 
-  SCARP_MEMBERS_EXCEPT((point_, load_unit_), log_)
+  SCARP_MEMBERS_EXCEPT((point_, measure_), log_)
 
  private:
   CsvLog log_;
   int point_;
-  double load_unit_;
+  LoadMeasure measure_;
 };
 
 }  // namespace scarp

@@ -17,9 +17,9 @@ namespace scarp {
 class Progress : public NeverStops {
  public:
   /// name: before every line, of one run among several
-  Progress(double to, double load_unit, std::string name = {})
+  Progress(double to, LoadMeasure measure, std::string name = {})
       : to_(require_finite("end of the load", to)),
-        load_unit_(require_positive("unit of the load", load_unit)),
+        measure_(detail::validated(std::move(measure))),
         name_(std::move(name)),
         started_(std::chrono::steady_clock::now()) {}
 
@@ -29,16 +29,17 @@ class Progress : public NeverStops {
     double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     if (report.verdict.acceptable()) {
       double const remaining = report.load > 0.0 ? elapsed * (to_ - report.load) / (report.load - from_) : 0.0;
-      say("{}step {:4}  h/H {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n", name_,
-          report.step, report.load / load_unit_, report.residual(), report.iterations(), elapsed, remaining);
+      say("{}step {:4}  {} {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n", name_,
+          report.step, measure_.name, measure_.of(report.load), report.residual(), report.iterations(), elapsed,
+          remaining);
     } else {
-      say("{}step {:4}  refused at h/H {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n", name_,
-          report.step, report.load / load_unit_, report.iterations(), report.residual(), name(report.verdict.reason),
-          where(problem, report));
+      say("{}step {:4}  rejected at {} {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n", name_,
+          report.step, measure_.name, measure_.of(report.load), report.iterations(), report.residual(),
+          name(report.verdict.reason), where(problem, report));
     }
   }
 
-  SCARP_MEMBERS_EXCEPT((to_, load_unit_, name_, from_, started_))  // the time that remains is guessed anew
+  SCARP_MEMBERS_EXCEPT((to_, measure_, name_, from_, started_))  // the time that remains is guessed anew
 
  private:
   /// An error stream that cannot be written ends no run.
@@ -58,7 +59,7 @@ class Progress : public NeverStops {
   }
 
   double to_;
-  double load_unit_;
+  LoadMeasure measure_;
   std::string name_;
   double from_ = -1.0;  ///< load of the fault's motion at the first attempt, zero unless the run continues another
   std::chrono::steady_clock::time_point started_;

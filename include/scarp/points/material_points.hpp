@@ -29,7 +29,7 @@ namespace scarp {
 /// \code
 /// MaterialPoints<2> points(soil, sites);
 /// points.gradient(0) = increment;             // of all points, since the last commit
-/// PointAnswers const answers = points.respond(executor);
+/// ResponseReport const answers = points.respond(executor);
 /// if (answers.verdict.acceptable()) points.commit();  // else: another increment, smaller perhaps
 /// \endcode
 /// Gradients are those of the displacement since the last commit by the positions at that time. Where points are shared out among
@@ -56,17 +56,20 @@ class MaterialPoints {
     boost::hana::for_each(regions, [&](auto const& region) {
       auto const named = std::ranges::find(names, region.name);
       if (named == names.end()) {
-        refuse("there is no region '{}' (the mesh has: {}): use one of these names", region.name, listed(names));
+        throw_input_error("there is no region '{}' (the mesh has: {}): use one of these names", region.name,
+                          listed(names));
       }
       int& number = numbers[static_cast<std::size_t>(named - names.begin())];
-      if (number >= 0) refuse("region '{}' is given two providers (only one can answer): leave one out", region.name);
+      if (number >= 0)
+        throw_input_error("region '{}' is given two providers (only one can respond): leave one out", region.name);
       number = add_material(region.provider);
     });
     for (std::size_t k = 0; k < sites.size(); ++k) {
       int const region = sites[k].region;
       if (region < 0 || region >= std::ssize(numbers) || numbers[detail::index(region)] < 0) {
-        refuse("region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
-               region < 0 || region >= std::ssize(names) ? fmt::to_string(region) : names[detail::index(region)], k);
+        throw_input_error(
+            "region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
+            region < 0 || region >= std::ssize(names) ? fmt::to_string(region) : names[detail::index(region)], k);
       }
     }
     fill(
@@ -92,7 +95,7 @@ class MaterialPoints {
   /// \throws InputError for means over another number of points
   void average(PointMeans<Dim> means) {
     if (means.mean().size() != size())
-      refuse("means are over {} points (there are {}): make them of all sites", means.mean().size(), size());
+      throw_input_error("means are over {} points (there are {}): make them of all sites", means.mean().size(), size());
     means_.reset();
     if (!means.mean().is_local()) means_ = std::move(means);
   }
@@ -106,22 +109,22 @@ class MaterialPoints {
   /// harder, up to so many times and until the next commit.
   /// \throws InputError for gradients that are not finite
   template <ExecutesTasks Executor>
-  PointAnswers respond(Executor& executor, int most_refinements = 4) {
+  ResponseReport respond(Executor& executor, int max_refinements = 4) {
     for (int point = 0; point < size(); ++point) {
       if (!own_[detail::index(point)].allFinite())
-        refuse("the displacement gradient of point {} is not finite: take a smaller step", point);
+        throw_input_error("the displacement gradient of point {} is not finite: take a smaller step", point);
     }
-    see(own_, executor);
+    set_gradients(own_, executor);
     if (!is_planned_) plan();
-    PointAnswers answers = answer(executor);
-    for (int k = 0; k < most_refinements && answers.verdict.status == Status::not_converged; ++k)
+    ResponseReport answers = evaluate(executor);
+    for (int k = 0; k < max_refinements && answers.verdict.status == Status::not_converged; ++k)
       answers = refine(executor);
     return answers;
   }
 
   /// Sets all points' own gradients, and what the points see of them.
   template <ExecutesTasks Executor>
-  void see(Gradients own, Executor& executor) {
+  void set_gradients(Gradients own, Executor& executor) {
     own_ = std::move(own);
     seen_ = means_ ? means_->average(own_, executor) : own_;
   }
@@ -134,27 +137,27 @@ class MaterialPoints {
 
   /// All points respond from their committed states to what they see, with the work that is planned.
   template <ExecutesTasks Executor>
-  PointAnswers answer(Executor& executor) {
-    return ask(owned_, executor);
+  ResponseReport evaluate(Executor& executor) {
+    return evaluate(owned_, executor);
   }
 
   /// Points whose last answer is not converged work harder, now and until the next plan; one that cannot would only repeat its answer.
   template <ExecutesTasks Executor>
-  PointAnswers refine(Executor& executor) {
+  ResponseReport refine(Executor& executor) {
     std::vector<int> harder;
     for (int const point : owned_) {
       if (responses_[detail::index(point)].verdict.status == Status::not_converged && batch(point).refine(local(point)))
         harder.push_back(point);
     }
-    return ask(harder, executor);
+    return evaluate(harder, executor);
   }
 
   /// The committed stresses take the place of answers, and no point has moved.
   template <ExecutesTasks Executor>
-  void rest(Executor& executor) {
+  void evaluate_committed(Executor& executor) {
     auto const committed = committed_stresses(executor);
     for (std::size_t k = 0; k < committed.size(); ++k) responses_[k] = {committed[k], {}};
-    see(Gradients(committed.size(), Gradient<Dim>::Zero()), executor);
+    set_gradients(Gradients(committed.size(), Gradient<Dim>::Zero()), executor);
   }
 
   /// The trial states, of the last answers, become the committed ones.
@@ -231,25 +234,26 @@ class MaterialPoints {
   template <class State>
   State const& state(int point) const {
     auto const* state = static_cast<State const*>(batch(point).state(local(point), typeid(State)));
-    if (!state) refuse("the state of point {} is asked for as another type: take its provider's State", point);
+    if (!state)
+      throw_input_error("the state of point {} is requested as another type: take its provider's State", point);
     return *state;
   }
   /// The provider of a point. \throws InputError unless it is of this type
   template <class Provider>
   Provider const& provider(int point) const {
     auto const* provider = static_cast<Provider const*>(batch(point).provider(typeid(Provider)));
-    if (!provider) refuse("the provider of point {} is asked for as another type: take its own", point);
+    if (!provider) throw_input_error("the provider of point {} is requested as another type: take its own", point);
     return *provider;
   }
 
   /// Right after a commit: the committed answer once more from the state that it began with, with twice the work.
-  DoubledAnswer<Dim> doubled(int point) const {
-    return batch(point).doubled(local(point), seen_[detail::index(point)]);
+  DoubledResponse<Dim> doubled_response(int point) const {
+    return batch(point).doubled_response(local(point), seen_[detail::index(point)]);
   }
   /// Right after a commit: takes a copy of the point's state, in bits, through the committed increment with twice the work; without
   /// bits it begins with the committed state and answers nothing. Of states that name no members bits stay empty.
-  DoubledAnswer<Dim> followed(int point, std::string& bits) const {
-    return batch(point).followed(local(point), seen_[detail::index(point)], bits);
+  DoubledResponse<Dim> doubled_path(int point, std::string& bits) const {
+    return batch(point).doubled_path(local(point), seen_[detail::index(point)], bits);
   }
 
   /// The bits of a point's committed state. \throws InputError for states that name no members
@@ -265,7 +269,7 @@ class MaterialPoints {
     is_planned_ = false;
   }
   /// The point alone, with the state of these bits.
-  MaterialPoints alone(int point, std::string_view bits) const {
+  MaterialPoints extract(int point, std::string_view bits) const {
     MaterialPoints one;
     one.batches_.emplace_back(batch(point).without_points());
     one.add(0, batch(point).site(local(point)), false);
@@ -273,7 +277,7 @@ class MaterialPoints {
     return one;
   }
   /// Leaves a point without state, since another process answers for it.
-  void forget(int point) { batch(point).forget(local(point)); }
+  void release(int point) { batch(point).release(local(point)); }
 
   /// What evolves: the committed states, and tau of means. Read in, those of all points are here until they are forgotten; only own
   /// points answer.
@@ -341,7 +345,7 @@ class MaterialPoints {
     return detail::count(batches_) - 1;
   }
 
-  /// Every process makes states for all points where some see means, since the stiffness against unseen strain follows from them.
+  /// Every process makes states for all points where some see means, since the stiffness against fluctuation strain follows from them.
   template <class BatchOf, class Owned>
   void fill(std::span<Site<Dim> const> sites, std::span<double const> volumes, BatchOf const& batch_of,
             Owned const& owned) {
@@ -359,7 +363,7 @@ class MaterialPoints {
     }
     average(search_(sites, volumes, neighbourhoods, initial));
     for (int point = 0; point < size(); ++point) {
-      if (!owned(point)) forget(point);
+      if (!owned(point)) release(point);
     }
   }
 
@@ -381,17 +385,17 @@ class MaterialPoints {
 
   /// selected: points of this process
   template <class Executor>
-  PointAnswers ask(std::vector<int> selected, Executor& executor) {
+  ResponseReport evaluate(std::vector<int> selected, Executor& executor) {
     // The longest answers first: one that begins last would keep the other threads waiting.
     std::ranges::stable_sort(selected, std::ranges::greater{}, [&](int point) { return work(point); });
     std::vector<int> own;
     for (int const point : selected) own.push_back(local(point));
     // Points that work are tasks of their own, others of one batch go together.
-    constexpr int most_together = 64;
+    constexpr int max_together = 64;
     std::vector<int> first{0};
     for (int k = 1; k < std::ssize(selected); ++k) {
       int const point = selected[detail::index(k)];
-      if (work(point) > 0 || k - first.back() == most_together ||
+      if (work(point) > 0 || k - first.back() == max_together ||
           &batch(point) != &batch(selected[detail::index(k - 1)]))
         first.push_back(k);
     }
@@ -413,7 +417,7 @@ class MaterialPoints {
     }
     share(responses_, executor);
     share(worked, executor);
-    PointAnswers answers;
+    ResponseReport answers;
     for (int point = 0; point < size(); ++point) {
       auto const k = detail::index(point);
       if (worked[k] != not_asked) {

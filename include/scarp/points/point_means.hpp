@@ -21,13 +21,13 @@ namespace scarp {
 struct Neighbourhood {
   double length = 0.0;     ///< radius [m]; 0: the point is a local one
   double stiffness = 1.0;  ///< share of the point's initial tangent
-  double fading = 1e-3;    ///< strain after which the stress against unseen strain has faded
+  double fading = 1e-3;    ///< strain after which the stress against fluctuation strain has faded
 
   /// \throws InputError for numbers that are negative or not finite, and a fading strain of zero
   void validate() const {
     require_not_negative("length that increments are averaged over", length);
-    require_not_negative("stiffness against unseen strain", stiffness);
-    require_positive("strain after which unseen stress has faded", fading);
+    require_not_negative("stiffness against fluctuation strain", stiffness);
+    require_positive("strain after which fluctuation stress has faded", fading);
   }
 };
 
@@ -67,8 +67,9 @@ class PointMeans {
         by_own_(neighbourhoods.size(), VoigtTangent<Dim>::Zero()),
         by_mean_(by_own_) {
     if (detail::index(mean_.size()) != neighbourhoods.size() || initial.size() != neighbourhoods.size()) {
-      refuse("{} neighbourhoods and {} initial tangents are given for {} points: give one of each to every point",
-             neighbourhoods.size(), initial.size(), mean_.size());
+      throw_input_error(
+          "{} neighbourhoods and {} initial tangents are given for {} points: give one of each to every point",
+          neighbourhoods.size(), initial.size(), mean_.size());
     }
     for (std::size_t k = 0; k < initial.size(); ++k) {
       fading_.push_back(detail::validated(neighbourhoods[k]).fading);
@@ -82,11 +83,11 @@ class PointMeans {
   /// What the points see of their own gradients; tau belongs to it from then on. The executor has for_each(count, task).
   template <class Executor>
   Gradients average(Gradients const& own, Executor& executor) {
-    Gradients seen = mean_.means(own, executor);
+    Gradients mean = mean_.means(own, executor);
     for (std::size_t k = 0; k < own.size(); ++k) {
-      if (mean_.of(static_cast<int>(k)).size() > 1) hold(k, seen[k], own[k] - seen[k]);
+      if (mean_.of(static_cast<int>(k)).size() > 1) update_tau(k, mean[k], own[k] - mean[k]);
     }
-    return seen;
+    return mean;
   }
 
   /// tau [Pa] of all points in the last increment that was averaged.
@@ -106,7 +107,7 @@ class PointMeans {
 
   void commit() { committed_ = trial_; }
 
-  /// What tau depends on: neighbours, their weights and the stiffness against unseen strain, in numbers that tell them from others.
+  /// What tau depends on: neighbours, their weights and the stiffness against fluctuation strain, in numbers that tell them from others.
   /// \throws InputError when it reads those of other means
   template <class Self, class Visit>
   static void basis_members(Self& self, Visit&& visit) {
@@ -115,7 +116,7 @@ class PointMeans {
     visit("basis", saved);
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (!(std::abs(saved[k] - own[k]) <= 1e-9 * std::abs(own[k])))  // round-off of another compiler
-        refuse(
+        throw_input_error(
             "a saved state is of points that see other means, {} for {} (another mesh, length, stiffness or fading): "
             "go on with the same ones",
             saved[k], own[k]);
@@ -145,12 +146,12 @@ class PointMeans {
   }
 
   /// tau of a point that sees one gradient and does not see another.
-  void hold(std::size_t k, Gradient<Dim> const& seen, Gradient<Dim> const& unseen) {
-    Tensor<Dim> const strain = (seen + seen.transpose()) / 2.0;
+  void update_tau(std::size_t k, Gradient<Dim> const& mean, Gradient<Dim> const& fluctuation) {
+    Tensor<Dim> const strain = (mean + mean.transpose()) / 2.0;
     double const size = strain.norm();
     double const faded = 1.0 + size / fading_[k];
-    Tensor<Dim> const turn = rotation_factor<Dim, double>(Tensor<Dim>::Identity() + seen);
-    VoigtStress<Dim> const whole = committed_[k] + stiffness_[k] * to_engineering_strain<Dim, double>(unseen);
+    Tensor<Dim> const turn = rotation_factor<Dim, double>(Tensor<Dim>::Identity() + mean);
+    VoigtStress<Dim> const whole = committed_[k] + stiffness_[k] * to_engineering_strain<Dim, double>(fluctuation);
     Tensor<Dim> const turned = turn * from_voigt_stress<Dim, double>(whole) * turn.transpose() / faded;
     trial_[k] = to_voigt_stress<Dim, double>(turned);
     by_own_[k] = stiffness_[k] / faded;

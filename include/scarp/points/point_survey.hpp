@@ -17,7 +17,7 @@ struct PointSurvey {
     long inner_steps = 0;  ///< DEM steps of one response
     friend bool operator==(Work const&, Work const&) = default;
   };
-  static constexpr std::size_t most_listed = 5;
+  static constexpr std::size_t max_listed = 5;
 
   std::array<int, 4> statuses{};  ///< number of points by `Status`
   std::vector<Work> slowest{};    ///< most work first, equal ones by number; points without any are left out
@@ -27,16 +27,16 @@ struct PointSurvey {
   /// Points are told in the order of their numbers.
   void add(int point, Status status, long inner_steps) {
     ++statuses[static_cast<std::size_t>(status)];
-    if (inner_steps <= 0 || (slowest.size() == most_listed && inner_steps <= slowest.back().inner_steps)) return;
+    if (inner_steps <= 0 || (slowest.size() == max_listed && inner_steps <= slowest.back().inner_steps)) return;
     auto const after = std::find_if(slowest.begin(), slowest.end(),
                                     [&](Work const& other) { return other.inner_steps < inner_steps; });
     slowest.insert(after, {point, inner_steps});
-    if (slowest.size() > most_listed) slowest.pop_back();
+    if (slowest.size() > max_listed) slowest.pop_back();
   }
 };
 
 /// What material points have answered.
-struct PointAnswers {
+struct ResponseReport {
   Verdict verdict{};     ///< of the worst point
   int worst_point = -1;  ///< that is not acceptable, -1 for none
   long inner_steps = 0;  ///< DEM steps of all points

@@ -21,7 +21,7 @@ Gradient<Dim> half_increment(Gradient<Dim> const& gradient) {
 /// An answer that was found with twice the work, and that work in a provider's own steps (one for each response of a
 /// provider that counts none).
 template <int Dim>
-struct DoubledAnswer {
+struct DoubledResponse {
   Response<Dim> response;
   long work = 0;
 };
@@ -29,9 +29,9 @@ struct DoubledAnswer {
 /// Answers an increment again by twice the work: with the refined plan where that is more work, else in two halves.
 /// trial: overwritten with the state that belongs to the answer
 template <CheckedProvider Provider>
-DoubledAnswer<Provider::dim> answer_with_double_work(Provider const& provider, typename Provider::State const& from,
-                                                     Gradient<Provider::dim> const& increment,
-                                                     PlanOf<Provider> const& plan, typename Provider::State& trial) {
+DoubledResponse<Provider::dim> answer_with_double_work(Provider const& provider, typename Provider::State const& from,
+                                                       Gradient<Provider::dim> const& increment,
+                                                       PlanOf<Provider> const& plan, typename Provider::State& trial) {
   auto const in_halves = [&](auto const&... work) {
     Gradient<Provider::dim> const half = half_increment<Provider::dim>(increment);
     typename Provider::State middle = from;
@@ -39,7 +39,7 @@ DoubledAnswer<Provider::dim> answer_with_double_work(Provider const& provider, t
       return first;
     return provider.respond(middle, half, trial, work...);
   };
-  if constexpr (PlansWork<Provider>) {
+  if constexpr (HasPlan<Provider>) {
     auto const refined = provider.refined(plan);
     if (static_cast<long>(refined) > static_cast<long>(plan))
       return {provider.respond(from, increment, trial, refined), static_cast<long>(refined)};

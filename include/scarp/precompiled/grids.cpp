@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/bvp/usual_integration.hpp"
+#include "scarp/bvp/default_integration.hpp"
 
 namespace scarp {
 SCARP_GRIDS(template)

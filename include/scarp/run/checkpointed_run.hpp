@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scarp/io/checkpoint_files.hpp"
-#include "scarp/run/first_rank.hpp"
+#include "scarp/run/root_rank.hpp"
 #include "scarp/solver/load_stepping.hpp"
 
 namespace scarp {
@@ -17,19 +17,19 @@ void keep_own_states(Problem& problem) {
   using Executor = std::remove_cvref_t<decltype(problem.executor())>;
   if constexpr (SharesPoints<Executor>) {
     for (int point = 0; point < problem.points().size(); ++point) {
-      if (!problem.executor().owns(point)) problem.points().forget(point);
+      if (!problem.executor().owns(point)) problem.points().release(point);
     }
   }
 }
 
-/// Runs a task on the first rank, where all points have their committed states as long as it lasts; the other ranks send theirs.
+/// Runs a task on the root rank, where all points have their committed states as long as it lasts; the other ranks send theirs.
 template <class Problem, class Task>
 void with_all_states(Problem& problem, Task const& task) {
   using Executor = std::remove_cvref_t<decltype(problem.executor())>;
-  on_first_rank(problem, [&] {
+  on_root_rank(problem, [&] {
     if constexpr (SharesPoints<Executor>) {
       for (int point = 0; point < problem.points().size(); ++point) {
-        if (!problem.executor().owns(point)) problem.points().unpack(point, problem.executor().ask(point));
+        if (!problem.executor().owns(point)) problem.points().unpack(point, problem.executor().fetch(point));
       }
     }
     task();
@@ -83,7 +83,7 @@ class CheckpointedRun {
   }
   bool wants_stop() const { return stopped_ || watched_.wants_stop(); }
 
-  /// What could not be written; on the first rank, empty where there is nothing of the kind.
+  /// What could not be written; on the root rank, empty where there is nothing of the kind.
   std::string const& trouble() const { return trouble_; }
   /// Whether a rank has such trouble.
   bool stopped() const { return stopped_; }
@@ -94,9 +94,9 @@ class CheckpointedRun {
     files_.load([&](StateReader& reader) {
       read_place(reader);
       members(*this, problem, session, state, reader);
-      // The observers' memory is for the first rank alone.
-      if (is_first_rank(problem.executor()) && !reader.at_end())
-        refuse("it holds more than the scene has: load it into the scene that was saved");
+      // The observers' memory is for the root rank alone.
+      if (is_root_rank(problem.executor()) && !reader.at_end())
+        throw_input_error("it holds more than the scene has: load it into the scene that was saved");
     });
     files_.release();
     keep_own_states(problem);
@@ -109,7 +109,7 @@ class CheckpointedRun {
     double const seconds = std::chrono::duration<double>(Clock::now() - saved_).count();
     bool const due =
         seconds >= settings.every_seconds || (settings.every_attempts > 0 && attempts_ >= settings.every_attempts);
-    if (agreed(problem.executor(), due) && attempts_ > 0) save(problem, session, state);
+    if (broadcast_flag(problem.executor(), due) && attempts_ > 0) save(problem, session, state);
   }
 
   template <class Problem, class Session>
@@ -143,7 +143,7 @@ class CheckpointedRun {
     } catch (FileError const& problem_of_file) {
       if (trouble_.empty()) trouble_ = problem_of_file.what();
     }
-    stopped_ = agreed(problem.executor(), !trouble_.empty());
+    stopped_ = broadcast_flag(problem.executor(), !trouble_.empty());
   }
 
   void read_place(StateReader& reader) {

@@ -91,7 +91,7 @@ class RunFolder {
       return RunRecord::from(read_file(file));
     } catch (InputError const& problem) {
       if (settings_.overwrite) return std::nullopt;
-      throw FolderError(fmt::format("'{}' cannot be told to be a run's ('{}': {}), or choose another folder", name(),
+      throw FolderError(fmt::format("'{}' cannot be recognised as a run's ('{}': {}), or choose another folder", name(),
                                     settings_.record, problem.what()));
     }
   }
@@ -124,13 +124,13 @@ class RunFolder {
       return;
     std::string const theirs = before ? before->checkpoint : "";
     throw FolderError(
-        fmt::format("'{}' holds {}, and there is no checkpoint in '{}' to go on from ({}): {}choose another "
+        fmt::format("'{}' holds {}, and there is no checkpoint in '{}' to resume from ({}): {}choose another "
                     "output folder for a new run",
                     name(), found, record_.checkpoint,
                     theirs.empty()                 ? "it saved none"
                     : theirs == record_.checkpoint ? "its checkpoints are gone, or its scene is another"
                                                    : fmt::format("it saves into '{}'", theirs),
-                    theirs.empty() || theirs == record_.checkpoint ? "" : "give that folder to go on, or "));
+                    theirs.empty() || theirs == record_.checkpoint ? "" : "give that folder to resume, or "));
   }
 
   void write(std::string state) {

@@ -74,7 +74,7 @@ struct RunRecord {
       }
     }
     if (record.identity.empty() || record.state.empty())
-      refuse("it is no record of a run (members are missing): remove it");
+      throw_input_error("it is no record of a run (members are missing): remove it");
     return record;
   }
 

@@ -19,7 +19,7 @@
 namespace scarp {
 
 /// Stiffness of a packing as a provider's tangent: eq. 6 of the study, all contacts elastic under uniform strain.
-struct ElasticContactTangent {
+struct AffineTangent {
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     return to_voigt_tangent<PackingType::dim>(contact_tangent(packing, law));
@@ -34,16 +34,16 @@ concept PackingSource = requires(Source const& source, Site<PackingType::dim> co
 
 /// tangent(packing, law): stiffness [Pa] of a packing as it stands.
 template <class Tangent, class PackingType>
-concept TellsPackingTangent = requires(Tangent const& tangent, PackingType const& packing,
-                                       typename PackingType::Law const& law) {
+concept PackingTangent = requires(Tangent const& tangent, PackingType const& packing,
+                                  typename PackingType::Law const& law) {
   { tangent(packing, law) } -> std::convertible_to<VoigtTangent<PackingType::dim>>;
 };
 
 /// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
 /// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the answer is Love and Weber's stress at its end.
 /// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
-template <class PackingType, PackingSource<PackingType> Source,
-          TellsPackingTangent<PackingType> Tangent = ElasticContactTangent, DampsMotion Damping = LocalDamping>
+template <class PackingType, PackingSource<PackingType> Source, PackingTangent<PackingType> Tangent = AffineTangent,
+          DampsMotion Damping = LocalDamping>
 struct DemRve {
   static constexpr int dim = PackingType::dim;
   using Law = typename PackingType::Law;
@@ -64,12 +64,12 @@ struct DemRve {
   Source source{};
   double strain_per_step = 1e-5;  ///< largest principal strain of one DEM step
   double inertial_number =
-      5e-3;  ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
-  int least_steps = 20;  ///< of one response, however small the increment
-  int most_steps = 20'000;
+      5e-3;            ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
+  int min_steps = 20;  ///< of one response, however small the increment
+  int max_steps = 20'000;
   double unbalanced_tolerance = 0.05;  ///< asked of every response
-  double loose_pressure = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
-  double time_step_share = usual_time_step_share;  ///< of the critical step's lower bound
+  double pressure_floor = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
+  double time_step_share = default_time_step_share;  ///< of the critical step's lower bound
   bool fluid_start = false;  ///< whether a point may start with a packing without contacts, see StiffnessFloor
   Damping damping{};
   Tangent tangent_policy{};
@@ -82,16 +82,17 @@ struct DemRve {
     State state;
     state.packing = source.at(site);
     if (!state.packing.population) {
-      refuse("point {} got a packing of zero grains (nothing can carry stress): give the provider's source a packing",
-             site.index);
+      throw_input_error(
+          "point {} got a packing of zero grains (nothing can carry stress): give the provider's source a packing",
+          site.index);
     }
     require_positive("normal stiffness of the contact law", spring_modulus(state.packing, law));
     require_consistent(law, state.packing.population->largest_radius());
     Stepper stepper;
     state.verdict = observe(stepper, state);
     if (state.verdict.status == Status::failed)
-      refuse("the packing of point {} cannot be used ({}): give the provider's source another one", site.index,
-             name(state.verdict.reason));
+      throw_input_error("the packing of point {} cannot be used ({}): give the provider's source another one",
+                        site.index, name(state.verdict.reason));
     if (state.verdict.status == Status::fluid && !fluid_start)
       require_contacts(fmt::format("the packing of point {}", site.index), 0);
     return state;
@@ -103,12 +104,12 @@ struct DemRve {
     require_positive("inertial number", inertial_number);
     require_positive("unbalanced tolerance", unbalanced_tolerance);
     require_positive("share of the critical time step", time_step_share);
-    require_not_negative("loose pressure", loose_pressure);
+    require_not_negative("pressure floor", pressure_floor);
     if constexpr (Frictional<Law>) {
       require_not_negative("friction of the contact law", Law(law).friction_coefficient());
     }
-    require_at_least("least number of DEM steps of a response", least_steps, 1);
-    require_at_least("most DEM steps of a response", most_steps, least_steps);
+    require_at_least("least number of DEM steps of a response", min_steps, 1);
+    require_at_least("most DEM steps of a response", max_steps, min_steps);
     detail::validated(damping);
     detail::validated(tangent_policy);
   }
@@ -119,12 +120,12 @@ struct DemRve {
 
   Plan plan(State const& committed, Gradient<dim> const& increment) const {
     double const largest = largest_strain(increment);
-    if (!std::isfinite(largest)) return least_steps;
+    if (!std::isfinite(largest)) return min_steps;
     // n time steps of dt make the strain rate largest / (n dt).
-    double const steps =
-        std::max(largest / strain_per_step, largest * slowness(committed) / (time_step(committed) * inertial_number));
+    double const steps = std::max(largest / strain_per_step,
+                                  largest * inertial_time(committed) / (time_step(committed) * inertial_number));
     return static_cast<int>(
-        std::clamp(std::ceil(steps), static_cast<double>(least_steps), static_cast<double>(most_steps)));
+        std::clamp(std::ceil(steps), static_cast<double>(min_steps), static_cast<double>(max_steps)));
   }
 
   /// Void ratio, in the plane fabrics, coordination and balance.
@@ -143,7 +144,7 @@ struct DemRve {
   auto picture(State const& state) const requires requires { packing_picture(state.packing, law); }
   { return packing_picture(state.packing, law); }
 
-  /// Packings at less than the loose pressure count by their share of it; of one that is fluid there is nothing.
+  /// Packings at less than the pressure floor count by their share of it; of one that is fluid there is nothing.
   PackingBalance balance(State const& state) const {
     if (state.verdict.status == Status::fluid) return {};
     double const weight = weight_of(state);
@@ -153,19 +154,19 @@ struct DemRve {
             .inertial_number = state.inertial_number};
   }
 
-  /// How much the balance of a packing counts: all, below the loose pressure by its share of that.
+  /// How much the balance of a packing counts: all, below the pressure floor by its share of that.
   double weight_of(State const& state) const {
     double const pressure = mean_pressure(state.stress);
-    return pressure < loose_pressure ? std::max(pressure, 0.0) / loose_pressure : 1.0;
+    return pressure < pressure_floor ? std::max(pressure, 0.0) / pressure_floor : 1.0;
   }
 
   /// Inertial number of a response in so many DEM steps.
   double inertial_number_of(State const& committed, Gradient<dim> const& increment, Plan steps) const {
-    return largest_strain(increment) * slowness(committed) / (time_step(committed) * steps);
+    return largest_strain(increment) * inertial_time(committed) / (time_step(committed) * steps);
   }
 
   /// Twice the steps, hence half the rate.
-  Plan refined(Plan steps) const { return std::min(2 * steps, most_steps); }
+  Plan refined(Plan steps) const { return std::min(2 * steps, max_steps); }
 
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial) const {
     return respond(committed, increment, trial, plan(committed, increment));
@@ -206,14 +207,14 @@ struct DemRve {
   }
 
   /// \f$ d \sqrt{\rho/p} \f$ [s]: the time in which the pressure moves a grain by its size.
-  double slowness(State const& state) const {
+  double inertial_time(State const& state) const {
     auto const& population = *state.packing.population;
-    double const pressure = std::max({mean_pressure(state.stress), loose_pressure, least_pressure(state.packing)});
+    double const pressure = std::max({mean_pressure(state.stress), pressure_floor, min_pressure(state.packing)});
     return 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
   }
 
   /// What passes for no pressure [Pa]: 1e-9 for the study's sand, and in any other units.
-  double least_pressure(PackingType const& packing) const { return 3e-17 * spring_modulus(packing, law); }
+  double min_pressure(PackingType const& packing) const { return 3e-17 * spring_modulus(packing, law); }
 
   static double mean_pressure(VoigtStress<dim> const& stress) { return -stress.template head<dim>().sum() / dim; }
 
@@ -224,7 +225,7 @@ struct DemRve {
     state.stress = to_voigt_stress<dim>(seen.stress);
     state.unbalanced_ratio = seen.unbalanced_ratio;
     state.kinetic_share =
-        kinetic_stress(state.packing).trace() / std::min(seen.stress.trace(), -least_pressure(state.packing) * dim);
+        kinetic_stress(state.packing).trace() / std::min(seen.stress.trace(), -min_pressure(state.packing) * dim);
     if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
     if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
     if (!(weight_of(state) * seen.unbalanced_ratio <= unbalanced_tolerance))

@@ -12,14 +12,14 @@
 namespace scarp {
 
 /// Level ground of packings without a macroscopic solve: all its columns are alike, so one packing is consolidated at a small
-/// pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy. With a preload
+/// pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy. With an overconsolidation ratio
 /// the column goes through multiples of the overburdens, and each copy is unloaded to its own.
 template <class Grading>
 struct LevelGround {
   Cloud<Grading> cloud{};
-  double unit_weight = 15.68e3;  ///< [N/m3]
-  double surcharge = 4e3;        ///< [Pa]
-  double preload = 1.0;          ///< what each depth once carried over its overburden, at least 1: raises K0
+  double unit_weight = 15.68e3;          ///< [N/m3]
+  double surcharge = 4e3;                ///< [Pa]
+  double overconsolidation_ratio = 1.0;  ///< what each depth once carried over its overburden, at least 1: raises K0
   IsotropicPreparation preparation{.pressure = 2e3, .preparation_friction = 0.08};
   OneDimensionalCompression compression{};
 
@@ -27,7 +27,7 @@ struct LevelGround {
   void validate() const {
     require_not_negative("unit weight of level ground", unit_weight);
     require_not_negative("surcharge of level ground", surcharge);
-    require_at_least("preload of level ground, over its overburden,", preload, 1.0);
+    require_at_least("overconsolidation ratio of level ground", overconsolidation_ratio, 1.0);
   }
 
   double overburden(double depth) const { return surcharge + unit_weight * depth; }
@@ -37,12 +37,13 @@ struct LevelGround {
   template <class PackingType, DampsMotion Damping = LocalDamping>
   PackingsByDepth<PackingType> make(typename PackingType::Law const& law, std::vector<double> depths,
                                     Damping const& damping = {}) const {
-    if (depths.empty()) refuse("no depths are given (level ground needs at least one): pass the depths of the points");
+    if (depths.empty())
+      throw_input_error("no depths are given (level ground needs at least one): pass the depths of the points");
     validate();
     for (double const depth : depths) require_finite("depth of a packing", depth);
     std::sort(depths.begin(), depths.end());
     if (preparation.pressure > overburden(depths.front())) {
-      refuse(
+      throw_input_error(
           "the packing is prepared at {} Pa (the uppermost point carries {} Pa, so that the ground would be unloaded): "
           "lower the pressure or raise the surcharge",
           preparation.pressure, overburden(depths.front()));
@@ -50,7 +51,7 @@ struct LevelGround {
     auto const alike = [&](double a, double b) { return overburden(b) - overburden(a) <= 1e-7 * overburden(b); };
     depths.erase(std::unique(depths.begin(), depths.end(), alike), depths.end());
     std::vector<double> pressures;
-    for (double const depth : depths) pressures.push_back(preload * overburden(depth));
+    for (double const depth : depths) pressures.push_back(overconsolidation_ratio * overburden(depth));
     auto const base = preparation.prepare(cloud.template make<PackingType>(), law, damping);
     if (!base.verdict.acceptable()) {
       throw PreparationError(fmt::format("the packing did not reach {} Pa ({}): try another seed or a higher pressure",
@@ -64,7 +65,7 @@ struct LevelGround {
     }
     PackingsByDepth<PackingType> ground{std::move(depths), {}};
     for (auto& prepared : column) ground.packings.push_back(std::move(prepared.packing));
-    if (preload > 1.0) unload(law, ground, damping);
+    if (overconsolidation_ratio > 1.0) unload(law, ground, damping);
     return ground;
   }
 
@@ -76,9 +77,9 @@ struct LevelGround {
       double const pressure = overburden(ground.depths[k]);
       auto unloaded = compression.compress(std::move(ground.packings[k]), law, {pressure}, damping);
       if (!unloaded.front().verdict.acceptable()) {
-        throw PreparationError(
-            fmt::format("the packing at {} m did not come back from its preload to {} Pa ({}): try another seed",
-                        ground.depths[k], pressure, name(unloaded.front().verdict.reason)));
+        throw PreparationError(fmt::format(
+            "the packing at {} m did not come back from its largest pressure to {} Pa ({}): try another seed",
+            ground.depths[k], pressure, name(unloaded.front().verdict.reason)));
       }
       ground.packings[k] = std::move(unloaded.front().packing);
     }

@@ -15,28 +15,28 @@ struct PerturbationTangent {
   double strain = 1e-5;   ///< engineering, of each mode; no plateau where contacts slide, see docs/notes/tangents.md
   int strain_steps = 20;  ///< time steps that apply it
   double unbalanced_tolerance =
-      1e-6;                 ///< of settled packings: times the stress it must stay well below stiffness x strain
-  int most_steps = 50'000;  ///< of each settling
-  int check_every = 50;     ///< steps between looks at the balance
-  Damping damping{};        ///< of the trials, whatever damping the packing answers with
-  TangentComplaint complain = complain_of_tangent;  ///< hears of each tangent that is less exact than asked
+      1e-6;                ///< of settled packings: times the stress it must stay well below stiffness x strain
+  int max_steps = 50'000;  ///< of each settling
+  int check_every = 50;    ///< steps between looks at the balance
+  Damping damping{};       ///< of the trials, whatever damping the packing answers with
+  TangentFallback on_fallback = report_tangent_fallback;  ///< hears of each tangent that is less exact than asked
 
   /// \throws InputError for a strain or numbers of steps that are not positive
   void validate() const {
     require_positive("strain of a packing's modes", strain);
     require_at_least("number of steps that strain a packing", strain_steps, 1);
     require_positive("unbalanced tolerance of a settled packing", unbalanced_tolerance);
-    require_at_least("most steps of a settling", most_steps, 1);
+    require_at_least("most steps of a settling", max_steps, 1);
     require_at_least("number of steps between looks at the balance", check_every, 1);
     detail::validated(damping);
   }
 
-  /// Central differences. What was reached by then is taken where a packing does not settle, after `complain` was told.
+  /// Central differences. What was reached by then is taken where a packing does not settle, after `on_fallback` was told.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     auto const answer = differentiate(packing, law);
-    if (!answer.verdict.acceptable() && complain != nullptr) {
-      complain("a packing did not settle while its tangent was taken by trial", answer.verdict);
+    if (!answer.verdict.acceptable() && on_fallback != nullptr) {
+      on_fallback("a packing did not settle while its tangent was taken by trial", answer.verdict);
     }
     return answer.tangent;
   }
@@ -97,7 +97,7 @@ struct PerturbationTangent {
     /// Stress [Pa] at the last look. A verdict that is not acceptable stays.
     VoigtStress<dim> settle(PerturbationTangent const& how, PackingType& packing, Verdict& verdict, long& taken) {
       StepObservation<dim> seen;
-      for (int step = 0; step < how.most_steps; ++step) {
+      for (int step = 0; step < how.max_steps; ++step) {
         Verdict moved;
         if (step % how.check_every == 0) {
           moved = stepper.template step<Observe::balance>(packing, law, Tensor<dim>::Zero(), &seen);

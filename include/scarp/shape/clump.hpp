@@ -110,7 +110,7 @@ struct Clump {
   static constexpr int orientation_count = 2;
   static constexpr int pose_count = 3;
   static constexpr int part_count = detail::count(Template::members);
-  static constexpr bool remembers_normal = false;
+  static constexpr bool warm_starts_normal = false;
   static_assert(part_count > 0, "a clump needs at least one disc");
 
   template <class T>
@@ -120,15 +120,15 @@ struct Clump {
   static double gyration_squared(Size<double> const& size) { return unit().gyration_squared * size[0] * size[0]; }
   static double bounding_radius(Size<double> const& size) { return unit().bounding_radius * size[0]; }
   static double eccentricity(Size<double> const& size) { return unit().largest_offset * size[0]; }
-  static double least_curvature_radius(Size<double> const& size) { return unit().smallest_radius * size[0]; }
+  static double min_curvature_radius(Size<double> const& size) { return unit().smallest_radius * size[0]; }
 
   template <class T>
   static std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation, int part = 0) {
     ClumpMember const& member = unit().members[detail::index(part)];
-    T const x = constant<T>(member.x) * size[0];
-    T const y = constant<T>(member.y) * size[0];
+    T const x = broadcast<T>(member.x) * size[0];
+    T const y = broadcast<T>(member.y) * size[0];
     return {orientation[0] * x - orientation[1] * y, orientation[1] * x + orientation[0] * y,
-            constant<T>(member.radius) * size[0]};
+            broadcast<T>(member.radius) * size[0]};
   }
 
   template <class T>

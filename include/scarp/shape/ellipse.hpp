@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scarp/core/precompiled.hpp"
-#include "scarp/shape/support_touch.hpp"
+#include "scarp/shape/support_contact.hpp"
 #include "scarp/simd/square_roots.hpp"
 
 namespace scarp {
@@ -19,7 +19,7 @@ struct Ellipse {
   static constexpr int size_count = 2;
   static constexpr int orientation_count = 2;
   static constexpr int pose_count = 3;
-  static constexpr bool remembers_normal = true;
+  static constexpr bool warm_starts_normal = true;
 
   template <class T>
   using Size = std::array<T, 2>;
@@ -28,7 +28,7 @@ struct Ellipse {
   static double gyration_squared(Size<double> const& size) { return (size[0] * size[0] + size[1] * size[1]) / 4.0; }
   static double bounding_radius(Size<double> const& size) { return std::max(size[0], size[1]); }
   static double eccentricity(Size<double> const& size) { return std::abs(size[0] - size[1]); }
-  static double least_curvature_radius(Size<double> const& size) {
+  static double min_curvature_radius(Size<double> const& size) {
     double const longer = std::max(size[0], size[1]);
     double const shorter = std::min(size[0], size[1]);
     return shorter * shorter / longer;
@@ -40,8 +40,8 @@ struct Ellipse {
     T const minor = size[1] * size[1];
     T const c = orientation[0];
     T const s = orientation[1];
-    T const deviator = constant<T>(0.5) * (major - minor);
-    return {constant<T>(0.5) * (major + minor), deviator * (c * c - s * s), deviator * (c * s + c * s)};
+    T const deviator = broadcast<T>(0.5) * (major - minor);
+    return {broadcast<T>(0.5) * (major + minor), deviator * (c * c - s * s), deviator * (c * s + c * s)};
   }
 
   /// Radius of the circle of equal area, \f$ \sqrt{ab} = (\det A)^{1/4} \f$.
@@ -77,7 +77,7 @@ struct Ellipse {
   template <class T>
   static ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
                                      Point<2, T> const& branch, Point<2, T> const& normal) {
-    return support_touch<Ellipse>(first, second, branch, normal);
+    return support_contact<Ellipse>(first, second, branch, normal);
   }
 
  private:

@@ -19,7 +19,7 @@ inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 
 /// How two grains meet. `overlap` [m] is the least translation that parts them, positive when they touch; `normal` is the
 /// unit vector of that translation, from the first grain to the second; the arms [m] reach from each centre to the
-/// contact point, the middle between the two support points. `unsettled` tells by what angle the search for the normal
+/// contact point, the middle between the two support points. `normal_error` tells by what angle the search for the normal
 /// turned it last [rad], infinite where it found none, zero where it does not say: a touch that is far from its end is
 /// searched anew, one that turned by less than 1e-8 has ended, which is right where errors fall as squares.
 template <int Dim, class T>
@@ -28,7 +28,7 @@ struct ContactGeometry {
   Point<Dim, T> normal;
   Point<Dim, T> arm_first;
   Point<Dim, T> arm_second;
-  T unsettled{};
+  T normal_error{};
 };
 
 /// Parameters of one grain [m], as a scalar each or as packs of as many grains as a register holds.
@@ -43,7 +43,7 @@ concept HasGrainSize = requires(std::array<double, static_cast<std::size_t>(Shap
   { Shape::gyration_squared(size) } -> std::same_as<double>;  // second moment about the centre / content [m2]
   { Shape::bounding_radius(size) } -> std::same_as<double>;   // [m]
   { Shape::eccentricity(size) } -> std::same_as<double>;      // largest change of the support function per radian [m]
-  { Shape::least_curvature_radius(size) } -> std::same_as<double>;  // [m]
+  { Shape::min_curvature_radius(size) } -> std::same_as<double>;  // [m]
 };
 
 /// Number of convex parts that a grain is composed of; a shape that does not say has one.
@@ -87,12 +87,12 @@ concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::si
 };
 
 /// touch(first, second, branch, normal): `branch` from the first grain's centre to the second's; `normal` a unit vector to
-/// start from where the shape remembers one (`remembers_normal`), ignored otherwise. Arms reach from the grains' centres,
+/// start from where the shape remembers one (`warm_starts_normal`), ignored otherwise. Arms reach from the grains' centres,
 /// also where the poses are those of parts.
 template <class Shape>
 concept Touches = requires(PoseOf<Shape> const& pose, Point<Shape::dim, double> const& branch) {
   { Shape::touch(pose, pose, branch, branch) } -> std::same_as<ContactGeometry<Shape::dim, double>>;
-  { Shape::remembers_normal } -> std::convertible_to<bool>;
+  { Shape::warm_starts_normal } -> std::convertible_to<bool>;
 };
 
 /// pose, contact_radius and touch also take packs: the pair loop asks for several pairs at once.
@@ -111,16 +111,16 @@ template <class Shape>
 concept ParticleShape = HasGrainSize<Shape> && HasPose<Shape> && Touches<Shape> && TouchesInPacks<Shape>;
 
 /// inner_radius(pose): of a disc [m] that rolls along the inside of the boundary everywhere (Blaschke); its least over
-/// all poses is least_curvature_radius(size).
+/// all poses is min_curvature_radius(size).
 template <class Shape>
-concept TellsInnerRadius = requires(PoseOf<Shape> const& pose) {
+concept HasInnerRadius = requires(PoseOf<Shape> const& pose) {
   { Shape::inner_radius(pose) } -> std::same_as<double>;
 };
 
 namespace detail {
 
 template <class Shape>
-concept TellsShapeCounts = requires {
+concept HasShapeCounts = requires {
   requires Shape::dim == 2 || Shape::dim == 3;
   requires Shape::size_count >= 1 && Shape::orientation_count >= 0 && Shape::pose_count >= 1;
 };
@@ -128,7 +128,7 @@ concept TellsShapeCounts = requires {
 template <class Shape>
 concept HasAxesOfItsSpace = Shape::orientation_count == 0 || (Shape::dim == 2 && Shape::orientation_count == 2);
 /// What of a shape is missing, in words.
-template <class Shape, bool counted = TellsShapeCounts<Shape>>
+template <class Shape, bool counted = HasShapeCounts<Shape>>
 struct MissingOfShape {
   static_assert(counted,
                 "scarp: a shape needs `static constexpr int` dim (2 or 3), size_count, orientation_count and "
@@ -164,9 +164,9 @@ struct MissingOfShape<Shape, true> {
       "radian");
   static_assert(
       requires(SizeOf<Shape> const& size) {
-        { Shape::least_curvature_radius(size) } -> std::same_as<double>;
+        { Shape::min_curvature_radius(size) } -> std::same_as<double>;
       },
-      "scarp: a shape needs `static double least_curvature_radius(SizeOf<Shape> const&)` [m]");
+      "scarp: a shape needs `static double min_curvature_radius(SizeOf<Shape> const&)` [m]");
   static_assert(
       requires(SizeOf<Shape> const& size,
                std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation) {
@@ -179,16 +179,16 @@ struct MissingOfShape<Shape, true> {
       },
       "scarp: a shape needs `static T contact_radius(pose)` [m], of an std::array<T, pose_count>");
   static constexpr bool remembers = requires {
-    { Shape::remembers_normal } -> std::convertible_to<bool>;
+    { Shape::warm_starts_normal } -> std::convertible_to<bool>;
   };
-  static_assert(
-      remembers,
-      "scarp: a shape needs `static constexpr bool remembers_normal`: whether its search starts from the last normal");
+  static_assert(remembers,
+                "scarp: a shape needs `static constexpr bool warm_starts_normal`: whether its search starts from the "
+                "last normal");
   static_assert(!remembers || Touches<Shape>,
                 "scarp: a shape needs `static ContactGeometry<dim, T> "
                 "touch(pose, pose, branch, normal)`");
   static_assert(!(HasPose<Shape> && Touches<Shape>) || TouchesInPacks<Shape>,
-                "scarp: a shape is asked for several "
+                "scarp: a shape is requested several "
                 "pairs at once: make pose, contact_radius and touch templates over the scalar");
   static constexpr bool nothing = false;
 };

@@ -13,19 +13,19 @@ namespace scarp {
 /// axis.
 /// radii [m], branch from the first centre to the second [m]
 template <int Dim, class T>
-ContactGeometry<Dim, T> round_touch(T const& first, T const& second, Point<Dim, T> const& branch) {
+ContactGeometry<Dim, T> round_contact(T const& first, T const& second, Point<Dim, T> const& branch) {
   using std::sqrt;
   T squared = branch[0] * branch[0];
   for (std::size_t a = 1; a < branch.size(); ++a) squared = squared + branch[a] * branch[a];
   T const distance = sqrt(squared);
-  auto const coincident = distance == constant<T>(0);
-  T const inverse = constant<T>(1) / lanes::select(coincident, constant<T>(1), distance);
+  auto const coincident = distance == broadcast<T>(0);
+  T const inverse = broadcast<T>(1) / lanes::select(coincident, broadcast<T>(1), distance);
   ContactGeometry<Dim, T> touch;
   touch.overlap = first + second - distance;
-  T const reach_first = first - touch.overlap * constant<T>(0.5);
-  T const reach_second = second - touch.overlap * constant<T>(0.5);
+  T const reach_first = first - touch.overlap * broadcast<T>(0.5);
+  T const reach_second = second - touch.overlap * broadcast<T>(0.5);
   for (std::size_t a = 0; a < branch.size(); ++a) {
-    T const along = a == 0 ? lanes::select(coincident, constant<T>(1), branch[0]) : branch[a];
+    T const along = a == 0 ? lanes::select(coincident, broadcast<T>(1), branch[0]) : branch[a];
     touch.normal[a] = along * inverse;
     touch.arm_first[a] = touch.normal[a] * reach_first;
     touch.arm_second[a] = -touch.normal[a] * reach_second;
@@ -40,14 +40,14 @@ struct RoundGrain {
   static constexpr int size_count = 1;
   static constexpr int orientation_count = 0;
   static constexpr int pose_count = 1;
-  static constexpr bool remembers_normal = false;
+  static constexpr bool warm_starts_normal = false;
 
   template <class T>
   using Size = std::array<T, 1>;
 
   static double bounding_radius(Size<double> const& size) { return size[0]; }
   static double eccentricity(Size<double> const&) { return 0.0; }
-  static double least_curvature_radius(Size<double> const& size) { return size[0]; }
+  static double min_curvature_radius(Size<double> const& size) { return size[0]; }
 
   template <class T>
   static std::array<T, 1> pose(Size<T> const& size, std::array<T, 0> const&) {
@@ -62,7 +62,7 @@ struct RoundGrain {
   template <class T>
   static ContactGeometry<Dim, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
                                        Point<Dim, T> const& branch, Point<Dim, T> const&) {
-    return round_touch<Dim, T>(first[0], second[0], branch);
+    return round_contact<Dim, T>(first[0], second[0], branch);
   }
 };
 

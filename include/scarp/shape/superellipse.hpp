@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scarp/core/error.hpp"
-#include "scarp/shape/superellipse_touch.hpp"
+#include "scarp/shape/superellipse_contact.hpp"
 #include "scarp/simd/pack.hpp"
 
 namespace scarp {
@@ -21,7 +21,7 @@ struct Superellipse {
   static constexpr int size_count = 3;
   static constexpr int orientation_count = 2;
   static constexpr int pose_count = 7;
-  static constexpr bool remembers_normal = true;
+  static constexpr bool warm_starts_normal = true;
   static constexpr double smallest_exponent = 0.2;
   static constexpr double largest_exponent = 1.8;
 
@@ -35,8 +35,9 @@ struct Superellipse {
     require_positive("half axis rx of a superellipse", size[0]);
     require_positive("half axis ry of a superellipse", size[1]);
     if (!(size[2] >= smallest_exponent && size[2] <= largest_exponent)) {
-      refuse("exponent of a superellipse is {} (contact search holds between {} and {}): choose one in that range",
-             size[2], smallest_exponent, largest_exponent);
+      throw_input_error(
+          "exponent of a superellipse is {} (contact search holds between {} and {}): choose one in that range",
+          size[2], smallest_exponent, largest_exponent);
     }
   }
 
@@ -67,7 +68,7 @@ struct Superellipse {
 
   /// Above an exponent of one the true value is zero, at the tips; a stand-in takes its place that shrinks from that of
   /// the ellipse to zero at exponent two.
-  static double least_curvature_radius(Size<double> const& size) {
+  static double min_curvature_radius(Size<double> const& size) {
     if (size[2] < 1.0) {
       return 1.0 / largest_of(size, [](Support<double> const& support) { return 1.0 / support.curvature_radius; });
     }
@@ -77,9 +78,9 @@ struct Superellipse {
 
   template <class T>
   static Pose<T> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
-    T const inverse = constant<T>(1) - size[2] * constant<T>(0.5);
-    T const flat = size[2] * constant<T>(0.5) / inverse;
-    return {orientation[0], orientation[1], size[0], size[1], flat, inverse, constant<T>(1) / flat};
+    T const inverse = broadcast<T>(1) - size[2] * broadcast<T>(0.5);
+    T const flat = size[2] * broadcast<T>(0.5) / inverse;
+    return {orientation[0], orientation[1], size[0], size[1], flat, inverse, broadcast<T>(1) / flat};
   }
 
   /// Geometric mean of the half axes.
@@ -97,7 +98,7 @@ struct Superellipse {
   template <class T>
   static ContactGeometry<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
                                      Point<2, T> const& normal) {
-    return superellipse_touch(first, second, branch, normal);
+    return superellipse_contact(first, second, branch, normal);
   }
 
  private:

@@ -25,13 +25,13 @@ struct ScalarOf<T> {
 
 /// A number as scalar type T; a pack gets it in every lane, rounded to the pack's precision.
 template <class T>
-constexpr T constant(double value) {
+constexpr T broadcast(double value) {
   return T(static_cast<typename ScalarOf<T>::type>(value));
 }
 
 /// The smallest normal number: as a floor of divisors it keeps 0/0 away in any system of units.
 template <class T>
-constexpr T tiny() {
+constexpr T smallest_normal() {
   return T(std::numeric_limits<typename ScalarOf<T>::type>::min());
 }
 

@@ -135,7 +135,7 @@ template <class Scalar, std::size_t Width, std::size_t Count>
   using Layout = FloatBits<Scalar>;
   using Unsigned = typename Layout::Unsigned;
   using Bits = VectorOf<Unsigned, Width>;
-  constexpr Unsigned least_mantissa = std::bit_cast<Unsigned>(static_cast<Scalar>(1.0 / std::numbers::sqrt2));
+  constexpr Unsigned min_mantissa = std::bit_cast<Unsigned>(static_cast<Scalar>(1.0 / std::numbers::sqrt2));
   constexpr Unsigned shift = Unsigned(1) << (std::numeric_limits<Unsigned>::digits - Layout::mantissa - 2);
   constexpr Unsigned one = std::bit_cast<Unsigned>(static_cast<Scalar>(Unsigned(1) << Layout::mantissa));
   Packs<Scalar, Width, Count> whole;
@@ -143,7 +143,7 @@ template <class Scalar, std::size_t Width, std::size_t Count>
   Packs<Scalar, Width, Count> below;
   for (std::size_t k = 0; k < Count; ++k) {
     Bits const bits = reinterpret_cast<Bits>(x[k].vector);
-    Bits const shifted = (bits - least_mantissa + (shift << Layout::mantissa)) >> Layout::mantissa;  // k + shift
+    Bits const shifted = (bits - min_mantissa + (shift << Layout::mantissa)) >> Layout::mantissa;  // k + shift
     Pack const m(reinterpret_cast<typename Pack::Vector>(bits - ((shifted - shift) << Layout::mantissa)));
     whole[k] = Pack(reinterpret_cast<typename Pack::Vector>(shifted | one)) -
                Pack(static_cast<Scalar>(Unsigned(1) << Layout::mantissa) + static_cast<Scalar>(shift));

@@ -21,7 +21,7 @@ template <class T>
   using std::sqrt;
   T const root_a = sqrt(a);
   T const root_b = sqrt(b);
-  T const inverse = constant<T>(1) / (root_a * root_b);
+  T const inverse = broadcast<T>(1) / (root_a * root_b);
   return {SquareRoot<T>{root_a, inverse * root_b}, SquareRoot<T>{root_b, inverse * root_a}};
 }
 
@@ -41,9 +41,9 @@ template <class Scalar>
       estimate.vector = __builtin_ia32_rsqrt14ps256_mask(x.vector, estimate.vector, 0xff);
     }
     T const product = x * estimate;
-    T const e = constant<T>(1) - product * estimate;
-    T series = constant<T>(0.5);
-    if constexpr (is_double) series = series + e * (constant<T>(0.375) + e * constant<T>(0.3125));
+    T const e = broadcast<T>(1) - product * estimate;
+    T series = broadcast<T>(0.5);
+    if constexpr (is_double) series = series + e * (broadcast<T>(0.375) + e * broadcast<T>(0.3125));
     return SquareRoot<T>{product + product * (e * series), estimate + estimate * (e * series)};
   };
   return {root(a), root(b)};

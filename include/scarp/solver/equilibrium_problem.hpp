@@ -47,21 +47,23 @@ class SCARP_EXPORT EquilibriumProblem final
         free_dofs_(constraints_.free_dofs()),
         regions_(discretisation_.mesh(), constraints_) {
     if (points_.size() != discretisation_.point_count()) {
-      refuse("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
-             discretisation_.point_count());
+      throw_input_error("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
+                        discretisation_.point_count());
     }
     if (loads_.size() == 0) loads_ = LoadHistory(Eigen::VectorXd::Zero(dof_count()));
     if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count()) {
-      refuse("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
-             loads_.size(), constraints_.dof_count(), dof_count());
+      throw_input_error(
+          "loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
+          loads_.size(), constraints_.dof_count(), dof_count());
     }
     if constexpr (requires { this->attached_.thickness(); }) {
       if (this->attached_.thickness() != discretisation_.thickness()) {
-        refuse("what is attached to the mesh is {} m thick out of the plane (the mesh is {} m): give both the same",
-               this->attached_.thickness(), discretisation_.thickness());
+        throw_input_error(
+            "what is attached to the mesh is {} m thick out of the plane (the mesh is {} m): give both the same",
+            this->attached_.thickness(), discretisation_.thickness());
       }
     }
-    aim(0.0);
+    set_load(0.0);
   }
 
   int dof_count() const override {
@@ -73,7 +75,7 @@ class SCARP_EXPORT EquilibriumProblem final
   }
 
   /// Sets the load factor whose loads the forces are measured against from now on.
-  void aim(double load) override { load_now_ = loads_.at(load); }
+  void set_load(double load) override { load_now_ = loads_.at(load); }
 
   DiscretisationType const& discretisation() const { return discretisation_; }
   MaterialPoints<dim> const& points() const { return points_; }
@@ -96,7 +98,7 @@ class SCARP_EXPORT EquilibriumProblem final
   std::vector<VoigtStress<dim>> balanced_stresses() const { return points_.balanced_stresses(executor_); }
 
   /// Largest component of all points' gradients in the last plan or evaluation.
-  double largest_gradient() const override {
+  double max_displacement_gradient() const override {
     double largest = 0.0;
     for (auto const& gradient : gradients()) largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
     return largest;
@@ -127,7 +129,7 @@ class SCARP_EXPORT EquilibriumProblem final
       evaluation.verdict = {Status::failed, Reason::element_inverted};
       evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
     } else {
-      static_cast<PointAnswers&>(evaluation) = points_.answer(executor_);
+      static_cast<ResponseReport&>(evaluation) = points_.evaluate(executor_);
       evaluated_ = increment;
       add_up(increment, evaluation);
     }
@@ -144,7 +146,7 @@ class SCARP_EXPORT EquilibriumProblem final
 
   /// Forces of the committed state.
   Evaluation evaluate_committed() override {
-    points_.rest(executor_);
+    points_.evaluate_committed(executor_);
     seen_.resize(0);
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
@@ -204,7 +206,7 @@ class SCARP_EXPORT EquilibriumProblem final
   /// \throws InputError unless the increment is the last one that was evaluated: trial states belong to that one
   void commit(Eigen::VectorXd const& increment) override {
     if (evaluated_.size() != increment.size() || evaluated_ != increment) {
-      refuse(
+      throw_input_error(
           "the increment to be committed is not the one that was evaluated last (the points' trial states belong to "
           "that one): evaluate it first, and commit it once");
     }
@@ -244,7 +246,7 @@ class SCARP_EXPORT EquilibriumProblem final
     std::vector<Gradient<dim>> gradients(detail::index(discretisation_.point_count()));
     auto const inverted = discretisation_.gradients(of_nodes(increment), gradients);
     if (inverted) return inverted;
-    points_.see(std::move(gradients), executor_);
+    points_.set_gradients(std::move(gradients), executor_);
     seen_ = increment;
     return std::nullopt;
   }

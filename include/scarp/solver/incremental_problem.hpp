@@ -30,10 +30,10 @@ class IncrementalProblem {
   virtual std::vector<VoigtStress<Dim>> committed_stresses() const = 0;
   virtual std::vector<VoigtTangent<Dim>> committed_tangents() const = 0;
   virtual std::vector<VoigtTangent<Dim>> trial_tangents() const = 0;
-  virtual double largest_gradient() const = 0;
+  virtual double max_displacement_gradient() const = 0;
   virtual bool turns_stresses() const = 0;
 
-  virtual void aim(double load) = 0;
+  virtual void set_load(double load) = 0;
   virtual Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) = 0;
   virtual Evaluation evaluate(Eigen::VectorXd const& increment) = 0;
   virtual Evaluation refine(Eigen::VectorXd const& increment) = 0;

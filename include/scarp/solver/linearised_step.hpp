@@ -62,9 +62,9 @@ class LinearisedStep {
   int weak_dof() const { return system_.dof(equations_.weakest()); }
 
  private:
-  static constexpr int most_iterations = 40;
-  static constexpr int most_fruitless = 4;         ///< iterations in a row without a better balance
-  static constexpr double least_share = 0.1;       ///< of Newton's correction
+  static constexpr int max_iterations = 40;
+  static constexpr int max_fruitless = 4;          ///< iterations in a row without a better balance
+  static constexpr double min_share = 0.1;         ///< of Newton's correction
   static constexpr double longest_share = 1024.0;  ///< of one with all contacts held
 
   struct NothingBeside {
@@ -130,7 +130,7 @@ class LinearisedStep {
     double const goal = std::max(accuracy_, 1e-3 * now.residual);
     Balance best = now;
     int fruitless = 0;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    for (int iteration = 0; iteration < max_iterations; ++iteration) {
       // Once in any case: a small residual may be that of boundary nodes which have moved alone.
       if (iteration > 0 && (now.residual <= goal || beside_.spent())) break;
       Way way;
@@ -145,7 +145,7 @@ class LinearisedStep {
       now = std::move(next);
       fruitless = now.residual < best.residual ? 0 : fruitless + 1;
       if (fruitless == 0) best = now;
-      if (fruitless == most_fruitless) break;
+      if (fruitless == max_fruitless) break;
     }
     increment = best.increment;
     problem_.attached_forces(increment);
@@ -165,7 +165,7 @@ class LinearisedStep {
   bool go_downhill(Way const& way, Balance const& now, Balance& best) {
     double share = 1.0;
     best = balance(way, share);
-    while (!best.improves(now) && share > least_share) best = balance(way, share *= 0.5);
+    while (!best.improves(now) && share > min_share) best = balance(way, share *= 0.5);
     if (!best.improves(now)) {
       problem_.attached_forces(now.increment);
       return false;
@@ -183,7 +183,7 @@ class LinearisedStep {
   bool go_by_work(Way const& way, Balance& next) {
     Eigen::VectorXd const free = system_.gather(way.direction);
     auto const work = [&](double share) { return system_.gather(balance(way, share).unbalanced).dot(free); };
-    auto const share = detail::share_without_work(work, longest_share);
+    auto const share = detail::zero_power_step(work, longest_share);
     if (!share) return false;
     next = balance(way, *share);
     return true;
@@ -265,7 +265,7 @@ class LinearPredictor {
   /// Displacement increment between two load factors where it is prescribed, zero elsewhere; from then on forces are
   /// measured against the loads of the second one.
   Eigen::VectorXd prescribed(double from, double to) {
-    problem_.aim(to);
+    problem_.set_load(to);
     return problem_.constraints().displacement(from, to);
   }
 

@@ -52,7 +52,7 @@ struct NoObserver {
 /// How far a run came.
 struct RunReport {
   Verdict verdict;
-  Reason last_failure = Reason::none;  ///< why the last refused attempt was refused
+  Reason last_failure = Reason::none;  ///< why the last rejected attempt was refused
   int worst_point = -1;                ///< material point of that attempt, -1 for none
   int weak_dof = -1;                   ///< degree of freedom that its singular system did not hold, -1 for none
   double load = 0.0;                   ///< load factor of the committed state
@@ -105,11 +105,11 @@ struct LoadStepping {
   double first = 1e-3;     ///< load increment of the first step
   double smallest = 1e-7;  ///< increment below which the run gives up
   double largest = 1e300;
-  double largest_gradient = 0.01;  ///< of the prediction at any point
-  double growth = 1.4;             ///< after at most `few` iterations
-  int few = 6;
+  double max_displacement_gradient = 0.01;  ///< of the prediction at any point
+  double growth = 1.4;                      ///< after at most `few` iterations
+  int grow_below = 6;
   double shrinkage = 0.75;  ///< after more than `many` iterations
-  int many = 10;
+  int shrink_above = 10;
 
   /// \throws InputError for a setting outside of its range
   void validate() const {
@@ -117,12 +117,12 @@ struct LoadStepping {
     require_positive("first load increment", first);
     require_at_least("first load increment", first, smallest);
     require_at_least("largest load increment", largest, smallest);
-    require_positive("largest gradient of a load step", largest_gradient);
+    require_positive("largest gradient of a load step", max_displacement_gradient);
     require_between("growth of the load increment", growth, 1.0, std::numeric_limits<double>::max());
     require_positive("shrinkage of the load increment", shrinkage);
     require_between("shrinkage of the load increment", shrinkage, 0.0, 1.0);
-    require_at_least("iterations up to which the load increment grows", few, 0);
-    require_at_least("iterations beyond which the load increment shrinks", many, few);
+    require_at_least("iterations up to which the load increment grows", grow_below, 0);
+    require_at_least("iterations beyond which the load increment shrinks", shrink_above, grow_below);
   }
 
   /// One step without growth of the load: brings a prepared state into equilibrium, or says why not.
@@ -160,7 +160,8 @@ struct LoadStepping {
     validate();
     require_finite("load factor at the start", from);
     require_finite("load factor at the end", to);
-    if (to < from) refuse("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
+    if (to < from)
+      throw_input_error("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
     RunState state;
     state.report.load = from;
     state.increment = std::min({first, largest, to - from});
@@ -197,8 +198,8 @@ struct LoadStepping {
       return;
     }
     if (step.verdict.acceptable()) {
-      if (step.iterations() <= few) increment *= growth;
-      if (step.iterations() > many) increment *= shrinkage;
+      if (step.iterations() <= grow_below) increment *= growth;
+      if (step.iterations() > shrink_above) increment *= shrinkage;
     } else {
       increment *= 0.5;
       if (increment < smallest) {
@@ -243,7 +244,8 @@ struct LoadStepping {
       Verdict const planned = problem.plan(displacement);
       if (planned.reason == Reason::not_finite) return displacement;
       // Of a prediction that turns an element inside out the problem knows no gradient.
-      double const ratio = planned.acceptable() ? problem.largest_gradient() / largest_gradient : infinite;
+      double const ratio =
+          planned.acceptable() ? problem.max_displacement_gradient() / max_displacement_gradient : infinite;
       // Part of a prediction may come from the present imbalance, which no smaller increment takes away.
       if (!(ratio > 1.001) || increment < 2.0 * smallest) return displacement;
       increment = std::max(increment * std::max(1.0 / ratio, 0.3), smallest);

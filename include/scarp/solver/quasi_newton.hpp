@@ -69,7 +69,7 @@ class SCARP_EXPORT QuasiNewtonSession {
 
 template <class Settings, class Problem>
 Verdict QuasiNewtonSession<Settings, Problem>::begin(double load) {
-  problem_.aim(load);
+  problem_.set_load(load);
   provider_ = timed_tangents(false);
   if (first_.empty()) first_ = provider_;
   if (learned_.empty()) learned_ = provider_;
@@ -102,7 +102,7 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
                                                     StopQuestion const& stop) {
   report.verdict = problem_.plan(increment, &report.worst_point);
   if (!report.verdict.acceptable()) return;
-  report.largest_gradient = problem_.largest_gradient();
+  report.max_displacement_gradient = problem_.max_displacement_gradient();
   mark_ = Clock::now();
   last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
   last_stresses_ = problem_.committed_stresses();
@@ -115,7 +115,7 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
     report.history.back().material_seconds = report.history.back().seconds = std::exchange(tangent_seconds_, 0.0);
     Evaluation evaluation = recorded(report, increment, false);
     // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
-    for (int k = 0; k < settings_.most_refinements && report.verdict.status == Status::not_converged; ++k) {
+    for (int k = 0; k < settings_.max_refinements && report.verdict.status == Status::not_converged; ++k) {
       if (report.stopped(stop)) return;
       learn();  // before the plan changes the answer, which would pass for stiffness
       evaluation = recorded(report, increment, true);
@@ -123,7 +123,7 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
     if (report.verdict.status == Status::failed) return;
     learn();
     if (evaluation.residual <= settings_.tolerance && report.verdict.acceptable()) return;
-    if (report.iterations() >= settings_.most_iterations || evaluation.residual > settings_.hopeless) {
+    if (report.iterations() >= settings_.max_iterations || evaluation.residual > settings_.divergence_limit) {
       if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
       return;
     }
@@ -214,9 +214,9 @@ void QuasiNewtonSession<Settings, Problem>::learn_from_answers() {
 template <TangentRule<2> Rule = PointwiseBroyden, LinearSolver Linear = SparseLu>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual, see EquilibriumProblem::residuals
-  int most_iterations = 30;
-  double hopeless = 10.0;    ///< residual beyond which a step is given up
-  int most_refinements = 4;  ///< of points that have not converged, in each iteration
+  int max_iterations = 30;
+  double divergence_limit = 10.0;  ///< residual beyond which a step is given up
+  int max_refinements = 4;         ///< of points that have not converged, in each iteration
   /// A step's first guess is the motion of the step before, scaled by the load; after a refused one it is linear.
   bool repeats_motion = true;
   Rule rule{};
@@ -224,9 +224,9 @@ struct QuasiNewton {
   /// \throws InputError for a setting outside of its range
   void validate() const {
     require_positive("tolerance of the force residual", tolerance);
-    require_at_least("most iterations of a load step", most_iterations, 1);
-    require_at_least("residual beyond which a step is given up", hopeless, tolerance);
-    require_at_least("most refinements of an iteration", most_refinements, 0);
+    require_at_least("most iterations of a load step", max_iterations, 1);
+    require_at_least("residual beyond which a step is given up", divergence_limit, tolerance);
+    require_at_least("most refinements of an iteration", max_refinements, 0);
     detail::validated(rule);
   }
 

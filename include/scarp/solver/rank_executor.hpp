@@ -28,7 +28,7 @@ class MpiSession {
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     if (provided < MPI_THREAD_FUNNELED) {
       MPI_Finalize();
-      refuse(
+      throw_input_error(
           "MPI was asked to run beside threads of its ranks (this one cannot): take an MPI with MPI_THREAD_FUNNELED");
     }
   }
@@ -92,7 +92,7 @@ class RankExecutor {
     int initialised = 0;
     MPI_Initialized(&initialised);
     if (initialised == 0)
-      refuse("ranks were asked for before MPI was initialised (there is none yet): make an MpiSession");
+      throw_input_error("ranks were requested before MPI was initialised (there is none yet): make an MpiSession");
     MPI_Comm_rank(communicator_, &rank_);
     MPI_Comm_size(communicator_, &ranks_);
   }
@@ -134,7 +134,7 @@ class RankExecutor {
     words.resize(static_cast<std::size_t>(length));
     MPI_Bcast(words.data(), length, MPI_CHAR, first, communicator_);
     if (own) std::rethrow_exception(own);
-    refuse("rank {} has stopped ({}): see its words", first, words);
+    throw_input_error("rank {} has stopped ({}): see its words", first, words);
   }
 
   /// The bytes of numbers are sent: ranks run the same binary on machines of one kind.
@@ -168,16 +168,16 @@ class RankExecutor {
     seconds_sharing_ += MPI_Wtime() - started;
   }
 
-  /// What the first rank says.
+  /// What the root rank says.
   bool agree(bool said) const {
     int heard = said ? 1 : 0;
     MPI_Bcast(&heard, 1, MPI_INT, 0, communicator_);
     return heard != 0;
   }
 
-  /// On the first rank: what the owner of a point answers while it serves.
+  /// On the root rank: what the owner of a point answers while it serves.
   /// \throws InputError with the owner's words where it could not
-  std::string ask(int point) const {
+  std::string fetch(int point) const {
     int const owner = point % ranks_;
     MPI_Send(&point, 1, MPI_INT, owner, question, communicator_);
     MPI_Status status;
@@ -187,11 +187,11 @@ class RankExecutor {
     std::string bytes(static_cast<std::size_t>(length), '\0');
     MPI_Recv(bytes.data(), length, MPI_BYTE, owner, status.MPI_TAG, communicator_, MPI_STATUS_IGNORE);
     if (status.MPI_TAG == failure)
-      refuse("rank {} cannot answer for point {} ({}): see its words", owner, point, bytes);
+      throw_input_error("rank {} cannot return point {} ({}): see its words", owner, point, bytes);
     return bytes;
   }
 
-  /// The first rank does a task, which may ask; the others answer meanwhile: answer_to(point) returns the bytes. What one throws
+  /// The root rank does a task, which may ask; the others answer meanwhile: answer_to(point) returns the bytes. What one throws
   /// ends all.
   template <std::invocable Task, std::invocable<int> Answer>
   void on_first(Task const& task, Answer const& answer_to) const {
@@ -214,7 +214,7 @@ class RankExecutor {
   static constexpr int answer = 2;
   static constexpr int failure = 3;
 
-  /// Until the first rank has no more questions; then what an answer has thrown is thrown.
+  /// Until the root rank has no more questions; then what an answer has thrown is thrown.
   template <class Answer>
   void serve(Answer const& answer_to) const {
     std::exception_ptr thrown;
@@ -227,8 +227,8 @@ class RankExecutor {
       try {
         bytes = answer_to(point);
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-          refuse("the state of point {} has {} bytes (MPI sends no more than {} at once): make it smaller", point,
-                 bytes.size(), std::numeric_limits<int>::max());
+          throw_input_error("the state of point {} has {} bytes (MPI sends no more than {} at once): make it smaller",
+                            point, bytes.size(), std::numeric_limits<int>::max());
         }
       } catch (std::exception const& error) {
         thrown = std::current_exception();

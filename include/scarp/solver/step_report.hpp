@@ -19,7 +19,7 @@ struct PartResidual {
 };
 
 /// Forces that an increment of displacement meets, and what the points say.
-struct Evaluation : PointAnswers {
+struct Evaluation : ResponseReport {
   Eigen::VectorXd unbalanced{};       ///< internal minus external force of all degrees of freedom [N]
   double residual = 0.0;              ///< see EquilibriumProblem::residual
   std::vector<PartResidual> parts{};  ///< see EquilibriumProblem::residuals; empty where the whole is the only one
@@ -47,8 +47,8 @@ struct StepReport {
   Verdict verdict{};
   int worst_point = -1;  ///< material point behind a verdict that is not ok, -1 for none
   std::vector<IterationRecord> history{};
-  std::vector<PartResidual> parts{};  ///< of the last iteration; empty where the problem has no parts
-  double largest_gradient = 0.0;      ///< of the prediction, over all points
+  std::vector<PartResidual> parts{};       ///< of the last iteration; empty where the problem has no parts
+  double max_displacement_gradient = 0.0;  ///< of the prediction, over all points
   double condition = 0.0;  ///< estimate of the stiffness at the start of the step, 1-norm; 0 where it was not made
   int weak_dof = -1;       ///< degree of freedom that a singular system does not hold, -1 for none
   double seconds = 0.0;    ///< wall time of the attempt
@@ -57,7 +57,7 @@ struct StepReport {
   double residual() const { return history.empty() ? 0.0 : history.back().residual; }
   bool interrupted() const { return verdict.reason == Reason::interrupted; }
 
-  /// Ends an attempt that is not yet in equilibrium where that is asked for.
+  /// Ends an attempt that is not yet in equilibrium where that is requested.
   /// \return whether it has
   bool stopped(StopQuestion const& asked) {
     if (!asked || !asked()) return false;

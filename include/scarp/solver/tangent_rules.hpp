@@ -39,14 +39,14 @@ concept TangentRule = StartsTangent<Rule, Dim> &&(LearnsFromAnswers<Rule, Dim> |
 /// one direction. A step starts from a mix of the provider's tangent and what the last step has learned.
 /// The symmetric part is kept above a floor, without which softening makes the system indefinite.
 struct PointwiseBroyden {
-  double provider_share = 0.5;        ///< of the provider's tangent in the start of a step; the rest is learned
-  double floor = 0.02;                ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
-  double least_strain_change = 1e-7;  ///< a smaller change teaches nothing but noise
+  double provider_share = 0.5;      ///< of the provider's tangent in the start of a step; the rest is learned
+  double floor = 0.02;              ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
+  double min_strain_change = 1e-7;  ///< a smaller change teaches nothing but noise
 
   void validate() const {
     require_between("share of the provider's tangent", provider_share, 0.0, 1.0);
     require_between("floor of a learned tangent", floor, std::numeric_limits<double>::lowest(), 1.0);
-    require_not_negative("least change of strain that teaches", least_strain_change);
+    require_not_negative("least change of strain that teaches", min_strain_change);
   }
 
   /// Start of a step from the provider's tangent and the one learned in the step before.
@@ -59,7 +59,7 @@ struct PointwiseBroyden {
   VoigtTangent<Dim> update(VoigtTangent<Dim> tangent, VoigtTangent<Dim> const& provider,
                            EngineeringStrain<Dim> const& strain_change, VoigtStress<Dim> const& stress_change) const {
     double const squared = strain_change.squaredNorm();
-    if (!(squared > least_strain_change * least_strain_change)) return tangent;
+    if (!(squared > min_strain_change * min_strain_change)) return tangent;
     tangent += (stress_change - tangent * strain_change) * strain_change.transpose() / squared;
     return raised<Dim>(tangent, floor * provider.trace() / voigt_size<Dim>);
   }

@@ -20,10 +20,10 @@ namespace scarp {
 template <int Dim, class Scalar>
 Tensor<Dim, Scalar> rotation_factor(Tensor<Dim, Scalar> const& deformation) {
   using std::sqrt;
-  constexpr int most_iterations = 100;  // halves the largest singular value at worst: enough for any finite double
+  constexpr int max_iterations = 100;  // halves the largest singular value at worst: enough for any finite double
   Scalar const close = sqrt(Eigen::NumTraits<Scalar>::epsilon());
   Tensor<Dim, Scalar> turn = deformation;
-  for (int k = 0; k < most_iterations; ++k) {
+  for (int k = 0; k < max_iterations; ++k) {
     Tensor<Dim, Scalar> const next = (turn + turn.inverse().transpose()) / Scalar(2);
     Scalar const moved = (next - turn).norm();
     turn = next;
@@ -68,8 +68,8 @@ Tensor<Dim> logarithm_of_increment(Gradient<Dim> const& gradient) {
   Tensor<Dim> const squared = ratio * ratio;
   Tensor<Dim> power = ratio;
   Tensor<Dim> sum = ratio;
-  constexpr int most_terms = 60;  // |ratio| up to 0.7 converges to 1e-17 within these
-  for (int k = 3; k < 2 * most_terms; k += 2) {
+  constexpr int max_terms = 60;  // |ratio| up to 0.7 converges to 1e-17 within these
+  for (int k = 3; k < 2 * max_terms; k += 2) {
     power = (power * squared).eval();
     sum += power / k;
     if (!(power.cwiseAbs().maxCoeff() > 1e-18)) return 2.0 * sum;

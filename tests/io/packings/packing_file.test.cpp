@@ -234,7 +234,7 @@ TEST_CASE("a file of another machine or version is refused with the reason") {
 
 TEST_CASE("a file is refused as another type than it was saved as") {
   CHECK(contains(complaint_about(bytes_of(grid<Discs>(3, 3, 1))),
-                 "it has 1 sizes of a grain (the type asked for has 2): load it as the type that was saved"));
+                 "it has 1 sizes of a grain (the requested type has 2): load it as the type that was saved"));
   CHECK(contains(complaint_about(bytes_of(grid<Spheres>(3, 3, 1))), "it has 3 dimensions"));
   CHECK(
       contains(complaint_about(bytes_of(grid<scarp::Packing<scarp::Ellipse, scarp::LinearFrictional, float>>(3, 3, 1))),

@@ -91,7 +91,7 @@ void compare(std::string const& name, double width, double height, std::array<Po
   Curve const expected(reference(name + "_biaxial.csv"));
   double const first_area = packing.cell.determinant();
   scarp::TimeStepper<Ellipses> stepper;
-  scarp::Drive<Ellipses> drive(packing, law, scarp::drained_compression<2>(strain_per_step, pressure));
+  scarp::CellDriver<Ellipses> drive(packing, law, scarp::drained_compression<2>(strain_per_step, pressure));
   long step = 0;
   for (auto const& point : points) {
     for (; step < std::lround(point.strain / strain_per_step); ++step) REQUIRE(drive.step(stepper).acceptable());

@@ -20,9 +20,9 @@ Packing<Wrong, Frictionless> packing;
 // also: gyration_squared(
 // also: bounding_radius(
 // also: eccentricity(
-// also: least_curvature_radius(
+// also: min_curvature_radius(
 // also: contact_radius(
-// also: remembers_normal
+// also: warm_starts_normal
 // also: a shape needs `static std::array<T, pose_count> pose(
 namespace case_2 {
 struct Wrong {
@@ -51,7 +51,7 @@ struct Wrong : Disc {
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_3
 
-// first: a shape is asked for several pairs at once
+// first: a shape is requested several pairs at once
 namespace case_4 {
 struct Wrong : Disc {
   static double contact_radius(std::array<double, 1> const& pose) { return pose[0]; }
@@ -75,7 +75,7 @@ struct Wrong : LinearFrictional {
 Packing<Disc, Wrong> packing;
 }  // namespace case_6
 
-// first: a contact law is asked for several contacts at once
+// first: a contact law is requested several contacts at once
 namespace case_7 {
 struct Wrong : Frictionless {
   ContactForce<2, double> respond(ContactKinematics<2, double> const&, ContactMemory<2, double>&) const {
@@ -90,7 +90,7 @@ namespace case_8 {
 struct Wrong : Frictionless {
   template <int Dim, class T>
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
-    if (approach.overlap < constant<T>(0)) return {constant<T>(0)};
+    if (approach.overlap < broadcast<T>(0)) return {broadcast<T>(0)};
     return {approach.overlap};
   }
 };
@@ -177,7 +177,7 @@ struct Wrong {};
 DemRve<Discs, Wrong> rve;
 }  // namespace case_26
 
-// within: TellsPackingTangent
+// within: PackingTangent
 namespace case_27 {
 struct Wrong {};
 DemRve<Discs, SamePacking<Discs>, Wrong> rve;
@@ -186,7 +186,7 @@ DemRve<Discs, SamePacking<Discs>, Wrong> rve;
 // within: DampsMotion
 namespace case_28 {
 struct Wrong {};
-DemRve<Discs, SamePacking<Discs>, ElasticContactTangent, Wrong> rve;
+DemRve<Discs, SamePacking<Discs>, AffineTangent, Wrong> rve;
 }  // namespace case_28
 
 // within: DampsMotion
@@ -231,7 +231,7 @@ struct Wrong : Disc {
   template <class T>
   static ContactGeometry<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
                                      Point<2, T> const& branch, Point<2, T> const& normal) {
-    if (branch[0] < constant<T>(0)) return Disc::touch(second, first, branch, normal);
+    if (branch[0] < broadcast<T>(0)) return Disc::touch(second, first, branch, normal);
     return Disc::touch(first, second, branch, normal);
   }
 };

@@ -10,7 +10,7 @@ import sys
 
 source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gallery.cpp")
 # More lines for a wrong type are a flood: it went on into the library after its fault was named.
-most_lines = 40
+max_lines = 40
 
 
 class Case:
@@ -80,7 +80,7 @@ def main(compiler, folders, show):
             faults += 1
             print(f"{case.name} {fault[0]}", *fault[1], sep="\n  ")
     print(f"{len(cases)} wrong types, {faults} without the right words, {len(lines)} lines of messages")
-    return 1 if faults or len(lines) > most_lines * len(cases) else 0
+    return 1 if faults or len(lines) > max_lines * len(cases) else 0
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ void store_rows(lanes::Pack<Scalar> const& from, std::size_t start, SoaArray<Sca
 /// Affine spin of a displacement gradient: half its curl.
 template <int Dim, class Lanes>
 Turning<Dim, Lanes> affine_turn(Tensor<Dim> const& gradient) {
-  auto const half_curl = [&](int a, int b) { return constant<Lanes>((gradient(a, b) - gradient(b, a)) / 2.0); };
+  auto const half_curl = [&](int a, int b) { return broadcast<Lanes>((gradient(a, b) - gradient(b, a)) / 2.0); };
   if constexpr (Dim == 2) {
     return half_curl(1, 0);
   } else {
@@ -40,7 +40,7 @@ Turning<Dim, Lanes> affine_turn(Tensor<Dim> const& gradient) {
   }
 }
 
-/// Both sides of a pair: their rows of data as lanes. Of the first quads of a row only differences are asked for: they are
+/// Both sides of a pair: their rows of data as lanes. Of the first quads of a row only differences are requested: they are
 /// taken before the transposition in registers, which then serves both sides.
 template <class Layout, class Lanes>
 class PairSides {
@@ -154,23 +154,24 @@ struct PairBlock {
   static constexpr std::size_t torque_first = force + axes;
   static constexpr std::size_t torque_second = torque_first + turns;
   // Where the grains touch; only of shapes that search for the normal.
-  static constexpr std::size_t touch_size = Shape::remembers_normal ? 2 + 2 * axes : 0;
+  static constexpr std::size_t touch_size = Shape::warm_starts_normal ? 2 + 2 * axes : 0;
   static constexpr std::size_t overlap = torque_second + turns;
   static constexpr std::size_t normal = overlap + 1;
   static constexpr std::size_t arm_first = normal + axes;
-  static constexpr std::size_t unsettled = arm_first + axes;
+  static constexpr std::size_t normal_error = arm_first + axes;
   static constexpr std::size_t count = overlap + touch_size;
 
   std::array<std::int32_t, size> first;
   std::array<std::int32_t, size> second;
   alignas(64) std::array<std::array<Scalar, size>, count> fields;
 
-  /// Takes the numbers of the first `present` pairs; the others are pairs of grain 0 and `nobody`.
-  void name_pairs(std::int32_t const* firsts, std::int32_t const* seconds, std::size_t present, std::int32_t nobody) {
+  /// Takes the numbers of the first `present` pairs; the others are pairs of grain 0 and `sentinel_row`.
+  void name_pairs(std::int32_t const* firsts, std::int32_t const* seconds, std::size_t present,
+                  std::int32_t sentinel_row) {
     std::copy(firsts, firsts + present, first.begin());
     std::copy(seconds, seconds + present, second.begin());
     std::fill(first.begin() + static_cast<std::ptrdiff_t>(present), first.end(), 0);
-    std::fill(second.begin() + static_cast<std::ptrdiff_t>(present), second.end(), nobody);
+    std::fill(second.begin() + static_cast<std::ptrdiff_t>(present), second.end(), sentinel_row);
   }
 
   template <std::size_t Count>

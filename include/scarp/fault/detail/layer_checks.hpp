@@ -17,26 +17,28 @@ void require_shape(Layer const& layer) {
   require_positive("depth of the layer", layer.depth);
   require_positive("length of the layer along the strike", layer.strike);
   if (!(layer.strike_cells >= 1 && layer.strike_cells <= 10'000)) {
-    refuse("the layer has {} cells along the strike (from 1 to 10000 are possible): choose another number",
-           layer.strike_cells);
+    throw_input_error("the layer has {} cells along the strike (from 1 to 10000 are possible): choose another number",
+                      layer.strike_cells);
   }
   require_positive("element size", layer.size);
   require_positive("row aspect", layer.row_aspect);
   require_positive("row coarsening", layer.row_coarsening);
   if (!(layer.left < layer.right)) {
-    refuse("the layer reaches from x = {} to {} m (it has no width): put left below right", layer.left, layer.right);
+    throw_input_error("the layer reaches from x = {} to {} m (it has no width): put left below right", layer.left,
+                      layer.right);
   }
   if (!(layer.tip > layer.left && layer.tip < layer.right)) {
-    refuse("the fault tip is at x = {} m (the layer's bottom reaches from {} to {} m): move the tip between them",
-           layer.tip, layer.left, layer.right);
+    throw_input_error(
+        "the fault tip is at x = {} m (the layer's bottom reaches from {} to {} m): move the tip between them",
+        layer.tip, layer.left, layer.right);
   }
   if (!(std::isfinite(layer.coarsening) && layer.coarsening >= 1.0)) {
-    refuse("the coarsening is {} (cells grow away from the band): give a number from 1", layer.coarsening);
+    throw_input_error("the coarsening is {} (cells grow away from the band): give a number from 1", layer.coarsening);
   }
   if (!(std::isfinite(layer.band_left) && std::isfinite(layer.band_right) && layer.band_left < layer.band_right &&
         layer.band_left < layer.right && layer.band_right > layer.left)) {
-    refuse("the fine band reaches from x = {} to {} m (it must overlap the layer, {} to {} m): move it",
-           layer.band_left, layer.band_right, layer.left, layer.right);
+    throw_input_error("the fine band reaches from x = {} to {} m (it must overlap the layer, {} to {} m): move it",
+                      layer.band_left, layer.band_right, layer.left, layer.right);
   }
 }
 
@@ -44,7 +46,7 @@ template <class Layer>
 void require_inside(Layer const& layer, std::vector<double> const& edges) {
   for (double const edge : edges) {
     if (!(edge > layer.left && edge < layer.right)) {
-      refuse(
+      throw_input_error(
           "an edge of a structure is at x = {} m (the surface reaches from {} to {} m): move or narrow the structure",
           edge, layer.left, layer.right);
     }
@@ -55,7 +57,7 @@ void require_inside(Layer const& layer, std::vector<double> const& edges) {
 inline void require_apart(std::vector<double> const& lines, double size) {
   for (std::size_t k = 1; k < lines.size(); ++k) {
     if (lines[k] - lines[k - 1] < size / 4.0) {
-      refuse(
+      throw_input_error(
           "grid lines are needed at x = {} and {} m (closer than a quarter of the element size {} m, the elements "
           "would be slivers): choose smaller elements, or move the structure or the tip",
           lines[k - 1], lines[k], size);

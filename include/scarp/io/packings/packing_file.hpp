@@ -26,7 +26,7 @@ constexpr auto packing_layout() {
                     LayoutEntry{"sizes of a grain", Shape::size_count},
                     LayoutEntry{"numbers of an orientation", Shape::orientation_count},
                     LayoutEntry{"parts of a grain", part_count<Shape>()},
-                    LayoutEntry{"remembered normals of a contact", Shape::remembers_normal},
+                    LayoutEntry{"remembered normals of a contact", Shape::warm_starts_normal},
                     LayoutEntry{"remembered shear forces of a contact", needs.shear},
                     LayoutEntry{"remembered moments of a contact", needs.moment},
                     LayoutEntry{"further remembered numbers of a contact", static_cast<std::uint32_t>(needs.scalars)},
@@ -41,8 +41,8 @@ void refuse_other_layout(StateReader& reader) {
     std::uint32_t saved = 0;
     reader(entry.what, saved);
     if (saved != entry.value) {
-      refuse("it has {} {} (the type asked for has {}): load it as the type that was saved", saved, entry.what,
-             entry.value);
+      throw_input_error("it has {} {} (the requested type has {}): load it as the type that was saved", saved,
+                        entry.what, entry.value);
     }
   }
 }
@@ -54,8 +54,8 @@ PackingType packing_of(std::string_view file) {
   refuse_other_layout<PackingType>(reader);
   PackingType packing;
   reader("packing", packing);
-  refuse_unless(reader.at_end(), "members leave bytes over");
-  refuse_unless(packing.population != nullptr, "grains have no sizes");
+  require_valid(reader.at_end(), "members leave bytes over");
+  require_valid(packing.population != nullptr, "grains have no sizes");
   return packing;
 }
 
@@ -69,7 +69,7 @@ template <class PackingType>
 void save_packing(std::filesystem::path const& path, PackingType const& packing,
                   Durability durability = Durability::handed_over) {
   if (packing.population == nullptr) {
-    refuse("the packing for '{}' has no grains (there is nothing to save): make it first", path.string());
+    throw_input_error("the packing for '{}' has no grains (there is nothing to save): make it first", path.string());
   }
   auto const bytes = detail::framed(detail::packing_format, [&](StateWriter& file) {
     for (auto const& entry : detail::packing_layout<PackingType>()) file(entry.what, entry.value);
@@ -83,7 +83,8 @@ void save_packing(std::filesystem::path const& path, PackingType const& packing,
 template <class PackingType>
 PackingType load_packing(std::filesystem::path const& path) {
   std::string const file = read_file(path);
-  return naming(fmt::format("cannot load '{}'", path.string()), [&] { return detail::packing_of<PackingType>(file); });
+  return with_context(fmt::format("cannot load '{}'", path.string()),
+                      [&] { return detail::packing_of<PackingType>(file); });
 }
 
 }  // namespace scarp

@@ -53,8 +53,9 @@ class Bisection {
         found = true;
       }
       if (constexpr double most = 1e7; wanted > most) {
-        refuse("the size field asks for about {:.3g} elements (up to {:.3g} are supported): choose larger sizes",
-               wanted, most);
+        throw_input_error(
+            "the size field requires about {:.3g} elements (up to {:.3g} are supported): choose larger sizes", wanted,
+            most);
       }
       make_fit();
       std::vector<Triangle> halves;

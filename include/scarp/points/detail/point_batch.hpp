@@ -33,7 +33,7 @@ class PointBatch {
   virtual void add(Site<Dim> const& site, int number, bool here) = 0;
   virtual int size() const = 0;
   virtual Site<Dim> const& site(int k) const = 0;
-  virtual void forget(int k) = 0;
+  virtual void release(int k) = 0;
 
   virtual void plan(int k, Gradient<Dim> const& increment) = 0;
   /// \return whether the point has a plan of more work now
@@ -57,8 +57,8 @@ class PointBatch {
   virtual PackingBalance balance(int k) const = 0;
   virtual std::any picture(int k) const = 0;
   virtual VoigtStress<Dim> floor_stress(int k) const = 0;
-  virtual DoubledAnswer<Dim> doubled(int k, Gradient<Dim> const& increment) const = 0;
-  virtual DoubledAnswer<Dim> followed(int k, Gradient<Dim> const& increment, std::string& bits) const = 0;
+  virtual DoubledResponse<Dim> doubled_response(int k, Gradient<Dim> const& increment) const = 0;
+  virtual DoubledResponse<Dim> doubled_path(int k, Gradient<Dim> const& increment, std::string& bits) const = 0;
 
   /// The committed state, nothing where it is of another type.
   virtual void const* state(int k, std::type_info const& type) const = 0;
@@ -86,16 +86,16 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
   int size() const override { return count(sites_); }
   Site<dim> const& site(int k) const override { return sites_[index(k)]; }
-  void forget(int k) override {
+  void release(int k) override {
     committed_[index(k)] = trial_[index(k)] = no_state();
     here_[index(k)] = false;
   }
 
   void plan(int k, Gradient<dim> const& increment) override {
-    if constexpr (PlansWork<Provider>) plans_[index(k)] = provider_->plan(committed_[index(k)], increment);
+    if constexpr (HasPlan<Provider>) plans_[index(k)] = provider_->plan(committed_[index(k)], increment);
   }
   bool refine(int k) override {
-    if constexpr (PlansWork<Provider>) {
+    if constexpr (HasPlan<Provider>) {
       long const before = work(k);
       plans_[index(k)] = provider_->refined(plans_[index(k)]);
       return work(k) != before;
@@ -125,7 +125,8 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   void read(int k, StateReader& reader) override {
     State state = scarp::empty_state(*provider_, sites_[index(k)]);
     described(reader, state);
-    if (!reader.at_end()) refuse("it holds more than a state of this point: unpack what was packed of its provider");
+    if (!reader.at_end())
+      throw_input_error("it holds more than a state of this point: unpack what was packed of its provider");
     trial_[index(k)] = committed_[index(k)] = std::move(state);
     here_[index(k)] = true;
   }
@@ -159,12 +160,12 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
   VoigtStress<dim> floor_stress(int k) const override { return floor_stress_in<dim>(committed_[index(k)]); }
 
-  DoubledAnswer<dim> doubled(int k, Gradient<dim> const& increment) const override {
+  DoubledResponse<dim> doubled_response(int k, Gradient<dim> const& increment) const override {
     State trial = trial_[index(k)];
     return answer_with_double_work(*provider_, trial_[index(k)], increment, plans_[index(k)], trial);
   }
-  DoubledAnswer<dim> followed(int k, Gradient<dim> const& increment, std::string& bits) const override {
-    DoubledAnswer<dim> answer{{stress(k), {}}, 0};
+  DoubledResponse<dim> doubled_path(int k, Gradient<dim> const& increment, std::string& bits) const override {
+    DoubledResponse<dim> answer{{stress(k), {}}, 0};
     if constexpr (Described<State>) {
       State state = committed_[index(k)];
       if (!bits.empty()) {
@@ -193,7 +194,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     if constexpr (std::default_initializable<State>) {
       return {};
     } else {
-      refuse(
+      throw_input_error(
           "points are shared out among processes, but their state cannot be left empty (it has no default "
           "constructor): give it one");
     }
@@ -204,7 +205,8 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     if constexpr (Described<State>) {
       visit(name, visited);
     } else {
-      refuse("states of a provider cannot be saved or sent (they name no members): give them a function members");
+      throw_input_error(
+          "states of a provider cannot be saved or sent (they name no members): give them a function members");
     }
   }
 

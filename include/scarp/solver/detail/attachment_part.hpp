@@ -45,7 +45,7 @@ class AttachmentPart : public AttachedProblem<Dim> {
     return forces;
   }
 
-  /// Their derivative [N/m] where they were asked for last.
+  /// Their derivative [N/m] where they were requested last.
   Eigen::SparseMatrix<double> attached_stiffness() const override {
     return assembled([&](auto& entries) { attached_.add_stiffness(entries); });
   }

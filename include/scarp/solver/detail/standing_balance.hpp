@@ -20,10 +20,10 @@ namespace scarp::detail {
 /// \param most largest share that is tried
 /// \return share at which less than a thousandth of the work at 0 is left, nothing if there is none up to `most`
 template <class Work>
-std::optional<double> share_without_work(Work const& work, double most) {
+std::optional<double> zero_power_step(Work const& work, double most) {
   constexpr double left = 1e-3;
-  constexpr int most_questions = 40;
-  constexpr double least_bracket = 1e-10;  // of the share
+  constexpr int max_questions = 40;
+  constexpr double min_bracket = 1e-10;  // of the share
   double const whole = work(0.0);
   if (!(whole < 0.0)) return std::nullopt;
   double below = 0.0;
@@ -40,7 +40,7 @@ std::optional<double> share_without_work(Work const& work, double most) {
   }
   double share = above;
   double now = after;
-  for (int k = 0; k < most_questions && std::abs(now) > -left * whole && above - below > least_bracket * above; ++k) {
+  for (int k = 0; k < max_questions && std::abs(now) > -left * whole && above - below > min_bracket * above; ++k) {
     // The secant of the bracket, and now and then its middle, since the work bends sharply where points stick or open.
     share = k % 3 == 2 ? (below + above) / 2.0 : below + (above - below) * before / (before - after);
     now = work(share);
@@ -69,7 +69,7 @@ class StandingBalance {
   /// Begins the count of questions to the attachment, which are limited: a body that slides without friction, or on springs so
   /// stiff that round-off hides its imbalance, could be asked without end.
   void begin() { asked_ = 0; }
-  bool spent() const { return asked_ >= most_questions; }
+  bool spent() const { return asked_ >= max_questions; }
 
   /// Moves the entries beside the mesh of an increment [m]; loads [N]: on all degrees of freedom.
   /// The attachment's trial state then belongs to the increment.
@@ -80,7 +80,7 @@ class StandingBalance {
     double const enough = accuracy * loads_.norm();
     Eigen::VectorXd place = own_.gather(increment);
     Eigen::VectorXd unbalanced = at(place, increment);
-    for (int iteration = 0; iteration < most_iterations && !spent(); ++iteration) {
+    for (int iteration = 0; iteration < max_iterations && !spent(); ++iteration) {
       if (unbalanced.norm() <= better * enough) break;
       if (by_newton(place, unbalanced, increment)) continue;
       if (unbalanced.norm() <= enough || !by_work(place, unbalanced, increment)) break;
@@ -95,22 +95,22 @@ class StandingBalance {
     return dofs;
   }
 
-  static constexpr int most_iterations = 100;
-  static constexpr int most_questions = 3000;
+  static constexpr int max_iterations = 100;
+  static constexpr int max_questions = 3000;
   static constexpr double better = 1e-3;  ///< of the accuracy asked for, where Newton's method comes that far
-  static constexpr double least_share = 0.1;
+  static constexpr double min_share = 0.1;
   static constexpr double decrease = 0.1;  ///< of the imbalance, over the share of Newton's step
   // Over the length of the body:
   static constexpr double first_way = 1e-5;  ///< of a body that touches nothing
   static constexpr double longest_way = 1.0;
-  static constexpr double least_way = 1e-15;  ///< round-off of places some ten lengths from the origin
+  static constexpr double min_way = 1e-15;  ///< round-off of places some ten lengths from the origin
 
   bool by_newton(Eigen::VectorXd& place, Eigen::VectorXd& unbalanced, Eigen::VectorXd& increment) {
     auto const tangent = factors(problem_.attached_stiffness());
     if (!tangent.isInvertible()) return false;
     Eigen::VectorXd const direction = -tangent.solve(unbalanced);
-    if (direction.norm() < least_way * length_) return false;
-    for (double share = 1.0; share > least_share; share *= 0.5) {
+    if (direction.norm() < min_way * length_) return false;
+    for (double share = 1.0; share > min_share; share *= 0.5) {
       Eigen::VectorXd const there = place + share * direction;
       Eigen::VectorXd const left = at(there, increment);
       if (!(left.norm() < (1.0 - decrease * share) * unbalanced.norm())) continue;
@@ -127,12 +127,12 @@ class StandingBalance {
     Eigen::VectorXd const direction = held.isInvertible()
                                           ? Eigen::VectorXd(-held.solve(unbalanced))
                                           : Eigen::VectorXd(-first_way * length_ / unbalanced.norm() * unbalanced);
-    if (direction.norm() < least_way * length_) return false;
+    if (direction.norm() < min_way * length_) return false;
     double const start = unbalanced.dot(direction);
     auto const work = [&](double share) {
       return share == 0.0 ? start : at(place + share * direction, increment).dot(direction);
     };
-    auto const share = share_without_work(work, std::max(1.0, longest_way * length_ / direction.norm()));
+    auto const share = zero_power_step(work, std::max(1.0, longest_way * length_ / direction.norm()));
     if (share) place += *share * direction;
     unbalanced = at(place, increment);
     return share.has_value();

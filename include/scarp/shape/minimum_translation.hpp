@@ -9,22 +9,22 @@
 #include <numbers>
 #include <vector>
 
-#include "scarp/shape/support_touch.hpp"
+#include "scarp/shape/support_contact.hpp"
 
 namespace scarp {
 
 template <class Shape>
-concept TellsSupportOfOne = requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
+concept HasSupportOfOne = requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
   { Shape::support(pose, normal) } -> std::convertible_to<Support<double>>;
 };
 template <class Shape>
-concept TellsSupportOfPair = requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
+concept HasSupportOfPair = requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
   { Shape::supports(pose, pose, normal)[0] } -> std::convertible_to<Support<double>>;
 };
 
 /// A convex, centrally symmetric plane shape that tells its support function: for one grain, or for both of a pair.
 template <class Shape>
-concept TellsSupport = Shape::dim == 2 && (TellsSupportOfOne<Shape> || TellsSupportOfPair<Shape>);
+concept HasSupport = Shape::dim == 2 && (HasSupportOfOne<Shape> || HasSupportOfPair<Shape>);
 
 namespace detail {
 
@@ -57,7 +57,7 @@ struct DirectionArc {
   Point<2, double> split;  ///< where the bound is reached
 };
 
-template <TellsSupport Shape>
+template <HasSupport Shape>
 class LeastOverlap {
  public:
   LeastOverlap(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch)
@@ -111,8 +111,8 @@ class LeastOverlap {
       if (probes_.back().value < probes_[best_].value - small_gain()) best_ = probes_.size() - 1;
     }
     for (std::size_t k = 0; k < angles.size(); ++k) add_arc(k, (k + 1) % angles.size());
-    constexpr std::size_t most_probes = 500;
-    while (probes_.size() < most_probes) {
+    constexpr std::size_t max_probes = 500;
+    while (probes_.size() < max_probes) {
       auto const lowest =
           std::min_element(arcs_.begin(), arcs_.end(), [](auto const& a, auto const& b) { return a.bound < b.bound; });
       if (!(lowest->bound < probes_[best_].value - 1e-10 * probes_[best_].size())) return true;
@@ -133,7 +133,7 @@ class LeastOverlap {
 
   OverlapProbe probe(Point<2, double> const& n) const {
     OverlapProbe made{.normal = n, .first = {}, .second = {}, .value = 0.0, .slope = 0.0, .corner = {}};
-    if constexpr (TellsSupportOfPair<Shape>) {
+    if constexpr (HasSupportOfPair<Shape>) {
       auto const both = Shape::supports(first_, second_, n);
       made.first = both[0];
       made.second = both[1];
@@ -221,15 +221,15 @@ class LeastOverlap {
 
 /// The touch of least overlap among all directions, whatever the shapes' curvature: convex polygons within and around the
 /// sum of the two shapes are refined where they leave a better direction possible (the expanding polytope of van den
-/// Bergen, 2001, for support functions), then Newton's method within a bracket. Slow; `unsettled` where the least is not
+/// Bergen, 2001, for support functions), then Newton's method within a bracket. Slow; `normal_error` where the least is not
 /// certain to 1e-10 of the grains' size (grains about one centre) or not finite.
-template <TellsSupport Shape>
-ContactGeometry<2, double> least_overlap(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
-                                         Point<2, double> const& branch) {
+template <HasSupport Shape>
+ContactGeometry<2, double> minimum_translation(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
+                                               Point<2, double> const& branch) {
   detail::LeastOverlap<Shape> search(first, second, branch);
   bool const certain = search.search();
   auto touch = search.touch();
-  touch.unsettled = certain && std::isfinite(touch.overlap) ? 0.0 : std::numeric_limits<double>::infinity();
+  touch.normal_error = certain && std::isfinite(touch.overlap) ? 0.0 : std::numeric_limits<double>::infinity();
   return touch;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""[slow] Companions of a run: fault_rupture with --budget-companions estimates what the mesh and the load steps are worth, keeps that by
+"""[slow] Sensitivity runs of a run: fault_rupture with --sensitivity-runs estimates what the mesh and the load steps are worth, keeps that by
 scene, and a later run of the same scene tells it. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit
 77, without)."""
 import json
@@ -20,7 +20,7 @@ if not program.is_file():
 
 def run(folder, *options):
     done = subprocess.run([program.resolve(), "--quick=true", "--soil", "mohr_coulomb", *([] if "--length" in options else ["--length", "12"]), "--frames", "1",
-                           "--companions", "known.json", "--output", "out", "--overwrite", *options],
+                           "--sensitivity-file", "known.json", "--output", "out", "--overwrite", *options],
                           cwd=folder, capture_output=True, text=True)
     summary = pathlib.Path(folder, "out", "summary.json")
     return done, json.loads(summary.read_text()) if done.returncode == 0 else {}
@@ -28,29 +28,29 @@ def run(folder, *options):
 
 with tempfile.TemporaryDirectory() as scratch:
     done, summary = run(scratch)
-    expect(done.returncode == 0 and "--budget-companions" in done.stdout, "a run without companions says how to get them")
+    expect(done.returncode == 0 and "--sensitivity-runs" in done.stdout, "a run without sensitivity runs says how to get them")
     expect("mesh" not in summary["error_budget"]["parts"], "it claims nothing of the mesh")
 
-    done, summary = run(scratch, "--budget-companions")
-    expect(done.returncode == 0, f"companions end well: {done.stderr[-500:]}")
+    done, summary = run(scratch, "--sensitivity-runs")
+    expect(done.returncode == 0, f"sensitivity runs end well: {done.stderr[-500:]}")
     parts = summary["error_budget"]["parts"]
-    other = json.loads(pathlib.Path(scratch, "out", "companion_mesh", "summary.json").read_text())
-    recorded = json.loads(pathlib.Path(scratch, "out", "companion_mesh", "run.json").read_text())["options"]
-    expect(recorded["pattern"] == "right" and recorded["budget-companions"] == "false", f"it records its own options: {recorded}")
+    other = json.loads(pathlib.Path(scratch, "out", "sensitivity_mesh", "summary.json").read_text())
+    recorded = json.loads(pathlib.Path(scratch, "out", "sensitivity_mesh", "run.json").read_text())["options"]
+    expect(recorded["pattern"] == "right" and recorded["sensitivity-runs"] == "false", f"it records its own options: {recorded}")
     apart = abs(other["surface_x50"] - summary["surface_x50"]) / 25.0
     expect(apart > 1e-4 and abs(parts["mesh"]["value"] - apart) < 1e-12, f"the mesh's part is that of the other mesh: {parts['mesh']}")
-    finer = json.loads(pathlib.Path(scratch, "out", "companion_load_step", "summary.json").read_text())
-    expect(finer["steps"] >= 1.3 * summary["steps"], "load steps of the companion are smaller")
+    finer = json.loads(pathlib.Path(scratch, "out", "sensitivity_load_step", "summary.json").read_text())
+    expect(finer["steps"] >= 1.3 * summary["steps"], "load steps of the sensitivity run are smaller")
     expect(parts["load_step"]["value"] > 0.0, "and change the answer")
 
     def names(entry):
         return [line.split(" = ")[0] for line in entry["scene"].splitlines()]
 
     known = json.loads(pathlib.Path(scratch, "known.json").read_text())
-    shipped = json.loads((pathlib.Path(__file__).resolve().parents[2] / "examples/fault_rupture/companions.json").read_text())
+    shipped = json.loads((pathlib.Path(__file__).resolve().parents[2] / "examples/fault_rupture/sensitivity.json").read_text())
     expect(all(names(entry) == names(known[0]) for entry in shipped), "scenes of the file that comes with the program have the lines of today")
 
-    for line in ("tolerance = 1e-08", "largest-gradient = 0.02"):
+    for line in ("tolerance = 1e-08", "max-displacement-gradient = 0.02"):
         expect(line in known[0]["scene"].splitlines(), f"what the soil decides stands there as a number: {line}")
 
     # Known from now on, to the same scene, whatever is written on the way.

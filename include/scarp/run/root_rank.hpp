@@ -12,11 +12,12 @@
 namespace scarp {
 
 /// Calls visit(points, number) with points of which this one has its committed state. Where points are shared out among processes, this
-/// is for the first one, inside on_first_rank: it gets a copy of what another one has.
+/// is for the first one, inside on_root_rank: it gets a copy of what another one has.
 template <class Problem, class Visit>
 void visit_point(Problem const& problem, int point, Visit const& visit) {
   if constexpr (SharesPoints<std::remove_cvref_t<decltype(problem.executor())>>) {
-    if (!problem.executor().owns(point)) return visit(problem.points().alone(point, problem.executor().ask(point)), 0);
+    if (!problem.executor().owns(point))
+      return visit(problem.points().extract(point, problem.executor().fetch(point)), 0);
   }
   visit(problem.points(), point);
 }
@@ -31,7 +32,7 @@ VoigtStress<Problem::dim> committed_stress(Problem const& problem, int point) {
 
 /// Whether this process is the first, or the only one.
 template <ExecutesTasks Executor>
-bool is_first_rank(Executor const& executor) {
+bool is_root_rank(Executor const& executor) {
   if constexpr (SharesPoints<Executor>) {
     return executor.rank() == 0;
   } else {
@@ -40,9 +41,9 @@ bool is_first_rank(Executor const& executor) {
   }
 }
 
-/// What the first rank says.
+/// What the root rank says.
 template <ExecutesTasks Executor>
-bool agreed(Executor const& executor, bool said) {
+bool broadcast_flag(Executor const& executor, bool said) {
   if constexpr (SharesPoints<Executor>) {
     return executor.agree(said);
   } else {
@@ -51,10 +52,10 @@ bool agreed(Executor const& executor, bool said) {
   }
 }
 
-/// Runs a task on the first rank only, which may look at the points of all ranks by visit_point; the others answer meanwhile.
+/// Runs a task on the root rank only, which may look at the points of all ranks by visit_point; the others answer meanwhile.
 /// What one of them throws ends all.
 template <class Problem, class Task>
-void on_first_rank(Problem const& problem, Task const& task) {
+void on_root_rank(Problem const& problem, Task const& task) {
   auto const& executor = problem.executor();
   using Executor = std::remove_cvref_t<decltype(executor)>;
   if constexpr (SharesPoints<Executor>) {
@@ -64,32 +65,32 @@ void on_first_rank(Problem const& problem, Task const& task) {
   }
 }
 
-/// Observers that live on the first rank; all ranks stop when they want to.
+/// Observers that live on the root rank; all ranks stop when they want to.
 template <class Executor, class Observers>
-class OnFirstRank {
+class OnRootRank {
  public:
-  /// make(): the observers, called on the first rank only
+  /// make(): the observers, called on the root rank only
   template <std::invocable Make>
-  OnFirstRank(Executor const& executor, Make const& make) : executor_(executor) {
+  OnRootRank(Executor const& executor, Make const& make) : executor_(executor) {
     together(executor, [&] {
-      if (is_first_rank(executor)) observers_.emplace(make());
+      if (is_root_rank(executor)) observers_.emplace(make());
     });
   }
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
-    on_first_rank(problem, [&] { observers_->attempted(problem, report); });
+    on_root_rank(problem, [&] { observers_->attempted(problem, report); });
   }
 
   template <class Problem>
   void ended(Problem const& problem, double load) {
-    on_first_rank(problem, [&] { observers_->ended(problem, load); });
+    on_root_rank(problem, [&] { observers_->ended(problem, load); });
   }
 
   bool wants_stop() const {
     bool said = false;
     together(executor_, [&] { said = observers_ && observers_->wants_stop(); });
-    return agreed(executor_, said);
+    return broadcast_flag(executor_, said);
   }
 
   /// Of the observers; nothing on other ranks.
@@ -104,6 +105,6 @@ class OnFirstRank {
 };
 
 template <class Executor, class Make>
-OnFirstRank(Executor const&, Make const&) -> OnFirstRank<Executor, std::invoke_result_t<Make>>;
+OnRootRank(Executor const&, Make const&) -> OnRootRank<Executor, std::invoke_result_t<Make>>;
 
 }  // namespace scarp

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scarp/core/random.hpp"
-#include "scarp/shape/settled_touch.hpp"
+#include "scarp/shape/converged_contact.hpp"
 
 namespace samples {
 
@@ -85,10 +85,10 @@ double worst_touch(scarp::SizeOf<Shape> const& size, int pairs, std::uint64_t se
                                     random.uniform(-0.3, 0.1) * (largest - Shape::eccentricity(size) / 2.0));
     double const angle = random.uniform(0.0, 2.0 * std::numbers::pi);
     auto const touch =
-        scarp::settled_touch<Shape>(pair.first, pair.second, pair.branch, {std::cos(angle), std::sin(angle)});
+        scarp::converged_contact<Shape>(pair.first, pair.second, pair.branch, {std::cos(angle), std::sin(angle)});
     double const exact = searched_overlap<Shape>(pair.first, pair.second, pair.branch);
     worst = std::max(worst, std::abs(touch.overlap - exact) / largest);
-    if (touch.unsettled > 0.0) worst = 1.0;
+    if (touch.normal_error > 0.0) worst = 1.0;
   }
   return worst;
 }

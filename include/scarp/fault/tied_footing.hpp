@@ -8,12 +8,12 @@
 #include "scarp/fault/fault_scene.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
-#include "scarp/run/first_rank.hpp"
+#include "scarp/run/root_rank.hpp"
 
 namespace scarp {
 
 /// A strip footing as an elastic block that shares the ground's nodes: neither slip nor gap, tension passes. The study's way.
-struct StickingFooting {
+struct TiedFooting {
   StripFooting footing{};
   double height = 1.0;                                               ///< [m]
   LinearElastic<2> block = LinearElastic<2>::from_lame(20e9, 12e9);  ///< the study's

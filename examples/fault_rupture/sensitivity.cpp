@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "companions.hpp"
+#include "sensitivity.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Triangles with the other diagonals, rectangles of another aspect.
-Companion turned_mesh(Choice choice) {
+SensitivityRun turned_mesh(Choice choice) {
   double factor = 1.0;  // of the cells' width, for as many elements
   scarp::RunRecord::Lines options;
   if (is_triangle) {
@@ -41,7 +41,7 @@ Companion turned_mesh(Choice choice) {
     options.emplace_back("length", fmt::format("{}", choice.length));
     options.emplace_back("size", fmt::format("{}", choice.size));
     options.emplace_back("strip-width", fmt::format("{}", choice.strip_width));
-  } else if (choice.triangles == 0) {
+  } else if (choice.elements == 0) {
     auto const size = fmt::format("{:.3g}", factor * choice.size);
     choice.size = std::stod(size);  // as it would be given
     options.emplace_back("size", size);
@@ -49,20 +49,20 @@ Companion turned_mesh(Choice choice) {
   return {"mesh", std::move(options), std::move(choice)};
 }
 
-/// All that a file holds: scenes with the answers of their companions.
+/// All that a file holds: scenes with the answers of their sensitivity runs.
 Json content(std::filesystem::path const& path) {
   if (!std::filesystem::exists(path)) return Json::array();
   auto const found = Json::parse(scarp::read_file(path), nullptr, false);
   bool sound = found.is_array();
   for (auto const& entry : found) {
-    sound = sound && entry.is_object() && entry.contains("companions") && entry["companions"].is_object();
+    sound = sound && entry.is_object() && entry.contains("runs") && entry["runs"].is_object();
     if (!sound) break;
-    for (auto const& [part, answer] : entry["companions"].items())
+    for (auto const& [part, answer] : entry["runs"].items())
       sound = sound && answer.is_object() && answer.contains("surface_x50") && answer["surface_x50"].is_number();
   }
   if (!sound)
-    scarp::refuse("'{}' holds no answers of companions (a list of scenes is expected): give another file",
-                  path.string());
+    scarp::throw_input_error(
+        "'{}' holds no results of sensitivity runs (a list of scenes is expected): give another file", path.string());
   return found;
 }
 
@@ -75,74 +75,73 @@ auto* entry_of(Entries& entries, std::string const& scene) {
 
 }  // namespace
 
-std::string command_options(Companion const& companion) {
+std::string command_options(SensitivityRun const& run) {
   std::string text;
-  for (auto const& [name, value] : companion.options)
-    text += fmt::format("{}--{} {}", text.empty() ? "" : " ", name, value);
+  for (auto const& [name, value] : run.options) text += fmt::format("{}--{} {}", text.empty() ? "" : " ", name, value);
   return text;
 }
 
-std::vector<Companion> companions_of(Choice const& choice, double largest_gradient) {
-  std::vector<Companion> companions;
-  if (choice.mesh.empty()) companions.push_back(turned_mesh(choice));
-  Companion steps{"load_step", {}, choice};
-  steps.choice.largest_gradient = largest_gradient;
-  companions.push_back(with_smaller_steps(std::move(steps)));
-  return companions;
+std::vector<SensitivityRun> sensitivity_runs_of(Choice const& choice, double max_displacement_gradient) {
+  std::vector<SensitivityRun> runs;
+  if (choice.mesh.empty()) runs.push_back(turned_mesh(choice));
+  SensitivityRun steps{"load_step", {}, choice};
+  steps.choice.max_displacement_gradient = max_displacement_gradient;
+  runs.push_back(with_smaller_steps(std::move(steps)));
+  return runs;
 }
 
-Companion with_smaller_steps(Companion companion) {
-  double const gradient = *companion.choice.largest_gradient / 2.0;
-  companion.choice.largest_gradient = gradient;
-  companion.options = {{"largest-gradient", fmt::format("{:g}", gradient)}};
-  return companion;
+SensitivityRun with_smaller_steps(SensitivityRun run) {
+  double const gradient = *run.choice.max_displacement_gradient / 2.0;
+  run.choice.max_displacement_gradient = gradient;
+  run.options = {{"max-displacement-gradient", fmt::format("{:g}", gradient)}};
+  return run;
 }
 
-CompanionFile::CompanionFile(std::filesystem::path path, std::string scene)
+SensitivityFile::SensitivityFile(std::filesystem::path path, std::string scene)
     : path_(std::move(path)), scene_(std::move(scene)) {
   auto const all = content(path_);
   auto const* const entry = entry_of(all, scene_);
   if (entry == nullptr) return;
-  for (auto const& [part, answer] : (*entry)["companions"].items()) {
+  for (auto const& [part, answer] : (*entry)["runs"].items()) {
     answers_[part] = {answer.value("surface_x50", std::nan("")), answer.value("options", ""),
                       answer.value("command", ""), answer.value("date", ""), answer.value("commit", "")};
   }
 }
 
-void CompanionFile::add(std::string const& part, CompanionAnswer answer) {
+void SensitivityFile::add(std::string const& part, SensitivityResult answer) {
   auto all = content(path_);
   auto* entry = entry_of(all, scene_);
   if (entry == nullptr) {
-    all.push_back({{"scene", scene_}, {"companions", Json::object()}});
+    all.push_back({{"scene", scene_}, {"runs", Json::object()}});
     entry = &all.back();
   }
-  (*entry)["companions"][part] = {{"surface_x50", answer.surface_x50},
-                                  {"options", answer.options},
-                                  {"command", answer.command},
-                                  {"date", answer.date},
-                                  {"commit", answer.commit}};
+  (*entry)["runs"][part] = {{"surface_x50", answer.surface_x50},
+                            {"options", answer.options},
+                            {"command", answer.command},
+                            {"date", answer.date},
+                            {"commit", answer.commit}};
   examples::write_json(path_, all);
   answers_[part] = std::move(answer);
 }
 
-std::filesystem::path usual_companion_file() { return FAULT_RUPTURE_COMPANIONS; }
+std::filesystem::path default_sensitivity_file() { return FAULT_RUPTURE_SENSITIVITY; }
 
-scarp::BudgetParts companion_parts(CompanionAnswers const& answers, double surface_x50, double depth,
-                                   scarp::ErrorBounds const& bounds) {
+scarp::BudgetParts sensitivity_parts(SensitivityResults const& answers, double surface_x50, double depth,
+                                     scarp::ErrorBounds const& bounds) {
   scarp::BudgetParts parts;
   auto const add = [&](char const* name, double bound, char const* meaning) {
     auto const found = answers.find(name);
     if (found != answers.end())
-      parts.push_back(scarp::companion_part(name, surface_x50, found->second.surface_x50, depth, bound, meaning));
+      parts.push_back(scarp::sensitivity_part(name, surface_x50, found->second.surface_x50, depth, bound, meaning));
   };
   add("mesh", bounds.mesh, "surface_x50 on a mesh of other directions, over the depth of the ground");
   add("load_step", bounds.load_step, "surface_x50 with smaller load steps, over the depth of the ground");
   return parts;
 }
 
-std::string companion_lines(CompanionAnswers const& answers) {
+std::string sensitivity_lines(SensitivityResults const& answers) {
   if (answers.empty())
-    return "What the mesh and the load steps are worth is not known: --budget-companions runs the scene once more for "
+    return "What the mesh and the load steps are worth is not known: --sensitivity-runs runs the scene once more for "
            "each\n";
   std::string text;
   for (auto const& [part, answer] : answers) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/shape/settled_touch.hpp"
+#include "scarp/shape/converged_contact.hpp"
 
 #include <doctest/doctest.h>
 
-#include "least_overlap_by_search.hpp"
+#include "minimum_translation_by_search.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/shape/disc.hpp"
@@ -19,18 +19,18 @@ using scarp::Superellipse;
 /// A user's shape: an oval of the support function h = r (1 + eps cos 2 (phi - theta)).
 struct Oval {
   static constexpr int dim = 2, size_count = 2, orientation_count = 2, pose_count = 3;
-  static constexpr bool remembers_normal = true;
+  static constexpr bool warm_starts_normal = true;
   using Size = std::array<double, 2>;
   static double content(Size const& s) { return std::numbers::pi * s[0] * s[0] * (1.0 - 1.5 * s[1] * s[1]); }
   static double gyration_squared(Size const& s) { return s[0] * s[0] / 2.0; }
   static double bounding_radius(Size const& s) { return s[0] * (1.0 + s[1]); }
   static double eccentricity(Size const& s) { return 2.0 * s[0] * s[1]; }
-  static double least_curvature_radius(Size const& s) { return s[0] * (1.0 - 3.0 * s[1]); }
+  static double min_curvature_radius(Size const& s) { return s[0] * (1.0 - 3.0 * s[1]); }
   template <class T>
   static std::array<T, 3> pose(std::array<T, 2> const& size, std::array<T, 2> const& axis) {
     T const excess = size[0] * size[1];
     return {size[0], excess * (axis[0] * axis[0] - axis[1] * axis[1]),
-            excess * scarp::constant<T>(2) * axis[0] * axis[1]};
+            excess * scarp::broadcast<T>(2) * axis[0] * axis[1]};
   }
   template <class T>
   static T contact_radius(std::array<T, 3> const& pose) {
@@ -39,10 +39,10 @@ struct Oval {
   template <class T>
   static scarp::Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& n) {
     T const cosine = n[0] * n[0] - n[1] * n[1];
-    T const sine = scarp::constant<T>(2) * n[0] * n[1];
+    T const sine = scarp::broadcast<T>(2) * n[0] * n[1];
     T const part = pose[1] * cosine + pose[2] * sine;
-    return {pose[0] + part, scarp::constant<T>(2) * (pose[2] * cosine - pose[1] * sine),
-            pose[0] - scarp::constant<T>(3) * part};
+    return {pose[0] + part, scarp::broadcast<T>(2) * (pose[2] * cosine - pose[1] * sine),
+            pose[0] - scarp::broadcast<T>(3) * part};
   }
   template <class T>
   static std::array<scarp::Support<T>, 2> supports(std::array<T, 3> const& first, std::array<T, 3> const& second,
@@ -52,16 +52,16 @@ struct Oval {
   template <class T>
   static scarp::ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
                                             Point<2, T> const& branch, Point<2, T> const& normal) {
-    return scarp::support_touch<Oval>(first, second, branch, normal);
+    return scarp::support_contact<Oval>(first, second, branch, normal);
   }
 };
-static_assert(scarp::TellsSupport<Oval> && scarp::TellsSupport<Ellipse> && scarp::TellsSupport<Superellipse>);
-static_assert(!scarp::TellsSupport<scarp::Disc>, "a disc has no search for its normal");
-static_assert(scarp::TellsInnerRadius<Ellipse> && !scarp::TellsInnerRadius<Superellipse>);
+static_assert(scarp::HasSupport<Oval> && scarp::HasSupport<Ellipse> && scarp::HasSupport<Superellipse>);
+static_assert(!scarp::HasSupport<scarp::Disc>, "a disc has no search for its normal");
+static_assert(scarp::HasInnerRadius<Ellipse> && !scarp::HasInnerRadius<Superellipse>);
 
 /// Turns the normal on and on, and tells nobody its support.
 struct NeverSettles : scarp::Disc {
-  static constexpr bool remembers_normal = true;
+  static constexpr bool warm_starts_normal = true;
   template <class T>
   static scarp::ContactGeometry<2, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
                                             Point<2, T> const& branch, Point<2, T> const& normal) {
@@ -70,14 +70,14 @@ struct NeverSettles : scarp::Disc {
     return touch;
   }
 };
-static_assert(!scarp::TellsSupport<NeverSettles>);
+static_assert(!scarp::HasSupport<NeverSettles>);
 
 /// Largest error of the overlap, over the size, of pairs that move as in a packing: from the last normal to the next, `pace`
-/// of the size in a step, searched anew where the touch says that it is unsettled.
+/// of the size in a step, searched anew where the touch says that it is normal_error.
 template <class Shape>
 double worst_followed(scarp::SizeOf<Shape> const& size, double pace, std::uint64_t seed) {
   using Grains = scarp::Population<Shape>;
-  double const settled = Grains({size}, 2650.0, 1.0).settled_angle();
+  double const settled = Grains({size}, 2650.0, 1.0).largest_normal_change();
   double const largest = Shape::bounding_radius(size);
   scarp::Random random(seed);
   double worst = 0.0;
@@ -85,17 +85,18 @@ double worst_followed(scarp::SizeOf<Shape> const& size, double pace, std::uint64
     samples::PairAtOverlap<Shape> at(random, size, -0.02 * largest);
     std::array<double, 2> angle{random.uniform(0.0, 6.28), random.uniform(0.0, 6.28)};
     std::array<double, 2> const spin{pace * random.uniform(-1.0, 1.0), pace * random.uniform(-1.0, 1.0)};
-    double const course = random.uniform(0.0, 6.28);
+    double const amplitude = random.uniform(0.0, 6.28);
     auto const pose = [&](std::size_t k) {
       return Shape::pose(size, std::array<double, 2>{std::cos(angle[k]), std::sin(angle[k])});
     };
-    auto normal = scarp::settled_touch<Shape>(pose(0), pose(1), at.branch, at.branch).normal;
+    auto normal = scarp::converged_contact<Shape>(pose(0), pose(1), at.branch, at.branch).normal;
     for (int step = 0; step < 200; ++step) {
       for (std::size_t k = 0; k < 2; ++k) angle[k] += spin[k];
-      at.branch[0] += 0.3 * pace * largest * std::cos(course);
-      at.branch[1] += 0.3 * pace * largest * std::sin(course);
+      at.branch[0] += 0.3 * pace * largest * std::cos(amplitude);
+      at.branch[1] += 0.3 * pace * largest * std::sin(amplitude);
       auto touch = Shape::touch(pose(0), pose(1), at.branch, normal);
-      if (touch.unsettled > settled) touch = scarp::settled_touch<Shape>(pose(0), pose(1), at.branch, touch.normal);
+      if (touch.normal_error > settled)
+        touch = scarp::converged_contact<Shape>(pose(0), pose(1), at.branch, touch.normal);
       normal = touch.normal;
       if (step % 20 > 0) continue;
       double const exact = samples::searched_overlap<Shape>(pose(0), pose(1), at.branch, 1000);
@@ -144,24 +145,24 @@ TEST_CASE("pairs that move keep their least overlap from step to step, slowly an
   for (double const exponent : {0.2, 1.8}) CHECK(worst_followed<Superellipse>({1.0, 0.5, exponent}, 1e-3, 45) < 1e-10);
 }
 
-TEST_CASE("grains about one centre are unsettled, not answered with any normal") {
+TEST_CASE("grains about one centre are normal_error, not answered with any normal") {
   auto const pose = Ellipse::pose<double>({1.0, 1.0}, {1.0, 0.0});
-  CHECK(scarp::settled_touch<Ellipse>(pose, pose, {0.0, 0.0}, {1.0, 0.0}).unsettled > 1.0);
+  CHECK(scarp::converged_contact<Ellipse>(pose, pose, {0.0, 0.0}, {1.0, 0.0}).normal_error > 1.0);
   // Of different axes the least translation is certain: both minor axes, across.
   auto const flat = Ellipse::pose<double>({1.0, 0.5}, {1.0, 0.0});
-  auto const touch = scarp::settled_touch<Ellipse>(flat, flat, {0.0, 0.0}, {1.0, 0.0});
-  CHECK(touch.unsettled == 0.0);
+  auto const touch = scarp::converged_contact<Ellipse>(flat, flat, {0.0, 0.0}, {1.0, 0.0});
+  CHECK(touch.normal_error == 0.0);
   CHECK(std::abs(touch.overlap - 1.0) < 1e-12);
 }
 
 TEST_CASE("a start that is no unit vector does not count as the end of a search") {
   auto const pose = Ellipse::pose<double>({1.0, 0.5}, {0.8, 0.6});
   Point<2, double> const branch{1.2, 0.7};
-  auto const settled = scarp::settled_touch<Ellipse>(pose, pose, branch, {0.8, 0.6});
-  REQUIRE(settled.unsettled == 0.0);
+  auto const settled = scarp::converged_contact<Ellipse>(pose, pose, branch, {0.8, 0.6});
+  REQUIRE(settled.normal_error == 0.0);
   for (double const length : {0.0, 1.0 - 1e-7, 1.0 + 1e-12, 1.3}) {
     auto const touch =
-        scarp::settled_touch<Ellipse>(pose, pose, branch, {length * settled.normal[0], length * settled.normal[1]});
+        scarp::converged_contact<Ellipse>(pose, pose, branch, {length * settled.normal[0], length * settled.normal[1]});
     CHECK(std::abs(touch.overlap - settled.overlap) < 1e-14);
     for (std::size_t a = 0; a < 2; ++a) CHECK(std::abs(touch.normal[a] - settled.normal[a]) < 1e-10);
   }
@@ -169,8 +170,8 @@ TEST_CASE("a start that is no unit vector does not count as the end of a search"
 
 TEST_CASE("a position that is no number has no touch") {
   auto const pose = Ellipse::pose<double>({1.0, 0.5}, {1.0, 0.0});
-  auto const touch = scarp::settled_touch<Ellipse>(pose, pose, {std::nan(""), 0.0}, {1.0, 0.0});
-  CHECK(touch.unsettled > 0.0);
+  auto const touch = scarp::converged_contact<Ellipse>(pose, pose, {std::nan(""), 0.0}, {1.0, 0.0});
+  CHECK(touch.normal_error > 0.0);
 }
 
 TEST_CASE("a shape whose search does not end fails the step, by name") {
@@ -186,7 +187,7 @@ TEST_CASE("a shape whose search does not end fails the step, by name") {
   scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.5};
   scarp::TimeStepper<Grains> stepper;
   auto const verdict = stepper.step(packing, law, scarp::Tensor<2>::Zero());
-  CHECK(verdict == scarp::Verdict{scarp::Status::failed, scarp::Reason::unsettled_touch});
+  CHECK(verdict == scarp::Verdict{scarp::Status::failed, scarp::Reason::unconverged_normal});
 }
 
 TEST_CASE("a pair that one step cannot follow is searched anew within the step") {
@@ -220,9 +221,9 @@ TEST_CASE("the slow way tells the contact point that the quick one does") {
   auto const first = Ellipse::pose<double>(small, {0.8, 0.6});
   auto const second = Ellipse::pose<double>(large, {-0.6, 0.8});
   Point<2, double> const branch{1.1, 1.2};
-  auto const quick = scarp::settled_touch<Ellipse>(first, second, branch, {0.7, 0.714});
-  auto const slow = scarp::least_overlap<Ellipse>(first, second, branch);
-  REQUIRE(quick.unsettled == 0.0);
+  auto const quick = scarp::converged_contact<Ellipse>(first, second, branch, {0.7, 0.714});
+  auto const slow = scarp::minimum_translation<Ellipse>(first, second, branch);
+  REQUIRE(quick.normal_error == 0.0);
   for (std::size_t a = 0; a < 2; ++a) {
     CHECK(std::abs(slow.normal[a] - quick.normal[a]) < 1e-10);
     CHECK(std::abs(slow.arm_first[a] - quick.arm_first[a]) < 1e-10);

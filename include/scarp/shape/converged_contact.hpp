@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scarp/shape/least_overlap.hpp"
+#include "scarp/shape/minimum_translation.hpp"
 
 namespace scarp {
 
@@ -22,17 +22,17 @@ bool stands_still(ContactGeometry<Dim, double> const& touch, Point<Dim, double> 
   }
   double const length_error = std::abs(excess);
   return (change < 1e-28 && length_error < 1e-8) ||
-         (touch.unsettled > 0.0 && touch.unsettled < 1e-8 && length_error < 1e-15);
+         (touch.normal_error > 0.0 && touch.normal_error < 1e-8 && length_error < 1e-15);
 }
 
 /// Whether a normal at which the overlap is stationary is that of the least overlap. A gap is: a line parts the grains
 /// there. An overlap less deep than a disc that rolls inside the sum of the shapes is too, since the disc touches the
 /// boundary in no nearer point. Otherwise the other directions are looked at.
-template <TellsSupport Shape>
+template <HasSupport Shape>
 bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch,
                         ContactGeometry<2, double> const& touch) {
   if (touch.overlap <= 0.0) return true;
-  if constexpr (TellsInnerRadius<Shape>) {
+  if constexpr (HasInnerRadius<Shape>) {
     if (touch.overlap < Shape::inner_radius(first) + Shape::inner_radius(second)) return true;
   }
   return LeastOverlap<Shape>(first, second, branch).is_least_along(touch.normal);
@@ -41,25 +41,25 @@ bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
 }  // namespace detail
 
 /// Touch of a pair with the normal iterated until it stands still. Where it does not, or where another direction might have
-/// less overlap, shapes that tell their support function take the slow certain way, `least_overlap`; of others a touch that
-/// does not stand still is `unsettled`.
+/// less overlap, shapes that tell their support function take the slow certain way, `minimum_translation`; of others a touch that
+/// does not stand still is `normal_error`.
 template <class Shape>
-ContactGeometry<Shape::dim, double> settled_touch(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
-                                                  Point<Shape::dim, double> const& branch,
-                                                  Point<Shape::dim, double> const& start) {
+ContactGeometry<Shape::dim, double> converged_contact(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
+                                                      Point<Shape::dim, double> const& branch,
+                                                      Point<Shape::dim, double> const& start) {
   auto touch = Shape::touch(first, second, branch, start);
-  if constexpr (Shape::remembers_normal) {
-    constexpr int most_iterations = 30;  // quadratic convergence: a handful is usual
+  if constexpr (Shape::warm_starts_normal) {
+    constexpr int max_iterations = 30;  // quadratic convergence: a handful is usual
     bool stands = detail::stands_still<Shape::dim>(touch, start);
-    for (int k = 0; k < most_iterations && !stands; ++k) {
+    for (int k = 0; k < max_iterations && !stands; ++k) {
       auto const before = touch.normal;
       touch = Shape::touch(first, second, branch, before);
       stands = detail::stands_still<Shape::dim>(touch, before);
     }
-    touch.unsettled = stands ? 0.0 : std::numeric_limits<double>::infinity();
-    if constexpr (TellsSupport<Shape>) {
+    touch.normal_error = stands ? 0.0 : std::numeric_limits<double>::infinity();
+    if constexpr (HasSupport<Shape>) {
       if (!stands || !detail::is_certainly_least<Shape>(first, second, branch, touch))
-        return least_overlap<Shape>(first, second, branch);
+        return minimum_translation<Shape>(first, second, branch);
     }
   }
   return touch;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "../shared/run_options.hpp"
+#include "../shared/tell.hpp"
+#include "run_scene.hpp"
+#include "scarp/io/read_file.hpp"
+#include "scarp/io/time_stamp.hpp"
+#include "sensitivity.hpp"
+
+namespace fault_rupture {
+
+/// Runs the sensitivity runs of a scene's run.
+struct SensitivityRuns {
+  CLI::App const& app;
+  std::filesystem::path folder;  ///< of the scene's run
+  std::chrono::steady_clock::time_point started;
+  std::string commit{examples::commit()};
+
+  /// Runs those that the file does not know yet of this commit, each in a folder of its own. One that fails is left out, and said.
+  /// steps: of the scene's run
+  void complete(std::vector<SensitivityRun> const& runs, int steps, SensitivityFile& file) const {
+    auto const known = file.answers();
+    for (auto const& run : runs) {
+      auto const before = known.find(run.part);
+      if (before != known.end() && before->second.commit == commit) continue;
+      if (scarp::StopSignal::wants_stop()) return;
+      try {
+        ask(run, steps, file);
+      } catch (std::exception const& problem) {
+        examples::say(stderr, "warning: the sensitivity run for {} has failed, so that this part is not known: {}\n",
+                      run.part, problem.what());
+      }
+    }
+  }
+
+ private:
+  void ask(SensitivityRun run, int steps, SensitivityFile& file) const {
+    auto summary = answer_of(run);
+    // Where other things limit the load steps, a limit of their gradient has to be much smaller to say anything.
+    constexpr int max_halvings = 6;
+    auto const as_large = [&] { return run.part == "load_step" && summary["steps"].get<int>() < 1.3 * steps; };
+    for (int k = 0; k < max_halvings && as_large(); ++k) {
+      run = with_smaller_steps(std::move(run));
+      summary = answer_of(run);
+    }
+    if (as_large())
+      scarp::throw_input_error(
+          "its load steps are limited by something else (smaller ones were not to be had): say a smaller "
+          "--max-displacement-gradient");
+    file.add(run.part, {summary["surface_x50"].get<double>(), command_options(run),
+                        "examples/run fault_rupture --sensitivity-runs", scarp::time_stamp().substr(0, 10), commit});
+  }
+
+  /// \return its summary \throws scarp::InputError where it has stopped early
+  nlohmann::json answer_of(SensitivityRun const& run) const {
+    examples::say(stderr, "sensitivity run for {}: {}\n", run.part, command_options(run));
+    scarp::CheckpointFiles nowhere;
+    auto const own = folder / fmt::format("sensitivity_{}", run.part);
+    scarp::RunFolder writes({.folder = own, .overwrite = true}, record_of(run, own));
+    auto const scene = make_scene(run.choice, 1, true);
+    Start const start{nowhere, &writes, started};
+    int const code = std::visit([&](auto const& one) { return run(run.choice, one, start); }, scene);
+    if (code != 0) scarp::throw_input_error("it has stopped early: see {}", (own / "summary.txt").string());
+    return nlohmann::json::parse(scarp::read_file(own / "summary.json"));
+  }
+
+  /// With the options that would run it alone.
+  scarp::RunRecord record_of(SensitivityRun const& run, std::filesystem::path const& own) const {
+    auto record = examples::record_of("fault_rupture, sensitivity run for " + run.part, app);
+    std::map<std::string, std::string> others(run.options.begin(), run.options.end());
+    others.insert({{"sensitivity-runs", "false"}, {"output", own.string()}});
+    for (auto& [name, value] : record.options) {
+      if (auto const other = others.find(name); other != others.end()) value = other->second;
+    }
+    return record;
+  }
+};
+
+}  // namespace fault_rupture

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tell.hpp"
+
+namespace examples {
+
+/// Names before version 0.2, which accepts them with a warning; version 0.3 will not.
+struct RenamedOption {
+  std::string_view before;
+  std::string_view now;
+};
+inline constexpr RenamedOption renamed_options[] = {
+    {"triangles", "elements"},
+    {"preload", "overconsolidation-ratio"},
+    {"peak-friction", "peak-friction-angle"},
+    {"peak-dilation", "peak-dilation-angle"},
+    {"residual-friction", "residual-friction-angle"},
+    {"strain-to-residual", "softening-strain"},
+    {"largest-gradient", "max-displacement-gradient"},
+    {"most-iterations", "max-iterations"},
+    {"strain-per-step", "strain-per-dem-step"},
+    {"least-dem-steps", "min-dem-steps"},
+    {"unbalanced", "unbalanced-tolerance"},
+    {"budget-companions", "sensitivity-runs"},
+    {"companions", "sensitivity-file"},
+    {"gate", "max-error"},
+    {"cut-gate", "max-cut-error"},
+    {"slide-gate", "max-slide-error"},
+    {"cylinder-gate", "max-cylinder-error"},
+    {"opening-gate", "max-opening-error"},
+    {"halvings", "max-halvings"},
+};
+
+/// The name that an option of this program has now.
+inline std::string present_name(CLI::App const& app, std::string const& name) {
+  auto const* const found = std::ranges::find(renamed_options, std::string_view(name), &RenamedOption::before);
+  if (found == std::end(renamed_options)) return name;
+  std::string const now(found->now);
+  if (app.get_option_no_throw("--" + name) != nullptr || app.get_option_no_throw("--" + now) == nullptr) return name;
+  say(stderr, "warning: --{} is now --{} (the old name ends with version 0.3): use the new name\n", name, now);
+  return now;
+}
+
+/// The value that an option takes now in the place of one from before.
+inline std::string present_value(std::string_view option, std::string value) {
+  if (option != "footing" || value != "sticking") return value;
+  say(stderr,
+      "warning: --footing sticking is now --footing tied (the old value ends with version 0.3): use the new one\n");
+  return "tied";
+}
+
+/// Reads the command line, also with options by their names from before. \throws CLI::ParseError
+inline void parse(CLI::App& app, int argc, char** argv) {
+  app.name(argv[0]);
+  std::vector<std::string> words(argv + 1, argv + argc);
+  std::string last;  // option whose value may follow
+  for (auto& word : words) {
+    if (!word.starts_with("--")) {
+      word = present_value(std::exchange(last, {}), std::move(word));
+      continue;
+    }
+    auto const end = std::min(word.find('='), word.size());
+    last = present_name(app, word.substr(2, end - 2));
+    word = "--" + last + (end < word.size() ? "=" + present_value(last, word.substr(end + 1)) : "");
+  }
+  std::ranges::reverse(words);
+  app.parse(std::move(words));
+}
+
+}  // namespace examples
