@@ -13,16 +13,16 @@ namespace scarp {
 /// A packing in the mirror that turns one axis round, x -> -x if none is named, with all that its contacts remember. It answers a
 /// mirrored strain with the mirrored stress, bit by bit until lists of pairs are made anew, whose order is another, or a grain that
 /// stood still is met, whose +0 damping takes for forwards. Where a packing is stiffer by accident to one side, its image is to the
-/// other. axis: 0 to dim - 1. For spheres, and for plane shapes that are symmetric about the axis of their orientation and the one across, as ellipses are.
+/// other. axis: 0 to dim - 1. For spheres, and for plane shapes that are symmetric about the axis of their orientation and the one across, as ellipses are;
+/// the image of a clump is another clump.
 template <class PackingType>
+  requires((PackingType::dim == 2 || PackingType::Shape::orientation_count == 0) &&
+           part_count<typename PackingType::Shape>() == 1)
 PackingType mirrored(PackingType packing, int axis = 0) {
   using Shape = typename PackingType::Shape;
   using Law = typename PackingType::Law;
   constexpr int dim = PackingType::dim;
   assert(0 <= axis && axis < dim);
-  static_assert((dim == 2 || Shape::orientation_count == 0) && part_count<Shape>() == 1,
-                "scarp: only spheres and packings in the plane whose grains have one part can be mirrored: a clump's "
-                "image is another clump");
   auto const turn = [](auto& columns, int column, std::size_t rows) {
     for (std::size_t row = 0; row < rows; ++row) columns(row, column) = -columns(row, column);
   };

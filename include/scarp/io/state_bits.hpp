@@ -123,11 +123,15 @@ class StateWriter {
   std::map<void const*, std::uint32_t> numbers_;
 };
 
+/// Shared parts that readers have met, so that what several bits share is shared again by the states made from them.
+using SharedParts = std::map<std::pair<std::type_index, std::string>, std::weak_ptr<void const>>;
+
 /// Takes members off bits in the order of the writer.
 /// \throws InputError naming the member where the bits end too early, are another member's or have another length
 class StateReader {
  public:
-  explicit StateReader(std::string_view bits) : rest_(bits) {}
+  /// known: parts that are taken in the place of equal ones, and where new ones are added
+  explicit StateReader(std::string_view bits, SharedParts* known = nullptr) : rest_(bits), known_(known) {}
 
   bool at_end() const { return rest_.empty(); }
 
@@ -202,7 +206,9 @@ class StateReader {
     if (number == detail::no_number) return;
     if (number == shared_.size()) {
       shared_.emplace_back(typeid(T), nullptr);  // its parts have higher numbers, as they had for the writer
+      std::string_view const from = rest_;
       shared_[number].second = T::restored(*this);
+      if (known_) intern(shared_[number], from.substr(0, from.size() - rest_.size()));
     }
     if (number >= shared_.size() || shared_[number].first != typeid(T) || !shared_[number].second) {
       throw_input_error("'{}' is number {} of the shared parts (there is none of this kind): save it again", name,
@@ -264,7 +270,14 @@ class StateReader {
     return static_cast<std::size_t>(length);
   }
 
+  void intern(std::pair<std::type_index, std::shared_ptr<void const>>& part, std::string_view bits) {
+    auto& known = (*known_)[{part.first, std::string(bits)}];
+    if (auto const same = known.lock()) part.second = same;
+    known = part.second;
+  }
+
   std::string_view rest_;
+  SharedParts* known_;
   std::vector<std::pair<std::type_index, std::shared_ptr<void const>>> shared_;
 };
 

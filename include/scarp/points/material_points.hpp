@@ -160,6 +160,9 @@ class MaterialPoints {
     set_gradients(Gradients(committed.size(), Gradient<Dim>::Zero()), executor);
   }
 
+  /// Leaves the committed states as they are; the next response plans its work anew, as it should for a smaller step.
+  void discard() { is_planned_ = false; }
+
   /// The trial states, of the last answers, become the committed ones.
   void commit() {
     for (auto& one : batches_) one->commit();
@@ -256,24 +259,48 @@ class MaterialPoints {
     return batch(point).doubled_path(local(point), seen_[detail::index(point)], bits);
   }
 
-  /// The bits of a point's committed state. \throws InputError for states that name no members
-  std::string pack(int point) const {
+  /// The bits of points' committed states, tau of means included; what states share, such as grains, is in it once.
+  /// \throws InputError for states that name no members
+  std::string pack(std::span<int const> points) const {
     StateWriter writer;
-    batch(point).write(local(point), writer);
+    for (int const point : points) {
+      batch(point).write(local(point), writer);
+      if (means_) writer("tau", means_->committed_stress(point));
+    }
     return std::move(writer.bits());
   }
-  /// Another committed state for a point, between load steps. \throws InputError for bits of another state
-  void unpack(int point, std::string_view bits) {
-    StateReader reader(bits);
-    batch(point).read(local(point), reader);
-    is_planned_ = false;
+  std::string pack(int point) const { return pack(std::span(&point, 1)); }
+  /// Other committed states for points, between load steps, by the bits of as many points of the same providers; points share again
+  /// what those shared.
+  /// \throws InputError for other bits, without any change
+  void unpack(std::span<int const> points, std::string_view bits) {
+    StateReader reader(bits, &shared_);
+    std::vector<std::pair<std::any, VoigtStress<Dim>>> states;
+    for (int const point : points) {
+      states.emplace_back(batch(point).read(local(point), reader), VoigtStress<Dim>::Zero());
+      if (means_) reader("tau", states.back().second);
+    }
+    if (!reader.at_end())
+      throw_input_error("it holds more than the states of {} points: unpack what was packed of such points",
+                        points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) put(points[k], std::move(states[k].first), states[k].second);
+  }
+  void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }
+  /// Gives a point the committed state of another one, as for the children of a refined element; between load steps. In the mirror
+  /// x -> -x if wanted, so that one packing's accidents are not repeated.
+  /// \throws InputError for a point of another provider, and for states that cannot be mirrored
+  void copy(int to, MaterialPoints const& from, int point, bool is_mirrored = false) {
+    VoigtStress<Dim> tau = from.means_ ? from.means_->committed_stress(point) : VoigtStress<Dim>::Zero();
+    if (is_mirrored) tau = mirrored_stress<Dim>(tau);
+    put(to, batch(to).state_from(from.batch(point), from.local(point), is_mirrored), tau);
   }
   /// The point alone, with the state of these bits.
   MaterialPoints extract(int point, std::string_view bits) const {
     MaterialPoints one;
     one.batches_.emplace_back(batch(point).without_points());
     one.add(0, batch(point).site(local(point)), false);
-    one.unpack(0, bits);
+    StateReader reader(bits);
+    one.put(0, one.batch(0).read(0, reader), VoigtStress<Dim>::Zero());
     return one;
   }
   /// Leaves a point without state, since another process answers for it.
@@ -284,7 +311,7 @@ class MaterialPoints {
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(batches_, neighbourhoods_, search_, places_, owned_, own_, seen_, responses_, works_, means_,
-                      is_planned_);
+                      is_planned_, shared_);
     using Visitor = std::remove_cvref_t<Visit>;
     if (self.means_) PointMeans<Dim>::basis_members(*self.means_, visit);
     for (auto& one : self.batches_) {
@@ -365,6 +392,12 @@ class MaterialPoints {
     for (int point = 0; point < size(); ++point) {
       if (!owned(point)) release(point);
     }
+  }
+
+  void put(int point, std::any state, VoigtStress<Dim> const& tau) {
+    batch(point).put(local(point), std::move(state));
+    if (means_) means_->set_committed_stress(point, tau);
+    is_planned_ = false;
   }
 
   void add(int batch, Site<Dim> const& site, bool here) {
@@ -458,6 +491,7 @@ class MaterialPoints {
   std::vector<long> works_;  ///< inner steps of the points' last answers
   std::optional<PointMeans<Dim>> means_;
   bool is_planned_ = false;
+  SharedParts shared_;  ///< of states that were unpacked
 };
 
 }  // namespace scarp

@@ -107,6 +107,12 @@ class PointMeans {
 
   void commit() { committed_ = trial_; }
 
+  /// tau [Pa] of a point after the last commit; it belongs to the point's state.
+  VoigtStress<Dim> const& committed_stress(int point) const { return committed_[detail::index(point)]; }
+  void set_committed_stress(int point, VoigtStress<Dim> const& tau) {
+    committed_[detail::index(point)] = trial_[detail::index(point)] = tau;
+  }
+
   /// What tau depends on: neighbours, their weights and the stiffness against fluctuation strain, in numbers that tell them from others.
   /// \throws InputError when it reads those of other means
   template <class Self, class Visit>

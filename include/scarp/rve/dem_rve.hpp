@@ -9,6 +9,7 @@
 #include "scarp/contact/law_checks.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/dem/drive.hpp"
+#include "scarp/dem/mirrored.hpp"
 #include "scarp/dem/packing_picture.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"

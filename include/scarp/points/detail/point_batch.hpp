@@ -15,6 +15,7 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/io/state_bits.hpp"
+#include "scarp/points/mirrored_state.hpp"
 #include "scarp/points/step_doubling.hpp"
 
 namespace scarp::detail {
@@ -49,7 +50,11 @@ class PointBatch {
   virtual void commit() = 0;
 
   virtual void write(int k, StateWriter& writer) const = 0;
-  virtual void read(int k, StateReader& reader) = 0;
+  /// A state of the point, for `put`.
+  virtual std::any read(int k, StateReader& reader) const = 0;
+  virtual void put(int k, std::any state) = 0;
+  /// A state of a point of another batch, for `put`. \throws InputError unless it has the same provider
+  virtual std::any state_from(PointBatch const& other, int k, bool is_mirrored) const = 0;
   virtual void write_all(StateWriter& writer) const = 0;
   virtual void read_all(StateReader& reader) = 0;
 
@@ -122,13 +127,21 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   void commit() override { committed_.swap(trial_); }
 
   void write(int k, StateWriter& writer) const override { described(writer, committed_[index(k)]); }
-  void read(int k, StateReader& reader) override {
+  std::any read(int k, StateReader& reader) const override {
     State state = scarp::empty_state(*provider_, sites_[index(k)]);
     described(reader, state);
-    if (!reader.at_end())
-      throw_input_error("it holds more than a state of this point: unpack what was packed of its provider");
-    trial_[index(k)] = committed_[index(k)] = std::move(state);
+    return state;
+  }
+  void put(int k, std::any state) override {
+    trial_[index(k)] = committed_[index(k)] = std::any_cast<State&&>(std::move(state));
     here_[index(k)] = true;
+  }
+  std::any state_from(PointBatch<dim> const& other, int k, bool is_mirrored) const override {
+    auto const* const same = dynamic_cast<PointBatchOf const*>(&other);
+    if (!same) throw_input_error("a point is to be copied from one of another provider: copy points of one provider");
+    State state = same->committed_[index(k)];
+    if (is_mirrored) described(Mirror<dim>{}, state);
+    return state;
   }
   void write_all(StateWriter& writer) const override { described(writer, std::span(committed_), "states"); }
   void read_all(StateReader& reader) override {
@@ -201,7 +214,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
 
   template <class Visit, class Visited>
-  static void described(Visit& visit, Visited&& visited, std::string_view name = "state") {
+  static void described(Visit&& visit, Visited&& visited, std::string_view name = "state") {
     if constexpr (Described<State>) {
       visit(name, visited);
     } else {

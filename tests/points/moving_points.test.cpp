@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a program does that refines its mesh and shares its points out among processes: points are copied, mirrored, sent and seen
+// across the border between two processes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "constitutive/nestings.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/points/material_points.hpp"
+#include "scarp/points/nonlocal.hpp"
+#include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
+#include "support/packings.hpp"
+#include "support/refusals.hpp"
+
+namespace {
+
+using scarp::Gradient;
+using Points = scarp::MaterialPoints<2>;
+using Rve = scarp::DemRve<samples::Ellipses, scarp::SamePacking<samples::Ellipses>>;
+
+std::vector<scarp::Site<2>> in_a_row(int count) {
+  std::vector<scarp::Site<2>> sites(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) sites[static_cast<std::size_t>(k)] = {.index = k, .position = {0.1 * k, 0.0}};
+  return sites;
+}
+
+Rve sand() { return {.law = samples::study_law(), .source = {samples::consolidated<samples::Ellipses>(40).packing}}; }
+
+Gradient<2> increment(double size) {
+  Gradient<2> gradient;
+  gradient << -0.3 * size, size, 0.4 * size, -size;
+  return gradient;
+}
+
+Gradient<2> turned_round(Gradient<2> gradient) {
+  gradient(0, 1) *= -1.0;
+  gradient(1, 0) *= -1.0;
+  return gradient;
+}
+
+/// One load step of all points.
+void strain(Points& points, auto const& gradient_of) {
+  scarp::SerialExecutor serial;
+  for (int k = 0; k < points.size(); ++k) points.gradient(k) = gradient_of(k);
+  REQUIRE(points.respond(serial).verdict.acceptable());
+  points.commit();
+}
+
+/// visit(name, provider) for laws, packings and every adaptor around every adaptor.
+void for_each_provider(auto const& visit) {
+  visit("packing", sand());
+  visit("floor around packing", scarp::StiffnessFloor<Rve>{sand(), 1e-2});
+  visit("elastic", scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3));
+  visit("mohr_coulomb",
+        scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength>{
+            scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3),
+            {.peak = {.cohesion = 200.0, .friction = 0.5}, .residual = {.cohesion = 100.0, .friction = 0.4}},
+            {}});
+  nestings::for_each(visit);
+}
+
+}  // namespace
+
+TEST_CASE("a copied point answers as the first one, a mirrored one answers mirrored strain with mirrored stress") {
+  for_each_provider([](std::string const& name, auto const& provider) {
+    CAPTURE(name);
+    auto const sites = in_a_row(1);
+    Points first(provider, sites);
+    for (int step = 1; step <= 3; ++step) strain(first, [&](int) { return increment(2e-5 * step); });
+    Points copy(provider, sites);
+    Points image(provider, sites);
+    copy.copy(0, first, 0);
+    image.copy(0, first, 0, true);
+    CHECK(copy.pack(0) == first.pack(0));
+    double const size = first.committed_stress(0).norm();
+    REQUIRE(size > 0.0);
+    for (int step = 1; step <= 3; ++step) {
+      CHECK(image.committed_stress(0)(2) == -first.committed_stress(0)(2));
+      CHECK((image.committed_stress(0) - scarp::mirrored_stress<2>(first.committed_stress(0))).norm() < 1e-9 * size);
+      CHECK(copy.committed_stress(0) == first.committed_stress(0));
+      strain(first, [&](int) { return increment(1e-5 * step); });
+      strain(copy, [&](int) { return increment(1e-5 * step); });
+      strain(image, [&](int) { return turned_round(increment(1e-5 * step)); });
+    }
+  });
+}
+
+TEST_CASE("a mirrored tangent is that of the mirrored strain") {
+  scarp::VoigtTangent<2> const tangent{{5.0, 2.0, 0.3}, {1.8, 4.0, 0.7}, {0.2, 0.6, 1.5}};
+  scarp::VoigtTangent<2> image = tangent;
+  scarp::Mirror<2>{}("tangent", image);
+  scarp::EngineeringStrain<2> const strain(1e-3, -2e-3, 5e-4);
+  scarp::VoigtStress<2> const expected = scarp::mirrored_stress<2>(tangent * strain);
+  CHECK((image * scarp::mirrored_stress<2>(strain) - expected).norm() < 1e-18);
+  std::string words;
+  CHECK_REFUSED(scarp::Mirror<2>{}("words", words), "cannot be mirrored", "words");
+}
+
+TEST_CASE("points that are sent together hold what they share once, and share it where they arrive") {
+  auto const sites = in_a_row(3);
+  Points from(sand(), sites);
+  for (int step = 1; step <= 2; ++step) strain(from, [&](int k) { return increment(1e-5 * (k + step)); });
+  auto const both = from.pack(std::vector{0, 2});
+  CHECK(both.size() < from.pack(0).size() + from.pack(2).size() - 40 * 2 * sizeof(double));
+  Points to(sand(), sites);
+  to.unpack(std::vector{2, 0}, both);
+  CHECK(to.committed_stress(2) == from.committed_stress(0));
+  CHECK(to.committed_stress(0) == from.committed_stress(2));
+  auto const population = [&](int point) { return to.state<Rve::State>(point).packing.population; };
+  CHECK(population(0) == population(2));
+  to.unpack(1, from.pack(1));
+  CHECK(population(1) == population(2));
+  CHECK(to.pack(std::vector{1, 2, 0}) == from.pack(std::vector{1, 0, 2}));
+}
+
+TEST_CASE("points take no states that are not theirs, and then nothing has changed") {
+  auto const sites = in_a_row(2);
+  Points points(sand(), sites);
+  strain(points, [](int k) { return increment(1e-5 * (k + 1)); });
+  std::vector const all{0, 1};
+  auto const before = points.pack(all);
+  Points other(sand(), sites);
+  auto const bits = other.pack(all);
+  CHECK_REFUSED(points.unpack(all, std::string_view(bits).substr(0, bits.size() - 8)), "save it again");
+  CHECK_REFUSED(points.unpack(all, bits + "x"), "more than the states of 2 points");
+  CHECK_REFUSED(points.unpack(0, bits), "more than the states of 1 points");
+  Points const elastic(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3), sites);
+  CHECK_REFUSED(points.copy(0, elastic, 0), "another provider");
+  CHECK(points.pack(all) == before);
+}
+
+TEST_CASE("the stress that holds what means do not contain travels with a point") {
+  auto const sites = in_a_row(6);
+  std::vector<double> const volumes(6, 0.1);
+  scarp::Nonlocal const soil{nestings::Loosening{}, 0.25};
+  auto const gradient = [](int k) { return increment(1e-5 * (k * k + 1)); };
+  Points from(soil, sites, volumes);
+  for (int step = 1; step <= 2; ++step) strain(from, gradient);
+  REQUIRE(from.means()->committed_stress(3).norm() > 0.0);
+  Points sent(soil, sites, volumes);
+  Points copied(soil, sites, volumes);
+  std::vector const all{0, 1, 2, 3, 4, 5};
+  sent.unpack(all, from.pack(all));
+  for (int const point : all) copied.copy(point, from, point);
+  CHECK(from.extract(3, from.pack(3)).committed_stress(0) == from.committed_stress(3));
+  for (auto* points : {&from, &sent, &copied}) strain(*points, gradient);
+  CHECK(sent.stresses() == from.stresses());
+  CHECK(copied.stresses() == from.stresses());
+  Points image(soil, sites, volumes);
+  image.copy(3, from, 3, true);
+  CHECK(image.means()->committed_stress(3) == scarp::mirrored_stress<2>(from.means()->committed_stress(3)));
+}
+
+TEST_CASE("two processes that exchange the gradients of points near their border see the same means as one") {
+  auto const sites = in_a_row(12);
+  constexpr double length = 0.25;
+  constexpr int border = 6;
+  scarp::Nonlocal const soil{nestings::Loosening{}, length};
+  Points whole(soil, sites, std::vector<double>(12, 0.1));
+  // Each process has its own points and, behind them, those of the other within the length.
+  auto const part = [&](int first, int last) {
+    std::vector<scarp::Site<2>> own(sites.begin() + first, sites.begin() + last);
+    int const count = last - first;
+    for (auto const& site : sites) {
+      bool const is_own = site.index >= first && site.index < last;
+      bool const is_near =
+          std::ranges::any_of(std::span(own).first(static_cast<std::size_t>(count)),
+                              [&](auto const& one) { return (one.position - site.position).norm() < length; });
+      if (!is_own && is_near) own.push_back(site);
+    }
+    return std::pair(own, Points(soil, own, std::vector<double>(own.size(), 0.1), [=](int k) { return k < count; }));
+  };
+  auto [left_sites, left] = part(0, border);
+  auto [right_sites, right] = part(border, 12);
+  CHECK(left.size() == border + 2);
+  for (int step = 1; step <= 3; ++step) {
+    auto const gradient = [&](int k) { return increment(1e-5 * (k * k + step)); };
+    strain(whole, gradient);
+    for (int side = 0; side < 2; ++side) {
+      Points& points = side == 0 ? left : right;
+      auto const& own = side == 0 ? left_sites : right_sites;
+      strain(points, [&](int k) { return gradient(own[static_cast<std::size_t>(k)].index); });
+      for (int k = 0; k < border; ++k) {
+        auto const expected = whole.stress(own[static_cast<std::size_t>(k)].index);
+        CHECK((points.stress(k) - expected).norm() < 1e-13 * expected.norm());
+      }
+    }
+  }
+}
