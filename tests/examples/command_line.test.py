@@ -206,6 +206,28 @@ def check_config():
             expect(abs(summary["throw_over_depth"] - 0.001) < 1e-9, "the config file does not set the throw")
 
 
+def check_renamed():
+    """Options, values and keys by their names before version 0.2 still work, on the command line with a warning and in a file."""
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        (scratch / "old.ini").write_text("soil = mohr_coulomb\nlength = 8\ncase = light\nfooting = sticking\npeak-friction = 33\nthrow-over-depth = 0.0005\n")
+        code, said = run(FAULT, "--config", "old.ini", "--triangles", "220", "--most-iterations=40", "--output", "old", folder=scratch)
+        expect(code == 0, f"options of before: ended with {code}\n{said}")
+        for warning in ("--triangles is now --elements", "--most-iterations is now --max-iterations", "--peak-friction is now --peak-friction-angle",
+                        "--footing sticking is now --footing tied"):
+            expect(warning in said, f"no warning that {warning}\n{said}")
+        new = ["--soil", "mohr_coulomb", "--length", "8", "--case", "light", "--footing", "tied", "--peak-friction-angle", "33",
+               "--throw-over-depth", "0.0005", "--elements", "220", "--max-iterations", "40"]
+        code, said = run(FAULT, *new, "--output", "new", folder=scratch)
+        expect(code == 0 and "is now" not in said, f"options of today: ended with {code}\n{said}")
+        if code == 0:
+            old, now = (json.loads((scratch / name / "summary.json").read_text()) for name in ("old", "new"))
+            expect(old["run"]["options"]["max-iterations"] == "40", "an option is not recorded by its present name")
+            for name in ("surface_x50", "rejected_steps", "contact_share"):
+                expect(old[name] == now[name], f"{name} differs: {old[name]} and {now[name]}")
+            expect(now["pressed_share"] == now["contact_share"], "summary.json has no key of before")
+
+
 def check_list():
     """Every friction with every seed, in order, the same as each friction by itself."""
     with tempfile.TemporaryDirectory() as scratch:
@@ -303,7 +325,7 @@ def check_repeat():
 if not (FAULT.is_file() and BIAXIAL.is_file()):
     print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_help, check_bad_input, check_warnings, check_materials, check_mesh_file, check_config, check_list, check_repeat, check_time_limit, check_interrupt):
+for check in (check_help, check_bad_input, check_warnings, check_materials, check_mesh_file, check_config, check_renamed, check_list, check_repeat, check_time_limit, check_interrupt):
     started = time.monotonic()
     check()
     print(f"{check.__name__}: {time.monotonic() - started:.1f} s")

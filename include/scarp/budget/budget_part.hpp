@@ -49,7 +49,7 @@ inline std::string budget_table(BudgetParts const& parts) {
   return text;
 }
 
-/// Part of an error budget that a run cannot see itself: how far its answer is from that of a sensitivity run, the same scene with one
+/// Part of an error budget that a run cannot see itself: how far its result is from that of a sensitivity run, the same scene with one
 /// choice made otherwise - a mesh of other directions, smaller load steps.
 /// own, other: the same measure of both runs; size: what an error is relative to, in the measure's unit
 /// \throws InputError for a size that is not finite and positive, and for a bound that is negative or NaN
@@ -71,7 +71,7 @@ struct ErrorBounds {
   double unbalanced_mean = 2e-2;  ///< over all packings and steps
   double unbalanced_largest = 5e-2;
   double kinetic_share = 1e-2;    ///< largest, of a packing's pressure
-  double inertial_number = 1e-2;  ///< largest of an answer
+  double inertial_number = 1e-2;  ///< largest of a response
   double held_stress = 1e-2;      ///< of a single packing: missing from what a servo holds, root mean square
   double doubling_median = 1e-2;  ///< of the samples: stress with twice the work against the accepted one
   double doubling_95 = 5e-2;      ///< of nineteen samples in twenty

@@ -43,7 +43,7 @@ struct WorkBalanceOf<Problem> {
 
 }  // namespace detail
 
-/// Observer that estimates the errors of a run from cheap checks on the way: balance of the packings, residuals, work, answers
+/// Observer that estimates the errors of a run from cheap checks on the way: balance of the packings, residuals, work, responses
 /// with twice the work to single increments (samples) and along the whole paths of a few points. Differences of stress are
 /// relative to a point's stress, now or when the budget was made, whichever is larger: soil that has lost its pressure
 /// carries nothing that its error could be compared with. It changes nothing.

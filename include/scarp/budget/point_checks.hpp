@@ -15,7 +15,7 @@
 #include "scarp/core/nan_max.hpp"
 #include "scarp/points/step_doubling.hpp"
 
-/// What an error budget asks of a point whose answer has just been committed.
+/// Checks of a point whose response has just been committed.
 namespace scarp {
 
 /// How well all packings of a problem were balanced, and how fast they were strained, over its accepted steps.
@@ -45,7 +45,7 @@ struct PackingSurvey {
   SCARP_MEMBERS(looked_at, unbalanced_sum, unbalanced, kinetic_share, inertial_number)
 };
 
-/// Step doubling at sampled points: an accepted increment is answered again with twice the work from the same state. Every other
+/// Step doubling at sampled points: an accepted increment is repeated with twice the DEM steps from the same state. Every other
 /// sample is the most strained point of its step, unless that was taken; the others are spread over all points.
 struct DoubledSamples {
   std::vector<double> differences{};  ///< of the stress, relative, in the order of the samples
@@ -112,7 +112,7 @@ struct DoubledSamples {
   }
 };
 
-/// A point whose increments are answered a second time along the whole run, with twice the work and from the second answer's own
+/// A point whose increments are repeated along the whole run, with twice the DEM steps and from the repetition's own
 /// states: how far the two have come apart is what the steps of the point's inner work have added up to on its path.
 struct TrackedPoint {
   int point = -1;

@@ -12,10 +12,10 @@
 
 namespace scarp {
 
-/// What acts on the nodes of a mesh beside its elements: contact with another body, springs, the other body itself with
+/// What acts on the nodes of a mesh in addition to its elements: contact with another body, springs, the other body itself with
 /// degrees of freedom of its own, which follow those of the mesh. Committed and trial states as for materials:
 /// add_forces(nodes, increment, forces): adds the internal forces [N] at an increment from the committed state, given the
-/// committed positions of the nodes [m]; add_stiffness(entries): their derivative at the last increment asked for;
+/// committed positions of the nodes [m]; add_stiffness(entries): their derivative at the last requested increment;
 /// commit(nodes, increment): makes that state the committed one, before the nodes move; thickness(), where it has one, is
 /// compared with the mesh's; length() [m], where it has one, is the size of a body with degrees of freedom of its own, which its
 /// motions are measured by. What can slide also has

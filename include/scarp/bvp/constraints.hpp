@@ -16,7 +16,7 @@
 namespace scarp {
 
 /// Prescribed displacements of nodes: displacement [m] = rate * load factor, in the unit that the load factor has, or rate *
-/// amplitude(load factor). Degree of freedom = dim * node + axis; those of bodies beside the mesh follow.
+/// amplitude(load factor). Degree of freedom = dim * node + axis; those of attached bodies follow.
 class Constraints {
  public:
   /// extra_dofs: degrees of freedom that follow those of the nodes
@@ -44,7 +44,7 @@ class Constraints {
     prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(amplitude));
   }
 
-  /// A degree of freedom beside the mesh, counted from 0.
+  /// A degree of freedom of an attached body, counted from 0.
   /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
   void move_extra(int number, double rate, TimeFunction amplitude = {}) {
     if (number < 0 || number >= extra_dofs_) {

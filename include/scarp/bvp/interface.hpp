@@ -155,7 +155,7 @@ class Interface {
     return closed.normal * normal * normal.transpose() + closed.tangential * state.along * state.along.transpose();
   }
 
-  /// Finds the place opposite to a point, asks the law, and notes the derivative by forward differences: laws of springs and
+  /// Finds the closest place of a point, evaluates the law, and stores the derivative by forward differences: laws of springs and
   /// sliders are piecewise linear, and the closing side is the one that matters at a point that just touches.
   void touch(std::size_t k, std::vector<Vector<2>> const& nodes, std::vector<Vector<2>> const& moved,
              Eigen::VectorXd const& increment) {

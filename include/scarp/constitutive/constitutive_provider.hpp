@@ -54,7 +54,7 @@ concept HasStress = HasState<Model> && HasDimension<Model> &&
   { model.stress(state) } -> std::same_as<VoigtStress<Model::dim>>;
 };
 
-/// tangent(state): stiffness for a further increment from `state`; asked for only where a solver wants it.
+/// tangent(state): stiffness for a further increment from `state`; evaluated only where a solver needs it.
 template <class Model>
 concept GivesTangent = HasState<Model> && HasDimension<Model> &&
     requires(Model const& model, typename Model::State const& state) {
@@ -65,8 +65,8 @@ concept GivesTangent = HasState<Model> && HasDimension<Model> &&
 template <class Model>
 concept ConstitutiveProvider = MakesInitialState<Model> && Responds<Model> && HasStress<Model> && GivesTangent<Model>;
 
-/// A provider whose work for a load step is fixed once, from the step's first increment, so that its answer stays a
-/// smooth function of the increment while the solver iterates: plan(committed, predicted), respond(..., plan). Where an answer
+/// A provider whose work for a load step is fixed once, from the step's first increment, so that its response stays a
+/// smooth function of the increment while the solver iterates: plan(committed, predicted), respond(..., plan). Where a response
 /// is `not_converged` in the end, refined(plan) works harder.
 template <class Model>
 concept HasPlan = ConstitutiveProvider<Model> && requires {
@@ -138,7 +138,7 @@ template <class Model>
 concept CheckedProvider = ConstitutiveProvider<Model> || detail::MissingOfProvider<Model>::nothing;
 
 /// A state that a saved one can be read into, with all that is not saved because it follows from the provider and the site. Providers
-/// whose states keep such things tell by `State empty_state(Site<dim> const&) const`, and so do adaptors, for what they hold.
+/// whose states keep such things return it by `State empty_state(Site<dim> const&) const`, and so do adaptors, for what they hold.
 /// \throws InputError for states that cannot be made so
 template <ConstitutiveProvider Provider>
 typename Provider::State empty_state(Provider const& provider, Site<Provider::dim> const& site) {

@@ -14,7 +14,7 @@ namespace scarp {
 
 /// Linear elasticity below a Mohr-Coulomb surface with tension cut-off; flow by the angle of dilation (associated where
 /// tension is cut off); strength constant or a function of the plastic shear strain. In two dimensions plane strain with the stress out of the
-/// plane as part of the state. An increment's answer is an implicit Euler step from the committed stress, turned by the
+/// plane as part of the state. The stress update is an implicit Euler step from the committed stress, turned by the
 /// increment's rotation.
 template <int Dim, class InitialStress = StressFree<Dim>, StrengthLaw StrengthType = ConstantStrength>
   requires InitialStressField<InitialStress, Dim>
@@ -62,7 +62,7 @@ struct MohrCoulomb {
     return to_voigt_stress<Dim, double>(part);
   }
 
-  /// Derivative of the last increment's answer with respect to its strain; before any, the elastic stiffness.
+  /// Derivative of the last stress update with respect to its strain; before any, the elastic stiffness.
   VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
 
   /// Fails with `not_finite`, `element_inverted`, or `no_return` where no strength belongs to the increment, since a strength

@@ -8,9 +8,9 @@
 namespace scarp {
 
 /// Any provider whose points keep a small elastic stiffness while they are fluid: a packing that has lost its contacts
-/// answers no strain, and a node with such points all around it would be held by nothing. Strain of the fluid state
-/// meets an isotropic stiffness; its stress is added to the answer and is dropped when contacts carry again.
-/// `floor_share` tells how much of all stress is not the material's. A point that is not fluid answers as the provider
+/// has no stiffness, and a node with such points all around it would be held by nothing. Strain of the fluid state
+/// meets an isotropic stiffness; its stress is added to the response and is dropped when contacts carry again.
+/// `floor_share` is the share of all stress that is not the material's. A point that is not fluid responds as the provider
 /// does, bit for bit.
 template <CheckedProvider Provider>
 struct StiffnessFloor {

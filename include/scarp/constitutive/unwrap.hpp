@@ -28,10 +28,10 @@ decltype(auto) unwrap(Provider const& provider, State const& state, Visit&& visi
   }
 }
 
-/// Named numbers of a material point, which a provider tells by `Quantities quantities(State const&) const`.
+/// Named numbers of a material point, which a provider returns by `Quantities quantities(State const&) const`.
 using Quantities = std::vector<std::pair<std::string_view, double>>;
 
-/// How well the packing of a point is balanced, and how fast its last answer strained it: a provider tells by
+/// How well the packing of a point is balanced, and how fast its last response strained it: a provider returns it by
 /// `PackingBalance balance(State const&) const`.
 struct PackingBalance {
   bool has_packing = false;

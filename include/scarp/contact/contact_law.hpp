@@ -20,7 +20,7 @@ using Tangential = std::conditional_t<Dim == 2, T, std::array<T, 3>>;
 template <int Dim, class T>
 using Turning = std::conditional_t<Dim == 2, T, std::array<T, 3>>;
 
-/// What a law asks of a contact. What it does not name is neither stored nor computed.
+/// What a law needs of a contact. What it does not name is neither stored nor computed.
 struct ContactInputs {
   bool shear = false;   ///< a tangential force is remembered; `slip` is given
   bool moment = false;  ///< a moment is remembered; `roll` is given
@@ -43,7 +43,7 @@ struct ContactKinematics {
   T time_step{};               ///< [s]; zero while nothing moves
 };
 
-/// The most numbers that a law, with all that is wrapped around it, may ask for in `ContactInputs::scalars`.
+/// The most numbers that a law, with all that is wrapped around it, may need in `ContactInputs::scalars`.
 inline constexpr int max_contact_scalars = 4;
 
 /// What a contact remembers from step to step, as far as its law needs it.
@@ -56,7 +56,7 @@ struct ContactMemory {
   SCARP_MEMBERS(shear, moment, scalars)
 };
 
-/// Answer of a law. Whatever is not asked for by its caller costs nothing.
+/// Response of a law. What its caller does not use costs nothing.
 template <int Dim, class T>
 struct ContactForce {
   T normal;                    ///< [N], positive pushes the grains apart
@@ -79,7 +79,7 @@ concept RespondsToApproach = requires(Law const& law, ContactKinematics<2, doubl
   { law.respond(approach, memory) } -> std::same_as<ContactForce<2, double>>;
 };
 
-/// The same for packs: the pair loop asks for several contacts at once, in the plane and in space alike.
+/// The same for packs: the pair loop evaluates several contacts at once, in the plane and in space alike.
 template <class Law>
 concept RespondsInPacks = requires(Law const& law, ContactKinematics<2, lanes::Pack<double>> const& approach,
                                    ContactMemory<2, lanes::Pack<double>>& memory) {
@@ -208,7 +208,7 @@ struct MissingOfContactLaw {
   static constexpr bool nothing = false;
 };
 
-/// Compiles the law's answer for several contacts at once, before the pair loop does: what cannot be compiled, an `if`
+/// Compiles the law's response for several contacts at once, before the pair loop does: what cannot be compiled, an `if`
 /// on an overlap say, is then reported with this short name, by clang with the comment below, and not from within the loop.
 template <class Law>
 constexpr bool a_law_answers_many_contacts_at_once_so_it_takes_lanes_select_for_if() {

@@ -11,8 +11,8 @@
 
 namespace scarp {
 
-/// Forces beside a contact's springs.
-/// push(S_n, approach): normal force [N] beside a spring of tangent stiffness S_n [N/m].
+/// Forces in addition to a contact's springs.
+/// push(S_n, approach): normal force [N] in addition to a spring of tangent stiffness S_n [N/m].
 /// drag(shear, S_t, limit, approach): adds to the spring's shear force inside the limit; returns the loss [J].
 template <class Damping>
 concept ContactDamping = requires(Damping const& damping, double& shear, ContactKinematics<2, double> const& approach) {
@@ -55,7 +55,7 @@ inline double damping_ratio_for(double restitution) {
   return std::sqrt(5.0 / 6.0) * low;
 }
 
-/// Kelvin-Voigt contacts: dashpots \f$ c = 2\gamma\sqrt{m^* S} \f$ beside both springs of a Hertz contact (form of Tsuji et al. 1992), so that
+/// Kelvin-Voigt contacts: dashpots \f$ c = 2\gamma\sqrt{m^* S} \f$ parallel to both springs of a Hertz contact (form of Tsuji et al. 1992), so that
 /// spheres rebound with one restitution at every speed. The contact never pulls.
 /// restitution in (0, 1]; the damping ratio follows from it
 struct HertzRestitution {

@@ -6,9 +6,9 @@
 
 namespace scarp {
 
-/// Refuses a law whose parameters its own validate() refuses, or whose members contradict each other, which compiles but
+/// Rejects a law whose parameters its own validate() rejects, or whose members contradict each other, which compiles but
 /// gives wrong forces: a stiffness against a motion that `needs` does not name, a force across a gap without interaction_range(), a
-/// dashpot without damping_ratio(). A reach of more than the grain's diameter is refused too: pairs with others between them
+/// dashpot without damping_ratio(). An interaction range of more than the grain's diameter is rejected too: pairs with others between them
 /// would act on each other, and the cell would have to be wider still.
 /// radius [m]: of a grain, for the size of overlap and gap that are tried, 1e-6 of it
 /// \throws InputError

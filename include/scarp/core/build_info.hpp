@@ -18,7 +18,7 @@ struct BuildInfo {
   bool optimised = false;
 };
 
-/// Of the source that asks: sources of one program may have different flags. For sources that link `scarp::precompiled`
+/// Of the source that calls: sources of one program may have different flags. For sources that link `scarp::precompiled`
 /// see also `library_build`.
 consteval BuildInfo build_info() {
   BuildInfo info{};
@@ -77,7 +77,7 @@ inline std::string described(BuildInfo const& info) {
       .append(" in a pack");
 }
 
-/// What to tell whoever starts a program that was compiled so, or nothing.
+/// Note for whoever starts a program that was compiled so, or nothing.
 constexpr std::string_view slow_build_note(BuildInfo const& info) {
   return info.optimised
              ? ""

@@ -56,7 +56,7 @@ concept Described = requires(T& value, detail::AnyVisit const& visit) {
 #define SCARP_DETAIL_WITHOUT_BRACKETS(...) __VA_ARGS__
 
 /// For a function `members(self, visit)` written by hand: an error unless these are the names of all data members, in any order.
-/// A structured binding has as many names as its type has members, and two equal names are refused.
+/// A structured binding has as many names as its type has members, and two equal names are rejected.
 #define SCARP_ALL_MEMBERS(...)                                      \
   [[maybe_unused]] auto& [SCARP_DETAIL_LISTED(__VA_ARGS__)] = self; \
   SCARP_DETAIL_THERE(__VA_ARGS__) static_assert(true)

@@ -13,7 +13,7 @@ concept ExecutesTasks = requires(Executor& executor, void (&task)(int)) {
 };
 
 /// One of several processes that run the same program, each of which owns some of the material points.
-/// owns(point): whether this process answers for a point; share(values): completes an array over all points of which
+/// owns(point): whether this process owns a point; share(values): completes an array over all points of which
 /// every process has the entries of its own; together(work): does it, and throws everywhere what it throws on one process. All
 /// processes must call share and together alike.
 template <class Executor>
@@ -33,7 +33,7 @@ struct SerialExecutor {
 
 static_assert(ExecutesTasks<SerialExecutor> && !SharesPoints<SerialExecutor>);
 
-/// Whether this process answers for a point; always, unless the executor shares points out.
+/// Whether this process owns a point; always, unless the executor shares points out.
 template <ExecutesTasks Executor>
 bool owns_point(Executor const& executor, int point) {
   if constexpr (SharesPoints<Executor>) {

@@ -8,7 +8,7 @@
 
 /// Two versions of scarp in one program must not share functions in silence, nor must sources compiled for registers of
 /// different width, in whose types members stand elsewhere: functions of the same name but different body are merged by the
-/// linker, and by the loader between shared libraries, without a word. Every source that includes scarp asks at the start of
+/// linker, and by the loader between shared libraries, without a word. Every source that includes scarp checks at the start of
 /// the program whether that has happened to it. Names and meaning in this header stay the same for ever.
 namespace scarp::detail {
 

@@ -9,28 +9,28 @@
 
 namespace scarp {
 
-/// How an answer was reached. Anything but `ok` and `fluid` must not be committed.
+/// How a response was reached. Anything but `ok` and `fluid` must not be committed.
 enum class Status : std::uint8_t {
-  ok,             ///< the answer meets what was asked
+  ok,             ///< the response meets the tolerances
   fluid,          ///< no contacts carry force: stress and tangent are zero, legitimately
-  not_converged,  ///< bounded work was spent, the asked accuracy was not reached
-  failed          ///< no meaningful answer exists (NaN, exploded, impossible input)
+  not_converged,  ///< bounded work was spent without reaching the accuracy
+  failed          ///< no meaningful response exists (NaN, exploded, impossible input)
 };
 
 /// Why a status is not `ok`. Checkpoints hold the numbers.
 enum class Reason : std::uint8_t {
   none,
   no_contacts,
-  unbalanced,          ///< the packing did not settle to the asked unbalanced-force ratio
+  unbalanced,          ///< the packing did not settle to the tolerance on the unbalanced ratio
   unreachable,         ///< a servo target was not reached within the allowed work
-  not_finite,          ///< NaN or infinity in state or answer
+  not_finite,          ///< NaN or infinity in state or response
   unconverged_normal,  ///< the search for a contact's normal did not come to its end
   too_deep,            ///< grains overlap more deeply than their curvature allows
   cell_collapsed,      ///< the periodic cell is inverted or thinner than a grain's diameter and the skin
   lost_grain,          ///< a grain lies so many cells away that its place in the cell is round-off
   element_inverted,    ///< an element's Jacobian is not positive
   no_return = 11,      ///< no admissible stress was found for a trial stress
-  iterations_spent,    ///< the iteration limit was reached above the asked residual
+  iterations_spent,    ///< the iteration limit was reached above the tolerance
   singular_system,     ///< the linear system could not be factorised
   step_too_small,      ///< cutting the load step went below its smallest size
   interrupted          ///< stopped from outside

@@ -34,7 +34,7 @@ std::array<Point<Dim, double>, static_cast<std::size_t>(Dim)> contact_axes(Point
   return axes;
 }
 
-/// Dashpots beside the springs of a contact, \f$ c = 2 \xi \sqrt{m^* S} \f$ [N s/m]; a spring against rolling has none.
+/// Dashpots parallel to the springs of a contact, \f$ c = 2 \xi \sqrt{m^* S} \f$ [N s/m]; a spring against rolling has none.
 inline ContactStiffness dashpots_of(ContactStiffness const& stiffness, double damping_ratio, double reduced_mass) {
   auto const beside = [&](double spring) { return 2.0 * damping_ratio * std::sqrt(reduced_mass * spring); };
   return {.normal = beside(stiffness.normal), .tangential = beside(stiffness.tangential)};

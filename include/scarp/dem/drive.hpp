@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Gains of the servo control, how a cell answers to a missing stress: it strains in proportion, and where a strain is prescribed beside it also at a
+/// Gains of the servo control, how a cell responds to a missing stress: it strains in proportion, and where a strain is prescribed as well also at a
 /// steady rate that is learned on the way, so that the held stress does not lag behind.
 struct ServoGains {
   double fastest = 1e-4;         ///< largest strain per step of a held stress
@@ -166,7 +166,7 @@ struct Servo {
                 Loading<PackingType::dim> const& loading) const {
     validate();
     if (!loading.reachable(Bonds<typename PackingType::Law>)) return {Status::not_converged, Reason::unreachable};
-    constexpr double slight = 1e-3;  // of the springs, where no stress at all is asked
+    constexpr double slight = 1e-3;  // of the springs, where no stress at all is prescribed
     double const asked = loading.stress_scale();
     double const tolerance = stress_tolerance * (asked > 0.0 ? asked : slight * spring_modulus(packing, law));
     CellDriver<PackingType> drive(packing, law, loading, feedback);

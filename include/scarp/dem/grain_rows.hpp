@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// Where a grain's data stand in its row: position, velocity, spin, pose of the part, where the law asks for motion also the
+/// Where a grain's data stand in its row: position, velocity, spin, pose of the part, where the law needs motion also the
 /// inverse mass, padding. A pair's data then come from one or two cache lines each.
 template <ParticleShape Shape, ContactLaw Law>
 struct RowLayout {

@@ -80,7 +80,7 @@ struct Loading {
     return other;
   }
 
-  /// Whether grains, bonded to each other or not, may carry what is asked.
+  /// Whether grains, bonded to each other or not, may carry the prescribed stress.
   bool reachable(bool bonded) const {
     for (auto const& control : controls) {
       if (!control.reachable(bonded)) return false;

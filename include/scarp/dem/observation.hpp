@@ -27,7 +27,7 @@ struct ContactSums {
   Tensor<Dim> stress(double volume) const { return -moment / volume; }
 };
 
-/// What a step can tell of the packing it moved.
+/// What a step can observe of the packing it moved.
 template <int Dim>
 struct StepObservation {
   Tensor<Dim> stress = Tensor<Dim>::Zero();  ///< Love and Weber [Pa], tension positive

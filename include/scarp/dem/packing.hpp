@@ -63,7 +63,7 @@ void require_valid_packing(PackingType const& packing) {
 
 namespace scarp {
 
-/// What a list of near pairs and its critical step were made from beside the grains' places. With another law, or with
+/// What a list of near pairs and its critical step were made from in addition to the grains' places. With another law, or with
 /// grains of another mass, the list is made anew.
 struct ListBasis {
   double reach = 0.0;                  ///< gap across which the law acts [m]

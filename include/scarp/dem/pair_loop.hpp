@@ -9,7 +9,7 @@ namespace scarp {
 
 namespace detail {
 
-/// How a block of near pairs answers: where the grains touch, what the law says, what the contacts remember.
+/// Response of a block of near pairs: contact geometry, contact law, contact memory.
 template <Observe what, class PackingType, class Law>
 class PairResponse {
  public:
@@ -21,7 +21,7 @@ class PairResponse {
   static constexpr auto axes = static_cast<std::size_t>(dim);
 
   PairResponse(PackingType& packing, Law const& law) : pairs_(packing.pairs), law_(law) {
-    // Dashpots look at the last move however often they are asked, springs only once.
+    // Dashpots use the last move in every evaluation, springs only once.
     bool const answered = packing.last_move.answered;
     LastMove<dim> const move = answered && !Law::needs.motion ? LastMove<dim>{} : packing.last_move;
     largest_normal_change_ = packing.population->largest_normal_change();
@@ -218,8 +218,8 @@ class PairResponse {
 }  // namespace detail
 
 /// Forces of all near pairs at the present positions, and the update of what contacts remember by the packing's last move,
-/// unless that has been answered before. Afterwards `scratch.forces` begins with a row (force, torque) for each grain.
-/// Pairs go through in blocks: gather the grains' data, answer, scatter the forces. Each of the three loops is free of the
+/// unless that has been done before. Afterwards `scratch.forces` begins with a row (force, torque) for each grain.
+/// Pairs go through in blocks: gather the grains' data, evaluate the law, scatter the forces. Each of the three loops is free of the
 /// others' latencies. Flattened, since shape and law must melt into the loop.
 template <Observe what, class PackingType, class Law>
 [[gnu::flatten]] ContactSums<PackingType::dim> pair_forces(PackingType& packing, Law const& law,

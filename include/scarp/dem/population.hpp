@@ -25,7 +25,7 @@ class Population {
   using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;
 
   /// density [kg/m3]
-  /// \throws InputError on an empty list, on sizes that are not finite and positive and on those that the shape refuses
+  /// \throws InputError on an empty list, on sizes that are not finite and positive and on those that the shape rejects
   Population(std::vector<Size> const& sizes, double density, double thickness)
       : density_(density), thickness_(thickness) {
     require_positive("grain density", density);
@@ -87,7 +87,7 @@ class Population {
   double largest_normal_change() const { return largest_normal_change_; }
 
   /// Up to this overlap [m] of any two grains a normal at which it is stationary is that of the least overlap. Infinite for
-  /// shapes that cannot tell.
+  /// shapes without a bound.
   double unique_minimum_depth() const { return unique_minimum_depth_; }
 
   Size size(std::size_t grain) const {
@@ -103,7 +103,7 @@ class Population {
   /// [1/(kg m2)]
   Scalar const* inverse_inertia() const { return inverse_inertia_.column(0); }
 
-  /// Calls visit(name, member) for what the rest follows from, and for the content, which tells shapes apart that have
+  /// Calls visit(name, member) for what the rest follows from, and for the content, which distinguishes shapes that have
   /// equally many sizes.
   template <class Visit>
   static void members(Population const& self, Visit&& visit) {

@@ -38,7 +38,7 @@ struct IsotropicPreparation {
     relaxation.validate();
   }
 
-  /// \throws InputError for parameters that validate() refuses or a law that contradicts itself
+  /// \throws InputError for parameters that validate() rejects or a law that contradicts itself
   template <class PackingType, DampsMotion Damping = LocalDamping>
   Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law, Damping const& damping = {}) const {
     validate();

@@ -62,7 +62,7 @@ class TimeStepper {
 
   double time_step_share = default_time_step_share;  ///< of the lower bound of the critical step
 
-  /// \throws InputError for parameters that no step can be made with; every call asks
+  /// \throws InputError for parameters that no step can be made with; every call checks
   void validate() const {
     detail::validated(damping);
     require_positive("skin over the largest radius", skin_ratio);
@@ -72,7 +72,7 @@ class TimeStepper {
   /// Makes the pair list where there is none, it has become too old or it was made for another law or other masses, and the
   /// critical step with it.
   /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary ones
-  /// \throws InputError for a law that `require_consistent` refuses, when the list is made for it
+  /// \throws InputError for a law that `require_consistent` rejects, when the list is made for it
   Verdict refresh(PackingType& packing, Law const& law) const {
     if constexpr (in_library) {
       return Library::refresh(*this, packing, law);
@@ -103,7 +103,7 @@ class TimeStepper {
     }
   }
 
-  /// Takes the grains' velocities away, after the contacts have answered to the last move.
+  /// Takes the grains' velocities away, after the contacts have responded to the last move.
   Verdict stop(PackingType& packing, Law const& law) {
     StepObservation<dim> unused;
     Verdict const verdict = observe(packing, law, unused);

@@ -55,7 +55,7 @@ SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
 /// in units of throw; in between, at the tip, the bottom takes the step as detail::StepAtTip says. The first axis is
 /// horizontal, the last vertical; in space the fault strikes along the second, where nothing moves on "front", "back"
 /// and the prescribed sides. A motion that changes along its strike moves each node by its share there.
-/// \throws InputError for parameters that the motion refuses, a tip outside the bottom, or a mesh without these
+/// \throws InputError for parameters that the motion rejects, a tip outside the bottom, or a mesh without these
 /// boundaries
 template <BedrockMotion Motion, class Element>
 SCARP_EXPORT Constraints bedrock_constraints(Mesh<Element> const& mesh, Motion const& motion, int extra_dofs = 0,

@@ -73,7 +73,7 @@ struct FaultMesh {
     return count_elements<Element>(edges);
   }
 
-  /// The same layer with the `size` whose number of elements is nearest to the asked one.
+  /// The same layer with the `size` whose number of elements is nearest to the requested one.
   /// \throws InputError for less than one cell or more than ten million elements
   template <ReferenceElement Element = Tri3>
   FaultMesh with_about(int elements) const {

@@ -91,7 +91,7 @@ struct MeshFileGround {
 
 /// Reads a ground from a file of Gmsh. A file of the straight element serves for the quadratic one: nodes are put in
 /// the middle of its sides.
-/// \throws InputError naming the file for what read_gmsh refuses, missing or further regions, missing boundaries, nodes
+/// \throws InputError naming the file for what read_gmsh rejects, missing or further regions, missing boundaries, nodes
 /// at one place, hanging nodes, boundaries that are not straight at the soil's ends, and sides of the soil in no
 /// boundary or in two
 /// notes: gets what the file holds that the ground does not have, see GmshFile

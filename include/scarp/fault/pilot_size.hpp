@@ -18,7 +18,7 @@
 
 namespace scarp {
 
-/// Small elements where a pilot run on a coarse mesh has strained the ground; the size grows linearly beside these.
+/// Small elements where a pilot run on a coarse mesh has strained the ground; the size grows linearly around these.
 struct PilotSize {
   std::vector<Vector<2>> strained;  ///< [m], see strained_places
   double margin = 4.0;              ///< around each of them [m], at least the size of the pilot run's elements

@@ -12,7 +12,7 @@
 namespace scarp {
 
 /// Small elements in a strip around the line along which a rupture is expected, from the fault's tip upwards and, for a
-/// dip below 90 degrees, to the left; the size grows linearly beside the strip.
+/// dip below 90 degrees, to the left; the size grows linearly outside the strip.
 struct StripSize {
   double tip = 0.0;          ///< x [m]
   double bedrock = 0.0;      ///< height of the tip [m]

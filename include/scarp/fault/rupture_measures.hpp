@@ -22,7 +22,7 @@ struct FaultOffset {
 };
 
 /// Where a fault comes out at the surface, by the steepest part of the profile between two joined points: the whole
-/// offset runs along that one line. `rupture_measures` gives places that do not hang on a single facet.
+/// offset runs along that one line. `rupture_measures` gives places that do not depend on a single facet.
 struct Outcrop {
   double outcrop_x;   ///< where the steepest part's line meets the surface of the footwall [m]
   double steepest_x;  ///< middle of the steepest part [m]

@@ -21,7 +21,7 @@ struct Balance {
   double mean_contact_force = 0.0;     ///< [N]
   double mean_unbalanced_force = 0.0;  ///< mean over the grains of |sum of forces| [N]
   double unbalanced_ratio = 0.0;       ///< mean unbalanced over mean contact force; zero without contacts
-  double sliding_share = 0.0;          ///< contacts that refuse more shear force, as a share of all
+  double sliding_share = 0.0;          ///< contacts at their shear limit, as a share of all
   double deepest_overlap = 0.0;        ///< [m]
 };
 

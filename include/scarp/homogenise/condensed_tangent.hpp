@@ -38,7 +38,7 @@ struct CondensedTangent {
   SlidingContacts sliding{};
   double regularisation = 1e-9;  ///< spring to the ground of every motion, over the mean k_n
   bool initial_stress = true;    ///< with the terms of the present stress; never in the fallback
-  TangentFallback on_fallback = report_tangent_fallback;  ///< hears of each fallback
+  TangentFallback on_fallback = report_tangent_fallback;  ///< called at each fallback
 
   /// \throws InputError for springs to the ground that are negative or not finite
   void validate() const {
@@ -46,7 +46,7 @@ struct CondensedTangent {
     require_not_negative("spring to the ground of a condensed packing", regularisation);
   }
 
-  /// The condensed tangent, or the one under uniform strain after `on_fallback` was told why.
+  /// The condensed tangent, or the one under uniform strain after `on_fallback` was called with the reason.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     auto const answer = condense(packing, law);

@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// What contacts at their shear limit contribute to a packing's stiffness. A contact slides when its law, asked for a
-/// little more shear force along the present one, refuses; so a bond that holds does not slide, whatever Coulomb says.
+/// What contacts at their shear limit contribute to a packing's stiffness. A contact slides when its law, strained by a
+/// little more along the present shear force, does not carry it; so a bond that holds does not slide, whatever Coulomb says.
 struct SlidingContacts {
   double shear_share = 0.0;  ///< of the tangential stiffness that stays along the direction of sliding
   bool coupled = false;      ///< the shear force follows the normal force, \f$ dF_t = \mu\,dF_n \f$; not symmetric

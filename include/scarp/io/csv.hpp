@@ -20,7 +20,7 @@ namespace scarp {
 
 namespace detail {
 
-/// Numbers in the shortest form that reads back to the same bits; text in quotes where RFC 4180 asks for it.
+/// Numbers in the shortest form that reads back to the same bits; text in quotes where RFC 4180 requires it.
 template <class Value>
 std::string csv_cell(Value const& value) {
   if constexpr (std::convertible_to<Value const&, std::string_view>) {

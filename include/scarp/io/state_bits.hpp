@@ -260,7 +260,7 @@ class StateReader {
     }
   }
 
-  /// A length that the rest has room for, so that no damage asks for endless memory.
+  /// A length that the rest has room for, so that no damaged file requests endless memory.
   std::size_t take_length(std::string_view name, std::size_t bytes) {
     std::uint64_t length = 0;
     take(name, &length, sizeof(length));

@@ -47,7 +47,7 @@ inline GridNumbers add_grid_nodes(std::vector<Vector<2>>& nodes, std::vector<dou
 template <class Element>
 void add_grid_cells(Mesh<Element>& mesh, GridNumbers const& numbers, Pattern pattern, int region) {
   static_assert(Element::dim == 2 && !HasMidSides<Element>, "a grid becomes straight elements of the plane");
-  elements_per_cell<Element>(pattern);  // asks whether both fit
+  elements_per_cell<Element>(pattern);  // checks whether both fit
   auto const add = [&](std::array<int, Element::nodes> const& element) {
     mesh.elements.push_back(element);
     mesh.element_region.push_back(region);

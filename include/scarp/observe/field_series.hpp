@@ -92,7 +92,7 @@ ElementFields element_fields(Problem const& problem) {
 /// Writes the fields of a scene as a VTU series: displacement at the nodes; at the elements (the mean of
 /// their points, weighted by volume; the worst status)
 /// Cauchy stress [Pa] tension positive, logarithmic volumetric (contraction positive) and deviatoric strain, status
-/// and the quantities that the points' providers tell. Every file is complete when it appears; the PVD's time is load / load_unit.
+/// and the quantities that the points' providers return. Every file is complete when it appears; the PVD's time is load / load_unit.
 class FieldSeries : public NeverStops {
  public:
   /// frames: files are written at load 0 and then whenever the load has grown by to / frames
@@ -109,7 +109,7 @@ class FieldSeries : public NeverStops {
   }
 
   /// Writes the last state of a run whose fault has moved and that stopped between two frames; its statuses are those
-  /// of the points' last answers, also where these were refused.
+  /// of the points' last responses, also where the attempt was rejected.
   template <class Problem>
   void ended(Problem const& problem, double load) {
     if (schedule_.takes_end(load)) write(problem, load);

@@ -19,7 +19,7 @@ double generalised_reaction(Problem const& problem) {
   double work = 0.0;
   for (std::size_t k = 0; k < held.rates().size(); ++k) {
     int const dof = held.prescribed_dofs()[k];
-    if (dof < forces.size()) work += held.rates()[k] * forces(dof);  // bodies beside the mesh come after its nodes
+    if (dof < forces.size()) work += held.rates()[k] * forces(dof);  // attached bodies come after its nodes
   }
   return work;
 }

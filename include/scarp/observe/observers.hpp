@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-/// Several observers as one; each hears of every attempt, any may ask to stop.
+/// Several observers as one; each is called at every attempt, any may stop the run.
 template <class... Parts>
 struct Observers {
   boost::hana::tuple<Parts...> parts;
@@ -52,7 +52,7 @@ struct Observers {
   }
 };
 
-/// An observer that lives elsewhere, for a program that asks it when the run has ended.
+/// An observer that lives elsewhere, for a program that reads it when the run has ended.
 template <class Observer>
 struct ObserverRef {
   Observer* observer;
@@ -85,7 +85,7 @@ struct LoadMeasure {
 struct LoadSchedule {
   double to = 0.0;
   int count = 0;
-  double unit = 1.0;  ///< that loads are told in
+  double unit = 1.0;  ///< of loads in tables
   double next = 0.0;
   double last = -1.0;  ///< load that was written last
 

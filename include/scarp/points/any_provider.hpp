@@ -9,7 +9,7 @@
 namespace scarp {
 
 /// Any provider, chosen while a program runs, as the material of a region: scenes, solvers and observers are compiled once for all.
-/// The answers are the provider's own, bit for bit.
+/// The responses are the provider's own, bit for bit.
 /// \code
 /// scarp::AnyProvider<2> soil = stiff ? scarp::AnyProvider<2>(elastic) : scarp::AnyProvider<2>(packings);
 /// \endcode

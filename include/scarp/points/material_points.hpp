@@ -25,16 +25,16 @@
 namespace scarp {
 
 /// A batch of material points of one or several providers: parameters, committed and trial states, plans, and means over neighbours
-/// where a region asks for them. The material side of `EquilibriumProblem`, and of any program that has points of its own:
+/// where a region has them. The material side of `EquilibriumProblem`, and of any program that has points of its own:
 /// \code
 /// MaterialPoints<2> points(soil, sites);
 /// points.gradient(0) = increment;             // of all points, since the last commit
-/// ResponseReport const answers = points.respond(executor);
-/// if (answers.verdict.acceptable()) points.commit();  // else: another increment, smaller perhaps
+/// ResponseReport const report = points.respond(executor);
+/// if (report.verdict.acceptable()) points.commit();  // else: another increment, smaller perhaps
 /// \endcode
 /// Gradients are those of the displacement since the last commit by the positions at that time. Where points are shared out among
-/// processes (see SharesPoints), each answers for its own and all know all answers. Types of providers are hidden: what a state
-/// holds is told by name (`quantities`), or by its type (`state`).
+/// processes (see SharesPoints), each evaluates its own and all know all responses. Types of providers are hidden: what a state
+/// holds is read by name (`quantities`), or by its type (`state`).
 template <int Dim>
 class MaterialPoints {
  public:
@@ -47,7 +47,7 @@ class MaterialPoints {
   MaterialPoints() = default;
 
   /// Points of several regions; a site's region is the number of its name in `names`.
-  /// volumes [m3]: weights of means, empty where no region asks for means; owned(number of a point): points that are asked here
+  /// volumes [m3]: weights of means, empty where no region has means; owned(number of a point): whether this process evaluates it
   /// \throws InputError for a region that has no name here, is given twice or has no material, and for counts that differ
   template <class... Materials, std::predicate<int> Owned>
   MaterialPoints(boost::hana::tuple<Region<Materials>...> const& regions, std::span<std::string const> names,
@@ -105,7 +105,7 @@ class MaterialPoints {
   /// Displacement gradient of a point since the last commit, for `respond`; to be set anew after each commit.
   Gradient<Dim>& gradient(int point) { return own_[detail::index(point)]; }
 
-  /// Answers to the gradients of all points: work is planned at the first answer after a commit, and points that do not converge work
+  /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit, and points that do not converge take
   /// harder, up to so many times and until the next commit.
   /// \throws InputError for gradients that are not finite
   template <ExecutesTasks Executor>
@@ -129,7 +129,7 @@ class MaterialPoints {
     seen_ = means_ ? means_->average(own_, executor) : own_;
   }
 
-  /// Fixes every point's work from what it sees, so that answers are smooth functions of gradients until the next plan.
+  /// Fixes every point's number of inner steps from its mean gradient, so that responses are smooth functions of gradients until the next plan.
   void plan() {
     for (int const point : owned_) batch(point).plan(local(point), seen_[detail::index(point)]);
     is_planned_ = true;
@@ -141,7 +141,7 @@ class MaterialPoints {
     return evaluate(owned_, executor);
   }
 
-  /// Points whose last answer is not converged work harder, now and until the next plan; one that cannot would only repeat its answer.
+  /// Points whose last response is not converged take more inner steps, now and until the next plan; one that cannot would only repeat its response.
   template <ExecutesTasks Executor>
   ResponseReport refine(Executor& executor) {
     std::vector<int> harder;
@@ -152,7 +152,7 @@ class MaterialPoints {
     return evaluate(harder, executor);
   }
 
-  /// The committed stresses take the place of answers, and no point has moved.
+  /// The committed stresses as responses: no point has moved.
   template <ExecutesTasks Executor>
   void evaluate_committed(Executor& executor) {
     auto const committed = committed_stresses(executor);
@@ -163,7 +163,7 @@ class MaterialPoints {
   /// Leaves the committed states as they are; the next response plans its work anew, as it should for a smaller step.
   void discard() { is_planned_ = false; }
 
-  /// The trial states, of the last answers, become the committed ones.
+  /// The trial states, of the last responses, become the committed ones.
   void commit() {
     for (auto& one : batches_) one->commit();
     if (means_) means_->commit();
@@ -173,9 +173,9 @@ class MaterialPoints {
   Gradients const& own_gradients() const { return own_; }
   /// What the points see: means where there are some.
   Gradients const& gradients() const { return seen_; }
-  /// The materials' last answers, without what means add.
+  /// The materials' last responses, without the stabilising stress of means.
   Responses const& responses() const { return responses_; }
-  /// Cauchy stress [Pa] of a point's last answer, with what means add.
+  /// Cauchy stress [Pa] of a point's last response, with the stabilising stress of means.
   VoigtStress<Dim> stress(int point) const {
     auto const k = detail::index(point);
     return means_ ? VoigtStress<Dim>(responses_[k].stress + means_->added_stresses()[k]) : responses_[k].stress;
@@ -185,7 +185,7 @@ class MaterialPoints {
     for (int point = 0; point < size(); ++point) values[detail::index(point)] = stress(point);
     return values;
   }
-  /// Of the committed states, as the next ones: without what means add.
+  /// Of the committed states, as the next ones: without the stabilising stress.
   VoigtStress<Dim> committed_stress(int point) const { return batch(point).stress(local(point)); }
   VoigtTangent<Dim> committed_tangent(int point) const { return batch(point).tangent(local(point)); }
   template <ExecutesTasks Executor>
@@ -195,7 +195,7 @@ class MaterialPoints {
     share(values, executor);
     return values;
   }
-  /// Committed stresses with what means add: those that balance the loads after a commit.
+  /// Committed stresses with the stabilising stress: those that balance the loads after a commit.
   template <ExecutesTasks Executor>
   Stresses balanced_stresses(Executor& executor) const {
     Stresses values = committed_stresses(executor);
@@ -216,7 +216,7 @@ class MaterialPoints {
   /// Tangent [Pa] of the state that a point began with, made anew.
   VoigtTangent<Dim> initial_tangent(int point) const { return batch(point).initial_tangent(local(point)); }
 
-  /// Steps of inner work that one answer of a point takes; a weight for partitioning.
+  /// Inner (DEM) steps of one response of a point; a weight for partitioning.
   long work(int point) const { return batch(point).work(local(point)); }
 
   /// Named numbers of a committed state; of a packing void ratio, coordination, balance, in the plane fabrics.
@@ -249,12 +249,12 @@ class MaterialPoints {
     return *provider;
   }
 
-  /// Right after a commit: the committed answer once more from the state that it began with, with twice the work.
+  /// Right after a commit: the committed response once more from its initial state, with twice the inner steps.
   DoubledResponse<Dim> doubled_response(int point) const {
     return batch(point).doubled_response(local(point), seen_[detail::index(point)]);
   }
   /// Right after a commit: takes a copy of the point's state, in bits, through the committed increment with twice the work; without
-  /// bits it begins with the committed state and answers nothing. Of states that name no members bits stay empty.
+  /// bits it begins with the committed state and has no response. Of states that name no members bits stay empty.
   DoubledResponse<Dim> doubled_path(int point, std::string& bits) const {
     return batch(point).doubled_path(local(point), seen_[detail::index(point)], bits);
   }
@@ -303,11 +303,11 @@ class MaterialPoints {
     one.put(0, one.batch(0).read(0, reader), VoigtStress<Dim>::Zero());
     return one;
   }
-  /// Leaves a point without state, since another process answers for it.
+  /// Leaves a point without state, since another process owns it.
   void release(int point) { batch(point).release(local(point)); }
 
   /// What evolves: the committed states, and tau of means. Read in, those of all points are here until they are forgotten; only own
-  /// points answer.
+  /// points respond.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(batches_, neighbourhoods_, search_, places_, owned_, own_, seen_, responses_, works_, means_,
@@ -419,7 +419,7 @@ class MaterialPoints {
   /// selected: points of this process
   template <class Executor>
   ResponseReport evaluate(std::vector<int> selected, Executor& executor) {
-    // The longest answers first: one that begins last would keep the other threads waiting.
+    // The longest responses first: one that begins last would keep the other threads waiting.
     std::ranges::stable_sort(selected, std::ranges::greater{}, [&](int point) { return work(point); });
     std::vector<int> own;
     for (int const point : selected) own.push_back(local(point));
@@ -488,7 +488,7 @@ class MaterialPoints {
   Gradients own_;
   Gradients seen_;
   Responses responses_;
-  std::vector<long> works_;  ///< inner steps of the points' last answers
+  std::vector<long> works_;  ///< inner steps of the points' last responses
   std::optional<PointMeans<Dim>> means_;
   bool is_planned_ = false;
   SharedParts shared_;  ///< of states that were unpacked

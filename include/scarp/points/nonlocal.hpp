@@ -36,7 +36,7 @@ struct SiteCloud {
 /// Means over the points around each, in one region:
 /// \f$ w_{ij} = v_j \varphi(r_{ij}/l_i) / \sum_k v_k \varphi(r_{ik}/l_i),\; \varphi(s) = (1-s)^4 (4s+1) \f$
 /// below s = 1, zero beyond (H. Wendland, Adv. Comput. Math. 4 (1995) 389). This kernel is positive definite in the
-/// plane and in space: no field is answered by its opposite, as the lobes of a bell's or a box's transform would do to
+/// plane and in space: no field is turned into its opposite, as the lobes of a bell's or a box's transform would do to
 /// waves as short as the length. Its standard deviation along an axis is 0.264 l.
 /// sites, volumes [m3] of all points; lengths [m] that a point looks around itself, 0: it stays alone
 /// \throws InputError for a length that is negative or not finite, and counts that differ

@@ -46,7 +46,7 @@ struct SplitTangents {
 /// (implicit, turned with the mean's rotation). Without tau waves much shorter than the length cost nothing, and bands
 /// become as thin as the mesh: strain \f$ \varepsilon = W^{-1} \bar\varepsilon \f$ belongs to any
 /// \f$ \bar\varepsilon \f$. A local share of what the material sees would not help, since it softens as well. With s =
-/// 1 a uniform elastic body answers as a local one; a tau that did not fade would lock bands, whose strain is never
+/// 1 a uniform elastic body responds as a local one; a tau that did not fade would lock bands, whose strain is never
 /// that of its mean.
 template <int Dim>
 class PointMeans {
@@ -113,7 +113,7 @@ class PointMeans {
     committed_[detail::index(point)] = trial_[detail::index(point)] = tau;
   }
 
-  /// What tau depends on: neighbours, their weights and the stiffness against fluctuation strain, in numbers that tell them from others.
+  /// What tau depends on: neighbours, their weights and the stiffness against fluctuation strain, in numbers that distinguish them from others.
   /// \throws InputError when it reads those of other means
   template <class Self, class Visit>
   static void basis_members(Self& self, Visit&& visit) {

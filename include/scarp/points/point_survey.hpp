@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// What material points say of an answer: how many have which status, and who works most.
+/// Statistics of a response of all points: how many have which status, and which take most inner steps.
 struct PointSurvey {
   struct Work {
     int point = -1;
@@ -24,7 +24,7 @@ struct PointSurvey {
 
   int count(Status status) const { return statuses[static_cast<std::size_t>(status)]; }
 
-  /// Points are told in the order of their numbers.
+  /// Points are added in the order of their numbers.
   void add(int point, Status status, long inner_steps) {
     ++statuses[static_cast<std::size_t>(status)];
     if (inner_steps <= 0 || (slowest.size() == max_listed && inner_steps <= slowest.back().inner_steps)) return;
@@ -35,7 +35,7 @@ struct PointSurvey {
   }
 };
 
-/// What material points have answered.
+/// Outcome of a response of all points.
 struct ResponseReport {
   Verdict verdict{};     ///< of the worst point
   int worst_point = -1;  ///< that is not acceptable, -1 for none

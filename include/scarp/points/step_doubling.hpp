@@ -18,7 +18,7 @@ Gradient<Dim> half_increment(Gradient<Dim> const& gradient) {
   return half;
 }
 
-/// An answer that was found with twice the work, and that work in a provider's own steps (one for each response of a
+/// A response with twice the work, and that work in a provider's own steps (one for each response of a
 /// provider that counts none).
 template <int Dim>
 struct DoubledResponse {
@@ -27,7 +27,7 @@ struct DoubledResponse {
 };
 
 /// Answers an increment again by twice the work: with the refined plan where that is more work, else in two halves.
-/// trial: overwritten with the state that belongs to the answer
+/// trial: overwritten with the state that belongs to the response
 template <CheckedProvider Provider>
 DoubledResponse<Provider::dim> answer_with_double_work(Provider const& provider, typename Provider::State const& from,
                                                        Gradient<Provider::dim> const& increment,

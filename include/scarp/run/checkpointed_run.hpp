@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// Leaves only the states of points that this process answers for.
+/// Leaves only the states of points that this process owns.
 template <class Problem>
 void keep_own_states(Problem& problem) {
   using Executor = std::remove_cvref_t<decltype(problem.executor())>;

@@ -52,7 +52,7 @@ bool broadcast_flag(Executor const& executor, bool said) {
   }
 }
 
-/// Runs a task on the root rank only, which may look at the points of all ranks by visit_point; the others answer meanwhile.
+/// Runs a task on the root rank only, which may look at the points of all ranks by visit_point; the others serve meanwhile.
 /// What one of them throws ends all.
 template <class Problem, class Task>
 void on_root_rank(Problem const& problem, Task const& task) {

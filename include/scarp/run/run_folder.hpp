@@ -9,12 +9,12 @@
 
 namespace scarp {
 
-/// What is asked of the folder that a run writes its results into.
+/// Requirements on the folder that a run writes its results into.
 struct RunFolderSettings {
   std::filesystem::path folder{};
   bool overwrite = false;           ///< the results of another run may be replaced
   std::string record = "run.json";  ///< file of the run's record; runs with different ones can live in one folder
-  std::vector<std::string> results{"summary.json"};  ///< names that tell of results where there is no record
+  std::vector<std::string> results{"summary.json"};  ///< names that show results where there is no record
 };
 
 /// The output folder of one run. As long as this object lives, no other run can have it.
@@ -28,10 +28,10 @@ struct RunFolderSettings {
 /// \endcode
 /// A new run takes a folder without results, or any that it may overwrite. A run that goes on from a checkpoint takes its own folder
 /// only, and one that wants to go on and finds no checkpoint takes that of an unfinished run of the same scene, which has got to none.
-/// Until begin() nothing in the folder is changed: a run that is refused, here or later, leaves it as it was.
+/// Until begin() nothing in the folder is changed: a run that is rejected, here or later, leaves it as it was.
 class RunFolder {
  public:
-  /// files: where the run saves itself, if it does; they are told its identity
+  /// files: where the run saves itself, if it does; they receive its identity
   /// \throws FolderError for a folder that is in use, holds what must be kept or cannot be written
   RunFolder(RunFolderSettings settings, RunRecord record, CheckpointFiles* files = nullptr)
       : settings_(std::move(settings)), record_(std::move(record)), lock_(settings_.folder) {

@@ -41,7 +41,7 @@ concept PackingTangent = requires(Tangent const& tangent, PackingType const& pac
 };
 
 /// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
-/// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the answer is Love and Weber's stress at its end.
+/// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the response is Love and Weber's stress at its end.
 /// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
 template <class PackingType, PackingSource<PackingType> Source, PackingTangent<PackingType> Tangent = AffineTangent,
           DampsMotion Damping = LocalDamping>
@@ -68,7 +68,7 @@ struct DemRve {
       5e-3;            ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
   int min_steps = 20;  ///< of one response, however small the increment
   int max_steps = 20'000;
-  double unbalanced_tolerance = 0.05;  ///< asked of every response
+  double unbalanced_tolerance = 0.05;  ///< of every response
   double pressure_floor = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
   double time_step_share = default_time_step_share;  ///< of the critical step's lower bound
   bool fluid_start = false;  ///< whether a point may start with a packing without contacts, see StiffnessFloor
@@ -173,7 +173,7 @@ struct DemRve {
     return respond(committed, increment, trial, plan(committed, increment));
   }
 
-  /// A response that is not balanced to the tolerance is `not_converged`; refined(plan) asks for a slower one.
+  /// A response that is not balanced to the tolerance is `not_converged`; refined(plan) is a slower one.
   /// Fails with `not_finite` on NaN or an increment beyond the logarithm's range, with `cell_collapsed` when the cell gets
   /// too thin for its grains, with `too_deep` when an overlap exceeds the reduced radius of its contact; `fluid` without
   /// contacts.

@@ -18,8 +18,8 @@ struct PerturbationTangent {
       1e-6;                ///< of settled packings: times the stress it must stay well below stiffness x strain
   int max_steps = 50'000;  ///< of each settling
   int check_every = 50;    ///< steps between looks at the balance
-  Damping damping{};       ///< of the trials, whatever damping the packing answers with
-  TangentFallback on_fallback = report_tangent_fallback;  ///< hears of each tangent that is less exact than asked
+  Damping damping{};       ///< of the trials, whatever damping the packing responds with
+  TangentFallback on_fallback = report_tangent_fallback;  ///< called for each tangent that is less exact than requested
 
   /// \throws InputError for a strain or numbers of steps that are not positive
   void validate() const {
@@ -31,7 +31,7 @@ struct PerturbationTangent {
     detail::validated(damping);
   }
 
-  /// Central differences. What was reached by then is taken where a packing does not settle, after `on_fallback` was told.
+  /// Central differences. What was reached by then is used where a packing does not settle, after `on_fallback` was called.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     auto const answer = differentiate(packing, law);
@@ -41,7 +41,7 @@ struct PerturbationTangent {
     return answer.tangent;
   }
 
-  /// `towards`: modes where it is not zero are strained to that side only, since a sliding contact answers to one side
+  /// `towards`: modes where it is not zero are strained to that side only, since a sliding contact responds to one side
   /// unlike to the other.
   /// \return not_converged / unbalanced when a settling took its most steps, else what the stepper reports; `steps`
   /// receives the DEM steps taken

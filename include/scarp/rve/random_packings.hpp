@@ -15,7 +15,7 @@
 
 namespace scarp {
 
-/// Seed number `number` of a family: a stream of its own for every number, whoever asks and in whatever order.
+/// Seed number `number` of a family: a stream of its own for every number, whoever draws and in whatever order.
 inline std::uint64_t family_seed(std::uint64_t seed, std::uint64_t number) {
   constexpr std::uint64_t odd = 0xd1b54a32d192ed03ULL;  // consecutive numbers far apart
   return Random(Random(seed).next() + odd * number).next();

@@ -11,7 +11,7 @@ namespace scarp {
 namespace detail {
 
 /// Whether a search's step from this normal was the last one: it left a unit vector where it was, or turned it by so small an
-/// angle that the square of it, which is left, is round-off. A shape that tells no angle tells zero.
+/// angle that the square of it, which is left, is round-off. A shape without an estimate returns zero.
 template <int Dim>
 bool stands_still(ContactGeometry<Dim, double> const& touch, Point<Dim, double> const& before) {
   double change = 0.0;
@@ -41,7 +41,7 @@ bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
 }  // namespace detail
 
 /// Touch of a pair with the normal iterated until it stands still. Where it does not, or where another direction might have
-/// less overlap, shapes that tell their support function take the slow certain way, `minimum_translation`; of others a touch that
+/// less overlap, shapes with a support function take the slow certain way, `minimum_translation`; of others a touch that
 /// does not stand still is `normal_error`.
 template <class Shape>
 ContactGeometry<Shape::dim, double> converged_contact(PoseOf<Shape> const& first, PoseOf<Shape> const& second,

@@ -22,7 +22,7 @@ concept HasSupportOfPair = requires(PoseOf<Shape> const& pose, Point<2, double> 
   { Shape::supports(pose, pose, normal)[0] } -> std::convertible_to<Support<double>>;
 };
 
-/// A convex, centrally symmetric plane shape that tells its support function: for one grain, or for both of a pair.
+/// A convex, centrally symmetric plane shape with a support function: for one grain, or for both of a pair.
 template <class Shape>
 concept HasSupport = Shape::dim == 2 && (HasSupportOfOne<Shape> || HasSupportOfPair<Shape>);
 

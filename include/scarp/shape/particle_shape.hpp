@@ -19,7 +19,7 @@ inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 
 /// How two grains meet. `overlap` [m] is the least translation that parts them, positive when they touch; `normal` is the
 /// unit vector of that translation, from the first grain to the second; the arms [m] reach from each centre to the
-/// contact point, the middle between the two support points. `normal_error` tells by what angle the search for the normal
+/// contact point, the middle between the two support points. `normal_error` is the angle [rad] by which the search for the normal
 /// turned it last [rad], infinite where it found none, zero where it does not say: a touch that is far from its end is
 /// searched anew, one that turned by less than 1e-8 has ended, which is right where errors fall as squares.
 template <int Dim, class T>

@@ -86,7 +86,7 @@ class SCARP_EXPORT EquilibriumProblem final
   LoadHistory const& loads() const override { return loads_; }
   Executor& executor() const { return executor_; }
 
-  /// Gradients that the points have seen in the last evaluation, and their answers.
+  /// Gradients of the points in the last evaluation, and their responses.
   std::vector<Gradient<dim>> const& gradients() const override { return points_.gradients(); }
   std::vector<Response<dim>> const& responses() const override { return points_.responses(); }
 
@@ -136,7 +136,7 @@ class SCARP_EXPORT EquilibriumProblem final
     return evaluation;
   }
 
-  /// Lets the points whose last answer is not converged work harder, now and for the rest of the load step, at the increment
+  /// Lets the points whose last response is not converged take more inner steps, now and for the rest of the load step, at the increment
   /// of the last evaluation.
   Evaluation refine(Eigen::VectorXd const& increment) override {
     Evaluation evaluation{points_.refine(executor_)};
@@ -190,7 +190,7 @@ class SCARP_EXPORT EquilibriumProblem final
     return parts;
   }
 
-  /// Imbalance of a body beside the mesh relative to its own loads: the reactions of a heavy ground would hide it.
+  /// Imbalance of an attached body relative to its own loads: the reactions of a heavy ground would hide it.
   /// 0 without such a body or loads.
   double residual_beside(Eigen::VectorXd const& unbalanced) const override {
     return detail::residual_beside(unbalanced, load_now_, free_dofs_, discretisation_.dof_count());

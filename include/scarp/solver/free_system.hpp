@@ -64,7 +64,7 @@ class FreeSystem {
 namespace scarp::detail {
 
 /// Equations of the free degrees of freedom for a ground's stiffness, solved directly; where it is not assembled as a whole by
-/// an iteration with the factors of what the elements hold alone: that part answers waves shorter than the length, of which there are
+/// an iteration with the factors of what the elements hold alone: that part handles waves shorter than the length, of which there are
 /// many; means see the few that are longer.
 template <LinearSolver Linear>
 class GroundEquations {
@@ -81,7 +81,7 @@ class GroundEquations {
     }
     return linear_.factorize(matrix_);
   }
-  /// As far as an iteration comes; the residual tells.
+  /// As far as an iteration comes; the residual shows how far.
   Eigen::VectorXd solve(Eigen::VectorXd const& force) const {
     if (!iterate_) return linear_.solve(force);
     return iterate_(

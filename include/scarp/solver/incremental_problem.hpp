@@ -12,7 +12,7 @@
 
 namespace scarp {
 
-/// What a solver asks of a boundary-value problem in increments, whatever its elements, materials, loads and executor are: a
+/// What a solver needs of a boundary-value problem in increments, whatever its elements, materials, loads and executor are: a
 /// solver is compiled once for each dimension. `EquilibriumProblem` says what each member means.
 template <int Dim>
 class IncrementalProblem {

@@ -14,7 +14,7 @@
 namespace scarp {
 
 /// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment keeps its own
-/// forces: contact that opens, closes or slides is followed here, where no material point is asked. Without attachment
+/// forces: contact that opens, closes or slides is followed here, where no material point is evaluated. Without attachment
 /// this is one linear solve.
 template <class Problem, LinearSolver Linear>
 class LinearisedStep {
@@ -75,7 +75,7 @@ class LinearisedStep {
     Eigen::VectorXd increment;
     Eigen::VectorXd unbalanced;
     double residual = 0.0;
-    double beside = 0.0;  ///< residual of a body beside the mesh; 1 when nothing carries it
+    double beside = 0.0;  ///< residual of an attached body; 1 when nothing carries it
 
     /// A body that has lost its contacts finds no way back by derivatives.
     bool lost() const { return !(beside < 1.0); }
@@ -121,7 +121,7 @@ class LinearisedStep {
     return {};
   }
 
-  /// Newton's method; what stands beside the mesh is balanced at every place that is tried. Where Newton's direction
+  /// Newton's method; attached bodies are balanced at every place that is tried. Where Newton's direction
   /// leads to no smaller imbalance, that of held contacts is followed as far as the unbalanced forces do work.
   Verdict follow_contact(Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());

@@ -12,7 +12,7 @@
 
 namespace scarp {
 
-/// Watches a run: called after every attempt at a step, accepted or not; may ask to stop, before an attempt or within one, which
+/// Watches a run: called after every attempt at a step, accepted or not; may stop the run, before an attempt or within one, which
 /// then counts as never made.
 template <class Observer, class Problem>
 concept ObservesSteps = requires(Observer& observer, Problem const& problem, StepReport const& report) {
@@ -52,7 +52,7 @@ struct NoObserver {
 /// How far a run came.
 struct RunReport {
   Verdict verdict;
-  Reason last_failure = Reason::none;  ///< why the last rejected attempt was refused
+  Reason last_failure = Reason::none;  ///< why the last rejected attempt was rejected
   int worst_point = -1;                ///< material point of that attempt, -1 for none
   int weak_dof = -1;                   ///< degree of freedom that its singular system did not hold, -1 for none
   double load = 0.0;                   ///< load factor of the committed state
@@ -77,7 +77,7 @@ struct RunState {
 };
 
 /// An observer that saves runs and continues saved ones: begins(problem, session, state), before the first attempt, may put back
-/// what was saved; between(...) is told before every attempt and ends(...) after the last one where the run stands.
+/// what was saved; between(...) is called before every attempt and ends(...) after the last one where the run stands.
 template <class Observer, class Problem, class Session>
 concept KeepsRuns = ObservesSteps<Observer, Problem> &&
     requires(Observer& observer, Problem& problem, Session& session, RunState& state) {

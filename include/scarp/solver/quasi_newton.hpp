@@ -55,8 +55,8 @@ class SCARP_EXPORT QuasiNewtonSession {
   Settings settings_;
   Problem& problem_;
   LinearPredictor<Problem, Linear> start_;
-  Clock::time_point mark_{};                       ///< end of the last answer of the points in this step
-  double tangent_seconds_ = 0.0;                   ///< that no evaluation has been told yet
+  Clock::time_point mark_{};                       ///< end of the last response of the points in this step
+  double tangent_seconds_ = 0.0;                   ///< that no evaluation has counted yet
   std::vector<VoigtTangent<Problem::dim>> first_;  ///< of the state that the session began with
   std::vector<VoigtTangent<Problem::dim>> provider_;
   std::vector<VoigtTangent<Problem::dim>> working_;
@@ -93,7 +93,7 @@ template <class Settings, class Problem>
 void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, StepReport& report,
                                                     StopQuestion const& stop) {
   iterate(increment, report, stop);
-  // What led to a step that is refused is not repeated; one that was interrupted counts as never made.
+  // What led to a rejected step is not repeated; one that was interrupted counts as never made.
   if (!report.verdict.acceptable() && !report.interrupted()) motion_.forget();
 }
 
@@ -114,10 +114,10 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
     report.history.back().linear_residual = linear_residual;
     report.history.back().material_seconds = report.history.back().seconds = std::exchange(tangent_seconds_, 0.0);
     Evaluation evaluation = recorded(report, increment, false);
-    // A point short of its own accuracy gets more work at once: early, while its answer may still jump.
+    // A point short of its own accuracy gets more work at once: early, while its response may still jump.
     for (int k = 0; k < settings_.max_refinements && report.verdict.status == Status::not_converged; ++k) {
       if (report.stopped(stop)) return;
-      learn();  // before the plan changes the answer, which would pass for stiffness
+      learn();  // before the plan changes the response, which would pass for stiffness
       evaluation = recorded(report, increment, true);
     }
     if (report.verdict.status == Status::failed) return;
@@ -217,7 +217,7 @@ struct QuasiNewton {
   int max_iterations = 30;
   double divergence_limit = 10.0;  ///< residual beyond which a step is given up
   int max_refinements = 4;         ///< of points that have not converged, in each iteration
-  /// A step's first guess is the motion of the step before, scaled by the load; after a refused one it is linear.
+  /// A step's first guess is the motion of the step before, scaled by the load; after a rejected one it is linear.
   bool repeats_motion = true;
   Rule rule{};
 

@@ -20,7 +20,7 @@
 namespace scarp {
 
 /// MPI for the life of a program; a program that fails on one rank calls abort, since the others wait for it.
-/// \throws InputError for an MPI that cannot run beside threads
+/// \throws InputError for an MPI that cannot run with threads
 class MpiSession {
  public:
   MpiSession(int& argc, char**& argv) {
@@ -29,7 +29,7 @@ class MpiSession {
     if (provided < MPI_THREAD_FUNNELED) {
       MPI_Finalize();
       throw_input_error(
-          "MPI was asked to run beside threads of its ranks (this one cannot): take an MPI with MPI_THREAD_FUNNELED");
+          "MPI was requested with threads of its ranks (this one cannot): take an MPI with MPI_THREAD_FUNNELED");
     }
   }
   MpiSession(MpiSession const&) = delete;
@@ -80,7 +80,7 @@ struct LyingInMemory<Response<Dim>> {
 
 }  // namespace detail
 
-/// An MPI rank: all ranks run the same solver, each of them answers for every so-many-th point and holds the states of no others.
+/// An MPI rank: all ranks run the same solver, points are distributed cyclically and holds the states of no others.
 /// Gradients are known everywhere; only stresses, tangents and verdicts travel. Neighbouring points, whose packings
 /// cost alike, belong to different ranks, so that work is shared out evenly. `Local` runs the tasks within the rank.
 template <ExecutesTasks Local = SerialExecutor>
@@ -175,7 +175,7 @@ class RankExecutor {
     return heard != 0;
   }
 
-  /// On the root rank: what the owner of a point answers while it serves.
+  /// On the root rank: what the owner of a point returns while it serves.
   /// \throws InputError with the owner's words where it could not
   std::string fetch(int point) const {
     int const owner = point % ranks_;
@@ -191,7 +191,7 @@ class RankExecutor {
     return bytes;
   }
 
-  /// The root rank does a task, which may ask; the others answer meanwhile: answer_to(point) returns the bytes. What one throws
+  /// The root rank does a task, which may request points; the others serve meanwhile: answer_to(point) returns the bytes. What one throws
   /// ends all.
   template <std::invocable Task, std::invocable<int> Answer>
   void on_first(Task const& task, Answer const& answer_to) const {
@@ -214,7 +214,7 @@ class RankExecutor {
   static constexpr int answer = 2;
   static constexpr int failure = 3;
 
-  /// Until the root rank has no more questions; then what an answer has thrown is thrown.
+  /// Until the root rank has no more questions; then what a request has thrown is thrown.
   template <class Answer>
   void serve(Answer const& answer_to) const {
     std::exception_ptr thrown;

@@ -29,14 +29,14 @@ struct IterationRecord {
   double residual = 0.0;
   double linear_residual = 0.0;   ///< |K x - b| / |b| of the linear system that led here
   long inner_steps = 0;           ///< DEM steps of all points
-  double material_seconds = 0.0;  ///< wall time in the material points' answers and tangents, sum of forces included
+  double material_seconds = 0.0;  ///< wall time in the material points' responses and tangents, sum of forces included
   double seconds = 0.0;           ///< the same and of the linear system that led here
   Verdict verdict{};              ///< of the worst point
   int worst_point = -1;           ///< that is not acceptable, -1 for none
   PointSurvey points{};
 };
 
-/// Asked between two answers of all points, since an attempt of large packings may take minutes. Empty: never.
+/// Called between two responses of all points, since an attempt of large packings may take minutes. Empty: never.
 using StopQuestion = std::function<bool()>;
 
 /// How one attempt at a load step went.

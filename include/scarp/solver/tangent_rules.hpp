@@ -17,7 +17,7 @@ concept StartsTangent = requires(Rule const& rule, VoigtTangent<Dim> const& tang
   { rule.template start<Dim>(tangent, tangent) } -> std::same_as<VoigtTangent<Dim>>;
 };
 
-/// update(tangent, provider, change of strain, change of stress): what an iteration's answer teaches.
+/// update(tangent, provider, change of strain, change of stress): how an iteration's response changes the tangent.
 template <class Rule, int Dim>
 concept LearnsFromAnswers = requires(Rule const& rule, VoigtTangent<Dim> const& tangent,
                                      EngineeringStrain<Dim> const& strain, VoigtStress<Dim> const& stress) {
@@ -80,7 +80,7 @@ struct PointwiseBroyden {
 static_assert(TangentRule<PointwiseBroyden, 2> && TangentRule<PointwiseBroyden, 3>);
 
 /// Newton's method: every iteration takes the provider's tangent at its trial state. Residuals fall quadratically where that is
-/// the derivative of the answer and the answer is smooth.
+/// the derivative of the response and the response is smooth.
 struct ConsistentTangent {
   double floor = 0.0;  ///< share of the first tangent that is mixed in, against singular systems at a limit load
 
@@ -100,14 +100,14 @@ struct ConsistentTangent {
 
 static_assert(TangentRule<ConsistentTangent, 2> && TangentRule<ConsistentTangent, 3>);
 
-/// What a tangent can learn from two answers of one point: a strain and the change of stress that it made.
+/// What a tangent can learn from two responses of one point: a strain and the change of stress that it made.
 template <int Dim>
 struct SecantPair {
   EngineeringStrain<Dim> strain;
   VoigtStress<Dim> stress;  ///< [Pa]
 };
 
-/// From the answer to one gradient to that to another, both from the same start, in the axes of the former: the rotation
+/// From the response to one gradient to that to another, both from the same start, in the axes of the former: the rotation
 /// between them turns the stress that was there and is no stiffness. Nothing, where no rotation leads from one to the other.
 template <int Dim>
 SecantPair<Dim> corotated_secant_pair(Gradient<Dim> const& from, Gradient<Dim> const& to,

@@ -18,7 +18,7 @@
 namespace scarp {
 
 /// A fixed team of threads that take the next task when they have finished one, so that tasks of very different length
-/// share out evenly. Tasks write only their own results: the answer has the same bits for any number of threads.
+/// share out evenly. Tasks write only their own results: the result has the same bits for any number of threads.
 class ThreadExecutor {
  public:
   /// threads, the calling one included; 0 takes as many as the machine has

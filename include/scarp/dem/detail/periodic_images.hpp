@@ -18,7 +18,7 @@ struct PlacedGrain {
   std::array<std::int8_t, static_cast<std::size_t>(Dim)> shift;
 };
 
-/// Grains followed by those of their images that a neighbour search needs; the functions are what nanoflann asks for.
+/// Grains followed by those of their images that a neighbour search needs; the functions are what nanoflann requires.
 template <int Dim>
 struct GrainsAndImages {
   std::vector<PlacedGrain<Dim>> points;

@@ -67,7 +67,7 @@ inline void require_apart(std::vector<double> const& lines, double size) {
 
 /// The element size whose number of elements is nearest to the wanted one.
 /// ideal(size): number without rounding to whole cells, falls steadily; count(size): the number itself
-/// fine, coarse: sizes [m] that the answer lies between
+/// fine, coarse: sizes [m] that bracket the result
 template <class Ideal, class Count>
 double size_for_count(int wanted, double fine, double coarse, Ideal const& ideal, Count const& count) {
   for (int k = 0; k < 60; ++k) {

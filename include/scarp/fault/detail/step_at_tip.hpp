@@ -49,7 +49,7 @@ class StepAtTip {
  public:
   static constexpr double same_place = 1e-6;  ///< of the bottom's length: what files with seven digits hold
 
-  /// \throws InputError for a tip outside the bottom or beside its outermost facets
+  /// \throws InputError for a tip outside the bottom or on its outermost facets
   template <class Element>
   StepAtTip(Mesh<Element> const& mesh, double tip) : is_quadratic_(HasMidSides<Element>) {
     auto const lines = corners_along(mesh, "bottom");

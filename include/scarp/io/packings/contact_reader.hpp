@@ -75,7 +75,7 @@ class PairsOfGrains {
   }
 
   /// The pair that a line of a file speaks of, null for none; where they name the grains in opposite orders, the line
-  /// is turned round. Branches tell images apart: they differ by lattice vectors, which are longer than two largest
+  /// is turned round. Branches distinguish images: they differ by lattice vectors, which are longer than two largest
   /// radii.
   Contact<Dim> const* find(ListedContact<Dim>& listed) const {
     auto const [begin, end] = contacts_.equal_range(std::pair(std::minmax({listed.first, listed.second})));

@@ -42,7 +42,7 @@ template <class Element>
     return parts;
   }
 
-/// The cell itself. The order of its corners is asked of the shape functions on [-1, 1]^dim.
+/// The cell itself. The order of its corners is that of the shape functions on [-1, 1]^dim.
 template <class Element>
   requires(is_cube<Element> && !is_simplex<Element>)
 std::vector<std::array<int, Element::nodes>> cell_division() {

@@ -30,7 +30,7 @@ class PointBatch {
   /// The same provider without points.
   virtual std::unique_ptr<PointBatch> without_points() const = 0;
 
-  /// number: among all points; here: whether this process answers for the point, else it has no state
+  /// number: among all points; here: whether this process owns the point, else it has no state
   virtual void add(Site<Dim> const& site, int number, bool here) = 0;
   virtual int size() const = 0;
   virtual Site<Dim> const& site(int k) const = 0;
@@ -202,7 +202,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
 
  private:
-  /// Of a point that another process answers for.
+  /// Of a point that another process owns.
   static State no_state() {
     if constexpr (std::default_initializable<State>) {
       return {};

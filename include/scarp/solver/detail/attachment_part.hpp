@@ -10,7 +10,7 @@
 
 namespace scarp::detail {
 
-/// What is attached to the mesh of a problem, as its solver asks for it.
+/// What is attached to the mesh of a problem, as its solver needs it.
 template <class Problem, int Dim, class Attached>
 class AttachmentPart : public AttachedProblem<Dim> {
  public:
@@ -21,7 +21,7 @@ class AttachmentPart : public AttachedProblem<Dim> {
   /// The first degree of freedom of its own, behind those of the mesh.
   int first_beside() const override { return static_cast<Problem const&>(*this).discretisation().dof_count(); }
 
-  /// Size [m] of what is attached where it tells one, else of the mesh.
+  /// Size [m] of what is attached where it has one, else of the mesh.
   double length() const override {
     if constexpr (requires { attached_.length(); }) {
       return attached_.length();
@@ -38,7 +38,7 @@ class AttachmentPart : public AttachedProblem<Dim> {
   }
 
   /// Forces [N] of what is attached alone, at an increment; its trial state then belongs to that increment. Whether it could
-  /// answer is said by the next evaluation.
+  /// result is that of the next evaluation.
   Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) override {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(this->dof_count());
     attached_.add_forces(static_cast<Problem const&>(*this).discretisation().positions(), increment, forces);

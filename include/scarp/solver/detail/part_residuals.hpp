@@ -32,7 +32,7 @@ inline double residual_of_all(Eigen::VectorXd const& unbalanced, Eigen::VectorXd
   return free == 0.0 ? 0.0 : std::sqrt(free / scale);
 }
 
-/// |unbalanced| over |loads| of free degrees of freedom from the first one beside the mesh on; 0 without such loads.
+/// |unbalanced| over |loads| of free degrees of freedom from the first one of attached bodies on; 0 without such loads.
 inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads,
                               std::vector<int> const& free_dofs, int first) {
   double free = 0.0;

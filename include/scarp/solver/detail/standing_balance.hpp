@@ -50,7 +50,7 @@ std::optional<double> zero_power_step(Work const& work, double most) {
   return share;
 }
 
-/// Balances what stands beside a mesh, on its own few degrees of freedom, wherever the nodes of the mesh are: a rigid body
+/// Balances attached bodies, on its own few degrees of freedom, wherever the nodes of the mesh are: a rigid body
 /// on contacts. So a ground never sees the forces of a body that is out of balance.
 ///
 /// Newton's method with halving as long as it makes the imbalance smaller. A body all of whose points slide has no
@@ -67,13 +67,13 @@ class StandingBalance {
   bool is_held() const { return own_.free_count() == 0 || factors(problem_.attached_stiffness()).isInvertible(); }
 
   /// Begins the count of questions to the attachment, which are limited: a body that slides without friction, or on springs so
-  /// stiff that round-off hides its imbalance, could be asked without end.
+  /// stiff that round-off hides its imbalance, could be evaluated without end.
   void begin() { asked_ = 0; }
   bool spent() const { return asked_ >= max_questions; }
 
-  /// Moves the entries beside the mesh of an increment [m]; loads [N]: on all degrees of freedom.
+  /// Moves the entries of attached bodies in an increment [m]; loads [N]: on all degrees of freedom.
   /// The attachment's trial state then belongs to the increment.
-  /// \return whether they balance, to `accuracy` of the loads beside the mesh
+  /// \return whether they balance, to `accuracy` of the loads of attached bodies
   bool settle(Eigen::VectorXd& increment, Eigen::VectorXd const& loads, double accuracy) {
     if (own_.free_count() == 0) return true;
     loads_ = own_.gather(loads);
@@ -97,7 +97,7 @@ class StandingBalance {
 
   static constexpr int max_iterations = 100;
   static constexpr int max_questions = 3000;
-  static constexpr double better = 1e-3;  ///< of the accuracy asked for, where Newton's method comes that far
+  static constexpr double better = 1e-3;  ///< of the required accuracy, where Newton's method comes that far
   static constexpr double min_share = 0.1;
   static constexpr double decrease = 0.1;  ///< of the imbalance, over the share of Newton's step
   // Over the length of the body:
@@ -145,14 +145,14 @@ class StandingBalance {
     return own_.gather(problem_.attached_forces(increment)) - loads_;
   }
 
-  /// Of the part of a stiffness beside the mesh.
+  /// Of a stiffness' part of attached bodies.
   Eigen::FullPivLU<Eigen::MatrixXd> factors(Eigen::SparseMatrix<double> const& all) const {
     return Eigen::FullPivLU<Eigen::MatrixXd>(Eigen::MatrixXd(own_.matrix(all)));
   }
 
   Problem& problem_;
   double length_;   ///< of the body [m]
-  FreeSystem own_;  ///< beside the mesh
+  FreeSystem own_;  ///< of attached bodies
   Eigen::VectorXd loads_;
   int asked_ = 0;
 };

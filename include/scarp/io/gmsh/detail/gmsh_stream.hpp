@@ -99,7 +99,7 @@ class GmshStream {
     return number;
   }
 
-  /// How many entries of at least `numbers` numbers each follow; refused where the file is too short for them, so that
+  /// How many entries of at least `numbers` numbers each follow; rejected where the file is too short for them, so that
   /// nobody makes room for a damaged count.
   std::size_t count(std::string_view what, std::size_t numbers) {
     return checked_count(value<std::uint64_t>(what), what, numbers);
