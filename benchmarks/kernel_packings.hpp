@@ -199,7 +199,7 @@ void bond_contacts(PackingType& packing, typename PackingType::Law const& law) {
     Memory bonded;
     Law::bond(bonded);
     for (std::size_t const pair : closed) {
-      for (int k = 0; k < Law::needs.scalars; ++k)
+      for (int k = 0; k < Law::inputs.scalars; ++k)
         packing.pairs.scalars(pair, k) = bonded.scalars[static_cast<std::size_t>(k)];
     }
   }

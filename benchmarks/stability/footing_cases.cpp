@@ -11,7 +11,7 @@ namespace stability {
 
 namespace {
 
-/// A footing on friction with a couple that has a amplitude over the load factor.
+/// A footing on friction with a couple that has an amplitude over the load factor.
 struct RockedFooting : scarp::FrictionalFooting<scarp::LinearFrictional> {
   scarp::TimeFunction couple = scarp::TimeFunction::constant(0.0);  ///< counter-clockwise, over weight times width
 

@@ -12,7 +12,7 @@
 
 /// As scarp::LinearFrictional, to have something known to compare with.
 struct OwnSprings {
-  static constexpr scarp::ContactInputs needs{.shear = true};
+  static constexpr scarp::ContactInputs inputs{.shear = true};
   double normal_stiffness = 0.0, tangential_stiffness = 0.0, friction = 0.0;
 
   template <int Dim, class T>
@@ -20,7 +20,7 @@ struct OwnSprings {
                                       scarp::ContactMemory<Dim, T>& memory) const {
     using scarp::broadcast;
     T const normal = scarp::lanes::at_least(broadcast<T>(normal_stiffness) * approach.overlap, broadcast<T>(0));
-    scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip, broadcast<T>(tangential_stiffness),
+    scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip_increment, broadcast<T>(tangential_stiffness),
                                  broadcast<T>(friction) * normal);
     return {.normal = normal, .shear = memory.shear};
   }

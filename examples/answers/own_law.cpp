@@ -10,7 +10,7 @@
 
 /// \f$ F_n = k\,u^{3/2},\; |F_t| \le \mu F_n \f$ with a linear shear spring; k [N/m^1.5], k_t [N/m].
 struct Stiffening {
-  static constexpr scarp::ContactInputs needs{.shear = true};  // without it no slip is computed and nothing rubs
+  static constexpr scarp::ContactInputs inputs{.shear = true};  // without it no slip is computed and nothing rubs
 
   double coefficient = 0.0;
   double tangential_stiffness = 0.0;
@@ -24,8 +24,8 @@ struct Stiffening {
     using std::sqrt;
     T const closed = scarp::lanes::at_least(approach.overlap, broadcast<T>(0));
     T const normal = broadcast<T>(coefficient) * closed * sqrt(closed);
-    T const lost = scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip, broadcast<T>(tangential_stiffness),
-                                                broadcast<T>(friction) * normal);
+    T const lost = scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip_increment,
+                                                broadcast<T>(tangential_stiffness), broadcast<T>(friction) * normal);
     return {.normal = normal, .shear = memory.shear, .dissipated = lost};
   }
   scarp::ContactStiffness stiffness(double overlap, double) const {

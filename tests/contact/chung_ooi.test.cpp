@@ -73,10 +73,10 @@ Rebound bounce(Law const& contact_law, Impact const& impact, double tangential_s
     overlap += closing_speed * step;
     double const slip = (rebound.tangential_speed + rebound.spin) * step;
     auto const force = contact_law.respond(ContactKinematics<2, double>{.overlap = overlap,
-                                                                        .slip = slip,
+                                                                        .slip_increment = slip,
                                                                         .reduced_radius = impact.radius,
-                                                                        .closing = closing_speed * step,
-                                                                        .sweep = slip,
+                                                                        .overlap_increment = closing_speed * step,
+                                                                        .tangential_increment = slip,
                                                                         .reduced_mass = impact.mass,
                                                                         .time_step = step},
                                            memory);
@@ -166,15 +166,15 @@ struct Momenta {
 
 struct Course {
   Collision::Spheres packing;
-  double lost_momentum = 0.0;          // largest over the amplitude, relative
-  double lost_angular_momentum = 0.0;  // largest over the amplitude, relative
+  double lost_momentum = 0.0;          // largest over the course, relative
+  double lost_angular_momentum = 0.0;  // largest over the course, relative
   int touching = 0;                    // steps
 };
 
 /// Until the spheres are apart again.
 Course collide(Collision const& collision, HertzMindlin<HertzRestitution> const& contact_law) {
-  Course amplitude{.packing = collision.packing()};
-  auto& packing = amplitude.packing;
+  Course course{.packing = collision.packing()};
+  auto& packing = course.packing;
   scarp::TimeStepper<Collision::Spheres> stepper;
   stepper.damping = {.factor = 0.0, .drag = 0.0};
   stepper.skin_ratio = 0.01;
@@ -183,16 +183,16 @@ Course collide(Collision const& collision, HertzMindlin<HertzRestitution> const&
   for (int step = 0; step < 100'000; ++step) {
     REQUIRE(stepper.step(packing, contact_law, scarp::Tensor<3>::Zero()).acceptable());
     Momenta const now(collision, packing);
-    amplitude.lost_momentum =
-        std::max(amplitude.lost_momentum, (now.linear - start.linear).norm() / start.linear_scale);
-    amplitude.lost_angular_momentum =
-        std::max(amplitude.lost_angular_momentum, (now.angular - start.angular).norm() / start.angular_scale);
+    course.lost_momentum =
+        std::max(course.lost_momentum, (now.linear - start.linear).norm() / start.linear_scale);
+    course.lost_angular_momentum =
+        std::max(course.lost_angular_momentum, (now.angular - start.angular).norm() / start.angular_scale);
     double const distance = (row(packing.position, 1) - row(packing.position, 0)).norm();
     bool const apart = distance > collision.radius[0] + collision.radius[1];
-    if (amplitude.touching > 0 && apart) return amplitude;
-    if (!apart) ++amplitude.touching;
+    if (course.touching > 0 && apart) return course;
+    if (!apart) ++course.touching;
   }
-  return amplitude;
+  return course;
 }
 
 }  // namespace
@@ -357,13 +357,13 @@ TEST_CASE("two equal spheres with equal spins part as in Chung and Ooi's test 7"
       Collision const collision{.radius = {0.1, 0.1},
                                 .closing = {speed, 0.0, 0.0},
                                 .spin = {Vector<3>{0.0, 0.0, spin}, Vector<3>{0.0, 0.0, spin}}};
-      Course const amplitude = collide(collision, contact_law);
-      REQUIRE(amplitude.touching > 500);
+      Course const course = collide(collision, contact_law);
+      REQUIRE(course.touching > 500);
       // Exact, in every step: forces are opposite and act at one point, and leap-frog moves each centre along its own
       // velocity, so that sum (x cross m v + I w) of a position and the velocity that led to it never changes. Round-off.
-      CHECK(amplitude.lost_momentum < 1e-12);
-      CHECK(amplitude.lost_angular_momentum < 1e-12);
-      auto const& packing = amplitude.packing;
+      CHECK(course.lost_momentum < 1e-12);
+      CHECK(course.lost_angular_momentum < 1e-12);
+      auto const& packing = course.packing;
       // Exact: the half turn about z through the middle exchanges the spheres. Round-off of positions near 2 m, 2e-16,
       // over overlaps of 1e-5 m.
       CHECK((row(packing.velocity, 0) + row(packing.velocity, 1)).norm() < 1e-9 * speed);
@@ -391,11 +391,11 @@ TEST_CASE("two different spheres with spins part as in Chung and Ooi's test 8") 
     Collision const collision{.radius = {0.1, 0.05},
                               .closing = {speed, 0.0, 0.0},
                               .spin = {Vector<3>{0.0, 0.0, spin}, Vector<3>{0.0, 0.0, spin}}};
-    Course const amplitude = collide(collision, contact_law);
-    REQUIRE(amplitude.touching > 500);
-    CHECK(amplitude.lost_momentum < 1e-12);  // as above
-    CHECK(amplitude.lost_angular_momentum < 1e-12);
-    auto const& packing = amplitude.packing;
+    Course const course = collide(collision, contact_law);
+    REQUIRE(course.touching > 500);
+    CHECK(course.lost_momentum < 1e-12);  // as above
+    CHECK(course.lost_angular_momentum < 1e-12);
+    auto const& packing = course.packing;
     // Analytic: the impulse P = (1 + e) m* 2 v moves each centre by P/m, and if it slides by mu P/m across and
     // 2.5 mu P/(m R) in spin. 1e-3 of the change: as above.
     double const impulse = (1.0 + restitution) * collision.reduced_mass() * 2.0 * speed;
@@ -423,10 +423,10 @@ TEST_CASE("a glancing collision in space keeps momentum and angular momentum to 
                                 .drift = {0.05, 0.1, -0.07}};
       auto const contact_law =
           HertzMindlin<HertzRestitution>::of(70e9, 0.3, friction, HertzRestitution{.restitution = restitution});
-      Course const amplitude = collide(collision, contact_law);
-      REQUIRE(amplitude.touching > 300);
-      CHECK(amplitude.lost_momentum < 1e-12);  // exact, as in test 7
-      CHECK(amplitude.lost_angular_momentum < 1e-12);
+      Course const course = collide(collision, contact_law);
+      REQUIRE(course.touching > 300);
+      CHECK(course.lost_momentum < 1e-12);  // exact, as in test 7
+      CHECK(course.lost_angular_momentum < 1e-12);
     }
   }
 }
@@ -439,7 +439,7 @@ struct TotalSlipForm {
 
   ContactForce<2, double> respond(ContactKinematics<2, double> const& approach,
                                   ContactMemory<2, double>& memory) const {
-    double const slip = memory.scalars[1] += approach.slip;
+    double const slip = memory.scalars[1] += approach.slip_increment;
     auto force = law.respond(approach, memory);
     force.shear = -law.stiffness(approach.overlap, approach.reduced_radius).tangential * slip;
     return force;

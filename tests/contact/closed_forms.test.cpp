@@ -38,10 +38,10 @@ struct Ball {
   void step(Law const& law, double overlap, double time_step, double push = 0.0) {
     double const slip = surface_speed() * time_step;
     auto const force = law.respond(ContactKinematics<2, double>{.overlap = overlap,
-                                                                .slip = slip,
-                                                                .roll = spin * time_step,
+                                                                .slip_increment = slip,
+                                                                .rotation_increment = spin * time_step,
                                                                 .reduced_radius = radius,
-                                                                .sweep = slip,
+                                                                .tangential_increment = slip,
                                                                 .reduced_mass = mass,
                                                                 .time_step = time_step},
                                    memory);
@@ -65,7 +65,8 @@ TEST_CASE("a linear spring gives back all speed after half its period") {
       former = overlap;
       overlap += closing_speed * time_step;
       closing_speed -=
-          law.respond(ContactKinematics<2, double>{.overlap = overlap, .slip = 0.0}, memory).normal / mass * time_step;
+          law.respond(ContactKinematics<2, double>{.overlap = overlap, .slip_increment = 0.0}, memory).normal / mass *
+          time_step;
       largest = std::max(largest, overlap);
     }
     double const duration = (n - 1 + former / (former - overlap)) * time_step;

@@ -23,7 +23,7 @@ constexpr Bond law{.law = {.normal_stiffness = 100.0, .tangential_stiffness = 50
                    .tensile_strength = 10.0,
                    .shear_strength = 8.0};
 
-static_assert(Bond::needs.shear && Bond::needs.scalars == 1);
+static_assert(Bond::inputs.shear && Bond::inputs.scalars == 1);
 
 template <class Law>
 concept CanBeBonded = requires {

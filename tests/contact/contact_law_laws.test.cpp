@@ -28,11 +28,11 @@ struct RandomApproaches {
   ContactKinematics<3, double> next() {
     std::array<double, 3> const slip{spread(0.1), spread(0.1), spread(0.1)};
     return {.overlap = 0.05 + spread(0.1),
-            .slip = slip,
-            .roll = {spread(0.5), spread(0.5), spread(0.5)},
+            .slip_increment = slip,
+            .rotation_increment = {spread(0.5), spread(0.5), spread(0.5)},
             .reduced_radius = 1.0 + spread(0.5),
-            .closing = spread(0.02),
-            .sweep = slip,
+            .overlap_increment = spread(0.02),
+            .tangential_increment = slip,
             .reduced_mass = 2.0 + spread(1.0),
             .time_step = 0.01};
   }
@@ -42,11 +42,11 @@ template <class T>
 ContactKinematics<2, T> in_plane(ContactKinematics<3, double> const& a) {
   auto const number = [](double value) { return scarp::broadcast<T>(value); };
   return {.overlap = number(a.overlap),
-          .slip = number(a.slip[0]),
-          .roll = number(a.roll[2]),
+          .slip_increment = number(a.slip_increment[0]),
+          .rotation_increment = number(a.rotation_increment[2]),
           .reduced_radius = number(a.reduced_radius),
-          .closing = number(a.closing),
-          .sweep = number(a.sweep[0]),
+          .overlap_increment = number(a.overlap_increment),
+          .tangential_increment = number(a.tangential_increment[0]),
           .reduced_mass = number(a.reduced_mass),
           .time_step = number(a.time_step)};
 }
@@ -71,7 +71,7 @@ TEST_CASE_TEMPLATE("an open contact without a bond has no force and forgets shea
     law.respond(approach, memory);
     approach = approaches.next();
     approach.overlap = -1e-9 - std::abs(approach.overlap);
-    approach.closing = -std::abs(approach.closing);
+    approach.overlap_increment = -std::abs(approach.overlap_increment);
     auto const force = law.respond(approach, memory);
     CHECK(force.normal == 0.0);  // exact: every limit is zero
     CHECK(scarp::squared_size(force.shear) == 0.0);
@@ -87,7 +87,8 @@ TEST_CASE_TEMPLATE("a closed contact pushes and pushes harder the deeper it is",
   double former = 0.0;
   for (double overlap = 1e-12; overlap < 1.0; overlap *= 3.0) {
     double const normal =
-        law.respond(ContactKinematics<2, double>{.overlap = overlap, .slip = 0.0, .reduced_radius = 1.0}, memory)
+        law.respond(ContactKinematics<2, double>{.overlap = overlap, .slip_increment = 0.0, .reduced_radius = 1.0},
+                    memory)
             .normal;
     CHECK(normal > former);
     CHECK(law.stiffness(overlap, 1.0).normal > 0.0);
@@ -100,7 +101,9 @@ TEST_CASE_TEMPLATE("the stiffness is the derivative of the forces", Law, EVERY_C
   double const step = 1e-5, overlap = 0.1;
   auto const push = [&](double at) {
     ContactMemory<2, double> memory;
-    return law.respond(ContactKinematics<2, double>{.overlap = at, .slip = 0.0, .reduced_radius = 1.0}, memory).normal;
+    return law
+        .respond(ContactKinematics<2, double>{.overlap = at, .slip_increment = 0.0, .reduced_radius = 1.0}, memory)
+        .normal;
   };
   auto const stiffness = law.stiffness(overlap, 1.0);
   // Analytic: central difference, error step^2 F''' ~ 1e-8 and round-off 1e-10 of the stiffness.
@@ -108,7 +111,9 @@ TEST_CASE_TEMPLATE("the stiffness is the derivative of the forces", Law, EVERY_C
         samples::Approx(stiffness.normal).epsilon(1e-7));
   ContactMemory<2, double> memory;
   auto const force = law.respond(
-      ContactKinematics<2, double>{.overlap = overlap, .slip = step, .roll = step, .reduced_radius = 1.0}, memory);
+      ContactKinematics<2, double>{
+          .overlap = overlap, .slip_increment = step, .rotation_increment = step, .reduced_radius = 1.0},
+      memory);
   CHECK(-force.shear / step == samples::Approx(stiffness.tangential).epsilon(1e-12));  // linear in the slip; round-off
   CHECK(-force.moment / step == samples::Approx(stiffness.rolling).epsilon(1e-12));
 }
@@ -144,16 +149,17 @@ TEST_CASE_TEMPLATE("packs give lane by lane what single numbers give", Law, EVER
       auto const gather = [&](auto const& number_of) {
         return Lanes([&](auto lane) { return number_of(lanes[lane]); });
       };
-      ContactKinematics<3, Lanes> approach{.overlap = gather([](auto const& a) { return a.overlap; }),
-                                           .slip = {},
-                                           .reduced_radius = gather([](auto const& a) { return a.reduced_radius; }),
-                                           .closing = gather([](auto const& a) { return a.closing; }),
-                                           .reduced_mass = gather([](auto const& a) { return a.reduced_mass; }),
-                                           .time_step = gather([](auto const& a) { return a.time_step; })};
+      ContactKinematics<3, Lanes> approach{
+          .overlap = gather([](auto const& a) { return a.overlap; }),
+          .slip_increment = {},
+          .reduced_radius = gather([](auto const& a) { return a.reduced_radius; }),
+          .overlap_increment = gather([](auto const& a) { return a.overlap_increment; }),
+          .reduced_mass = gather([](auto const& a) { return a.reduced_mass; }),
+          .time_step = gather([](auto const& a) { return a.time_step; })};
       for (std::size_t k = 0; k < 3; ++k) {
-        approach.slip[k] = gather([k](auto const& a) { return a.slip[k]; });
-        approach.roll[k] = gather([k](auto const& a) { return a.roll[k]; });
-        approach.sweep[k] = approach.slip[k];
+        approach.slip_increment[k] = gather([k](auto const& a) { return a.slip_increment[k]; });
+        approach.rotation_increment[k] = gather([k](auto const& a) { return a.rotation_increment[k]; });
+        approach.tangential_increment[k] = approach.slip_increment[k];
       }
       auto const force = law.respond(approach, packed);
       for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {
@@ -181,8 +187,8 @@ TEST_CASE_TEMPLATE("motion along one axis of space is motion in the plane", Law,
   ContactMemory<2, double> in_the_plane;
   for (int n = 0; n < 200; ++n) {
     auto approach = approaches.next();
-    approach.slip = approach.sweep = {approach.slip[0], 0.0, 0.0};
-    approach.roll = {0.0, 0.0, approach.roll[2]};
+    approach.slip_increment = approach.tangential_increment = {approach.slip_increment[0], 0.0, 0.0};
+    approach.rotation_increment = {0.0, 0.0, approach.rotation_increment[2]};
     auto const force = law.respond(approach, in_space);
     auto const expected = law.respond(in_plane<double>(approach), in_the_plane);
     CHECK(close(force.normal, expected.normal, 100.0));
@@ -205,7 +211,8 @@ TEST_CASE_TEMPLATE("single precision stays finite, at rest, at first touch and f
     if (n % 5 == 0) approach.overlap = 0.0f;
     if (n % 7 == 0) approach.overlap = 1e-20f;
     if (n % 11 == 0) approach.overlap = -1e3f;
-    if (n % 13 == 0) approach.time_step = approach.closing = approach.slip = approach.sweep = 0.0f;
+    if (n % 13 == 0)
+      approach.time_step = approach.overlap_increment = approach.slip_increment = approach.tangential_increment = 0.0f;
     CHECK(all_finite(law.respond(approach, memory)));
   }
 }
@@ -213,8 +220,12 @@ TEST_CASE_TEMPLATE("single precision stays finite, at rest, at first touch and f
 TEST_CASE_TEMPLATE("not a number goes in and comes out", Law, EVERY_CONTACT_LAW) {
   Law const law = Sample<Law>::law();
   double const nan = std::numeric_limits<double>::quiet_NaN();
-  ContactKinematics<2, double> const sound{
-      .overlap = 0.1, .slip = 0.01, .roll = 0.01, .reduced_radius = 1.0, .reduced_mass = 1.0, .time_step = 0.01};
+  ContactKinematics<2, double> const sound{.overlap = 0.1,
+                                           .slip_increment = 0.01,
+                                           .rotation_increment = 0.01,
+                                           .reduced_radius = 1.0,
+                                           .reduced_mass = 1.0,
+                                           .time_step = 0.01};
   auto const after = [&](ContactKinematics<2, double> const& approach) {
     ContactMemory<2, double> memory;
     return law.respond(approach, memory);
@@ -223,14 +234,14 @@ TEST_CASE_TEMPLATE("not a number goes in and comes out", Law, EVERY_CONTACT_LAW)
   approach.overlap = nan;
   CHECK(std::isnan(after(approach).normal));
   approach = sound;
-  approach.slip = nan;
-  if (Law::needs.shear) CHECK(std::isnan(after(approach).shear));
+  approach.slip_increment = nan;
+  if (Law::inputs.shear) CHECK(std::isnan(after(approach).shear));
   approach = sound;
-  approach.roll = nan;
-  if (Law::needs.moment) CHECK(std::isnan(after(approach).moment));
+  approach.rotation_increment = nan;
+  if (Law::inputs.moment) CHECK(std::isnan(after(approach).moment));
   approach = sound;
-  approach.closing = nan;
-  if (Law::needs.motion) CHECK(std::isnan(after(approach).normal));
+  approach.overlap_increment = nan;
+  if (Law::inputs.motion) CHECK(std::isnan(after(approach).normal));
 }
 
 TEST_CASE_TEMPLATE("work is stored or dissipated", Law, EVERY_CONTACT_LAW) {
@@ -244,18 +255,19 @@ TEST_CASE_TEMPLATE("work is stored or dissipated", Law, EVERY_CONTACT_LAW) {
     auto const slip = [](double t) { return 0.3 * std::sin(1.7 * t); };
     auto const roll = [](double t) { return 0.9 * std::sin(1.3 * t); };
     ContactKinematics<2, double> approach{
-        .overlap = overlap(0.0), .slip = 0.0, .reduced_radius = 1.0, .reduced_mass = 1.0};
+        .overlap = overlap(0.0), .slip_increment = 0.0, .reduced_radius = 1.0, .reduced_mass = 1.0};
     auto before = law.respond(approach, memory);
     double const start = law.stored_energy(approach, memory);
     approach.time_step = step;
     for (int n = 0; n < steps; ++n, time += step) {
       approach.overlap = overlap(time + step);
-      approach.closing = overlap(time + step) - overlap(time);
-      approach.slip = approach.sweep = slip(time + step) - slip(time);
-      approach.roll = roll(time + step) - roll(time);
+      approach.overlap_increment = overlap(time + step) - overlap(time);
+      approach.slip_increment = approach.tangential_increment = slip(time + step) - slip(time);
+      approach.rotation_increment = roll(time + step) - roll(time);
       auto const force = law.respond(approach, memory);
-      work += 0.5 * (before.normal + force.normal) * approach.closing -
-              0.5 * (before.shear + force.shear) * approach.slip - 0.5 * (before.moment + force.moment) * approach.roll;
+      work += 0.5 * (before.normal + force.normal) * approach.overlap_increment -
+              0.5 * (before.shear + force.shear) * approach.slip_increment -
+              0.5 * (before.moment + force.moment) * approach.rotation_increment;
       dissipated += force.dissipated;
       before = force;
     }
@@ -263,5 +275,5 @@ TEST_CASE_TEMPLATE("work is stored or dissipated", Law, EVERY_CONTACT_LAW) {
     return std::abs(work - stored - dissipated) / (std::abs(stored) + std::abs(dissipated));
   };
   // Analytic: 0. Curved springs err to second order in a step of 1e-3 of the time scale, dashpots to first.
-  CHECK(gap_in_the_balance(10000) < (Law::needs.motion ? 1e-4 : 1e-8));
+  CHECK(gap_in_the_balance(10000) < (Law::inputs.motion ? 1e-4 : 1e-8));
 }

@@ -13,7 +13,7 @@ using scarp::Frictionless;
 using scarp::LinearFrictional;
 
 struct LawWithoutStiffness {
-  static constexpr scarp::ContactInputs needs{};
+  static constexpr scarp::ContactInputs inputs{};
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const&, ContactMemory<Dim, T>&) const {
     return {.normal = T(0)};
@@ -23,11 +23,11 @@ static_assert(scarp::RespondsToApproach<LawWithoutStiffness> && !scarp::ContactL
               "a law that cannot tell its stiffness must be refused");
 
 struct LawWithTooManyNumbers : Frictionless {
-  static constexpr scarp::ContactInputs needs{.scalars = scarp::max_contact_scalars + 1};
+  static constexpr scarp::ContactInputs inputs{.scalars = scarp::max_contact_scalars + 1};
 };
 static_assert(!scarp::NamesContactNeeds<LawWithTooManyNumbers>, "no contact has room for that many numbers");
 
-static_assert(!Frictionless::needs.shear && LinearFrictional::needs.shear);
+static_assert(!Frictionless::inputs.shear && LinearFrictional::inputs.shear);
 constexpr scarp::ContactInputs nothing_asked{};
 static_assert(!nothing_asked.shear && !nothing_asked.moment && nothing_asked.scalars == 0 && !nothing_asked.radius &&
                   !nothing_asked.motion,

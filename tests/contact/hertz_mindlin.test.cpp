@@ -20,13 +20,13 @@ using scarp::HertzRestitution;
 constexpr HertzMindlin<> law{.reduced_modulus = 1.0, .reduced_shear_modulus = 0.25, .friction = 0.5};
 
 ContactKinematics<2, double> at(double overlap, double slip) {
-  return {.overlap = overlap, .slip = slip, .reduced_radius = 4.0};
+  return {.overlap = overlap, .slip_increment = slip, .reduced_radius = 4.0};
 }
 
 }  // namespace
 
-static_assert(scarp::HertzMindlin<>::needs.radius && !scarp::HertzMindlin<>::needs.motion);
-static_assert(scarp::HertzMindlin<HertzRestitution>::needs.motion);
+static_assert(scarp::HertzMindlin<>::inputs.radius && !scarp::HertzMindlin<>::inputs.motion);
+static_assert(scarp::HertzMindlin<HertzRestitution>::inputs.motion);
 static_assert(!scarp::ContactDamping<HertzMindlin<>>);
 
 TEST_CASE("forces, stiffness and energy of a Hertz contact have their closed forms") {
@@ -87,8 +87,8 @@ TEST_CASE("dashpots act beside the springs and within friction") {
   HertzMindlin<HertzRestitution> const damped{
       .reduced_modulus = 1.0, .reduced_shear_modulus = 0.25, .friction = 0.5, .damping = {.restitution = 0.5}};
   auto approach = at(0.25, 0.002);
-  approach.sweep = approach.slip;
-  approach.closing = 0.003;
+  approach.tangential_increment = approach.slip_increment;
+  approach.overlap_increment = 0.003;
   approach.reduced_mass = 8.0;
   approach.time_step = 0.5;
   ContactMemory<2, double> memory;
@@ -98,9 +98,9 @@ TEST_CASE("dashpots act beside the springs and within friction") {
   CHECK(force.normal == samples::Approx(1.0 / 3.0 + dashpot * 0.006).epsilon(1e-14));
   CHECK(force.shear == samples::Approx(-0.004 - dashpot * 0.004).epsilon(1e-14));
   CHECK(memory.shear == samples::Approx(-0.004).epsilon(1e-14));  // the spring alone is remembered
-  approach.slip = approach.sweep = 1.0;
+  approach.slip_increment = approach.tangential_increment = 1.0;
   CHECK(damped.respond(approach, memory).shear == samples::Approx(-0.5 * force.normal).epsilon(1e-14));
-  approach.closing = -1.0;  // torn apart: the dashpot would pull
+  approach.overlap_increment = -1.0;  // torn apart: the dashpot would pull
   CHECK(damped.respond(approach, memory).normal == 0.0);
   CHECK(memory.shear == 0.0);
 }
@@ -156,14 +156,14 @@ TEST_CASE("the dissipated energy closes the tangential balance of a random path 
   std::uniform_real_distribution<double> spread(-1.0, 1.0);
   ContactMemory<3, double> memory;
   double work = 0.0, dissipated = 0.0, turnover = 0.0;
-  ContactKinematics<3, double> approach{.overlap = 0.0, .slip = {}, .reduced_radius = 4.0};
+  ContactKinematics<3, double> approach{.overlap = 0.0, .slip_increment = {}, .reduced_radius = 4.0};
   for (int n = 0; n < 10000; ++n) {
     auto const before = memory.shear;
     approach.overlap = 0.4 + 0.5 * spread(random);  // opens now and then
-    for (double& component : approach.slip) component = 0.1 * spread(random);
+    for (double& component : approach.slip_increment) component = 0.1 * spread(random);
     auto const force = law.respond(approach, memory);
-    double const done =
-        -0.5 * (scarp::inner_product(before, approach.slip) + scarp::inner_product(force.shear, approach.slip));
+    double const done = -0.5 * (scarp::inner_product(before, approach.slip_increment) +
+                                scarp::inner_product(force.shear, approach.slip_increment));
     work += done;
     turnover += std::abs(done);
     dissipated += force.dissipated;

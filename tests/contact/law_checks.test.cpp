@@ -21,7 +21,7 @@ struct ForgetsMoment : scarp::Frictionless {
 
 /// Pulls across gaps up to `gap` [m], which the member of the misspelt name is to tell.
 struct Sticky {
-  static constexpr scarp::ContactInputs needs{};
+  static constexpr scarp::ContactInputs inputs{};
   double normal_stiffness = 1e6;
   double gap = 1e-4;
 
@@ -41,13 +41,13 @@ struct StickySpeltRight : Sticky {
 
 /// Has a dashpot; the member of the misspelt name is to tell how strong it is.
 struct Damped : scarp::Frictionless {
-  static constexpr scarp::ContactInputs needs{.motion = true};
+  static constexpr scarp::ContactInputs inputs{.motion = true};
   double damping = 0.2;
 
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>&) const {
-    T const rate = approach.closing / (approach.time_step + scarp::broadcast<T>(1e-12));
+    T const rate = approach.overlap_increment / (approach.time_step + scarp::broadcast<T>(1e-12));
     T const closed = scarp::lanes::at_least(approach.overlap, scarp::broadcast<T>(0));
     return {.normal = scarp::broadcast<T>(normal_stiffness) * closed + scarp::broadcast<T>(damping) * rate};
   }
@@ -61,7 +61,7 @@ static_assert(scarp::ContactLaw<Sticky> && !scarp::HasInteractionRange<Sticky> &
               scarp::HasInteractionRange<StickySpeltRight>);
 
 struct RubsWithoutShear : scarp::LinearFrictional {
-  static constexpr scarp::ContactInputs needs{};
+  static constexpr scarp::ContactInputs inputs{};
 };
 static_assert(!scarp::ContactLaw<RubsWithoutShear>, "a law with friction that remembers no shear would not rub");
 

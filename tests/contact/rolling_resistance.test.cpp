@@ -25,15 +25,15 @@ constexpr RollingResistance<LinearFrictional> law{
     .rolling_friction = 0.1};
 
 ContactKinematics<2, double> rolled(double overlap, double roll) {
-  return {.overlap = overlap, .slip = 0.0, .roll = roll, .reduced_radius = 0.5};
+  return {.overlap = overlap, .slip_increment = 0.0, .rotation_increment = roll, .reduced_radius = 0.5};
 }
 
-static_assert(RollingResistance<LinearFrictional>::needs.moment && RollingResistance<LinearFrictional>::needs.shear);
+static_assert(RollingResistance<LinearFrictional>::inputs.moment && RollingResistance<LinearFrictional>::inputs.shear);
 static_assert(scarp::HasStoredEnergy<RollingResistance<Frictionless>>);
 static_assert(!scarp::Frictional<RollingResistance<Frictionless>>, "the wrapper has no friction that its law lacks");
 
 struct ForgetsEnergy {
-  static constexpr scarp::ContactInputs needs{};
+  static constexpr scarp::ContactInputs inputs{};
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const&, ContactMemory<Dim, T>&) const {
     return {.normal = T(0)};
@@ -73,7 +73,9 @@ TEST_CASE("the moment ends at rolling friction times radius times normal force")
 TEST_CASE("in space the moment is limited in size and keeps its direction") {
   ContactMemory<3, double> memory;
   auto const force = law.respond(
-      ContactKinematics<3, double>{.overlap = 0.2, .slip = {}, .roll = {0.0, 0.3, 0.4}, .reduced_radius = 0.5}, memory);
+      ContactKinematics<3, double>{
+          .overlap = 0.2, .slip_increment = {}, .rotation_increment = {0.0, 0.3, 0.4}, .reduced_radius = 0.5},
+      memory);
   // Analytic: the trial moment 8 x 0.5 = 4 N m lies along -(0, 0.6, 0.8), the limit is 1 N m.
   CHECK(force.moment[0] == 0.0);
   CHECK(force.moment[1] == samples::Approx(-0.6).epsilon(1e-14));
@@ -118,7 +120,8 @@ TEST_CASE("a sphere that spins on a smooth plane slows down at the rate of its r
   int const steps = 5000;
   for (int n = 0; n < steps; ++n) {
     auto const force = on_plane.respond(
-        ContactKinematics<2, double>{.overlap = overlap, .slip = 0.0, .roll = spin * step, .reduced_radius = radius},
+        ContactKinematics<2, double>{
+            .overlap = overlap, .slip_increment = 0.0, .rotation_increment = spin * step, .reduced_radius = radius},
         memory);
     spin += force.moment / inertia * step;
     dissipated += force.dissipated;

@@ -57,7 +57,7 @@ Sheared sheared(Discs packing, scarp::LinearFrictional const& law) {
 
 /// A law whose springs stiffen with depth, from two numbers.
 struct Hardening {
-  static constexpr scarp::ContactInputs needs{};
+  static constexpr scarp::ContactInputs inputs{};
 
   double normal_stiffness = 0.0;
   double growth = 0.0;  ///< [1/m]

@@ -92,7 +92,7 @@ TEST_CASE("a bond that holds does not slide, however large its shear force") {
   Bonded const law{.law = samples::study_law(), .tensile_strength = 1e9, .shear_strength = 1e9};
   scarp::Contact<2> contact{};
   contact.touch = {1e-5, {1.0, 0.0}, {5e-3, 0.0}, {-5e-3, 0.0}};
-  contact.approach = {.overlap = 1e-5, .slip = 0.0};
+  contact.approach = {.overlap = 1e-5, .slip_increment = 0.0};
   contact.stiffness = {.normal = 6e6, .tangential = 6e6};
   contact.normal_force = 60.0;
   contact.force = {60.0, 600.0};
@@ -109,7 +109,7 @@ TEST_CASE("in space a sliding contact stays stiff across its direction of slidin
   scarp::LinearFrictional const law = samples::study_law();
   scarp::Contact<3> contact{};
   contact.touch = {1e-5, {1.0, 0.0, 0.0}, {5e-3, 0.0, 0.0}, {-5e-3, 0.0, 0.0}};
-  contact.approach = {.overlap = 1e-5, .slip = {}};
+  contact.approach = {.overlap = 1e-5, .slip_increment = {}};
   contact.stiffness = law.stiffness(0.0, 0.0);
   contact.normal_force = 60.0;
   contact.memory.shear = {0.0, 0.0, -33.0};  // at Coulomb's limit

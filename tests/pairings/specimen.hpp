@@ -154,7 +154,7 @@ class SpecimenOf final : public Specimen<P::Shape::dim> {
   double time_step() const override { return stepper_.time_step_share * packing_.pairs.critical_step; }
   double mass(std::size_t grain) const override { return 1.0 / packing_.population->inverse_mass()[grain]; }
   double inertia(std::size_t grain) const override { return 1.0 / packing_.population->inverse_inertia()[grain]; }
-  bool turns_grains() const override { return Shape::orientation_count > 0 || Law::needs.shear || Law::needs.moment; }
+  bool turns_grains() const override { return Shape::orientation_count > 0 || Law::inputs.shear || Law::inputs.moment; }
 
  private:
   Law law_ = samples::Sample<Law>::law();

@@ -43,7 +43,7 @@ struct InterfacePoint {
 /// continuously.
 template <CheckedContactLaw Law, StandsOnMesh Body>
 class Interface {
-  static_assert(!Law::needs.moment && !Law::needs.radius && !Law::needs.motion,
+  static_assert(!Law::inputs.moment && !Law::inputs.radius && !Law::inputs.motion,
                 "an interface has neither rolling nor radii nor dashpots: take a law of springs and sliders");
 
  public:

@@ -26,12 +26,12 @@ concept HasLinearSprings = Frictional<Law> && HasStoredEnergy<Law> && requires(L
 /// tensile strength T and shear strength C [N]. What a bond stored beyond the law's share is dissipated when it breaks;
 /// for tension it is taken at the end of the breaking step, first order in the step.
 template <HasLinearSprings Law>
-  requires(Law::needs.scalars < max_contact_scalars)
+  requires(Law::inputs.scalars < max_contact_scalars)
 struct CohesiveBond {
-  static constexpr ContactInputs needs = [] {
-    ContactInputs all = Law::needs;
+  static constexpr ContactInputs inputs = [] {
+    ContactInputs all = Law::inputs;
     all.shear = true;
-    all.scalars = Law::needs.scalars + 1;
+    all.scalars = Law::inputs.scalars + 1;
     return all;
   }();
 
@@ -66,7 +66,7 @@ struct CohesiveBond {
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     T const zero = broadcast<T>(0);
     T const normal = broadcast<T>(law.normal_stiffness) * approach.overlap;
-    Tangential<Dim, T> const shear = stretched<Dim, T>(memory.shear, approach.slip);
+    Tangential<Dim, T> const shear = stretched<Dim, T>(memory.shear, approach.slip_increment);
     T const strength = lanes::at_least(broadcast<T>(shear_strength) + broadcast<T>(law.friction) * normal, zero);
     auto const bonded = is_intact(memory);
     auto const holds =
@@ -99,7 +99,7 @@ struct CohesiveBond {
   double damping_ratio() const { return damping_ratio_of(law); }
 
  private:
-  static constexpr std::size_t state = detail::index(Law::needs.scalars);
+  static constexpr std::size_t state = detail::index(Law::inputs.scalars);
   static constexpr double intact = 1.0;  // a contact that was never bonded holds zero
   static constexpr double broken = 2.0;
 

@@ -22,25 +22,25 @@ using Turning = std::conditional_t<Dim == 2, T, std::array<T, 3>>;
 
 /// What a law needs of a contact. What it does not name is neither stored nor computed.
 struct ContactInputs {
-  bool shear = false;   ///< a tangential force is remembered; `slip` is given
-  bool moment = false;  ///< a moment is remembered; `roll` is given
+  bool shear = false;   ///< a tangential force is remembered; `slip_increment` is given
+  bool moment = false;  ///< a moment is remembered; `rotation_increment` is given
   int scalars = 0;      ///< further numbers that are remembered, zero for a new contact
   bool radius = false;  ///< `reduced_radius` is given
-  bool motion = false;  ///< `closing`, `sweep`, `reduced_mass` and `time_step` are given
+  bool motion = false;  ///< `overlap_increment`, `tangential_increment`, `reduced_mass` and `time_step` are given
 };
 
 /// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and roll are
 /// zero where the memory already contains them.
 template <int Dim, class T>
 struct ContactKinematics {
-  T overlap;                   ///< [m], positive in compression
-  Tangential<Dim, T> slip;     ///< tangential motion at the contact point [m]
-  Turning<Dim, T> roll{};      ///< rotation [rad]
-  T reduced_radius{};          ///< \f$ R_1 R_2 / (R_1 + R_2) \f$ [m]
-  T closing{};                 ///< growth of the overlap [m]
-  Tangential<Dim, T> sweep{};  ///< slip of the step, whether or not the memory contains it [m]
-  T reduced_mass{};            ///< \f$ m_1 m_2 / (m_1 + m_2) \f$ [kg]
-  T time_step{};               ///< [s]; zero while nothing moves
+  T overlap;                                  ///< [m], positive in compression
+  Tangential<Dim, T> slip_increment;          ///< tangential motion at the contact point [m]
+  Turning<Dim, T> rotation_increment{};       ///< rotation [rad]
+  T reduced_radius{};                         ///< \f$ R_1 R_2 / (R_1 + R_2) \f$ [m]
+  T overlap_increment{};                      ///< growth of the overlap [m]
+  Tangential<Dim, T> tangential_increment{};  ///< slip of the step, whether or not the memory contains it [m]
+  T reduced_mass{};                           ///< \f$ m_1 m_2 / (m_1 + m_2) \f$ [kg]
+  T time_step{};                              ///< [s]; zero while nothing moves
 };
 
 /// The most numbers that a law, with all that is wrapped around it, may need in `ContactInputs::scalars`.
@@ -93,8 +93,8 @@ concept HasContactStiffness = requires(Law const& law) {
 
 template <class Law>
 concept NamesContactNeeds = requires {
-  { Law::needs } -> std::convertible_to<ContactInputs>;
-  requires Law::needs.scalars <= max_contact_scalars;
+  { Law::inputs } -> std::convertible_to<ContactInputs>;
+  requires Law::inputs.scalars <= max_contact_scalars;
 };
 
 /// A law with a friction coefficient needs a shear force that is remembered: without it none would be computed.
@@ -102,7 +102,7 @@ template <class Law>
 concept RemembersItsShear = !requires(Law & law) {
   law.friction_coefficient();
 }
-|| Law::needs.shear;
+|| Law::inputs.shear;
 
 template <class Law>
 concept ContactLaw = std::is_aggregate_v<Law> && NamesContactNeeds<Law> && RemembersItsShear<Law> &&
@@ -190,11 +190,11 @@ struct MissingOfContactLaw {
   static_assert(std::is_aggregate_v<Law>,
                 "scarp: a contact law is an aggregate of parameters: no constructors, no private or virtual members");
   static_assert(NamesContactNeeds<Law>,
-                "scarp: a contact law needs `static constexpr ContactInputs needs{...}`, with at most "
+                "scarp: a contact law needs `static constexpr ContactInputs inputs{...}`, with at most "
                 "max_contact_scalars scalars");
   static_assert(
       !NamesContactNeeds<Law> || RemembersItsShear<Law>,
-      "scarp: a contact law with friction_coefficient() needs `.shear = true` in its needs: nothing would rub");
+      "scarp: a contact law with friction_coefficient() needs `.shear = true` in its inputs: nothing would rub");
   static_assert(
       RespondsToApproach<Law>,
       "scarp: a contact law needs `template <int Dim, class T> ContactForce<Dim, T> respond(ContactKinematics<Dim, T> "

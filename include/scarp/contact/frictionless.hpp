@@ -9,7 +9,7 @@ namespace scarp {
 
 /// Linear repulsion without tangential force: \f$ F_n = k_n u_n \f$ for u_n > 0. `normal_stiffness` [N/m].
 struct Frictionless {
-  static constexpr ContactInputs needs{};
+  static constexpr ContactInputs inputs{};
 
   double normal_stiffness = 0.0;
 

@@ -72,15 +72,15 @@ struct HertzRestitution {
 
   template <int Dim, class T>
   T push(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
-    return stiffness_of_step(stiffness, approach) * approach.closing;
+    return stiffness_of_step(stiffness, approach) * approach.overlap_increment;
   }
 
   template <int Dim, class T>
   T drag(Tangential<Dim, T>& shear, T const& stiffness, T const& limit,
          ContactKinematics<Dim, T> const& approach) const {
-    T const work_of_spring = inner_product(shear, approach.sweep);
-    coulomb_slide<Dim, T>(shear, approach.sweep, stiffness_of_step(stiffness, approach), limit);
-    return work_of_spring - inner_product(shear, approach.sweep);
+    T const work_of_spring = inner_product(shear, approach.tangential_increment);
+    coulomb_slide<Dim, T>(shear, approach.tangential_increment, stiffness_of_step(stiffness, approach), limit);
+    return work_of_spring - inner_product(shear, approach.tangential_increment);
   }
 
  private:
@@ -106,7 +106,7 @@ static_assert(ContactDamping<HertzRestitution>);
 /// and to first order for the damping.
 template <ContactDamping Damping = NoContactDamping>
 struct HertzMindlin {
-  static constexpr ContactInputs needs{.shear = true, .scalars = 1, .radius = true, .motion = Damping::needs_motion};
+  static constexpr ContactInputs inputs{.shear = true, .scalars = 1, .radius = true, .motion = Damping::needs_motion};
 
   double reduced_modulus = 0.0;
   double reduced_shear_modulus = 0.0;
@@ -151,9 +151,9 @@ struct HertzMindlin {
     T const normal = lanes::at_least(elastic + viscous, broadcast<T>(0));
     T const limit = broadcast<T>(friction) * normal;
 
-    T lost = (normal - elastic) * approach.closing;
-    lost = lost + resize(contact_radius, approach.slip, memory);
-    lost = lost + coulomb_slide<Dim, T>(memory.shear, approach.slip, tangential_stiffness, limit);
+    T lost = (normal - elastic) * approach.overlap_increment;
+    lost = lost + resize(contact_radius, approach.slip_increment, memory);
+    lost = lost + coulomb_slide<Dim, T>(memory.shear, approach.slip_increment, tangential_stiffness, limit);
     Tangential<Dim, T> shear = memory.shear;
     lost = lost + damping.drag(shear, tangential_stiffness, limit, approach);
     return {.normal = normal, .shear = shear, .dissipated = lost};

@@ -7,7 +7,7 @@
 namespace scarp {
 
 /// Rejects a law whose parameters its own validate() rejects, or whose members contradict each other, which compiles but
-/// gives wrong forces: a stiffness against a motion that `needs` does not name, a force across a gap without interaction_range(), a
+/// gives wrong forces: a stiffness against a motion that `inputs` does not name, a force across a gap without interaction_range(), a
 /// dashpot without damping_ratio(). An interaction range of more than the grain's diameter is rejected too: pairs with others between them
 /// would act on each other, and the cell would have to be wider still.
 /// radius [m]: of a grain, for the size of overlap and gap that are tried, 1e-6 of it
@@ -25,25 +25,25 @@ void require_consistent(Law const& law, double radius) {
   }
   double const depth = 1e-6 * radius;
   ContactStiffness const stiffness = law.stiffness(depth, radius / 2.0);
-  if (!Law::needs.shear && stiffness.tangential != 0.0) {
+  if (!Law::inputs.shear && stiffness.tangential != 0.0) {
     throw_input_error(
-        "the contact law has a tangential stiffness of {} N/m (its needs do not name .shear, so no shear force would "
-        "act): add `.shear = true` to its needs, or give no tangential stiffness",
+        "the contact law has a tangential stiffness of {} N/m (its inputs do not name .shear, so no shear force would "
+        "act): add `.shear = true` to its inputs, or give no tangential stiffness",
         stiffness.tangential);
   }
-  if (!Law::needs.moment && stiffness.rolling != 0.0) {
+  if (!Law::inputs.moment && stiffness.rolling != 0.0) {
     throw_input_error(
-        "the contact law has a rolling stiffness of {} N m/rad (its needs do not name .moment, so no moment would "
-        "act): add `.moment = true` to its needs, or give no rolling stiffness",
+        "the contact law has a rolling stiffness of {} N m/rad (its inputs do not name .moment, so no moment would "
+        "act): add `.moment = true` to its inputs, or give no rolling stiffness",
         stiffness.rolling);
   }
-  if constexpr (Law::needs.motion && !HasDampingRatio<Law>) {
+  if constexpr (Law::inputs.motion && !HasDampingRatio<Law>) {
     auto const normal_force = [&](double closing) {
       ContactMemory<2, double> memory;
       ContactKinematics<2, double> const closed{.overlap = depth,
-                                                .slip = 0.0,
+                                                .slip_increment = 0.0,
                                                 .reduced_radius = radius / 2.0,
-                                                .closing = closing,
+                                                .overlap_increment = closing,
                                                 .reduced_mass = 1.0,
                                                 .time_step = 1e-6};
       return law.respond(closed, memory).normal;
@@ -60,7 +60,7 @@ void require_consistent(Law const& law, double radius) {
   ContactMemory<2, double> memory;
   if constexpr (Bonds<Law>) Law::bond(memory);
   ContactKinematics<2, double> const apart{
-      .overlap = -depth, .slip = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
+      .overlap = -depth, .slip_increment = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
   double const force = law.respond(apart, memory).normal;
   if (force != 0.0) {
     throw_input_error(

@@ -13,7 +13,7 @@ namespace scarp {
 /// Open contacts have F_n = 0, hence F_t = 0: clamping expresses both opening and sliding without a branch.
 /// stiffnesses [N/m], friction coefficient dimensionless
 struct LinearFrictional {
-  static constexpr ContactInputs needs{.shear = true};
+  static constexpr ContactInputs inputs{.shear = true};
 
   double normal_stiffness = 0.0;
   double tangential_stiffness = 0.0;
@@ -28,7 +28,7 @@ struct LinearFrictional {
   template <int Dim, class T>
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     T const normal = lanes::at_least(broadcast<T>(normal_stiffness) * approach.overlap, broadcast<T>(0));
-    T const lost = coulomb_slide<Dim, T>(memory.shear, approach.slip, broadcast<T>(tangential_stiffness),
+    T const lost = coulomb_slide<Dim, T>(memory.shear, approach.slip_increment, broadcast<T>(tangential_stiffness),
                                          broadcast<T>(friction) * normal);
     return {.normal = normal, .shear = memory.shear, .dissipated = lost};
   }

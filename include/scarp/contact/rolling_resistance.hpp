@@ -14,10 +14,10 @@ namespace scarp {
 /// 2011, Powder Technology 206, without its dashpot). Under a pull, as in a bond, |F_n| still counts.
 /// rolling stiffness [N m/rad]; rolling friction dimensionless
 template <ContactLaw Law>
-  requires(!Law::needs.moment)
+  requires(!Law::inputs.moment)
 struct RollingResistance {
-  static constexpr ContactInputs needs = [] {
-    ContactInputs all = Law::needs;
+  static constexpr ContactInputs inputs = [] {
+    ContactInputs all = Law::inputs;
     all.moment = true;
     all.radius = true;
     return all;
@@ -38,7 +38,8 @@ struct RollingResistance {
     using std::abs;
     ContactForce<Dim, T> force = law.respond(approach, memory);
     T const limit = broadcast<T>(rolling_friction) * approach.reduced_radius * abs(force.normal);
-    T const lost = coulomb_slide<Dim, T>(memory.moment, approach.roll, broadcast<T>(rolling_stiffness), limit);
+    T const lost =
+        coulomb_slide<Dim, T>(memory.moment, approach.rotation_increment, broadcast<T>(rolling_stiffness), limit);
     force.moment = memory.moment;
     force.dissipated = force.dissipated + lost;
     return force;

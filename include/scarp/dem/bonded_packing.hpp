@@ -60,7 +60,7 @@ BondedPacking<Packing<typename PackingType::Shape, Law, typename PackingType::Sc
   Law::bond(memory);
   for_each_near_pair(grains, former, [&](Contact<PackingType::dim> const& contact) {
     if (contact.touch.overlap < -gap || (gap == 0.0 && contact.touch.overlap == 0.0)) return;
-    for (int k = 0; k < Law::needs.scalars; ++k) {
+    for (int k = 0; k < Law::inputs.scalars; ++k) {
       pairs.scalars(contact.pair, k) = static_cast<typename PackingType::Scalar>(memory.scalars[detail::index(k)]);
     }
     ++made.bonds;

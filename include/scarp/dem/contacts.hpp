@@ -47,8 +47,8 @@ ContactMemory<Shape::dim, double> contact_memory(VerletList<Shape, Law, Scalar> 
   ContactMemory<dim, double> memory;
   detail::read_tangential<dim>(pairs.shear, pair, memory.shear);
   detail::read_tangential<dim>(pairs.moment, pair, memory.moment);
-  if constexpr (Law::needs.scalars > 0) {
-    for (int k = 0; k < Law::needs.scalars; ++k) {
+  if constexpr (Law::inputs.scalars > 0) {
+    for (int k = 0; k < Law::inputs.scalars; ++k) {
       memory.scalars[detail::index(k)] = static_cast<double>(pairs.scalars(pair, k));
     }
   }
@@ -69,7 +69,7 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
     double const radius_second = Shape::contact_radius(near.second);
     ContactKinematics<dim, double> const still{
         .overlap = touch.overlap,
-        .slip = {},
+        .slip_increment = {},
         .reduced_radius = radius_first * radius_second / (radius_first + radius_second)};
     auto memory = contact_memory(pairs, p);
     carry_to_frame(memory.shear, {}, touch.normal);

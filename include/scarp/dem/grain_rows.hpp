@@ -22,7 +22,7 @@ struct RowLayout {
   static constexpr std::size_t spin = 2 * axes;
   static constexpr std::size_t pose = spin + turns;
   static constexpr std::size_t inverse_mass = pose + pose_size;
-  static constexpr std::size_t used = inverse_mass + (Law::needs.motion ? 1 : 0);
+  static constexpr std::size_t used = inverse_mass + (Law::inputs.motion ? 1 : 0);
   static constexpr std::size_t size = (used + 3) / 4 * 4;
 
   /// Row of forces: force and torque, in space each padded to four; in the plane the fourth entry is scratch.
@@ -58,7 +58,7 @@ void fill_grain_rows(PackingType const& packing, typename PackingType::Scalar* r
     std::array<Lanes, static_cast<std::size_t>(Shape::orientation_count)> orientation;
     if constexpr (Shape::orientation_count > 0)
       read(packing.orientation, start, orientation.data(), orientation.size());
-    if constexpr (PackingType::Law::needs.motion) {
+    if constexpr (PackingType::Law::inputs.motion) {
       fields[Layout::inverse_mass] = lanes::load(packing.population->inverse_mass() + start);
     }
     for (std::size_t part = 0; part < parts; ++part) {

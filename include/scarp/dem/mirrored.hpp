@@ -44,8 +44,8 @@ PackingType mirrored(PackingType packing, int axis = 0) {
   if constexpr (Shape::orientation_count == 2) turn(packing.orientation, 1, grains);
   auto& pairs = packing.pairs;
   if constexpr (Shape::warm_starts_normal) turn(pairs.normal, axis, pairs.count());
-  if constexpr (Law::needs.shear) turn(pairs.shear, dim == 2 ? 0 : axis, pairs.count());
-  if constexpr (Law::needs.moment) turn_axial(pairs.moment, pairs.count());
+  if constexpr (Law::inputs.shear) turn(pairs.shear, dim == 2 ? 0 : axis, pairs.count());
+  if constexpr (Law::inputs.moment) turn_axial(pairs.moment, pairs.count());
   for (auto& shift : pairs.ghost_shift)
     shift[detail::index(axis)] = static_cast<std::int8_t>(-shift[detail::index(axis)]);
   return packing;

@@ -97,9 +97,9 @@ struct VerletList {
   std::vector<std::int32_t> first;
   std::vector<std::int32_t> second;
   SoaArray<Scalar, Shape::warm_starts_normal ? dim : 0> normal;
-  SoaArray<Scalar, Law::needs.shear ? tangential_count : 0> shear;    ///< tangential force on the second grain [N]
-  SoaArray<Scalar, Law::needs.moment ? tangential_count : 0> moment;  ///< on the second grain [N m]
-  SoaArray<Scalar, Law::needs.scalars> scalars;
+  SoaArray<Scalar, Law::inputs.shear ? tangential_count : 0> shear;    ///< tangential force on the second grain [N]
+  SoaArray<Scalar, Law::inputs.moment ? tangential_count : 0> moment;  ///< on the second grain [N m]
+  SoaArray<Scalar, Law::inputs.scalars> scalars;
   std::vector<std::int32_t> ghost_owner;
   std::vector<Shift> ghost_shift;
   double drift = 0.0;          ///< bound on how far gaps have shrunk since the list was made [m]

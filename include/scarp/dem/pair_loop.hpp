@@ -23,7 +23,7 @@ class PairResponse {
   PairResponse(PackingType& packing, Law const& law) : pairs_(packing.pairs), law_(law) {
     // Dashpots use the last move in every evaluation, springs only once.
     bool const answered = packing.last_move.answered;
-    LastMove<dim> const move = answered && !Law::needs.motion ? LastMove<dim>{} : packing.last_move;
+    LastMove<dim> const move = answered && !Law::inputs.motion ? LastMove<dim>{} : packing.last_move;
     largest_normal_change_ = packing.population->largest_normal_change();
     unique_minimum_depth_ = packing.population->unique_minimum_depth();
     unanswered_ = broadcast<Lanes>(answered ? 0.0 : 1.0);
@@ -63,12 +63,12 @@ class PairResponse {
     auto const touch = touch_of(block, at, branch);
     auto const& n = touch.normal;
 
-    ContactKinematics<dim, Lanes> approach{.overlap = touch.overlap, .slip = {}};
+    ContactKinematics<dim, Lanes> approach{.overlap = touch.overlap, .slip_increment = {}};
     ContactMemory<dim, Lanes> memory;
     auto const turn_first = turn(block, Block::spin_first, at);
     auto const turn_second = turn(block, Block::spin_second, at);
     auto const twist = scaled(scaled(sum(turn_first, turn_second), broadcast<Lanes>(0.5)), unanswered_);
-    if constexpr (Law::needs.shear || Law::needs.motion) {
+    if constexpr (Law::inputs.shear || Law::inputs.motion) {
       auto const velocity = block.template read<axes>(Block::velocity, at);
       auto const swing_first = turned_motion(turn_first, touch.arm_first);
       auto const swing_second = turned_motion(turn_second, touch.arm_second);
@@ -77,45 +77,45 @@ class PairResponse {
         meeting[a] = velocity[a] * step_ + swing_second[a] - swing_first[a];
         for (std::size_t b = 0; b < axes; ++b) meeting[a] += affine_[a * axes + b] * branch[b];
       }
-      if constexpr (Law::needs.shear) {
-        approach.slip = tangential_part(meeting, n);
+      if constexpr (Law::inputs.shear) {
+        approach.slip_increment = tangential_part(meeting, n);
         load_rows(pairs_.shear, start, memory.shear);
         if constexpr (dim == 3) carry_to_frame(memory.shear, twist, n);
       }
-      if constexpr (Law::needs.motion) {
-        approach.closing = -dot(meeting, n);
-        approach.sweep = approach.slip;
-        if constexpr (Law::needs.shear) approach.slip = scaled(approach.slip, unanswered_);
+      if constexpr (Law::inputs.motion) {
+        approach.overlap_increment = -dot(meeting, n);
+        approach.tangential_increment = approach.slip_increment;
+        if constexpr (Law::inputs.shear) approach.slip_increment = scaled(approach.slip_increment, unanswered_);
         approach.reduced_mass = broadcast<Lanes>(1.0) / block.template read<1>(Block::inverse_mass, at)[0];
         approach.time_step = step_;
       }
     }
-    if constexpr (Law::needs.moment) {
-      approach.roll = rolling_part(difference(turn_second, turn_first), n);
-      if constexpr (Law::needs.motion) approach.roll = scaled(approach.roll, unanswered_);
+    if constexpr (Law::inputs.moment) {
+      approach.rotation_increment = rolling_part(difference(turn_second, turn_first), n);
+      if constexpr (Law::inputs.motion) approach.rotation_increment = scaled(approach.rotation_increment, unanswered_);
       load_rows(pairs_.moment, start, memory.moment);
       if constexpr (dim == 3) carry_to_frame(memory.moment, twist, n);
     }
-    if constexpr (Law::needs.radius || what != Observe::nothing) {
+    if constexpr (Law::inputs.radius || what != Observe::nothing) {
       Lanes const radius_first = Shape::contact_radius(pose(block, Block::pose_first, at));
       Lanes const radius_second = Shape::contact_radius(pose(block, Block::pose_second, at));
       approach.reduced_radius = radius_first * radius_second / (radius_first + radius_second);
     }
-    if constexpr (Law::needs.scalars > 0) load_rows(pairs_.scalars, start, memory.scalars);
+    if constexpr (Law::inputs.scalars > 0) load_rows(pairs_.scalars, start, memory.scalars);
     auto const answer = law_.respond(approach, memory);
-    if constexpr (Law::needs.shear) store_rows(memory.shear, start, pairs_.shear);
-    if constexpr (Law::needs.moment) store_rows(memory.moment, start, pairs_.moment);
-    if constexpr (Law::needs.scalars > 0) store_rows(memory.scalars, start, pairs_.scalars);
+    if constexpr (Law::inputs.shear) store_rows(memory.shear, start, pairs_.shear);
+    if constexpr (Law::inputs.moment) store_rows(memory.moment, start, pairs_.moment);
+    if constexpr (Law::inputs.scalars > 0) store_rows(memory.scalars, start, pairs_.scalars);
 
     Point<dim, Lanes> force;  // on the second grain
     for (std::size_t a = 0; a < axes; ++a) force[a] = answer.normal * n[a];
-    if constexpr (Law::needs.shear) {
+    if constexpr (Law::inputs.shear) {
       auto const shear = as_vector(answer.shear, n);
       for (std::size_t a = 0; a < axes; ++a) force[a] += shear[a];
     }
     auto torque_first = cross(touch.arm_first, force);  // reversed, as the force is
     auto torque_second = cross(touch.arm_second, force);
-    if constexpr (Law::needs.moment) {
+    if constexpr (Law::inputs.moment) {
       torque_first = sum(torque_first, answer.moment);
       torque_second = sum(torque_second, answer.moment);
     }

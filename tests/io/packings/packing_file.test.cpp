@@ -28,7 +28,7 @@ using Spheres = scarp::Packing<scarp::Sphere, scarp::LinearFrictional>;
 
 /// A law that remembers everything that a law may.
 struct Rememberer {
-  static constexpr scarp::ContactInputs needs{.shear = true, .moment = true, .scalars = 2};
+  static constexpr scarp::ContactInputs inputs{.shear = true, .moment = true, .scalars = 2};
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const&, scarp::ContactMemory<Dim, T>&) const {
     return {};

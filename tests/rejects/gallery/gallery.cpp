@@ -59,7 +59,7 @@ struct Wrong : Disc {
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_4
 
-// first: a contact law needs `static constexpr ContactInputs needs
+// first: a contact law needs `static constexpr ContactInputs inputs
 // also: a contact law needs `template <int Dim, class T>
 // also: a contact law needs `ContactStiffness
 namespace case_5 {
@@ -70,7 +70,7 @@ Packing<Disc, Wrong> packing;
 // first: needs `.shear = true`
 namespace case_6 {
 struct Wrong : LinearFrictional {
-  static constexpr ContactInputs needs{};
+  static constexpr ContactInputs inputs{};
 };
 Packing<Disc, Wrong> packing;
 }  // namespace case_6

@@ -190,10 +190,10 @@ struct PairBlock {
   void gather(Scalar const* rows, std::size_t at) {
     PairSides<Layout, Lanes> const sides(rows, first.data() + at, second.data() + at);
     for (std::size_t a = 0; a < axes; ++a) write(branch + a, at, sides.difference(a));
-    if constexpr (Law::needs.shear || Law::needs.motion) {
+    if constexpr (Law::inputs.shear || Law::inputs.motion) {
       for (std::size_t a = 0; a < axes; ++a) write(velocity + a, at, sides.difference(Layout::velocity + a));
     }
-    if constexpr (Law::needs.shear || Law::needs.motion || Law::needs.moment) {
+    if constexpr (Law::inputs.shear || Law::inputs.motion || Law::inputs.moment) {
       for (std::size_t k = 0; k < turns; ++k) {
         write(spin_first + k, at, sides.first(Layout::spin + k));
         write(spin_second + k, at, sides.second(Layout::spin + k));
@@ -203,7 +203,7 @@ struct PairBlock {
       write(pose_first + k, at, sides.first(Layout::pose + k));
       write(pose_second + k, at, sides.second(Layout::pose + k));
     }
-    if constexpr (Law::needs.motion)
+    if constexpr (Law::inputs.motion)
       write(inverse_mass, at, sides.first(Layout::inverse_mass) + sides.second(Layout::inverse_mass));
   }
 

@@ -121,7 +121,7 @@ template <class PackingType>
 void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, typename PackingType::Law const& law,
                    double tolerance = 1e-6) {
   constexpr int dim = PackingType::dim;
-  static_assert(PackingType::Law::needs.shear, "a law that remembers no shear force has no use for a table of them");
+  static_assert(PackingType::Law::inputs.shear, "a law that remembers no shear force has no use for a table of them");
   static_assert(part_count<typename PackingType::Shape>() == 1, "grains of several parts may touch more than once");
   if (named.packing.pairs.skin >= 0.0) {
     throw_input_error(

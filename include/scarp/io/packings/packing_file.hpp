@@ -21,7 +21,7 @@ struct LayoutEntry {
 template <class PackingType>
 constexpr auto packing_layout() {
   using Shape = typename PackingType::Shape;
-  constexpr ContactInputs needs = PackingType::Law::needs;
+  constexpr ContactInputs inputs = PackingType::Law::inputs;
   return std::array{LayoutEntry{"dimensions", Shape::dim},
                     LayoutEntry{"sizes of a grain", Shape::size_count},
                     LayoutEntry{"numbers of an orientation", Shape::orientation_count},
