@@ -134,7 +134,7 @@ class Interface {
   }
 
   ContactForce<2, double> answer(double overlap, double slip, Memory& memory) const {
-    ContactKinematics<2, double> approach{.overlap = overlap, .slip = slip};
+    ContactKinematics<2, double> approach{.overlap = overlap, .slip_increment = slip};
     return law_.respond(approach, memory);
   }
 

@@ -33,9 +33,9 @@ struct SlidingContacts {
     auto approach = contact.approach;
     auto memory = contact.memory;
     if constexpr (Dim == 2) {
-      approach.slip = -asked / tangential * direction.dot(tangent(contact));
+      approach.slip_increment = -asked / tangential * direction.dot(tangent(contact));
     } else {
-      for (int a = 0; a < Dim; ++a) approach.slip[detail::index(a)] = -asked / tangential * direction(a);
+      for (int a = 0; a < Dim; ++a) approach.slip_increment[detail::index(a)] = -asked / tangential * direction(a);
     }
     auto const answer = as_vector(law.respond(approach, memory).shear, contact.touch.normal);
     return (Eigen::Map<Vector<Dim> const>(answer.data()) - contact.shear_force()).dot(direction) < 0.5 * asked;
