@@ -170,7 +170,7 @@ class NaiveKernel {
 
   double next(double velocity, double force, double mobility) const {
     double const damped = force - damping_.factor * std::copysign(std::abs(force), velocity);
-    return (1.0 - damping_.drag) * velocity + damped * mobility * time_step_;
+    return damping_.kept * velocity + damped * mobility * time_step_;
   }
 
   void move(scarp::Tensor<2> const& strain) {

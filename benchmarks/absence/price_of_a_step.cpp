@@ -3,17 +3,22 @@
 // places, near pairs and contacts for all, so that what differs between two of them is the price of a feature. benchmarks/absence/run
 // counts the instructions of measured_steps and measured_list.
 //   price_of_a_step disc|ellipse smooth|frictional nothing|balance|energy
+//   price_of_a_step disc|ellipse species|fire|rim nothing   frictional contacts of two species, or moved by another policy
 #include <fmt/format.h>
 
 #include <string_view>
 
 #include "scarp/contact/frictionless.hpp"
+#include "scarp/contact/law_per_species.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
+#include "scarp/dem/fire.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/preparation.hpp"
+#include "scarp/dem/uniform_strain_rim.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
+#include "scarp/shape/with_species.hpp"
 
 namespace {
 
@@ -25,6 +30,8 @@ template <class Law>
 Law law_of() {
   if constexpr (std::is_same_v<Law, scarp::LinearFrictional>) {
     return rough;
+  } else if constexpr (Law::inputs.species > 0) {
+    return {{rough, rough, rough}};
   } else {
     return {.normal_stiffness = rough.normal_stiffness};
   }
@@ -43,18 +50,14 @@ auto balanced_discs() {
   return made.packing;
 }
 
-/// The same places of grains of another shape and law; ellipses are round.
+/// The same places of grains of another shape and law; ellipses are round, species are taken in turn.
 template <class Grains, class Discs>
 Grains as(Discs const& discs) {
   Grains grains;
   std::vector<typename Grains::Shape::template Size<double>> sizes;
   for (std::size_t i = 0; i < discs.grain_count(); ++i) {
-    auto const size = discs.population->size(i);
-    if constexpr (std::is_same_v<typename Grains::Shape, scarp::Disc>) {
-      sizes.push_back(size);
-    } else {
-      sizes.push_back({size[0], size[0]});
-    }
+    sizes.emplace_back().fill(discs.population->size(i)[0]);
+    if constexpr (Grains::Law::inputs.species > 0) sizes.back().back() = i % 2 == 0 ? 1.0 : 2.0;
   }
   using PopulationType = scarp::Population<typename Grains::Shape, double>;
   grains.population = std::make_shared<PopulationType const>(sizes, 2650.0, 0.2);
@@ -68,9 +71,9 @@ Grains as(Discs const& discs) {
   return grains;
 }
 
-template <scarp::Observe what, class Grains>
-[[gnu::noinline]] bool measured_steps(scarp::TimeStepper<Grains>& stepper, Grains& grains,
-                                      typename Grains::Law const& law, scarp::StepObservation<2>& seen) {
+template <scarp::Observe what, class Stepper, class Grains>
+[[gnu::noinline]] bool measured_steps(Stepper& stepper, Grains& grains, typename Grains::Law const& law,
+                                      scarp::StepObservation<2>& seen) {
   scarp::Tensor<2> shear = scarp::Tensor<2>::Zero();
   shear(0, 1) = 1e-7;
   for (int step = 0; step < steps; ++step) {
@@ -79,18 +82,17 @@ template <scarp::Observe what, class Grains>
   return true;
 }
 
-template <class Grains>
-[[gnu::noinline]] bool measured_list(scarp::TimeStepper<Grains> const& stepper, Grains& grains,
-                                     typename Grains::Law const& law) {
+template <class Stepper, class Grains>
+[[gnu::noinline]] bool measured_list(Stepper const& stepper, Grains& grains, typename Grains::Law const& law) {
   return stepper.refresh(grains, law).acceptable();
 }
 
-template <class Shape, class Law, scarp::Observe what>
+template <class Shape, class Law, scarp::Observe what, class... Policies>
 int measure() {
   using Grains = scarp::Packing<Shape, Law>;
   auto grains = as<Grains>(balanced_discs());
   auto const law = law_of<Law>();
-  scarp::TimeStepper<Grains> stepper;
+  scarp::TimeStepper<Grains, Policies...> stepper;
   scarp::StepObservation<2> seen;
   // A first list, contacts and scratch memory, so that the measured list renews one, as in a run.
   if (!stepper.observe(grains, law, seen).acceptable()) return 1;
@@ -118,6 +120,12 @@ template <class Shape>
 int measure(std::string_view law, std::string_view watched) {
   if (law == "smooth") return measure<Shape, scarp::Frictionless>(watched);
   if (law == "frictional") return measure<Shape, scarp::LinearFrictional>(watched);
+  if (watched != "nothing") return 2;
+  using Rough = scarp::LinearFrictional;
+  constexpr auto nothing = scarp::Observe::nothing;
+  if (law == "species") return measure<scarp::WithSpecies<Shape, 2>, scarp::LawPerSpecies<Rough, 2>, nothing>();
+  if (law == "fire") return measure<Shape, Rough, nothing, scarp::Fire>();
+  if (law == "rim") return measure<Shape, Rough, nothing, scarp::LocalDamping, scarp::UniformStrainRim>();
   return 2;
 }
 
@@ -126,6 +134,6 @@ int measure(std::string_view law, std::string_view watched) {
 int main(int argc, char** argv) {
   if (argc == 4 && std::string_view(argv[1]) == "disc") return measure<scarp::Disc>(argv[2], argv[3]);
   if (argc == 4 && std::string_view(argv[1]) == "ellipse") return measure<scarp::Ellipse>(argv[2], argv[3]);
-  fmt::print(stderr, "usage: price_of_a_step disc|ellipse smooth|frictional nothing|balance|energy\n");
+  fmt::print(stderr, "usage: price_of_a_step disc|ellipse smooth|frictional|species|fire|rim nothing|balance|energy\n");
   return 2;
 }

@@ -11,6 +11,7 @@ using scarp::LocalDamping;
 
 struct DoublePrecision {};
 struct SinglePrecision {};
+struct MassProportional {};  ///< nothing by forces
 struct LinearSprings {};
 struct HertzMindlinSprings {};
 
@@ -35,8 +36,9 @@ Measured run_with(DoublePrecision, RveSettings const& settings, int repetition, 
 Measured run_with(LocalDamping, RveSettings const& settings, int repetition, Path const& path) {
   return run_path(settings, repetition, path);
 }
-Measured run_with(MassProportional const& damping, RveSettings const& settings, int repetition, Path const& path) {
-  return walk(sample(settings, repetition), examples::study_law(), damping, settings, path);
+Measured run_with(MassProportional, RveSettings const& settings, int repetition, Path const& path) {
+  return walk(sample(settings, repetition), examples::study_law(), LocalDamping{.factor = 0.0, .drag = 0.02}, settings,
+              path);
 }
 Measured run_with(LinearSprings, RveSettings const& settings, int repetition, Path const& path) {
   return run_path(settings, repetition, path);

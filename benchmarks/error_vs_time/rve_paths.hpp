@@ -32,17 +32,6 @@ struct Path {
   bool volume_is_free = true;  ///< else the ratio of lateral to axial stress is told instead of the dilation
 };
 
-/// All mass-proportional, nothing by forces: velocities lose a share in every step.
-struct MassProportional {
-  double factor = 0.0;
-  double drag = 0.02;
-
-  template <class T>
-  T next_velocity(T const& velocity, T const& force, T const& mobility) const {
-    return scarp::broadcast<T>(1.0 - drag) * velocity + force * mobility;
-  }
-};
-
 /// What a path leaves behind at its samples.
 class Samples {
  public:

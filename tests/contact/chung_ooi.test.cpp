@@ -183,8 +183,7 @@ Course collide(Collision const& collision, HertzMindlin<HertzRestitution> const&
   for (int step = 0; step < 100'000; ++step) {
     REQUIRE(stepper.step(packing, contact_law, scarp::Tensor<3>::Zero()).acceptable());
     Momenta const now(collision, packing);
-    course.lost_momentum =
-        std::max(course.lost_momentum, (now.linear - start.linear).norm() / start.linear_scale);
+    course.lost_momentum = std::max(course.lost_momentum, (now.linear - start.linear).norm() / start.linear_scale);
     course.lost_angular_momentum =
         std::max(course.lost_angular_momentum, (now.angular - start.angular).norm() / start.angular_scale);
     double const distance = (row(packing.position, 1) - row(packing.position, 0)).norm();

@@ -4,6 +4,7 @@
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/contact/law_per_species.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 
@@ -14,7 +15,8 @@
       scarp::RollingResistance<scarp::HertzMindlin<>>,                                                               \
       scarp::RollingResistance<scarp::HertzMindlin<scarp::HertzRestitution>>,                                        \
       scarp::CohesiveBond<scarp::LinearFrictional>,                                                                  \
-      scarp::RollingResistance<scarp::CohesiveBond<scarp::LinearFrictional>>
+      scarp::RollingResistance<scarp::CohesiveBond<scarp::LinearFrictional>>,                                        \
+      scarp::LawPerSpecies<scarp::RollingResistance<scarp::HertzMindlin<>>, 2>
 
 namespace samples {
 
@@ -22,6 +24,7 @@ using scarp::CohesiveBond;
 using scarp::Frictionless;
 using scarp::HertzMindlin;
 using scarp::HertzRestitution;
+using scarp::LawPerSpecies;
 using scarp::LinearFrictional;
 using scarp::RollingResistance;
 
@@ -53,6 +56,10 @@ struct Sample<RollingResistance<Law>> {
 template <class Law>
 struct Sample<CohesiveBond<Law>> {
   static CohesiveBond<Law> law() { return {.law = Sample<Law>::law(), .tensile_strength = 4.0, .shear_strength = 3.0}; }
+};
+template <class Law>
+struct Sample<LawPerSpecies<Law, 2>> {
+  static LawPerSpecies<Law, 2> law() { return {{Sample<Law>::law(), Sample<Law>::law(), Sample<Law>::law()}}; }
 };
 
 /// Bonds a contact where the law, or one that it is wrapped around, has bonds.

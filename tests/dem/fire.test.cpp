@@ -25,7 +25,6 @@ using Spheres = scarp::Packing<scarp::Sphere, scarp::LinearFrictional>;
 using SmallDiscs = scarp::Packing<scarp::Disc, scarp::LinearFrictional, float>;
 
 static_assert(scarp::SeesAllGrains<Fire, Discs> && scarp::SeesAllGrains<Fire, Spheres>);
-static_assert(!scarp::SeesAllGrains<LocalDamping, Discs>);
 
 Tensor<2> strain_step(double size) {
   Tensor<2> step;

@@ -27,6 +27,8 @@ static_assert(std::is_empty_v<ShearOf<SmoothDiscs>> && std::is_empty_v<ShearOf<S
                   !std::is_empty_v<ShearOf<Discs>>,
               "a frictionless packing has no tangential memory");
 static_assert(sizeof(SmoothDiscs) < sizeof(Discs) && sizeof(Discs) < sizeof(Ellipses));
+static_assert(scarp::RowLayout<scarp::Disc, scarp::LinearFrictional>::used == 6,
+              "position, velocity, spin and radius of a disc: no mass and no species");
 
 }  // namespace
 

@@ -27,6 +27,7 @@ struct ContactInputs {
   int scalars = 0;      ///< further numbers that are remembered, zero for a new contact
   bool radius = false;  ///< `reduced_radius` is given
   bool motion = false;  ///< `overlap_increment`, `tangential_increment`, `reduced_mass` and `time_step` are given
+  int species = 0;      ///< how many the law tells apart; `species` is given
 };
 
 /// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and roll are
@@ -41,6 +42,7 @@ struct ContactKinematics {
   Tangential<Dim, T> tangential_increment{};  ///< slip of the step, whether or not the memory contains it [m]
   T reduced_mass{};                           ///< \f$ m_1 m_2 / (m_1 + m_2) \f$ [kg]
   T time_step{};                              ///< [s]; zero while nothing moves
+  std::array<T, 2> species{};                 ///< of both grains, 1, 2, ...
 };
 
 /// The most numbers that a law, with all that is wrapped around it, may need in `ContactInputs::scalars`.
@@ -113,6 +115,36 @@ template <class Law>
 concept Frictional = ContactLaw<Law> && requires(Law law) {
   { law.friction_coefficient() } -> std::same_as<double&>;
 };
+
+/// Calls visit(one) for the laws of all pairs of species, or for the law itself where it tells none apart.
+template <class Law, class Visit>
+void for_each_law(Law& law, Visit&& visit) {
+  if constexpr (requires { law.laws; }) {
+    for (auto& one : law.laws) visit(one);
+  } else {
+    visit(law);
+  }
+}
+
+/// Calls visit(double&) for every friction coefficient of a law: none, one, or one for each pair of species.
+template <class Law, class Visit>
+void for_each_friction(Law& law, Visit&& visit) {
+  for_each_law(law, [&](auto& one) {
+    if constexpr (Frictional<std::remove_cvref_t<decltype(one)>>) visit(one.friction_coefficient());
+  });
+}
+
+/// Stiffness of one contact by the law, by the law between its species where they are told apart.
+template <class Law, int Dim>
+ContactStiffness contact_stiffness(Law const& law, ContactKinematics<Dim, double> const& approach) {
+  if constexpr (Law::inputs.species > 0) {
+    auto const [first, second] = approach.species;
+    return law.between(static_cast<int>(first), static_cast<int>(second))
+        .stiffness(approach.overlap, approach.reduced_radius);
+  } else {
+    return law.stiffness(approach.overlap, approach.reduced_radius);
+  }
+}
 
 /// stored_energy(approach, memory): what the contact would give back [J].
 template <class Law>

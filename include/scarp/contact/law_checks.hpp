@@ -15,6 +15,10 @@ namespace scarp {
 template <ContactLaw Law>
 void require_consistent(Law const& law, double radius) {
   detail::validated(law);
+  if constexpr (Law::inputs.species > 0) {
+    for_each_law(law, [&](auto const& one) { require_consistent(one, radius); });
+    return;
+  }
   double const reach = interaction_range_of(law);
   if (!(reach >= 0.0 && reach <= 2.0 * radius)) {
     throw_input_error(

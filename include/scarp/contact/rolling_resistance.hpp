@@ -14,7 +14,7 @@ namespace scarp {
 /// 2011, Powder Technology 206, without its dashpot). Under a pull, as in a bond, |F_n| still counts.
 /// rolling stiffness [N m/rad]; rolling friction dimensionless
 template <ContactLaw Law>
-  requires(!Law::inputs.moment)
+  requires(!Law::inputs.moment && Law::inputs.species == 0)
 struct RollingResistance {
   static constexpr ContactInputs inputs = [] {
     ContactInputs all = Law::inputs;

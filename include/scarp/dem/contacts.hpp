@@ -67,10 +67,12 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
     auto const& touch = near.touch;
     double const radius_first = Shape::contact_radius(near.first);
     double const radius_second = Shape::contact_radius(near.second);
-    ContactKinematics<dim, double> const still{
+    ContactKinematics<dim, double> still{
         .overlap = touch.overlap,
         .slip_increment = {},
         .reduced_radius = radius_first * radius_second / (radius_first + radius_second)};
+    if constexpr (PackingType::Law::inputs.species > 0)
+      still.species = {Shape::species(near.first), Shape::species(near.second)};
     auto memory = contact_memory(pairs, p);
     carry_to_frame(memory.shear, {}, touch.normal);
     carry_to_frame(memory.moment, {}, touch.normal);
@@ -82,7 +84,7 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
                          touch,
                          still,
                          memory,
-                         law.stiffness(still.overlap, still.reduced_radius),
+                         contact_stiffness(law, still),
                          answer.normal,
                          Eigen::Map<Vector<dim> const>(near.branch.data()),
                          Eigen::Map<Vector<dim> const>(sideways.data())};

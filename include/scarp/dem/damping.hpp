@@ -6,6 +6,7 @@
 
 #include "scarp/core/error.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/dem/critical_step.hpp"
 #include "scarp/dem/grain_rows.hpp"
 #include "scarp/simd/pack.hpp"
 
@@ -31,24 +32,30 @@ struct NetForces {
   Scalar torque(std::size_t grain, int k) const { return force(grain, k + static_cast<int>(Layout::torque)); }
 };
 
-/// before_move(packing, forces, time_step [s]): optional, once a step, before `next_velocity` of all grains. A relaxation
-/// learns here what it needs of the whole packing; what it remembers is the stepper's, not the packing's.
+/// before_move(packing, forces, time_step [s]): optional, once a step, before `next_velocity` of all grains. A damping
+/// learns here the time step, a relaxation what it needs of the whole packing; what it remembers is the stepper's, not the packing's.
 template <class Damping, class PackingType>
 concept SeesAllGrains = requires(Damping& damping, PackingType const& packing, NetForces<PackingType> const& forces) {
   damping.before_move(packing, forces, double{});
 };
 
 /// Cundall's local damping: the net force loses the share `factor` where it does work and gains it where it resists. Grains
-/// that touch nothing feel no force and would fly on for ever, so all fluctuation velocities also lose the small share
-/// `drag` in every step.
+/// that touch nothing feel no force and would fly on for ever, so all fluctuation velocities also decay,
+/// \f$ \dot v = -c\,v,\; c = -\ln(1 - drag) / (0.78\,\Delta t_{crit}) \f$: a rate [1/s] of packing and law, whatever the time step.
 struct LocalDamping {
   double factor = 0.2;
-  double drag = 1e-3;
+  double drag = 1e-3;        ///< share that velocities lose in `default_time_step_share` of the critical step
+  double kept = 1.0 - drag;  ///< share that stays in the present time step
 
   /// \throws InputError for shares outside of 0 to 1
   void validate() const {
     require_between("factor of the local damping", factor, 0.0, 1.0);
     require_between("drag of the local damping", drag, 0.0, 1.0);
+  }
+
+  template <class PackingType, class Forces>
+  void before_move(PackingType const& packing, Forces const&, double time_step) {
+    kept = std::pow(1.0 - drag, time_step / (default_time_step_share * packing.pairs.critical_step));
   }
 
   /// Velocity after a step with a net force, or spin after one with a net torque; mobility = time step / inertia.
@@ -57,7 +64,7 @@ struct LocalDamping {
     using std::abs;
     using std::copysign;
     T const damped = force - broadcast<T>(factor) * copysign(abs(force), velocity);
-    return broadcast<T>(1.0 - drag) * velocity + damped * mobility;
+    return broadcast<T>(kept) * velocity + damped * mobility;
   }
 };
 

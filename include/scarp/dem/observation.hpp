@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "scarp/core/index.hpp"
 #include "scarp/simd/pack.hpp"
@@ -41,6 +42,29 @@ struct StepObservation {
   double damping_loss = 0.0;    ///< in damping, during the move
   double kinetic_energy = 0.0;  ///< of fluctuations, mean of before and after the move
 };
+
+/// What contacts and net forces tell of a packing; no energies of the move.
+template <class PackingType, class Forces>
+StepObservation<PackingType::dim> observation(PackingType const& packing, ContactSums<PackingType::dim> const& sums,
+                                              Forces const& forces) {
+  StepObservation<PackingType::dim> seen{.stress = sums.stress(packing.volume()),
+                                         .contacts = sums.contacts,
+                                         .deepest_overlap = sums.deepest,
+                                         .stored_energy = sums.stored,
+                                         .contact_loss = sums.dissipated};
+  if (sums.contacts == 0.0) return seen;
+  double unbalanced = 0.0;
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    double squared = 0.0;
+    for (int a = 0; a < PackingType::dim; ++a) {
+      double const net = static_cast<double>(forces.force(i, a));
+      squared += net * net;
+    }
+    unbalanced += std::sqrt(squared);
+  }
+  seen.unbalanced_ratio = (unbalanced / static_cast<double>(packing.grain_count())) / (sums.force / sums.contacts);
+  return seen;
+}
 
 namespace detail {
 

@@ -143,6 +143,8 @@ struct Packing {
   using Law = LawPolicy;
   using Scalar = ScalarType;
   static constexpr int dim = Shape::dim;
+  static_assert(Law::inputs.species == 0 || Law::inputs.species == species_count<Shape>(),
+                "scarp: a law per pair of species needs grains `WithSpecies<Shape, N>` of as many species");
 
   std::shared_ptr<Population<Shape, Scalar> const> population;
   Tensor<dim> cell = Tensor<dim>::Identity();

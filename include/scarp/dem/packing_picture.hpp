@@ -7,9 +7,15 @@
 
 namespace scarp {
 
+namespace detail {
+/// Lengths among the numbers of a grain's size.
+template <class Shape>
+inline constexpr int length_count = Shape::size_count - (species_count<Shape>() > 0 ? 1 : 0);
+}  // namespace detail
+
 /// Whether `packing_picture` takes packings of this type: discs and ellipses in the plane.
 template <class PackingType>
-concept HasPicture = PackingType::dim == 2 && PackingType::Shape::size_count <= 2 &&
+concept HasPicture = PackingType::dim == 2 && detail::length_count<typename PackingType::Shape> <= 2 &&
                      part_count<typename PackingType::Shape>() == 1;
 
 /// A plane packing as a drawing needs it, whatever its grains and its contact law are.
@@ -38,7 +44,9 @@ PackingPicture packing_picture(PackingType const& packing, typename PackingType:
   PackingPicture picture{.cell = packing.cell};
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {
     auto const size = packing.population->size(i);
-    PackingPicture::Grain grain{{packing.position(i, 0), packing.position(i, 1)}, size.front(), size.back()};
+    PackingPicture::Grain grain{{packing.position(i, 0), packing.position(i, 1)},
+                                size.front(),
+                                size[detail::index(detail::length_count<typename PackingType::Shape> - 1)]};
     if constexpr (PackingType::Shape::orientation_count == 2) {
       grain.axis = {static_cast<double>(packing.orientation(i, 0)), static_cast<double>(packing.orientation(i, 1))};
     }

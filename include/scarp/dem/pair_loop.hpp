@@ -101,6 +101,10 @@ class PairResponse {
       Lanes const radius_second = Shape::contact_radius(pose(block, Block::pose_second, at));
       approach.reduced_radius = radius_first * radius_second / (radius_first + radius_second);
     }
+    if constexpr (Law::inputs.species > 0) {
+      approach.species = {Shape::species(pose(block, Block::pose_first, at)),
+                          Shape::species(pose(block, Block::pose_second, at))};
+    }
     if constexpr (Law::inputs.scalars > 0) load_rows(pairs_.scalars, start, memory.scalars);
     auto const answer = law_.respond(approach, memory);
     if constexpr (Law::inputs.shear) store_rows(memory.shear, start, pairs_.shear);

@@ -26,7 +26,7 @@ struct Prepared {
 /// density, then relaxation at the law's own friction. The cell may tilt, so that no shear stress is left.
 struct IsotropicPreparation {
   double pressure = 0.0;              ///< [Pa], positive
-  double preparation_friction = 0.1;  ///< 0 gives the densest packing; of no effect on a law without friction
+  double preparation_friction = 0.1;  ///< of all contacts; 0 gives the densest packing
   Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
   Servo relaxation{};
 
@@ -39,18 +39,20 @@ struct IsotropicPreparation {
   }
 
   /// \throws InputError for parameters that validate() rejects or a law that contradicts itself
-  template <class PackingType, DampsMotion Damping = LocalDamping>
-  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law, Damping const& damping = {}) const {
+  template <class PackingType, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
+  Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law, Damping const& damping = {},
+                                Boundary const& boundary = {}) const {
     validate();
     require_consistent(law, cloud.population->largest_radius());
     constexpr int dim = PackingType::dim;
     VoigtStress<dim> target = VoigtStress<dim>::Zero();
     target.template head<dim>().setConstant(-pressure);
     auto const loading = Loading<dim>::stress(target);
-    TimeStepper<PackingType, Damping> stepper;
+    TimeStepper<PackingType, Damping, Boundary> stepper;
     stepper.damping = damping;
+    stepper.boundary = boundary;
     auto prepared_by = law;
-    if constexpr (Frictional<typename PackingType::Law>) prepared_by.friction_coefficient() = preparation_friction;
+    for_each_friction(prepared_by, [&](double& friction) { friction = preparation_friction; });
     Verdict verdict = consolidation.reach(stepper, cloud, prepared_by, loading);
     if (verdict.acceptable()) verdict = relaxation.reach(stepper, cloud, law, loading);
     if (Verdict const stopped = stepper.stop(cloud, law); !stopped.acceptable()) verdict = stopped;
@@ -65,15 +67,16 @@ struct OneDimensionalCompression {
 
   /// vertical_pressures [Pa], positive, in the order of the path: one below the pressure before it unloads
   /// \return one packing per pressure; the list ends early at one whose verdict is not acceptable
-  template <class PackingType, DampsMotion Damping = LocalDamping>
+  template <class PackingType, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
   std::vector<Prepared<PackingType>> compress(PackingType packing, typename PackingType::Law const& law,
                                               std::vector<double> const& vertical_pressures,
-                                              Damping const& damping = {}) const {
+                                              Damping const& damping = {}, Boundary const& boundary = {}) const {
     constexpr int dim = PackingType::dim;
     Loading<dim> loading;
     for (int k = dim - 1; k < voigt_size<dim>; ++k) loading.controls.push_back(component_control<dim>(k, 0.0));
-    TimeStepper<PackingType, Damping> stepper;
+    TimeStepper<PackingType, Damping, Boundary> stepper;
     stepper.damping = damping;
+    stepper.boundary = boundary;
     std::vector<Prepared<PackingType>> column;
     for (double const pressure : vertical_pressures) {
       loading.controls.front().target = -require_positive("vertical pressure", pressure);

@@ -8,10 +8,12 @@
 #include "scarp/contact/law_checks.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/dem/boundary.hpp"
 #include "scarp/dem/critical_step.hpp"
 #include "scarp/dem/damping.hpp"
 #include "scarp/dem/neighbour_list.hpp"
 #include "scarp/dem/pair_loop.hpp"
+#include "scarp/tensor/finite_strain.hpp"
 
 namespace scarp {
 
@@ -31,16 +33,18 @@ struct SCARP_EXPORT LibraryKernel {
   static Verdict observe(Stepper& stepper, PackingType& packing, Law const& law, StepObservation<dim>& observed);
 };
 
-template <class PackingType, class Damping>
+template <class PackingType, class... Policies>
 inline constexpr bool kernel_is_precompiled =
-    is_precompiled<typename PackingType::Shape>&& is_precompiled<typename PackingType::Law>&& is_precompiled<Damping>&&
-        std::is_same_v<typename PackingType::Scalar, double>;
+    is_precompiled<typename PackingType::Shape>&& is_precompiled<typename PackingType::Law>&&
+        std::is_same_v<typename PackingType::Scalar, double> &&
+    (... && is_precompiled<Policies>);
 
 }  // namespace detail
 
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient; a damping or relaxation gives the
-/// velocities. Holds the scratch memory, so one stepper serves many packings in turn but only one thread.
-template <class PackingOf, DampsMotion Damping = LocalDamping>
+/// velocities, a boundary holds grains on the cell's motion. Holds the scratch memory, so one stepper serves many packings in
+/// turn but only one thread.
+template <class PackingOf, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingOf> Boundary = Periodic>
 class TimeStepper {
   static_assert(
       SeesAllGrains<Damping, PackingOf> || !requires { &Damping::before_move; },
@@ -56,6 +60,7 @@ class TimeStepper {
   using Lanes = lanes::Pack<Scalar>;
 
   Damping damping{};
+  [[no_unique_address]] Boundary boundary{};
   /// Gap up to which pairs are listed, as a share of the largest radius: a wider skin lists more pairs, a thinner one is
   /// rebuilt more often. Of the law only its reach comes on top, so that laws that act in touch share one list.
   double skin_ratio = 0.1;
@@ -65,6 +70,7 @@ class TimeStepper {
   /// \throws InputError for parameters that no step can be made with; every call checks
   void validate() const {
     detail::validated(damping);
+    detail::validated(boundary);
     require_positive("skin over the largest radius", skin_ratio);
     require_positive("share of the critical time step", time_step_share);
   }
@@ -99,7 +105,7 @@ class TimeStepper {
     if constexpr (in_library) {
       return Library::observe(*this, packing, law, observed);
     } else {
-      return observe_here(packing, law, observed);
+      return look<Observe::balance>(packing, law, &observed);
     }
   }
 
@@ -115,14 +121,14 @@ class TimeStepper {
   using Layout = RowLayout<Shape, Law>;
   using Library = detail::LibraryKernel<TimeStepper>;
   friend Library;
-  static constexpr bool in_library = detail::kernel_is_precompiled<PackingType, Damping>;
+  static constexpr bool in_library = detail::kernel_is_precompiled<PackingType, Damping, Boundary>;
 
   Verdict refresh_here(PackingType& packing, Law const& law) const {
     validate();
-    if constexpr (Frictional<Law>) {
-      double const friction = Law(law).friction_coefficient();
-      if (!(std::isfinite(friction) && friction >= 0.0)) return {Status::failed, Reason::not_finite};
-    }
+    bool is_sound = true;
+    Law own = law;
+    for_each_friction(own, [&](double friction) { is_sound = is_sound && std::isfinite(friction) && friction >= 0.0; });
+    if (!is_sound) return {Status::failed, Reason::not_finite};
     // The first is false also when the drift is no number.
     if (packing.pairs.drift <= packing.pairs.skin &&
         packing.pairs.basis.agrees_with(list_basis(packing, law, packing.pairs.skin)))
@@ -143,17 +149,26 @@ class TimeStepper {
     return {};
   }
 
+  /// Net forces of the grains where they stand, and what is observed of them.
+  template <Observe what>
+  Verdict look(PackingType& packing, Law const& law, StepObservation<dim>* observed) {
+    if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
+    ContactSums<dim> const sums = pair_forces<what>(packing, law, scratch_);
+    if (!sums.settled) return {Status::failed, Reason::unconverged_normal};
+    boundary.constrain(std::as_const(packing), GrainHolds<PackingType>(packing, scratch_.forces.data()));
+    if constexpr (what != Observe::nothing)
+      *observed = observation(packing, sums, NetForces<PackingType>{scratch_.forces.data()});
+    return {};
+  }
+
   template <Observe what>
   Verdict step_here(PackingType& packing, Law const& law, Tensor<dim> const& strain_step,
                     StepObservation<dim>* observed) {
-    if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
+    if (Verdict const verdict = look<what>(packing, law, observed); !verdict.acceptable()) return verdict;
     double const time_step = time_step_share * packing.pairs.critical_step;
-    ContactSums<dim> const sums = pair_forces<what>(packing, law, scratch_);
-    if (!sums.settled) return {Status::failed, Reason::unconverged_normal};
-    if constexpr (what != Observe::nothing) *observed = observe(packing, sums);
     if constexpr (SeesAllGrains<Damping, PackingType>)
       damping.before_move(std::as_const(packing), NetForces<PackingType>{scratch_.forces.data()}, time_step);
-    Tensor<dim> const cell_step = exponential(strain_step);
+    Tensor<dim> const cell_step = exponential_of_small<dim>(strain_step);
     auto const energies = move_grains<what>(packing, cell_step, time_step, strain_step);
     if constexpr (what == Observe::energy) {
       observed->damping_loss = energies.damped;
@@ -164,38 +179,6 @@ class TimeStepper {
     packing.pairs.drift += strain_step.norm() * (2.0 * packing.population->largest_radius() + packing.pairs.skin +
                                                  packing.pairs.basis.reach);
     return {};
-  }
-
-  Verdict observe_here(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
-    if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
-    auto const sums = pair_forces<Observe::balance>(packing, law, scratch_);
-    if (!sums.settled) return {Status::failed, Reason::unconverged_normal};
-    observed = observe(packing, sums);
-    return {};
-  }
-
-  StepObservation<dim> observe(PackingType const& packing, ContactSums<dim> const& sums) const {
-    StepObservation<dim> seen{.stress = sums.stress(packing.volume()),
-                              .contacts = sums.contacts,
-                              .deepest_overlap = sums.deepest,
-                              .stored_energy = sums.stored,
-                              .contact_loss = sums.dissipated};
-    if (sums.contacts == 0.0) return seen;
-    double unbalanced = 0.0;
-    for (std::size_t i = 0; i < packing.grain_count(); ++i) {
-      Scalar const* const net = scratch_.forces.data() + i * Layout::force_size;
-      double squared = 0.0;
-      for (std::size_t a = 0; a < dim; ++a) squared += static_cast<double>(net[a]) * static_cast<double>(net[a]);
-      unbalanced += std::sqrt(squared);
-    }
-    seen.unbalanced_ratio = (unbalanced / static_cast<double>(packing.grain_count())) / (sums.force / sums.contacts);
-    return seen;
-  }
-
-  /// Taylor series to fourth order: exact to round-off for the strains of one time step.
-  static Tensor<dim> exponential(Tensor<dim> const& small) {
-    Tensor<dim> const identity = Tensor<dim>::Identity();
-    return identity + small * (identity + small * (identity + small * (identity + small / 4.0) / 3.0) / 2.0);
   }
 
   struct Energies {

@@ -44,7 +44,7 @@ concept PackingTangent = requires(Tangent const& tangent, PackingType const& pac
 /// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the response is Love and Weber's stress at its end.
 /// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
 template <class PackingType, PackingSource<PackingType> Source, PackingTangent<PackingType> Tangent = AffineTangent,
-          DampsMotion Damping = LocalDamping>
+          DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
 struct DemRve {
   static constexpr int dim = PackingType::dim;
   using Law = typename PackingType::Law;
@@ -73,6 +73,7 @@ struct DemRve {
   double time_step_share = default_time_step_share;  ///< of the critical step's lower bound
   bool fluid_start = false;  ///< whether a point may start with a packing without contacts, see StiffnessFloor
   Damping damping{};
+  [[no_unique_address]] Boundary boundary{};  ///< which grains follow the mean strain
   Tangent tangent_policy{};
 
   /// A packing that was listed with another law is listed anew.
@@ -90,6 +91,7 @@ struct DemRve {
     require_positive("normal stiffness of the contact law", spring_modulus(state.packing, law));
     require_consistent(law, state.packing.population->largest_radius());
     Stepper stepper;
+    stepper.boundary = boundary;
     state.verdict = observe(stepper, state);
     if (state.verdict.status == Status::failed)
       throw_input_error("the packing of point {} cannot be used ({}): give the provider's source another one",
@@ -106,12 +108,12 @@ struct DemRve {
     require_positive("unbalanced tolerance", unbalanced_tolerance);
     require_positive("share of the critical time step", time_step_share);
     require_not_negative("pressure floor", pressure_floor);
-    if constexpr (Frictional<Law>) {
-      require_not_negative("friction of the contact law", Law(law).friction_coefficient());
-    }
+    Law own = law;
+    for_each_friction(own, [](double friction) { require_not_negative("friction of the contact law", friction); });
     require_at_least("least number of DEM steps of a response", min_steps, 1);
     require_at_least("most DEM steps of a response", max_steps, min_steps);
     detail::validated(damping);
+    detail::validated(boundary);
     detail::validated(tangent_policy);
   }
 
@@ -180,6 +182,7 @@ struct DemRve {
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial, Plan steps) const {
     thread_local Stepper stepper;
     stepper.damping = damping;
+    stepper.boundary = boundary;
     stepper.time_step_share = time_step_share;
     trial = committed;
     trial.inertial_number = inertial_number_of(committed, increment, steps);
@@ -194,7 +197,7 @@ struct DemRve {
   }
 
  private:
-  using Stepper = TimeStepper<PackingType, Damping>;
+  using Stepper = TimeStepper<PackingType, Damping, Boundary>;
 
   /// [s], for a packing that was listed with another law as the next step will list it.
   double time_step(State const& state) const {

@@ -10,7 +10,7 @@ namespace scarp {
 /// Derivative of a packing's stress by trial: a copy is settled, then strained a little in each mode and settled again.
 /// The stress is Cauchy's of the strained cell, so that terms of the order of the stress itself are in the tangent.
 /// The most exact tangent for its strain and by far the most expensive: some hundred to thousand DEM steps a settling.
-template <DampsMotion Damping = LocalDamping>
+template <DampsMotion Damping = LocalDamping, class Boundary = Periodic>
 struct PerturbationTangent {
   double strain = 1e-5;   ///< engineering, of each mode; no plateau where contacts slide, see docs/notes/tangents.md
   int strain_steps = 20;  ///< time steps that apply it
@@ -19,6 +19,7 @@ struct PerturbationTangent {
   int max_steps = 50'000;  ///< of each settling
   int check_every = 50;    ///< steps between looks at the balance
   Damping damping{};       ///< of the trials, whatever damping the packing responds with
+  [[no_unique_address]] Boundary boundary{};              ///< as of the packing
   TangentFallback on_fallback = report_tangent_fallback;  ///< called for each tangent that is less exact than requested
 
   /// \throws InputError for a strain or numbers of steps that are not positive
@@ -29,6 +30,7 @@ struct PerturbationTangent {
     require_at_least("most steps of a settling", max_steps, 1);
     require_at_least("number of steps between looks at the balance", check_every, 1);
     detail::validated(damping);
+    detail::validated(boundary);
   }
 
   /// Central differences. What was reached by then is used where a packing does not settle, after `on_fallback` was called.
@@ -56,6 +58,7 @@ struct PerturbationTangent {
     long taken = 0;
     Trial<PackingType> trial{law, {}};
     trial.stepper.damping = damping;
+    trial.stepper.boundary = boundary;
     PackingType base = packing;
     answer.verdict = trial.stepper.stop(base, law);
     VoigtStress<dim> const start = trial.settle(*this, base, answer.verdict, taken);
@@ -81,7 +84,7 @@ struct PerturbationTangent {
   struct Trial {
     static constexpr int dim = PackingType::dim;
     typename PackingType::Law const& law;
-    TimeStepper<PackingType, Damping> stepper;
+    TimeStepper<PackingType, Damping, Boundary> stepper;
 
     VoigtStress<dim> strain(PerturbationTangent const& how, PackingType& packing, Tensor<dim> const& step,
                             Verdict& verdict, long& taken) {

@@ -56,6 +56,16 @@ constexpr int part_count() {
   }
 }
 
+/// Number of species that grains of a shape are told apart by, 0 for none.
+template <class Shape>
+constexpr int species_count() {
+  if constexpr (requires { Shape::species_count; }) {
+    return Shape::species_count;
+  } else {
+    return 0;
+  }
+}
+
 template <class Shape, class T = double>
 using PoseOf = std::array<T, static_cast<std::size_t>(Shape::pose_count)>;
 

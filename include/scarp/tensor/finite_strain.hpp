@@ -77,4 +77,11 @@ Tensor<Dim> logarithm_of_increment(Gradient<Dim> const& gradient) {
   return Tensor<Dim>::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// Exponential by its Taylor series to fourth order: exact to round-off for the displacement gradient of one time step.
+template <int Dim>
+Tensor<Dim> exponential_of_small(Tensor<Dim> const& small) {
+  Tensor<Dim> const identity = Tensor<Dim>::Identity();
+  return identity + small * (identity + small * (identity + small * (identity + small / 4.0) / 3.0) / 2.0);
+}
+
 }  // namespace scarp

@@ -183,6 +183,11 @@ struct Wrong {};
 DemRve<Discs, SamePacking<Discs>, Wrong> rve;
 }  // namespace case_27
 
+// first: a law per pair of species needs grains
+namespace case_species {
+Packing<WithSpecies<Disc, 3>, LawPerSpecies<Frictionless, 2>> packing;
+}  // namespace case_species
+
 // within: DampsMotion
 namespace case_28 {
 struct Wrong {};

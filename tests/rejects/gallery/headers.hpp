@@ -6,6 +6,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/contact/frictionless.hpp"
+#include "scarp/contact/law_per_species.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/element/quad4.hpp"
@@ -14,3 +15,4 @@
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/random_packings.hpp"
 #include "scarp/shape/disc.hpp"
+#include "scarp/shape/with_species.hpp"

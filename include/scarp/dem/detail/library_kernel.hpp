@@ -27,7 +27,7 @@ Verdict LibraryKernel<Stepper>::step(Stepper& stepper, PackingType& packing, Law
 template <class Stepper>
 Verdict LibraryKernel<Stepper>::observe(Stepper& stepper, PackingType& packing, Law const& law,
                                         StepObservation<dim>& observed) {
-  return stepper.observe_here(packing, law, observed);
+  return stepper.template look<Observe::balance>(packing, law, &observed);
 }
 
 }  // namespace scarp::detail

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scarp/core/precompiled.hpp"
+#include "scarp/dem/damping.hpp"
+
+namespace scarp {
+
+/// What a boundary may do to grains: keep their centres or spins on the cell's mean motion, without fluctuation. What is held
+/// has no net force, also in the unbalanced ratio; the stress is of all contacts.
+template <class PackingType>
+class GrainHolds {
+ public:
+  using Scalar = typename PackingType::Scalar;
+
+  GrainHolds(PackingType& packing, Scalar* forces) : packing_(packing), forces_(forces) {}
+
+  void hold_centre(std::size_t grain, int axis) const {
+    packing_.velocity(grain, axis) = Scalar(0);
+    row(grain)[axis] = Scalar(0);
+  }
+  void hold_spin(std::size_t grain) const {
+    for (int k = 0; k < spin_size<PackingType::dim>; ++k) {
+      packing_.spin(grain, k) = Scalar(0);
+      row(grain)[static_cast<int>(Layout::torque) + k] = Scalar(0);
+    }
+  }
+  /// Centre and spin.
+  void hold(std::size_t grain) const {
+    for (int axis = 0; axis < PackingType::dim; ++axis) hold_centre(grain, axis);
+    hold_spin(grain);
+  }
+
+ private:
+  using Layout = RowLayout<typename PackingType::Shape, typename PackingType::Law>;
+  Scalar* row(std::size_t grain) const { return forces_ + grain * Layout::force_size; }
+
+  PackingType& packing_;
+  Scalar* forces_;
+};
+
+/// constrain(packing, holds): once a step, after the contacts and before the grains move; calls `holds` for those that are not free.
+template <class Boundary, class PackingType>
+concept ConstrainsGrains = requires(Boundary const& boundary, PackingType const& packing,
+                                    GrainHolds<PackingType> const& holds) {
+  boundary.constrain(packing, holds);
+};
+
+/// Fluctuations are periodic: all grains are free.
+struct Periodic {
+  template <class PackingType>
+  void constrain(PackingType const&, GrainHolds<PackingType> const&) const {}
+};
+
+template <>
+inline constexpr bool is_precompiled<Periodic> = detail::has_library;
+
+}  // namespace scarp

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scarp/core/error.hpp"
+#include "scarp/shape/minimum_translation.hpp"
+#include "scarp/shape/particle_shape.hpp"
+
+namespace scarp {
+
+/// Grains of one shape and of several species, for `LawPerSpecies`: size is that of the shape, then the species 1 to `Species`.
+template <ParticleShape Shape, int Species>
+struct WithSpecies {
+  static constexpr int dim = Shape::dim;
+  static constexpr int size_count = Shape::size_count + 1;
+  static constexpr int orientation_count = Shape::orientation_count;
+  static constexpr int pose_count = Shape::pose_count + 1;
+  static constexpr int part_count = scarp::part_count<Shape>();
+  static constexpr int species_count = Species;
+  static constexpr bool warm_starts_normal = Shape::warm_starts_normal;
+
+  template <class T>
+  using Size = SizeOf<WithSpecies, T>;
+  template <class T>
+  using Pose = PoseOf<WithSpecies, T>;
+
+  /// \throws InputError for another species, and for sizes that the shape refuses
+  static void check(Size<double> const& size) {
+    double const species = size.back();
+    if (!(species >= 1.0 && species <= Species && species == std::floor(species)))
+      throw_input_error("a grain is of species {} (there are 1 to {}): give the last number of its size", species,
+                        Species);
+    if constexpr (requires { Shape::check(bare(size)); }) Shape::check(bare(size));
+  }
+
+  static double content(Size<double> const& size) { return Shape::content(bare(size)); }
+  static double gyration_squared(Size<double> const& size) { return Shape::gyration_squared(bare(size)); }
+  static double bounding_radius(Size<double> const& size) { return Shape::bounding_radius(bare(size)); }
+  static double eccentricity(Size<double> const& size) { return Shape::eccentricity(bare(size)); }
+  static double min_curvature_radius(Size<double> const& size) { return Shape::min_curvature_radius(bare(size)); }
+
+  template <class T, class Orientation, class... Part>
+  static Pose<T> pose(std::array<T, static_cast<std::size_t>(size_count)> const& size, Orientation const& orientation,
+                      Part... part) {
+    auto const own = Shape::pose(bare(size), orientation, part...);
+    Pose<T> pose;
+    std::copy(own.begin(), own.end(), pose.begin());
+    pose.back() = size.back();
+    return pose;
+  }
+
+  template <class T>
+  static T species(std::array<T, static_cast<std::size_t>(pose_count)> const& pose) {
+    return pose.back();
+  }
+  template <class T>
+  static T contact_radius(std::array<T, static_cast<std::size_t>(pose_count)> const& pose) {
+    return Shape::contact_radius(bare(pose));
+  }
+  static double inner_radius(Pose<double> const& pose) requires HasInnerRadius<Shape> {
+    return Shape::inner_radius(bare(pose));
+  }
+
+  template <class T>
+  static ContactGeometry<dim, T> touch(std::array<T, static_cast<std::size_t>(pose_count)> const& first,
+                                       std::array<T, static_cast<std::size_t>(pose_count)> const& second,
+                                       Point<dim, T> const& branch, Point<dim, T> const& normal) {
+    return Shape::touch(bare(first), bare(second), branch, normal);
+  }
+  static auto support(Pose<double> const& pose, Point<2, double> const& normal) requires HasSupportOfOne<Shape> {
+    return Shape::support(bare(pose), normal);
+  }
+  static auto supports(Pose<double> const& first, Pose<double> const& second,
+                       Point<2, double> const& normal) requires HasSupportOfPair<Shape> {
+    return Shape::supports(bare(first), bare(second), normal);
+  }
+
+ private:
+  template <class T, std::size_t Size>
+  static std::array<T, Size - 1> bare(std::array<T, Size> const& numbers) {
+    std::array<T, Size - 1> own;
+    std::copy_n(numbers.begin(), own.size(), own.begin());
+    return own;
+  }
+};
+
+}  // namespace scarp
