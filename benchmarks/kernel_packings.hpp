@@ -107,8 +107,8 @@ StudyPacking<Shape> const& consolidated(int grains) {
   scarp::IsotropicPreparation const preparation{.pressure = pressure};
   auto prepared = preparation.prepare(cloud.template make<StudyPacking<Shape>>(), law_of_study<StudyPacking<Shape>>());
   if (!prepared.verdict.acceptable()) {
-    scarp::throw_input_error("{} grains were not consolidated ({}): the benchmark needs another seed", grains,
-                             scarp::name(prepared.verdict.reason));
+    scarp::reject("{} grains were not consolidated ({}): the benchmark needs another seed", grains,
+                  scarp::name(prepared.verdict.reason));
   }
   return made.emplace(grains, std::move(prepared.packing)).first->second;
 }
@@ -215,8 +215,8 @@ void settle(PackingType& packing, typename PackingType::Law const& law) {
   scarp::Servo const servo{.stress_tolerance = 1e-2, .unbalanced_tolerance = 1e-2, .max_steps = 50'000};
   if (auto const verdict = servo.reach(stepper, packing, law, scarp::Loading<dim>::stress(target));
       !verdict.acceptable()) {
-    scarp::throw_input_error("{} grains did not settle under another law ({}): loosen the tolerances",
-                             packing.grain_count(), scarp::name(verdict.reason));
+    scarp::reject("{} grains did not settle under another law ({}): loosen the tolerances", packing.grain_count(),
+                  scarp::name(verdict.reason));
   }
   packing.rest();  // grains without contact fly on for ever and would make the list of pairs old
 }
@@ -247,7 +247,7 @@ PackingType const& sheared(int grains, Numbering numbering = Numbering::at_rando
   SlowShear<PackingType::dim> shear;
   for (int step = 0; step < steps; ++step) {
     if (!stepper.step(packing, law, shear.next()).acceptable())
-      scarp::throw_input_error("a packing of {} grains failed in shear: the benchmark needs another seed", grains);
+      scarp::reject("a packing of {} grains failed in shear: the benchmark needs another seed", grains);
   }
   return made.emplace(std::pair(grains, numbering), std::move(packing)).first->second;
 }

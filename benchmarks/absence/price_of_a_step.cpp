@@ -46,7 +46,7 @@ auto balanced_discs() {
   law.friction = 0.0;
   scarp::IsotropicPreparation const preparation{.pressure = 1e5, .preparation_friction = 0.0};
   auto made = preparation.prepare(cloud.make<scarp::Packing<scarp::Disc, scarp::LinearFrictional>>(), law);
-  if (!made.verdict.acceptable()) scarp::throw_input_error("the grains found no balance: change the seed");
+  if (!made.verdict.acceptable()) scarp::reject("the grains found no balance: change the seed");
   return made.packing;
 }
 

@@ -28,7 +28,7 @@ std::vector<Subject> read(int count, char const* const* arguments, Options& opti
       auto const& all = error_vs_time::subjects();
       auto const found = std::find_if(all.begin(), all.end(), [&](auto const& each) { return each.name == argument; });
       if (found == all.end())
-        scarp::throw_input_error("no subject or option '{}' (or its value is missing): see --help", argument);
+        scarp::reject("no subject or option '{}' (or its value is missing): see --help", argument);
       chosen.push_back(*found);
     }
   }

@@ -44,9 +44,8 @@ class SweepEvaluation {
     require_acceptable("reference", run.measured.verdict);
     for (auto const& [name, values] : run.measured.responses) {
       if (values.size() > 0 && values.norm() > 0.0) continue;
-      scarp::throw_input_error(
-          "response '{}' of the reference of sweep '{}' is zero (errors are relative to it): leave it out", name,
-          name_);
+      scarp::reject("response '{}' of the reference of sweep '{}' is zero (errors are relative to it): leave it out",
+                    name, name_);
     }
     if (!references_.empty()) require_comparable("the reference", run.measured);
     references_.push_back(std::move(run));
@@ -89,8 +88,8 @@ class SweepEvaluation {
 
   void require_acceptable(char const* what, scarp::Verdict const& verdict) const {
     if (verdict.acceptable()) return;
-    scarp::throw_input_error("the {} of sweep '{}' ended with {} ({}): choose settings that work", what, name_,
-                             scarp::name(verdict.status), scarp::name(verdict.reason));
+    scarp::reject("the {} of sweep '{}' ended with {} ({}): choose settings that work", what, name_,
+                  scarp::name(verdict.status), scarp::name(verdict.reason));
   }
 
   void require_comparable(std::string const& run, Measured const& measured) const {
@@ -99,7 +98,7 @@ class SweepEvaluation {
         wanted.begin(), wanted.end(), measured.responses.begin(), measured.responses.end(),
         [](auto const& a, auto const& b) { return a.first == b.first && a.second.size() == b.second.size(); });
     if (fits) return;
-    scarp::throw_input_error(
+    scarp::reject(
         "{} of sweep '{}' gives responses of other names or lengths than the reference (they cannot be compared): "
         "measure at the same places in all runs",
         run, name_);
@@ -282,8 +281,7 @@ class Sweep {
 
   /// \throws InputError without a reference, or for responses that cannot be compared
   SweepTable run(int repetitions = 1) const {
-    if (!reference_)
-      scarp::throw_input_error("sweep '{}' has no reference (errors need one): call reference or exact", name_);
+    if (!reference_) scarp::reject("sweep '{}' has no reference (errors need one): call reference or exact", name_);
     scarp::require_at_least("number of repetitions of a sweep", repetitions, 1);
     SweepEvaluation evaluation(name_, runs_, samples_, exact_);
     for (int k = 0; k < repetitions; ++k) {

@@ -115,8 +115,8 @@ struct SweepTable {
   std::vector<SweepRow> front(std::string_view response) const {
     auto const found = std::find(responses.begin(), responses.end(), response);
     if (found == responses.end()) {
-      scarp::throw_input_error("sweep '{}' has no response '{}' (it has: {}): choose one of these", name, response,
-                               scarp::listed(responses));
+      scarp::reject("sweep '{}' has no response '{}' (it has: {}): choose one of these", name, response,
+                    scarp::listed(responses));
     }
     auto const column = static_cast<std::size_t>(found - responses.begin());
     std::vector<double> costs;

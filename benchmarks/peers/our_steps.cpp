@@ -65,18 +65,15 @@ struct Comparison {
     scarp::TimeStepper<Packing> stepper;
     scarp::Servo const servo{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
     if (auto const verdict = servo.reach(stepper, packing, springs, loading); !verdict.acceptable())
-      scarp::throw_input_error("{} grains were not consolidated ({}): take another number", grains,
-                               scarp::name(verdict.reason));
-    if (!stepper.stop(packing, springs).acceptable())
-      scarp::throw_input_error("{} grains could not be stopped", grains);
+      scarp::reject("{} grains were not consolidated ({}): take another number", grains, scarp::name(verdict.reason));
+    if (!stepper.stop(packing, springs).acceptable()) scarp::reject("{} grains could not be stopped", grains);
     return packing;
   }
 
   static void make(int grains, std::string const& file) {
     int const sides = grains > max_prepared ? static_cast<int>(std::lround(std::sqrt(grains / max_prepared))) : 1;
     if (grains % (sides * sides) != 0)
-      scarp::throw_input_error("{} grains are no {} x {} copies of one packing: take another number", grains, sides,
-                               sides);
+      scarp::reject("{} grains are no {} x {} copies of one packing: take another number", grains, sides, sides);
     auto const packing = smooth(grains / (sides * sides));
     auto out = fmt::output_file(file);
     out.print("{} {} {:.17g} {:.17g} {:.17g} {:.17g}\n", dim, grains, density, thickness, stiffness, law().friction);
@@ -103,8 +100,7 @@ struct Comparison {
     in >> dimension >> grains >> skipped >> skipped >> skipped >> skipped;
     for (int a = 0; a < dim; ++a) in >> packing.cell(a, a);
     in >> skipped;
-    if (!in || dimension != dim || grains == 0)
-      scarp::throw_input_error("'{}' is no packing of {} dimensions", file, dim);
+    if (!in || dimension != dim || grains == 0) scarp::reject("'{}' is no packing of {} dimensions", file, dim);
     packing.position.resize(grains);
     packing.orientation.resize(grains);
     packing.rest();
@@ -113,7 +109,7 @@ struct Comparison {
       for (int a = 0; a < dim; ++a) in >> packing.position(i, a);
       in >> sizes[i][0];
     }
-    if (!in) scarp::throw_input_error("'{}' ends within its {} grains", file, grains);
+    if (!in) scarp::reject("'{}' ends within its {} grains", file, grains);
     packing.population = std::make_shared<scarp::Population<Shape> const>(sizes, density, thickness);
     return packing;
   }
@@ -130,7 +126,7 @@ struct Comparison {
     }
     // Yade counts slip from the first step on, with the velocities of half a step before; LAMMPS begins with the next one.
     if (dim == 2) packing.last_move.duration = time_step;
-    if (!stepper.refresh(packing, law()).acceptable()) scarp::throw_input_error("'{}' has no list of near pairs", file);
+    if (!stepper.refresh(packing, law()).acceptable()) scarp::reject("'{}' has no list of near pairs", file);
     ++lists;
   }
 
@@ -207,13 +203,13 @@ int obey(Side side) {
     } else if (command == "steps") {
       long const lists = side.lists;
       auto const before = processor_nanoseconds();
-      if (!side.steps(std::stol(argument))) scarp::throw_input_error("the packing failed within {} steps", argument);
+      if (!side.steps(std::stol(argument))) scarp::reject("the packing failed within {} steps", argument);
       auto const after = processor_nanoseconds();
       fmt::print("{} {} {}\n", after - before, side.packing.pairs.count(), side.lists - lists);
     } else if (command == "grains") {
-      if (!side.grains(argument)) scarp::throw_input_error("the packing could not be observed");
+      if (!side.grains(argument)) scarp::reject("the packing could not be observed");
     } else {
-      scarp::throw_input_error("unknown command '{}' (there are start, steps and grains)", command);
+      scarp::reject("unknown command '{}' (there are start, steps and grains)", command);
     }
     std::fflush(stdout);
   }
@@ -227,8 +223,7 @@ int serve(std::vector<std::string> const& given) {
     return 0;
   }
   if (given.size() == 5 && given[0] == "run") return obey(Side(given[2], std::stod(given[3]), std::stod(given[4])));
-  scarp::throw_input_error(
-      "usage: our_steps make spheres|discs GRAINS FILE, or our_steps run spheres|discs FILE SPEED DT");
+  scarp::reject("usage: our_steps make spheres|discs GRAINS FILE, or our_steps run spheres|discs FILE SPEED DT");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ void measure(int elements, int grains) {
   Outside watch;
   auto report = scene.settle(problem, watch);
   if (report.verdict.acceptable()) report = scarp::joined(report, scene.rupture(problem, watch));
-  if (!report.verdict.acceptable()) scarp::throw_input_error("the run ended early ({})", name(report.verdict.reason));
+  if (!report.verdict.acceptable()) scarp::reject("the run ended early ({})", name(report.verdict.reason));
   double const cpu = running.seconds();
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
@@ -73,8 +73,7 @@ void measure(int elements, int grains) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc != 3)
-      scarp::throw_input_error("{} arguments were given (two are expected): in_space ELEMENTS GRAINS", argc - 1);
+    if (argc != 3) scarp::reject("{} arguments were given (two are expected): in_space ELEMENTS GRAINS", argc - 1);
     measure(std::atoi(argv[1]), std::atoi(argv[2]));
   } catch (std::exception const& problem) {
     fmt::print(stderr, "in_space: {}\n", problem.what());

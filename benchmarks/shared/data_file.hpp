@@ -49,7 +49,7 @@ inline void write_data(std::string const& name, std::string const& table, std::s
 inline bool is_quick(int argc, char** argv) {
   for (int k = 1; k < argc; ++k) {
     if (std::string_view(argv[k]) != "--quick")
-      scarp::throw_input_error("option '{}' is not known (there is only --quick): leave it out", argv[k]);
+      scarp::reject("option '{}' is not known (there is only --quick): leave it out", argv[k]);
   }
   return argc > 1;
 }

@@ -24,7 +24,7 @@ int run(std::vector<std::string> const& arguments) {
     if (argument == "--quick") {
       size = Size::quick;
     } else if (argument.starts_with("-")) {
-      scarp::throw_input_error("option '{}' is not known: use --quick or parts of names", argument);
+      scarp::reject("option '{}' is not known: use --quick or parts of names", argument);
     } else {
       parts.push_back(argument);
     }
@@ -50,7 +50,7 @@ int run(std::vector<std::string> const& arguments) {
     fmt::print(outcome.as_expected ? stderr : stdout, "{:<6} {:>8.2f} s  {}: {}: {:.3g}, {}\n",
                outcome.as_expected ? "ok" : "FAILED", seconds, one.group, one.name, outcome.worst, outcome.measure);
   }
-  if (count == 0) scarp::throw_input_error("no case fits these names: use a part of a group or name");
+  if (count == 0) scarp::reject("no case fits these names: use a part of a group or name");
   if (parts.empty()) benchmarks::write_data("stability", table.text());
   fmt::print("{} cases, {} not as expected\n", count, failed);
   return failed == 0 ? 0 : 1;

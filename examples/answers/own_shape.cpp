@@ -16,8 +16,7 @@ struct Oval {
 
   /// Grains that are not convex: called once for every grain.
   static void check(Size const& size) {
-    if (size[1] > 0.3)
-      scarp::throw_input_error("an oval has epsilon {} (from 1/3 on it is not convex): take up to 0.3", size[1]);
+    if (size[1] > 0.3) scarp::reject("an oval has epsilon {} (from 1/3 on it is not convex): take up to 0.3", size[1]);
   }
   // Area and polar moment from h: A = int (h^2 - h'^2) / 2, I = int (h^2 + h'^2) h (h + h'') / 4 over the angle.
   static double content(Size const& size) {

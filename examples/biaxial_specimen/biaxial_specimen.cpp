@@ -111,9 +111,8 @@ int run_mesh(Choice choice) {
 #else
     case scarp::Tri6::gmsh_type:
     case scarp::Quad4::gmsh_type:
-      scarp::throw_input_error(
-          "'{}' holds Tri6 or Quad4; expected Tri3 or Quad8. Configure with -D SCARP_BUILD_VERIFICATION=ON.",
-          choice.mesh);
+      scarp::reject("'{}' holds Tri6 or Quad4; expected Tri3 or Quad8. Configure with -D SCARP_BUILD_VERIFICATION=ON.",
+                    choice.mesh);
 #endif
     case scarp::Quad8::gmsh_type: return run<scarp::Quad8>(choice);
     default: return run<scarp::Tri3>(choice);  // says what is wrong with other elements

@@ -76,7 +76,7 @@ Sides<Element> find_sides(scarp::Mesh<Element> const& mesh) {
       sides.lateral.push_back(facet);
     } else if (!lies_on(1, least.y()) && !lies_on(1, most.y())) {
       auto const& place = mesh.nodes[static_cast<std::size_t>(facet[0])];
-      scarp::throw_input_error(
+      scarp::reject(
           "the mesh has a side at ({} m, {} m), inside the rectangle that holds it (an upright rectangle is "
           "compressed): mesh one without holes, steps and slanting sides",
           place.x(), place.y());

@@ -72,8 +72,8 @@ scarp::AnyProvider<2> sand(Grains const& grains, double pressure, int points, sc
   auto const shape = examples::shape_of(input.particles);
   if (shape == "disc") return read<scarp::Disc>(grains, pressure, input, law);
   if (shape == "ellipse") return read<scarp::Ellipse>(grains, pressure, input, law);
-  scarp::throw_input_error("'{}' holds grains of the shape {} (discs and ellipses are built): take other grains",
-                           grains.particles, shape);
+  scarp::reject("'{}' holds grains of the shape {} (discs and ellipses are built): take other grains", grains.particles,
+                shape);
 }
 
 }  // namespace biaxial_specimen

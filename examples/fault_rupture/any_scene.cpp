@@ -25,7 +25,7 @@ void require_probes_inside(Choice const& choice, SceneType const& scene) {
   auto const check = [&](char name, double x, double y, double usual_x, double usual_y) {
     bool const inside = x >= left && x <= right && y >= 0.0 && y <= depth;
     if (inside || (x == usual_x && y == usual_y)) return;
-    scarp::throw_input_error(
+    scarp::reject(
         "probe {} at x = {} m, {} m above bedrock, lies outside of the ground (x from {} to {} m, up to {} m): "
         "put it inside",
         name, x, y, left, right, depth);

@@ -137,8 +137,8 @@ void write_mean_surface(std::filesystem::path const& file, std::vector<EnsembleM
     }
     // The mesh does not depend on the seed; how it has settled at rest does.
     if (count != places.size())
-      scarp::throw_input_error("'{}' has {} points at its end (other members {}): run all members anew",
-                               (member.folder / "surface.csv").string(), count, places.size());
+      scarp::reject("'{}' has {} points at its end (other members {}): run all members anew",
+                    (member.folder / "surface.csv").string(), count, places.size());
     for (std::size_t k = 0; k < count; ++k) {
       places[k].push_back(x[first + k]);
       settlements[k].push_back(settlement[first + k]);

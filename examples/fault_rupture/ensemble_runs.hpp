@@ -91,17 +91,14 @@ struct EnsembleRuns {
     auto sorted = seeds;
     std::ranges::sort(sorted);
     if (seeds.size() < 2)
-      scarp::throw_input_error("--seeds names one packing (several make an ensemble): say --seed {}", seeds[0]);
+      scarp::reject("--seeds names one packing (several make an ensemble): say --seed {}", seeds[0]);
     if (auto const twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-      scarp::throw_input_error("--seeds names {} twice (the same run counts once): give each seed once", *twice);
+      scarp::reject("--seeds names {} twice (the same run counts once): give each seed once", *twice);
     if (choice.soil != Soil::dem)
-      scarp::throw_input_error(
-          "--seeds was given for a soil without packings (all runs would be the same): say --soil dem");
+      scarp::reject("--seeds was given for a soil without packings (all runs would be the same): say --soil dem");
     if (choice.sensitivity_runs)
-      scarp::throw_input_error(
-          "--seeds and --sensitivity-runs were given (sensitivity runs belong to one run): leave one out");
-    if (ranks() > 1)
-      scarp::throw_input_error("--seeds was given on {} ranks (members run on one): leave the ranks out", ranks());
+      scarp::reject("--seeds and --sensitivity-runs were given (sensitivity runs belong to one run): leave one out");
+    if (ranks() > 1) scarp::reject("--seeds was given on {} ranks (members run on one): leave the ranks out", ranks());
   }
 
   /// With the options that would run the member alone.

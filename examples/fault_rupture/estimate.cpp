@@ -83,9 +83,8 @@ CostModel read_cost_model(std::filesystem::path const& file) {
     bool const sound = found.is_object() && found.contains(name) &&
                        (std::is_same_v<decltype(value), double&> ? found[name].is_number() : found[name].is_string());
     if (!sound)
-      scarp::throw_input_error(
-          "'{}' holds no '{}' (what runs cost is expected): make it anew by benchmarks/run scaling_laws", file.string(),
-          name);
+      scarp::reject("'{}' holds no '{}' (what runs cost is expected): make it anew by benchmarks/run scaling_laws",
+                    file.string(), name);
     found[name].get_to(value);
   });
   return model;
@@ -144,8 +143,7 @@ double kernel_seconds() {
   auto const law = examples::study_law();
   auto made =
       scarp::IsotropicPreparation{.pressure = 5e4}.prepare(examples::study_cloud(grains, 1).make<Grains>(), law);
-  if (!made.verdict.acceptable())
-    scarp::throw_input_error("the packing that this machine is timed with was not prepared");
+  if (!made.verdict.acceptable()) scarp::reject("the packing that this machine is timed with was not prepared");
   scarp::TimeStepper<Grains> stepper;
   double least = std::numeric_limits<double>::infinity();
   double strain = 1e-6;
@@ -154,7 +152,7 @@ double kernel_seconds() {
     scarp::CpuTime const batch;
     for (int step = 0; step < steps; ++step) {
       if (!stepper.step(made.packing, law, shear).acceptable())
-        scarp::throw_input_error("the packing that this machine is timed with has failed");
+        scarp::reject("the packing that this machine is timed with has failed");
     }
     least = std::min(least, batch.seconds() / steps);
   }

@@ -300,9 +300,8 @@ int main(int argc, char** argv) {
     // Folders are for the root rank; when it gives up, the others end with it.
     bool const first = fault_rupture::rank() == 0;
     if (choice.sensitivity_runs && fault_rupture::ranks() > 1)
-      scarp::throw_input_error(
-          "--sensitivity-runs was given on {} ranks (sensitivity runs run on one): leave the ranks out",
-          fault_rupture::ranks());
+      scarp::reject("--sensitivity-runs was given on {} ranks (sensitivity runs run on one): leave the ranks out",
+                    fault_rupture::ranks());
     if (!seeds.empty()) return fault_rupture::EnsembleRuns{app, output, started}.run(choice, seeds);
     fault_rupture::OwnFolders own(choice, app, output.folder, output.overwrite,
                                   examples::record_of("fault_rupture", app));

@@ -128,7 +128,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   auto& threads = begun.threads != nullptr ? *begun.threads : own_threads.emplace(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
   if (broadcast_flag(executor, files.resumes()) != files.resumes()) {
-    scarp::throw_input_error(
+    scarp::reject(
         "checkpoints in '{}' are not the same for all ranks (each must see them to resume): use a folder that all "
         "share",
         choice.checkpoint);
@@ -255,8 +255,8 @@ std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const&
   if (report.verdict.acceptable()) report = scene.place(problem, no_observer);
   if (report.verdict.acceptable()) report = scene.rupture(problem, no_observer);
   if (!report.verdict.acceptable() && !(report.load > 0.0))
-    scarp::throw_input_error("the pilot run ended before the fault moved ({}): choose --strip-width 0",
-                             name(report.verdict.reason));
+    scarp::reject("the pilot run ended before the fault moved ({}): choose --strip-width 0",
+                  name(report.verdict.reason));
   if (!report.verdict.acceptable() && is_root_rank(executor))
     examples::say(stderr, "warning: the pilot run ended at a throw of {:.3g} m ({}): the strip may be too short\n",
                   report.load, name(report.verdict.reason));

@@ -61,8 +61,8 @@ Json content(std::filesystem::path const& path) {
       sound = sound && answer.is_object() && answer.contains("surface_x50") && answer["surface_x50"].is_number();
   }
   if (!sound)
-    scarp::throw_input_error(
-        "'{}' holds no results of sensitivity runs (a list of scenes is expected): give another file", path.string());
+    scarp::reject("'{}' holds no results of sensitivity runs (a list of scenes is expected): give another file",
+                  path.string());
   return found;
 }
 

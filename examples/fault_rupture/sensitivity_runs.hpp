@@ -54,7 +54,7 @@ struct SensitivityRuns {
       summary = answer_of(run);
     }
     if (as_large())
-      scarp::throw_input_error(
+      scarp::reject(
           "its load steps are limited by something else (smaller ones were not to be had): say a smaller "
           "--max-displacement-gradient");
     file.add(run.part, {summary["surface_x50"].get<double>(), command_options(run),
@@ -70,7 +70,7 @@ struct SensitivityRuns {
     auto const scene = make_scene(run.choice, 1, true);
     Start const start{nowhere, &writes, started};
     int const code = std::visit([&](auto const& one) { return run(run.choice, one, start); }, scene);
-    if (code != 0) scarp::throw_input_error("it has stopped early: see {}", (own / "summary.txt").string());
+    if (code != 0) scarp::reject("it has stopped early: see {}", (own / "summary.txt").string());
     return nlohmann::json::parse(scarp::read_file(own / "summary.json"));
   }
 

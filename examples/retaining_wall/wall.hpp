@@ -29,8 +29,7 @@ struct Wall {
     auto const cells = [&](double side) {
       double const count = std::round(side / size);
       if (std::abs(count * size - side) > 1e-9 * side)
-        scarp::throw_input_error("cells of {} m do not fill {} m (they are square and alike): take 0.5, 1 or 2", size,
-                                 side);
+        scarp::reject("cells of {} m do not fill {} m (they are square and alike): take 0.5, 1 or 2", size, side);
       return static_cast<int>(count);
     };
     return Grid(scarp::BoxMesh<scarp::Quad4>{.lengths = scarp::Vector<2>(length, height),

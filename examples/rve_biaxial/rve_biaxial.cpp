@@ -84,8 +84,8 @@ std::vector<rve_biaxial::Result> run_all(Options const& options) {
 /// \throws InputError for a test that is shorter than the window through which its peaks are read
 void require_room_for_window(Options const& options) {
   if (options.smoothing > options.choice.strain) {
-    scarp::throw_input_error("no window of {} lies in the test (its strain is {}): shear further or smooth less",
-                             options.smoothing, options.choice.strain);
+    scarp::reject("no window of {} lies in the test (its strain is {}): shear further or smooth less",
+                  options.smoothing, options.choice.strain);
   }
 }
 
@@ -99,8 +99,7 @@ void read_frictions(Options& options) {
   std::sort(frictions.begin(), frictions.end());
   auto const twice = std::adjacent_find(frictions.begin(), frictions.end());
   if (twice == frictions.end()) return;
-  scarp::throw_input_error("preparation friction {} is given twice (its packings would count twice): give each once",
-                           *twice);
+  scarp::reject("preparation friction {} is given twice (its packings would count twice): give each once", *twice);
 }
 
 /// \throws InputError when a packing could not be prepared or sheared
@@ -108,7 +107,7 @@ void require_success(std::vector<rve_biaxial::Result> const& results, Options co
   for (auto const& result : results) {
     auto const& verdict = result.prepared.acceptable() ? result.sheared : result.prepared;
     if (verdict.acceptable()) continue;
-    scarp::throw_input_error(
+    scarp::reject(
         "seed {} at preparation friction {} ended with {} ({}) during its {}: change the pressure, the number of "
         "grains or the rate",
         result.seed, result.preparation_friction, scarp::name(verdict.status), scarp::name(verdict.reason),
@@ -116,8 +115,8 @@ void require_success(std::vector<rve_biaxial::Result> const& results, Options co
   }
   for (auto const& result : results) {
     if (!std::isfinite(rve_biaxial::peak_angles(result.rows, options.smoothing).friction_angle)) {
-      scarp::throw_input_error("no window of {} was filled (a step strains by {}): take smaller steps",
-                               options.smoothing, options.choice.strain_per_step);
+      scarp::reject("no window of {} was filled (a step strains by {}): take smaller steps", options.smoothing,
+                    options.choice.strain_per_step);
     }
   }
 }

@@ -43,8 +43,7 @@ void with_linear_law(Material const& material, Task const& task) {
   if (material.shape == "disc") return run(std::type_identity<scarp::Disc>{});
   if (material.shape == "ellipse") return run(std::type_identity<scarp::Ellipse>{});
   if (material.shape == "superellipse") return run(std::type_identity<scarp::Superellipse>{});
-  scarp::throw_input_error("there are no '{}' grains (disc, ellipse and superellipse are built): choose one",
-                           material.shape);
+  scarp::reject("there are no '{}' grains (disc, ellipse and superellipse are built): choose one", material.shape);
 }
 
 /// The same with the law that was chosen. Each pair of shape and law
@@ -63,8 +62,8 @@ void with_material(Material const& material, Task const& task) {
                                                                  .rolling_stiffness = material.rolling_stiffness,
                                                                  .rolling_friction = material.rolling_friction});
   }
-  scarp::throw_input_error("'{}' grains with law '{}' are not built (to compile faster): use discs, or law 'linear'",
-                           material.shape, material.law);
+  scarp::reject("'{}' grains with law '{}' are not built (to compile faster): use discs, or law 'linear'",
+                material.shape, material.law);
 }
 
 }  // namespace rve_lab

@@ -56,7 +56,7 @@ inline std::vector<std::string> parameters_of(std::string const& law) {
 inline void read_material(std::filesystem::path const& packing, std::function<bool(std::string const&)> const& is_given,
                           Material& material) {
   if (!std::filesystem::exists(packing))
-    scarp::throw_input_error("cannot read '{}' (there is no such file): check its name and folder", packing.string());
+    scarp::reject("cannot read '{}' (there is no such file): check its name and folder", packing.string());
   auto const path = material_path(packing);
   if (!std::filesystem::is_regular_file(path)) {
     std::string missing;
@@ -64,14 +64,12 @@ inline void read_material(std::filesystem::path const& packing, std::function<bo
       if (!is_given(name)) missing += (missing.empty() ? "--" : ", --") + name;
     }
     if (missing.empty()) return;
-    scarp::throw_input_error(
-        "the material of '{}' is not known (there is no '{}' beside it): bring that file back, or give {}",
-        packing.string(), path.string(), missing);
+    scarp::reject("the material of '{}' is not known (there is no '{}' beside it): bring that file back, or give {}",
+                  packing.string(), path.string(), missing);
   }
   auto const document = nlohmann::json::parse(scarp::read_file(path), nullptr, false);
   if (!document.is_object() || !document.contains("material") || !document["material"].is_object()) {
-    scarp::throw_input_error("'{}' holds no material (an object 'material' is wanted): prepare the packing again",
-                             path.string());
+    scarp::reject("'{}' holds no material (an object 'material' is wanted): prepare the packing again", path.string());
   }
   auto const& parameters = document["material"];
   for_each_parameter(material, [&](char const* name, auto& member, char const*) {
@@ -80,8 +78,8 @@ inline void read_material(std::filesystem::path const& packing, std::function<bo
     auto const& found = parameters[name];
     bool const fits = std::is_same_v<Member, std::string> ? found.is_string() : found.is_number();
     if (!fits)
-      scarp::throw_input_error("'{}' in '{}' is {} (another kind of value is expected): correct it", name,
-                               path.string(), found.dump());
+      scarp::reject("'{}' in '{}' is {} (another kind of value is expected): correct it", name, path.string(),
+                    found.dump());
     member = found.get<Member>();
     if constexpr (!std::is_same_v<Member, std::string>)
       scarp::with_context(path.string(), [&] { scarp::require_not_negative(name, member); });

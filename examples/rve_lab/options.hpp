@@ -119,7 +119,7 @@ inline void declare_replay(CLI::App& app, Replay& replay) {
 inline void refuse_unused(CLI::App const& app, std::string const& name, std::string_view why) {
   auto const* const option = app.get_option_no_throw("--" + name);
   if (option == nullptr || option->count() == 0) return;
-  scarp::throw_input_error("--{} is given but not used ({}): leave it out", name, why);
+  scarp::reject("--{} is given but not used ({}): leave it out", name, why);
 }
 
 /// \throws InputError for options of a path that it has no use for

@@ -68,8 +68,8 @@ inline PathKind const& path_named(std::string_view name) {
   for (auto const& path : all_paths()) {
     if (path.name == name) return path;
   }
-  scarp::throw_input_error("there is no path '{}' (the laboratory knows {}): choose one of these", name,
-                           scarp::listed(path_names(), ", "));
+  scarp::reject("there is no path '{}' (the laboratory knows {}): choose one of these", name,
+                scarp::listed(path_names(), ", "));
 }
 
 /// Steps between two rows.

@@ -12,8 +12,8 @@ PackingType make_cloud(Preparation const& choice) {
   using Shape = typename PackingType::Shape;
   auto const sizes = grading(std::type_identity<Shape>{}, choice);
   if (choice.largest < choice.smallest) {
-    scarp::throw_input_error("the largest size {} is below the smallest {} (no size lies between them): exchange them",
-                             choice.largest, choice.smallest);
+    scarp::reject("the largest size {} is below the smallest {} (no size lies between them): exchange them",
+                  choice.largest, choice.smallest);
   }
   return scarp::Cloud<std::remove_const_t<decltype(sizes)>>{.grading = sizes,
                                                             .grains = choice.grains,
@@ -30,9 +30,8 @@ PackingType consolidate(PackingType const& cloud, typename PackingType::Law cons
   scarp::IsotropicPreparation const preparation{.pressure = choice.pressure, .preparation_friction = friction};
   auto prepared = preparation.prepare(cloud, law);
   if (!prepared.verdict.acceptable()) {
-    scarp::throw_input_error(
-        "the consolidation at friction {} ended with {} ({}): change pressure, stiffness or number of grains", friction,
-        scarp::name(prepared.verdict.status), scarp::name(prepared.verdict.reason));
+    scarp::reject("the consolidation at friction {} ended with {} ({}): change pressure, stiffness or number of grains",
+                  friction, scarp::name(prepared.verdict.status), scarp::name(prepared.verdict.reason));
   }
   examples::say(stdout, "preparation friction {:.6f} gives void ratio {:.6f}\n", friction,
                 prepared.packing.void_ratio());
@@ -70,7 +69,7 @@ PackingType reach_void_ratio(PackingType const& cloud, typename PackingType::Law
     (keep(consolidate(cloud, law, choice, middle), middle) < 0.0 ? low : high) = middle;
   }
   if (std::abs(missing(nearest)) > choice.void_ratio_tolerance) {
-    scarp::throw_input_error(
+    scarp::reject(
         "void ratio {} is not reached (frictions from 0 to {} give {:.6f} to {:.6f}, the nearest found is {:.6f} at "
         "{}): "
         "choose one in between, another seed or a wider tolerance",

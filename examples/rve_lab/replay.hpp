@@ -62,8 +62,8 @@ void relax(PackingType& packing, scarp::LinearFrictional const& law, double pres
   auto verdict = scarp::Servo{}.reach(stepper, packing, law, loading);
   if (auto const stopped = stepper.stop(packing, law); !stopped.acceptable()) verdict = stopped;
   if (!verdict.acceptable()) {
-    scarp::throw_input_error("the packing does not come to rest at {} Pa ({}): check cell, stiffness and pressure",
-                             pressure, scarp::name(verdict.reason));
+    scarp::reject("the packing does not come to rest at {} Pa ({}): check cell, stiffness and pressure", pressure,
+                  scarp::name(verdict.reason));
   }
   examples::say(stdout, "relaxed at {} Pa: void ratio {:.8f}, {:.8f} in the file\n", pressure, packing.void_ratio(),
                 before);

@@ -35,16 +35,15 @@ class Specimen {
       : packing_(std::move(packing)), law_(law) {
     inverse_start_ = packing_.cell.inverse();
     if (auto const verdict = renew(); !verdict.acceptable()) {
-      scarp::throw_input_error(
-          "the packing cannot be tested ({}): check its cell, at least two diameters wide, and its positions",
-          scarp::name(verdict.reason));
+      scarp::reject("the packing cannot be tested ({}): check its cell, at least two diameters wide, and its positions",
+                    scarp::name(verdict.reason));
     }
     if (path.held != nullptr) {
       double const present = path.held(scarp::balance(packing_, law).stress);
       pressure_ = held.value_or(present);
       if (!(std::isfinite(pressure_) && pressure_ > 0.0)) {
-        scarp::throw_input_error(
-            "a pressure of {} Pa is to be held (grains carry compression only): give a positive one", pressure_);
+        scarp::reject("a pressure of {} Pa is to be held (grains carry compression only): give a positive one",
+                      pressure_);
       }
       consolidate(present);
     }
@@ -96,7 +95,7 @@ class Specimen {
     if (verdict.acceptable() && deepest_overlap(packing_, law_) > deepest)
       verdict = {scarp::Status::failed, scarp::Reason::too_deep};
     if (!verdict.acceptable()) {
-      scarp::throw_input_error(
+      scarp::reject(
           "the packing does not come from {:.6g} Pa to the {:.6g} Pa that its path holds ({}): choose another stress",
           present, pressure_, scarp::name(verdict.reason));
     }
@@ -104,7 +103,7 @@ class Specimen {
                   present, pressure_, packing_.void_ratio(), before);
     inverse_start_ = packing_.cell.inverse();
     if (verdict = renew(); !verdict.acceptable())
-      scarp::throw_input_error("the packing cannot be tested ({}): take a larger one", scarp::name(verdict.reason));
+      scarp::reject("the packing cannot be tested ({}): take a larger one", scarp::name(verdict.reason));
   }
 
   scarp::Verdict renew() {
@@ -126,7 +125,7 @@ class Specimen {
 
 /// \throws InputError always: the path came to an end at a strain
 [[noreturn]] inline void refuse_verdict(scarp::Verdict const& verdict, double strain, std::string const& file) {
-  scarp::throw_input_error(
+  scarp::reject(
       "the packing ended with {} ({}) beyond strain {:.6g}; the rows so far are in '{}': take smaller steps, or "
       "check the stress to hold",
       scarp::name(verdict.status), scarp::name(verdict.reason), strain, file);
@@ -138,9 +137,8 @@ void require_held(Lab const& lab, PathKind const& path) {
   constexpr double most = 0.1;  // what steps of an ordinary size are off
   double const found = path.held(scarp::balance(lab.packing(), lab.law()).stress);
   if (std::abs(found - lab.pressure()) <= most * lab.pressure()) return;
-  scarp::throw_input_error(
-      "the path ended at {:.4g} Pa where {:.4g} Pa were to be held: take smaller steps, or another stress", found,
-      lab.pressure());
+  scarp::reject("the path ended at {:.4g} Pa where {:.4g} Pa were to be held: take smaller steps, or another stress",
+                found, lab.pressure());
 }
 
 }  // namespace rve_lab

@@ -24,8 +24,8 @@ inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given, sc
     char* end = nullptr;
     double const bound = std::strtod(number.c_str(), &end);
     if (number.empty() || *end != '\0' || !(bound >= 0.0))
-      scarp::throw_input_error(
-          "'{}' is no bound of an error budget (a part, '=' and a number are expected): write residual=1e-3", item);
+      scarp::reject("'{}' is no bound of an error budget (a part, '=' and a number are expected): write residual=1e-3",
+                    item);
     bool known = false;
     std::string names;
     scarp::ErrorBounds::members(bounds, [&](std::string_view part, double& value) {
@@ -35,8 +35,7 @@ inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given, sc
       value = bound;
       known = true;
     });
-    if (!known)
-      scarp::throw_input_error("an error budget has no bound for '{}' (it has {}): name one of these", name, names);
+    if (!known) scarp::reject("an error budget has no bound for '{}' (it has {}): name one of these", name, names);
   }
   return bounds;
 }

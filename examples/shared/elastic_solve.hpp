@@ -31,7 +31,7 @@ Eigen::VectorXd elastic_solve(scarp::Discretisation<Element, scarp::SmallStrain,
   scarp::FreeSystem const free(constraints);
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> const factors(free.matrix(stiffness));
   if (factors.info() != Eigen::Success) {
-    scarp::throw_input_error("the stiffness could not be factorised (a motion has no stiffness): fix more nodes");
+    scarp::reject("the stiffness could not be factorised (a motion has no stiffness): fix more nodes");
   }
   free.scatter(factors.solve(free.gather(forces - stiffness * displacement)), displacement);
   return displacement;

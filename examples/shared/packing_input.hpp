@@ -32,13 +32,12 @@ inline Tensor parse_cell(std::string const& text) {
     at = next < end ? next + 1 : end;
   }
   if (numbers.size() != 4 || at != end) {
-    scarp::throw_input_error(
-        "'{}' is no cell (four numbers with commas in between are wanted): write a1x,a1y,a2x,a2y in m", text);
+    scarp::reject("'{}' is no cell (four numbers with commas in between are wanted): write a1x,a1y,a2x,a2y in m", text);
   }
   Tensor cell;
   cell << numbers[0], numbers[2], numbers[1], numbers[3];
   if (!(cell.determinant() > 0.0)) {
-    scarp::throw_input_error(
+    scarp::reject(
         "the cell '{}' has an area of {} m2 (its base vectors must be right-handed): exchange or correct them", text,
         cell.determinant());
   }
@@ -78,7 +77,7 @@ struct CellClues {
       right += offset[c] * image[c].transpose();
     }
     if (!(normal.determinant() > 0.5)) {  // of whole numbers
-      scarp::throw_input_error(
+      scarp::reject(
           "the cell cannot be determined from '{}' (too few of its contacts have branches and cross the boundary): "
           "give --cell a1x,a1y,a2x,a2y",
           file);
@@ -92,7 +91,7 @@ struct CellClues {
     for (std::size_t c = 0; c < offset.size(); ++c) {
       double const error = (offset[c] - cell * image[c]).norm();
       if (error <= most * cell.norm()) continue;
-      scarp::throw_input_error(
+      scarp::reject(
           "line {} of '{}' lies {} m elsewhere in the cell {},{},{},{} (branch = x2 - x1 + cell x image is "
           "wanted): check the cell and the particles",
           contacts.line(c), contacts.file(), error, cell(0, 0), cell(1, 0), cell(0, 1), cell(1, 1));
@@ -112,8 +111,7 @@ inline CellClues cell_clues(scarp::CsvColumns const& particles, scarp::CsvColumn
     for (auto const id : contacts.column<std::int64_t>(name)) {
       auto const known = row_of.find(id);
       if (known == row_of.end())
-        contacts.throw_cell_error(found.size(), name, "no particle has this id",
-                                  "check which packing the file belongs to");
+        contacts.reject_cell(found.size(), name, "no particle has this id", "check which packing the file belongs to");
       found.push_back(known->second);
     }
     return found;
@@ -146,8 +144,8 @@ inline std::optional<double> only_value(scarp::CsvColumns const& contacts, std::
   auto const values = contacts.column(name);
   for (std::size_t c = 0; c < values.size(); ++c) {
     if (!(std::abs(values[c] - values[0]) <= same * std::abs(values[0]))) {
-      contacts.throw_cell_error(c, name, fmt::format("the first contact has {}, a law has one value", values[0]),
-                                "give contacts of one material");
+      contacts.reject_cell(c, name, fmt::format("the first contact has {}, a law has one value", values[0]),
+                           "give contacts of one material");
     }
   }
   return values[0];
@@ -158,8 +156,8 @@ inline std::optional<double> only_value(scarp::CsvColumns const& contacts, std::
 inline std::string shape_of(scarp::CsvColumns const& particles) {
   if (particles.has("r")) return "disc";
   if (particles.has("a") && particles.has("b")) return particles.has("eps") ? "superellipse" : "ellipse";
-  scarp::throw_input_error(
-      "'{}' has no sizes of grains (columns r, or a, b and angle, or a, b, eps and angle): add them", particles.file());
+  scarp::reject("'{}' has no sizes of grains (columns r, or a, b and angle, or a, b, eps and angle): add them",
+                particles.file());
 }
 
 /// Another code's packing as its files tell: grains, contacts where they are given, cell (columns: base vectors [m]).
@@ -175,8 +173,7 @@ struct PackingInput {
 inline PackingInput read_packing_input(std::string const& particles, std::string const& contacts,
                                        std::string const& cell) {
   if (cell.empty() && contacts.empty()) {
-    scarp::throw_input_error(
-        "the cell is not known (neither --cell nor --contacts is given): give --cell a1x,a1y,a2x,a2y");
+    scarp::reject("the cell is not known (neither --cell nor --contacts is given): give --cell a1x,a1y,a2x,a2y");
   }
   PackingInput input{scarp::read_csv(particles), std::nullopt, Tensor::Identity()};
   if (!contacts.empty()) input.contacts = scarp::read_csv(contacts);
@@ -191,7 +188,7 @@ inline void refuse_overwriting(std::string const& out, std::initializer_list<std
   for (auto const& input : inputs) {
     std::error_code trouble;
     if (!std::filesystem::equivalent(out, input, trouble) || trouble) continue;
-    scarp::throw_input_error("'{}' would be written over (it is an input): give --out another name", input);
+    scarp::reject("'{}' would be written over (it is an input): give --out another name", input);
   }
 }
 

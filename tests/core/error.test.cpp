@@ -16,9 +16,9 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 TEST_CASE("a refusal carries the formatted text and is an invalid argument") {
-  CHECK_THROWS_WITH_AS(scarp::throw_input_error("region {} is unknown (the mesh has {}): choose one of them", 7, 3),
+  CHECK_THROWS_WITH_AS(scarp::reject("region {} is unknown (the mesh has {}): choose one of them", 7, 3),
                        "region 7 is unknown (the mesh has 3): choose one of them", scarp::InputError);
-  CHECK_THROWS_AS(scarp::throw_input_error("nothing to say"), std::invalid_argument);
+  CHECK_THROWS_AS(scarp::reject("nothing to say"), std::invalid_argument);
 }
 
 TEST_CASE("an accepted number comes back unchanged") {

@@ -104,9 +104,8 @@ struct GmshRun {
 inline std::string const& require_gmsh_name(std::string const& name) {
   constexpr std::size_t longest = 127;  // Gmsh 4.8 Reference Manual, section 9.1
   if (name.empty() || name.size() > longest || name.find_first_of("\"\r\n") != std::string::npos) {
-    throw_input_error(
-        "a region or boundary is named '{}' (Gmsh takes 1 to {} letters on one line, no quotes): rename it", name,
-        longest);
+    reject("a region or boundary is named '{}' (Gmsh takes 1 to {} letters on one line, no quotes): rename it", name,
+           longest);
   }
   return name;
 }
@@ -118,8 +117,7 @@ std::vector<GmshGroup> gmsh_groups(Mesh<Element> const& mesh) {
   auto const next = [&] { return static_cast<std::int32_t>(groups.size() + 1); };
   for (auto const& name : mesh.regions) {
     for (auto const& other : groups) {
-      if (other.name == name)
-        throw_input_error("two regions are named '{}' (a file cannot distinguish them): rename one", name);
+      if (other.name == name) reject("two regions are named '{}' (a file cannot distinguish them): rename one", name);
     }
     groups.push_back({require_gmsh_name(name), Element::dim, next()});
   }

@@ -51,7 +51,7 @@ void choose_strip(Choice& choice) {
   auto const size = std::stod(fmt::format("{:.3g}", share * choice.length));  // as it may be given
   if (!(choice.length > 0.0 && size < Choice{}.size)) return;
   if (choice.length < shortest) {
-    scarp::throw_input_error(
+    scarp::reject(
         "--length is {} m (from {} m on the mesh is made for it): choose a longer one, or give --size for a uniform "
         "mesh",
         choice.length, shortest);

@@ -42,12 +42,12 @@ scarp::IsotropicElasticity soil_elasticity(Choice const& choice) {
 /// \throws scarp::InputError
 void require_angles_in_order(Choice const& choice, double residual_friction_angle) {
   if (choice.peak_dilation_angle > choice.peak_friction_angle)
-    scarp::throw_input_error(
+    scarp::reject(
         "--peak-dilation-angle {} is above --peak-friction-angle {} degrees (flow would create energy): give less "
         "dilation",
         choice.peak_dilation_angle, choice.peak_friction_angle);
   if (residual_friction_angle > choice.peak_friction_angle)
-    scarp::throw_input_error(
+    scarp::reject(
         "--residual-friction-angle {} is above --peak-friction-angle {} degrees (the soil would harden): give less",
         residual_friction_angle, choice.peak_friction_angle);
 }

@@ -141,8 +141,7 @@ struct TrackedPoints {
       chosen.push_back(seen[(2 * k + 1) * seen.size() / (2 * spread)]);
     for (int const point : sampling.tracked) {
       if (point < 0 || point >= count)
-        throw_input_error("point {} is to be tracked (there are points 0 to {}): choose one of these", point,
-                          count - 1);
+        reject("point {} is to be tracked (there are points 0 to {}): choose one of these", point, count - 1);
       if (owns_point(problem.executor(), point)) chosen.push_back(point);
     }
     std::sort(chosen.begin(), chosen.end());

@@ -37,9 +37,8 @@ class Constraints {
   /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different motion
   void move(int node, int axis, double rate, TimeFunction amplitude = {}) {
     if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
-      throw_input_error(
-          "node {}, axis {} is prescribed (the mesh has nodes 0 to {} and axes 0 to {}): check the numbers", node, axis,
-          nodes_ - 1, dim_ - 1);
+      reject("node {}, axis {} is prescribed (the mesh has nodes 0 to {} and axes 0 to {}): check the numbers", node,
+             axis, nodes_ - 1, dim_ - 1);
     }
     prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(amplitude));
   }
@@ -48,8 +47,7 @@ class Constraints {
   /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
   void move_extra(int number, double rate, TimeFunction amplitude = {}) {
     if (number < 0 || number >= extra_dofs_) {
-      throw_input_error("extra degree of freedom {} is prescribed (there are {}): check the number", number,
-                        extra_dofs_);
+      reject("extra degree of freedom {} is prescribed (there are {}): check the number", number, extra_dofs_);
     }
     prescribe(dim_ * nodes_ + number, fmt::format("extra degree of freedom {}", number), rate, std::move(amplitude));
   }
@@ -105,12 +103,10 @@ class Constraints {
     }
     auto const known = detail::index(k);
     if (rates_[known] != rate) {
-      throw_input_error("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, rates_[known],
-                        rate);
+      reject("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, rates_[known], rate);
     }
     if (rate != 0.0 && !(amplitudes_[known] == amplitude)) {
-      throw_input_error("{} is prescribed twice (by different amplitudes of the rate {}): decide for one of them", what,
-                        rate);
+      reject("{} is prescribed twice (by different amplitudes of the rate {}): decide for one of them", what, rate);
     }
   }
 

@@ -84,8 +84,7 @@ class SCARP_EXPORT Discretisation {
   void commit(Eigen::VectorXd const& increment) {
     require_length("displacement increment", increment.size(), dof_count());
     if (!increment.allFinite()) {
-      throw_input_error(
-          "the displacement increment is not finite (a diverged step must not be committed): cut the load step");
+      reject("the displacement increment is not finite (a diverged step must not be committed): cut the load step");
     }
     positions_ = moved(increment);
   }
@@ -111,8 +110,8 @@ class SCARP_EXPORT Discretisation {
 
   static void require_length(char const* what, std::ptrdiff_t length, int wanted) {
     if (length != wanted) {
-      throw_input_error("{}: {} entries are given ({} are needed): size it by dof_count, point_count or node_count",
-                        what, length, wanted);
+      reject("{}: {} entries are given ({} are needed): size it by dof_count, point_count or node_count", what, length,
+             wanted);
     }
   }
 
@@ -182,7 +181,7 @@ Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, doub
     : mesh_((validate(mesh), std::move(mesh))), thickness_(thickness), positions_(mesh_.nodes), sparsity_(mesh_) {
   require_positive("thickness", thickness);
   if (dim == 3 && thickness != 1.0) {
-    throw_input_error("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
+    reject("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
   }
 }
 

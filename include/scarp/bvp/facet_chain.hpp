@@ -22,14 +22,13 @@ namespace detail {
 /// \throws InputError for facets that are none, or one that is there twice, whatever the order of its nodes
 template <class Facet>
 void require_facets(std::string_view what, std::vector<Facet> facets) {
-  if (facets.empty())
-    throw_input_error("{} has no facets (nothing can touch or load it): name a boundary with facets", what);
+  if (facets.empty()) reject("{} has no facets (nothing can touch or load it): name a boundary with facets", what);
   for (auto& facet : facets) std::sort(facet.begin(), facet.end());
   std::sort(facets.begin(), facets.end());
   auto const twice = std::adjacent_find(facets.begin(), facets.end());
   if (twice != facets.end()) {
-    throw_input_error("{} has the facet of the nodes ({}) twice (it would count twice): name each facet once", what,
-                      listed(*twice));
+    reject("{} has the facet of the nodes ({}) twice (it would count twice): name each facet once", what,
+           listed(*twice));
   }
 }
 }  // namespace detail

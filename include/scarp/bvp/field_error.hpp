@@ -22,8 +22,8 @@ FieldError field_error(Mesh<Element> const& mesh, Eigen::VectorXd const& displac
                        ExactGradient const& exact_gradient) {
   constexpr int dim = Element::dim;
   if (displacement.size() != dim * detail::count(mesh.nodes)) {
-    throw_input_error("the displacement has {} entries (the mesh needs {}): size it by dim * number of nodes",
-                      displacement.size(), dim * detail::count(mesh.nodes));
+    reject("the displacement has {} entries (the mesh needs {}): size it by dim * number of nodes", displacement.size(),
+           dim * detail::count(mesh.nodes));
   }
   auto const rule = Element::template rule<5>();
   FieldError squares;

@@ -19,15 +19,13 @@ class TimeFunction {
   /// knots: (load factor, value), increasing in the load factor
   /// \throws InputError for knots that are not finite or not increasing
   explicit TimeFunction(std::vector<std::pair<double, double>> knots) : knots_(std::move(knots)) {
-    if (knots_.empty())
-      throw_input_error("a time function has no knots (it needs at least one): give (load factor, value) pairs");
+    if (knots_.empty()) reject("a time function has no knots (it needs at least one): give (load factor, value) pairs");
     for (std::size_t k = 0; k < knots_.size(); ++k) {
       require_finite("load factor of a knot", knots_[k].first);
       require_finite("value of a knot", knots_[k].second);
       if (k > 0 && !(knots_[k].first > knots_[k - 1].first)) {
-        throw_input_error(
-            "knot {} is at the load factor {}, the one before at {} (they must increase): order the knots", k,
-            knots_[k].first, knots_[k - 1].first);
+        reject("knot {} is at the load factor {}, the one before at {} (they must increase): order the knots", k,
+               knots_[k].first, knots_[k - 1].first);
       }
     }
   }
@@ -77,10 +75,9 @@ class LoadHistory {
   /// \throws InputError for a pattern of another size or one that is not finite
   void add(Eigen::VectorXd forces, TimeFunction amplitude) {
     if (!parts_.empty() && forces.size() != size()) {
-      throw_input_error("a load has {} entries (the others have {}): size it by the degrees of freedom", forces.size(),
-                        size());
+      reject("a load has {} entries (the others have {}): size it by the degrees of freedom", forces.size(), size());
     }
-    if (!forces.allFinite()) throw_input_error("a load is not finite (it holds NaN or infinity): check its values");
+    if (!forces.allFinite()) reject("a load is not finite (it holds NaN or infinity): check its values");
     parts_.emplace_back(std::move(forces), std::move(amplitude));
   }
 

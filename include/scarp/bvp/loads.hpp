@@ -41,8 +41,8 @@ SCARP_EXPORT Eigen::VectorXd body_force(Discretisation<Element, Motion, Scheme> 
                                         std::vector<Vector<Element::dim>> const& per_volume) {
   auto const& mesh = discretisation.mesh();
   if (per_volume.size() != mesh.regions.size()) {
-    throw_input_error("forces per volume are given for {} regions (the mesh has {}: {}): give one for each",
-                      per_volume.size(), mesh.regions.size(), listed(mesh.regions));
+    reject("forces per volume are given for {} regions (the mesh has {}: {}): give one for each", per_volume.size(),
+           mesh.regions.size(), listed(mesh.regions));
   }
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.dof_count());
   for (int e = 0; e < detail::count(mesh.elements); ++e) {

@@ -49,7 +49,7 @@ class RigidFooting {
         length_((right - left).norm()) {
     require_positive("thickness", thickness);
     if (!(left.allFinite() && right.allFinite() && left.x() < right.x())) {
-      throw_input_error(
+      reject(
           "the base of a footing goes from ({} m, {} m) to ({} m, {} m) (it must go from left to right): give its ends "
           "in this order",
           left.x(), left.y(), right.x(), right.y());

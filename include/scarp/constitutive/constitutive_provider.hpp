@@ -149,7 +149,7 @@ typename Provider::State empty_state(Provider const& provider, Site<Provider::di
     return {};
   } else {
     static_cast<void>(provider), static_cast<void>(site);
-    throw_input_error(
+    reject(
         "a state cannot be sent to another process (it has no default constructor, and its provider makes no blank "
         "one): give it one");
   }

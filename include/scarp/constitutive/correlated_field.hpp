@@ -70,7 +70,7 @@ class CorrelatedField {
   explicit CorrelatedField(Choice const& choice) {
     for (double const length : choice.lengths) require_positive("correlation length", length);
     if (choice.waves < 1)
-      throw_input_error("a field of {} waves was requested (it would be zero): give some hundred", choice.waves);
+      reject("a field of {} waves was requested (it would be zero): give some hundred", choice.waves);
     Random random(choice.seed);
     for (int k = 0; k < choice.waves; ++k) {
       Vector<Dim> const wave = Correlation::template wave<Dim>(random).cwiseQuotient(choice.lengths);

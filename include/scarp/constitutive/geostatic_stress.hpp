@@ -51,9 +51,8 @@ template <int Dim, class Field>
   requires InitialStressField<Field, Dim> VoigtStress<Dim> initial_stress(Field const& field, Site<Dim> const& site) {
     VoigtStress<Dim> const stress = detail::validated(field).at(site.depth);
     if (!stress.allFinite())
-      throw_input_error(
-          "the initial stress of point {} is not finite (its depth is {} m): correct the field or the point's depth",
-          site.index, site.depth);
+      reject("the initial stress of point {} is not finite (its depth is {} m): correct the field or the point's depth",
+             site.index, site.depth);
     return stress;
   }
 

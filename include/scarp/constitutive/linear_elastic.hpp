@@ -21,7 +21,7 @@ struct IsotropicElasticity {
     require_positive("shear modulus", shear_modulus);
     double const bulk_modulus = lame_lambda + 2.0 * shear_modulus / 3.0;
     if (!(bulk_modulus > 0.0)) {
-      throw_input_error(
+      reject(
           "the bulk modulus is {} Pa (lambda = {} Pa is too negative for the shear modulus {} Pa): choose lambda > {} "
           "Pa",
           bulk_modulus, lame_lambda, shear_modulus, -2.0 * shear_modulus / 3.0);
@@ -39,8 +39,7 @@ struct IsotropicElasticity {
   static IsotropicElasticity from_young_poisson(double young, double poisson) {
     require_positive("Young's modulus", young);
     if (!(poisson > -1.0 && poisson < 0.5)) {
-      throw_input_error("Poisson's ratio is {} (the material would not be stable): choose one above -1 and below 0.5",
-                        poisson);
+      reject("Poisson's ratio is {} (the material would not be stable): choose one above -1 and below 0.5", poisson);
     }
     return from_lame(young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)));
   }

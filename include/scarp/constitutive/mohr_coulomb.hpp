@@ -98,7 +98,7 @@ struct MohrCoulomb {
     detail::MohrCoulombReturn const surface(start, elasticity.lame_lambda, elasticity.shear_modulus);
     if (surface.excess(stress) <= 1e-10 * std::max(stress.cwiseAbs().maxCoeff(), start.cohesion)) return;  // round-off
     double const sine = std::sin(start.friction);
-    throw_input_error(
+    reject(
         "the initial stress of point {} in region {}, {} m deep, has principal stresses of {}, {} and {} Pa (its "
         "strength, "
         "cohesion {} Pa and friction {} rad, does not bear them): give more strength or another initial stress; "

@@ -51,8 +51,7 @@ struct StiffnessFloor {
     if (!(shear_modulus > 0.0)) {
       auto const whole = isotropic_part(provider.tangent(own));
       if (!(whole.shear_modulus > 0.0)) {
-        throw_input_error("point {} has no initial stiffness (it may be fluid): give the floor's shear modulus",
-                          site.index);
+        reject("point {} has no initial stiffness (it may be fluid): give the floor's shear modulus", site.index);
       }
       elasticity = {share * whole.lame_lambda, share * whole.shear_modulus};
     }

@@ -30,19 +30,18 @@ struct Strength {
   void validate() const {
     require_not_negative("cohesion", cohesion);
     if (!(friction >= 0.0 && friction < 0.999 * std::numbers::pi / 2.0)) {
-      throw_input_error("the friction angle is {} rad (it must be from 0 to below a right angle): {}", friction,
-                        friction > 1.5 && friction < 90.0 ? "was it given in degrees?" : "give radians");
+      reject("the friction angle is {} rad (it must be from 0 to below a right angle): {}", friction,
+             friction > 1.5 && friction < 90.0 ? "was it given in degrees?" : "give radians");
     }
     if (!(dilation >= 0.0 && dilation <= friction)) {
-      throw_input_error(
+      reject(
           "the angle of dilation is {} rad with a friction of {} rad (beyond it flow would create energy): choose one "
           "from 0 to the friction",
           dilation, friction);
     }
     if (!(tension >= 0.0)) {
-      throw_input_error(
-          "the tensile strength is {} Pa (it must not be negative): give zero for none, infinity for no cut-off",
-          tension);
+      reject("the tensile strength is {} Pa (it must not be negative): give zero for none, infinity for no cut-off",
+             tension);
     }
   }
 };

@@ -48,8 +48,7 @@ struct VariedParameters {
 
   /// \throws InputError without a function that varies
   void validate() const {
-    if (!vary)
-      throw_input_error("points have no parameters of their own (no function varies the common ones): give `vary`");
+    if (!vary) reject("points have no parameters of their own (no function varies the common ones): give `vary`");
   }
 
   /// \throws InputError as validate() does, and whatever the function that varies throws

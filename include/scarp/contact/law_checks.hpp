@@ -21,7 +21,7 @@ void require_consistent(Law const& law, double radius) {
   }
   double const reach = interaction_range_of(law);
   if (!(reach >= 0.0 && reach <= 2.0 * radius)) {
-    throw_input_error(
+    reject(
         "the contact law acts across gaps of up to {} m (grains of a diameter of {} m have others between them there): "
         "give "
         "less strength, or stiffer springs",
@@ -30,13 +30,13 @@ void require_consistent(Law const& law, double radius) {
   double const depth = 1e-6 * radius;
   ContactStiffness const stiffness = law.stiffness(depth, radius / 2.0);
   if (!Law::inputs.shear && stiffness.tangential != 0.0) {
-    throw_input_error(
+    reject(
         "the contact law has a tangential stiffness of {} N/m (its inputs do not name .shear, so no shear force would "
         "act): add `.shear = true` to its inputs, or give no tangential stiffness",
         stiffness.tangential);
   }
   if (!Law::inputs.moment && stiffness.rolling != 0.0) {
-    throw_input_error(
+    reject(
         "the contact law has a rolling stiffness of {} N m/rad (its inputs do not name .moment, so no moment would "
         "act): add `.moment = true` to its inputs, or give no rolling stiffness",
         stiffness.rolling);
@@ -53,7 +53,7 @@ void require_consistent(Law const& law, double radius) {
       return law.respond(closed, memory).normal;
     };
     if (normal_force(1e-3 * depth) != normal_force(0.0)) {
-      throw_input_error(
+      reject(
           "the contact law's normal force depends on how fast the contact closes (it has no damping_ratio(), so the "
           "time step would be that of its springs alone): give it `double damping_ratio() const`, the share of "
           "critical "
@@ -67,7 +67,7 @@ void require_consistent(Law const& law, double radius) {
       .overlap = -depth, .slip_increment = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
   double const force = law.respond(apart, memory).normal;
   if (force != 0.0) {
-    throw_input_error(
+    reject(
         "the contact law has a force of {} N across a gap of {} m (it has no interaction_range(), so pairs that far "
         "apart would be "
         "left out): give it `double interaction_range() const` [m], or no force without overlap",

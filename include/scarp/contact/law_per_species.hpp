@@ -46,11 +46,11 @@ struct LawPerSpecies {
       auto const take = [&](auto& own, auto const& others) { own = lanes::select(is_pair, others, own); };
       take(force.normal, other.normal);
       take(force.dissipated, other.dissipated);
-      if constexpr (needs.shear) take(force.shear, other.shear);
-      if constexpr (needs.shear) take(memory.shear, after.shear);
-      if constexpr (needs.moment) take(force.moment, other.moment);
-      if constexpr (needs.moment) take(memory.moment, after.moment);
-      if constexpr (needs.scalars > 0) take(memory.scalars, after.scalars);
+      if constexpr (inputs.shear) take(force.shear, other.shear);
+      if constexpr (inputs.shear) take(memory.shear, after.shear);
+      if constexpr (inputs.moment) take(force.moment, other.moment);
+      if constexpr (inputs.moment) take(memory.moment, after.moment);
+      if constexpr (inputs.scalars > 0) take(memory.scalars, after.scalars);
     });
     return force;
   }

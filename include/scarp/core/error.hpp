@@ -30,21 +30,21 @@ class InputError : public std::invalid_argument {
 };
 
 namespace detail {
-[[noreturn]] inline void throw_formatted(fmt::string_view text, fmt::format_args arguments) {
+[[noreturn]] inline void reject_formatted(fmt::string_view text, fmt::format_args arguments) {
   throw InputError(fmt::vformat(text, arguments));
 }
 }  // namespace detail
 
 /// \throws InputError always, with the formatted text
 template <class... Arguments>
-[[noreturn]] void throw_input_error(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
-  detail::throw_formatted(text, fmt::make_format_args(arguments...));
+[[noreturn]] void reject(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  detail::reject_formatted(text, fmt::make_format_args(arguments...));
 }
 
 /// \throws InputError unless value is finite and above zero
 inline double require_positive(std::string_view what, double value) {
   if (!(std::isfinite(value) && value > 0.0)) {
-    throw_input_error("{} is {} (it must be finite and above zero): give a positive number", what, value);
+    reject("{} is {} (it must be finite and above zero): give a positive number", what, value);
   }
   return value;
 }
@@ -52,7 +52,7 @@ inline double require_positive(std::string_view what, double value) {
 /// \throws InputError unless value is finite and not below zero
 inline double require_not_negative(std::string_view what, double value) {
   if (!(std::isfinite(value) && value >= 0.0)) {
-    throw_input_error("{} is {} (it must be finite and not negative): give zero or a positive number", what, value);
+    reject("{} is {} (it must be finite and not negative): give zero or a positive number", what, value);
   }
   return value;
 }
@@ -61,8 +61,7 @@ inline double require_not_negative(std::string_view what, double value) {
 template <class Number>
 Number require_between(std::string_view what, Number value, Number least, Number most) {
   if (!(value >= least && value <= most)) {
-    throw_input_error("{} is {} (it must lie between {} and {}): give a number in this range", what, value, least,
-                      most);
+    reject("{} is {} (it must lie between {} and {}): give a number in this range", what, value, least, most);
   }
   return value;
 }
@@ -70,15 +69,14 @@ Number require_between(std::string_view what, Number value, Number least, Number
 /// \throws InputError for a value below the least one, and for NaN
 template <class Number>
 Number require_at_least(std::string_view what, Number value, Number least) {
-  if (!(value >= least))
-    throw_input_error("{} is {} (it must be at least {}): give a larger number", what, value, least);
+  if (!(value >= least)) reject("{} is {} (it must be at least {}): give a larger number", what, value, least);
   return value;
 }
 
 /// \throws InputError unless value is finite
 inline double require_finite(std::string_view what, double value) {
   if (!std::isfinite(value)) {
-    throw_input_error("{} is {} (it must be finite): give an ordinary number", what, value);
+    reject("{} is {} (it must be finite): give an ordinary number", what, value);
   }
   return value;
 }

@@ -57,9 +57,9 @@ int version_of_library();
 
 struct OneVersion {
   OneVersion(int own, int own_register) {
-    if (version_of_functions() != own) throw_input_error(own, version_of_functions(), "functions of the same names");
+    if (version_of_functions() != own) reject(own, version_of_functions(), "functions of the same names");
 #ifdef SCARP_PRECOMPILED
-    if (version_of_library() != own) throw_input_error(own, version_of_library(), "scarp::precompiled");
+    if (version_of_library() != own) reject(own, version_of_library(), "scarp::precompiled");
 #endif
     if (register_of_functions() != own_register) {
       std::fprintf(
@@ -72,7 +72,7 @@ struct OneVersion {
     }
   }
 
-  [[noreturn]] static void throw_input_error(int own, int other, char const* what) {
+  [[noreturn]] static void reject(int own, int other, char const* what) {
     std::fprintf(
         stderr,
         "scarp: a source compiled with version %d.%d meets version %d.%d (%s): compile the whole program with one "

@@ -38,8 +38,7 @@ struct Cloud {
   void validate() const {
     detail::validated(grading);
     if (grains < 1)
-      throw_input_error("a packing of {} grains was requested (nothing can carry stress): give at least one grain",
-                        grains);
+      reject("a packing of {} grains was requested (nothing can carry stress): give at least one grain", grains);
     require_positive("share of the cell filled by the cloud", filled_share);
     require_between("share of the cell filled by the cloud", filled_share, 0.0, 1.0);
   }
@@ -74,8 +73,8 @@ struct Cloud {
       bool free = false;
       for (long trial = 0; !free; ++trial) {
         if (trial == max_trials) {
-          throw_input_error("grain {} of {} found no free place (the cloud fills {} of its cell): use a smaller share",
-                            i + 1, grains, filled_share);
+          reject("grain {} of {} found no free place (the cloud fills {} of its cell): use a smaller share", i + 1,
+                 grains, filled_share);
         }
         Vector<dim> place;
         for (int a = 0; a < dim; ++a) place(a) = random.uniform(0.0, side);

@@ -57,15 +57,14 @@ struct Loading {
   /// \throws InputError for directions that hold nothing or the same twice, and for a prescribed strain that is no number
   void validate() const {
     if (!gradient_per_step.allFinite())
-      throw_input_error(
-          "the prescribed displacement gradient of a step has components that are no numbers: give ordinary ones");
+      reject("the prescribed displacement gradient of a step has components that are no numbers: give ordinary ones");
     for (std::size_t k = 0; k < controls.size(); ++k) {
       auto const& direction = controls[k].direction;
       require_positive("size of the direction of a held stress", direction.norm());
       for (std::size_t other = 0; other < k; ++other) {
         double const common = controls[other].direction.cwiseProduct(direction).sum();
         if (std::abs(common) > 1e-12 * controls[other].direction.norm() * direction.norm()) {
-          throw_input_error(
+          reject(
               "held stresses {} and {} have directions in common (one would strain the cell against the other): hold "
               "orthogonal ones",
               other, k);

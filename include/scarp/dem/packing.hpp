@@ -21,7 +21,7 @@
 namespace scarp::detail {
 
 inline void require_valid(bool sound, std::string_view what) {
-  if (!sound) throw_input_error("its {} (no packing is like that): save it again", what);
+  if (!sound) reject("its {} (no packing is like that): save it again", what);
 }
 
 /// Whether columns have a row for each of `rows`; columns that hold nothing always do.

@@ -31,11 +31,10 @@ class Population {
     require_positive("grain density", density);
     require_positive("out-of-plane thickness", thickness);
     if (Shape::dim == 3 && thickness != 1.0) {
-      throw_input_error("out-of-plane thickness of grains in space is {} m (stresses would be off by it): leave it 1",
-                        thickness);
+      reject("out-of-plane thickness of grains in space is {} m (stresses would be off by it): leave it 1", thickness);
     }
     if (sizes.empty())
-      throw_input_error("a packing of zero grains was requested (nothing can carry stress): give at least one grain");
+      reject("a packing of zero grains was requested (nothing can carry stress): give at least one grain");
     size_.resize(sizes.size(), Scalar(1));
     inverse_mass_.resize(sizes.size());
     inverse_inertia_.resize(sizes.size());
@@ -49,7 +48,7 @@ class Population {
       double const mass = density * content * thickness;
       double const inertia = mass * Shape::gyration_squared(grain);
       if (!(std::isnormal(mass) && std::isnormal(inertia) && std::isfinite(1.0 / inertia))) {
-        throw_input_error(
+        reject(
             "a grain of size {} has a mass of {} kg and an inertia of {} kg m2 (beyond what a number here can hold): "
             "check "
             "the units of its size and density",
@@ -136,7 +135,7 @@ class Population {
     auto population = std::make_shared<Population const>(sizes, density, thickness);
     constexpr double round_off = 1e-12;  // sums of the same numbers by another compiler's code
     if (!(std::abs(content - population->content()) <= round_off * population->content())) {
-      throw_input_error(
+      reject(
           "its grains have a content of {} (of the requested shape they would have {}): load it as the shape that was "
           "saved",
           content, population->content());

@@ -138,7 +138,7 @@ class TimeStepper {
 
   [[gnu::noinline, gnu::cold]] Verdict renew(PackingType& packing, Law const& law) const {
     if (!packing.population)
-      throw_input_error("a packing without grains was to be moved (it has no population): make or load one");
+      reject("a packing without grains was to be moved (it has no population): make or load one");
     double const skin = skin_ratio * packing.population->largest_radius();
     if (!packing.pairs.basis.agrees_with(list_basis(packing, law, packing.pairs.skin)))
       require_consistent(law, packing.population->largest_radius());

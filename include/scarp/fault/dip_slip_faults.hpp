@@ -45,7 +45,7 @@ SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
     if (std::abs(line - tip) < std::abs(nearest - tip)) nearest = line;
   }
   if (std::abs(nearest - tip) <= detail::StepAtTip::same_place * (lines.back() - lines.front())) return;
-  throw_input_error(
+  reject(
       "the fault tip is at x = {} m (the nearest corner of the mesh's bottom is at {} m): put a node there or move the "
       "tip",
       tip, nearest);
@@ -91,8 +91,8 @@ namespace detail {
 inline double heave_per_throw(double dip) {
   constexpr double vertical = std::numbers::pi / 2.0;
   if (!(dip > 0.0 && dip <= vertical * (1.0 + 4.0 * std::numeric_limits<double>::epsilon()))) {
-    throw_input_error("the dip is {} rad (a fault dips by more than 0 and at most pi/2): {}", dip,
-                      dip > vertical && dip <= 90.0 ? "was it given in degrees?" : "choose a dip in this range");
+    reject("the dip is {} rad (a fault dips by more than 0 and at most pi/2): {}", dip,
+           dip > vertical && dip <= 90.0 ? "was it given in degrees?" : "choose a dip in this range");
   }
   double const along = std::cos(dip);
   return std::abs(along) < std::numeric_limits<double>::epsilon() ? 0.0 : along / std::sin(dip);
@@ -138,9 +138,8 @@ struct TaperedSlip : Fault {
   /// \throws InputError for ends that are not finite or in the wrong order
   double share_along(double y) const {
     if (!(std::isfinite(full_to) && std::isfinite(ends_at) && full_to < ends_at)) {
-      throw_input_error(
-          "the slip is full up to y = {} m and ends at {} m (it dies out along the strike): put the end beyond",
-          full_to, ends_at);
+      reject("the slip is full up to y = {} m and ends at {} m (it dies out along the strike): put the end beyond",
+             full_to, ends_at);
     }
     double const beyond = std::clamp((y - full_to) / (ends_at - full_to), 0.0, 1.0);
     return (1.0 + std::cos(std::numbers::pi * beyond)) / 2.0;

@@ -80,8 +80,8 @@ struct FaultMesh {
     detail::require_shape(*this);
     if (int const least = elements_per_cell<Element>(pattern) * cells_along_strike<Element>();
         elements < least || elements > max_elements) {
-      throw_input_error("a mesh of {} elements is requested (from {} to {} are possible): choose another number",
-                        elements, least, max_elements);
+      reject("a mesh of {} elements is requested (from {} to {} are possible): choose another number", elements, least,
+             max_elements);
     }
     auto const sized = [this](double size_of_cells) {
       FaultMesh probe = *this;
@@ -179,9 +179,8 @@ struct FaultMesh {
     detail::require_inside(*this, edges);
     detail::require_apart(fixed_columns(edges), size);
     if (double const ideal = ideal_elements<Element>(); !(ideal <= 1.1 * max_elements)) {
-      throw_input_error(
-          "elements of {} m would give about {:.3g} of them (more than {} are not supported): choose a larger size",
-          size, ideal, max_elements);
+      reject("elements of {} m would give about {:.3g} of them (more than {} are not supported): choose a larger size",
+             size, ideal, max_elements);
     }
   }
 };

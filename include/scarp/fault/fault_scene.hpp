@@ -58,7 +58,7 @@ void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, double unit
   auto const middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
   std::ranges::nth_element(found, middle, {}, &Look::error);
   if (std::abs(middle->error()) <= tolerance) return;
-  throw_input_error(
+  reject(
       "the soil carries {:.4g} Pa at a depth of {:.4g} m (the scene's surcharge of {:.4g} Pa and unit weight of {:.4g} "
       "N/m3 weigh {:.4g} Pa there): give both to the soil's initial stress and to the scene alike",
       middle->carried, middle->depth, surcharge, unit_weight, middle->weight);

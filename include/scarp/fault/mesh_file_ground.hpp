@@ -25,7 +25,7 @@ void require_ground_groups(Mesh<Element> const& mesh) {
   bool const others =
       std::any_of(used.begin(), used.end(), [](auto const& r) { return r != "soil" && r != "footing"; });
   if (!has_soil || others) {
-    throw_input_error(
+    reject(
         "the mesh has elements in the regions {} (a ground has 'soil' and, where a block stands on it, 'footing'; "
         "elements "
         "in no physical group are the region 'mesh'): name the physical groups so",
@@ -42,9 +42,8 @@ void require_ground_groups(Mesh<Element> const& mesh) {
   }
   for (auto const& name : wanted) {
     if (std::find(there.begin(), there.end(), name) != there.end()) continue;
-    throw_input_error(
-        "the mesh has no side in a boundary '{}' (it has: {}): put the sides there in a physical group of this name",
-        name, there.empty() ? "none" : listed(there));
+    reject("the mesh has no side in a boundary '{}' (it has: {}): put the sides there in a physical group of this name",
+           name, there.empty() ? "none" : listed(there));
   }
 }
 
@@ -111,7 +110,7 @@ MeshFileGround<E> ground_from_file(std::filesystem::path const& path, std::vecto
   try {
     detail::require_ground(ground.given);
   } catch (InputError const& error) {
-    throw_input_error("'{}': {}", path.string(), error.what());
+    reject("'{}': {}", path.string(), error.what());
   }
   return ground;
 }

@@ -40,7 +40,7 @@ struct PilotSize {
 
   /// \throws InputError for parameters that say nothing of sizes
   void validate() const {
-    if (strained.empty()) throw_input_error("the pilot run has strained 0 places: take more of its strain");
+    if (strained.empty()) reject("the pilot run has strained 0 places: take more of its strain");
     require_not_negative("margin around strained places", margin);
     require_positive("size of elements near strained places", fine);
     require_at_least("size of elements far from strained places", coarse, fine);
@@ -81,7 +81,7 @@ std::vector<Vector<2>> strained_places(Problem const& problem, double share) {
     part.strain += strain;
     all += strain;
   }
-  if (!(all > 0.0)) throw_input_error("the strain of the pilot run is {} (nothing has moved): let the fault move", all);
+  if (!(all > 0.0)) reject("the strain of the pilot run is {} (nothing has moved): let the fault move", all);
   for (std::size_t e = 0; e < parts.size(); ++e) {
     for (int const node : mesh.elements[e]) parts[e].centre += mesh.nodes[detail::index(node)];
     parts[e].centre /= static_cast<double>(mesh.elements[e].size());

@@ -28,7 +28,7 @@ void put_on_base(Mesh<Element>& block, Mesh<Element> const& ground, double same)
     auto const away = [&](int other) { return (ground.nodes[index(other)] - place).norm(); };
     int const nearest = *std::min_element(base.begin(), base.end(), [&](int a, int b) { return away(a) < away(b); });
     if (!(away(nearest) <= same)) {
-      throw_input_error(
+      reject(
           "the footing's base has no node at x = {}, height {} m (the nearest is at {}, {} m; a side's node must be in "
           "its middle, the base level): mesh the ground again",
           place.x(), place.y(), ground.nodes[index(nearest)].x(), ground.nodes[index(nearest)].y());
@@ -43,7 +43,7 @@ void require_block(Mesh<Element> const& mesh, double level, double height) {
   for (int const node : boundary_nodes(mesh, "footing_top")) {
     double const top = mesh.nodes[index(node)].y();
     if (!(std::abs(top - level - height) <= 1e-6 * height)) {
-      throw_input_error(
+      reject(
           "'footing_top' of the mesh is {} m above the base (the footing is {} m high): give the footing the mesh's "
           "height, or take the region 'footing' out of the mesh",
           top - level, height);
@@ -68,7 +68,7 @@ void mark_footing_base(Mesh<Element>& mesh, double centre, double width) {
   if (mesh.boundaries.count("footing_base") != 0) {
     auto const corners = detail::corners_along(mesh, "footing_base");
     if (std::abs(corners.front() - from) > same || std::abs(corners.back() - to) > same) {
-      throw_input_error(
+      reject(
           "the mesh has its 'footing_base' from x = {} to {} m (the footing reaches from {} to {} m): set the "
           "footing's "
           "centre and width to the mesh's",
@@ -90,7 +90,7 @@ void mark_footing_base(Mesh<Element>& mesh, double centre, double width) {
     covered += std::abs(mesh.nodes[detail::index(facet[1])].x() - mesh.nodes[detail::index(facet[0])].x());
   }
   if (std::abs(covered - width) > 2.0 * same) {
-    throw_input_error(
+    reject(
         "the surface covers {} m between x = {} and {} m (a footing of {} m stands there): put the footing where the "
         "surface has no gap",
         covered, from, to, width);

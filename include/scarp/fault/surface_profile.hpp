@@ -84,8 +84,7 @@ inline std::vector<SurfacePoint> joined_places(std::vector<Placed> points, std::
 /// \throws InputError unless there is a position for every node
 inline void require_for_each_node(char const* what, std::size_t positions, std::size_t nodes) {
   if (positions != nodes) {
-    throw_input_error("{}: {} are given (the mesh has {} nodes): give one for each node of this mesh", what, positions,
-                      nodes);
+    reject("{}: {} are given (the mesh has {} nodes): give one for each node of this mesh", what, positions, nodes);
   }
 }
 

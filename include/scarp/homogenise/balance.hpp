@@ -28,8 +28,7 @@ struct Balance {
 /// \throws InputError for a packing without contacts; what: names it
 inline void require_contacts(std::string_view what, std::size_t contacts) {
   if (contacts == 0)
-    throw_input_error(
-        "{} has 0 contacts (it carries no stress and has no stiffness): compress it until its grains touch", what);
+    reject("{} has 0 contacts (it carries no stress and has no stiffness): compress it until its grains touch", what);
 }
 
 /// Eq. 5 of the study, with f the force on the second grain and l the branch from first to second.

@@ -19,9 +19,8 @@ std::vector<Vector<PackingType::dim>> non_affine_motion(PackingType const& start
                                                         Tensor<PackingType::dim> const& deformation) {
   constexpr int dim = PackingType::dim;
   if (start.grain_count() != end.grain_count()) {
-    throw_input_error(
-        "motion between packings of {} and {} grains was requested (they are not states of one): give two states",
-        start.grain_count(), end.grain_count());
+    reject("motion between packings of {} and {} grains was requested (they are not states of one): give two states",
+           start.grain_count(), end.grain_count());
   }
   Tensor<dim> const inverse = end.cell.inverse();
   std::vector<Vector<dim>> motion(end.grain_count());

@@ -44,8 +44,8 @@ class AppendedFile {
   /// \throws InputError when lines from before it are gone
   void after_loading() {
     if (present() < bytes_) {
-      throw_input_error("'{}' has {} bytes (it had {} when the checkpoint was made): bring back the file of that run",
-                        path_.string(), present(), bytes_);
+      reject("'{}' has {} bytes (it had {} when the checkpoint was made): bring back the file of that run",
+             path_.string(), present(), bytes_);
     }
     file_.reset();
   }

@@ -29,7 +29,7 @@ struct CheckpointSettings {
   void validate() const {
     require_not_negative("time between two checkpoints [s]", every_seconds);
     if (every_attempts < 0)
-      throw_input_error("the attempts between two checkpoints are {} (0 counts none): give 0 or more", every_attempts);
+      reject("the attempts between two checkpoints are {} (0 counts none): give 0 or more", every_attempts);
   }
 };
 
@@ -52,9 +52,8 @@ inline void refuse_other_scene(std::string const& saved, std::string const& aske
     bool const other = static_cast<bool>(std::getline(theirs, their));
     more = one || other;
   }
-  throw_input_error(
-      "it is of another scene ('{}' there, '{}' here): request the scene that was saved, or choose another folder",
-      their, our);
+  reject("it is of another scene ('{}' there, '{}' here): request the scene that was saved, or choose another folder",
+         their, our);
 }
 
 }  // namespace detail

@@ -43,17 +43,16 @@ class CsvFormat {
  public:
   explicit CsvFormat(std::vector<std::string> const& columns) : width_(columns.size()) {
     if (columns.empty()) {
-      throw_input_error("the table has no columns (a row could hold nothing): name at least one");
+      reject("the table has no columns (a row could hold nothing): name at least one");
     }
     for (std::size_t k = 0; k < columns.size(); ++k) {
       auto const& name = columns[k];
       if (name.empty() || name.find_first_of("\r\n") != std::string::npos) {
-        throw_input_error("column {} of the table is named '{}' (a name is one line of text): give it a name", k, name);
+        reject("column {} of the table is named '{}' (a name is one line of text): give it a name", k, name);
       }
       if (std::find(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(k), name) !=
           columns.begin() + static_cast<std::ptrdiff_t>(k)) {
-        throw_input_error("two columns of the table are named '{}' (a reader could not distinguish them): rename one",
-                          name);
+        reject("two columns of the table are named '{}' (a reader could not distinguish them): rename one", name);
       }
       header_ += csv_cell(name);
       header_ += k + 1 < columns.size() ? ',' : '\n';
@@ -79,8 +78,7 @@ class CsvFormat {
  private:
   void require_width(std::size_t cells) const {
     if (cells != width_) {
-      throw_input_error("a row of {} cells is given (the table has {} columns): give one cell for each column", cells,
-                        width_);
+      reject("a row of {} cells is given (the table has {} columns): give one cell for each column", cells, width_);
     }
   }
 
@@ -140,8 +138,8 @@ class CsvLog {
                                               CsvStart start) {
     bool const continues = start == CsvStart::resumed && std::filesystem::exists(path);
     if (continues && !read_file(path).starts_with(format.header())) {
-      throw_input_error("'{}' cannot be continued (its columns are not '{}'): start another file", path.string(),
-                        std::string_view(format.header()).substr(0, format.header().size() - 1));
+      reject("'{}' cannot be continued (its columns are not '{}'): start another file", path.string(),
+             std::string_view(format.header()).substr(0, format.header().size() - 1));
     }
     return path;
   }

@@ -110,8 +110,7 @@ class CsvScanner {
       cell += text.substr(0, end);
       text.remove_prefix(end);
       if (text.empty()) {
-        if (rest_.empty())
-          throw_input_error("line {} of '{}' opens quotes (they never close): close them", opened, file_);
+        if (rest_.empty()) reject("line {} of '{}' opens quotes (they never close): close them", opened, file_);
         cell += '\n';
         text = take_line();
       } else if (text.starts_with("\"\"")) {
@@ -123,9 +122,8 @@ class CsvScanner {
       }
     }
     if (!text.empty() && !text.starts_with(',')) {
-      throw_input_error(
-          "line {} of '{}' has text behind closed quotes (a comma must follow): double quotes inside quotes", number_,
-          file_);
+      reject("line {} of '{}' has text behind closed quotes (a comma must follow): double quotes inside quotes",
+             number_, file_);
     }
     return cell;
   }
@@ -147,18 +145,17 @@ class CsvColumns {
   CsvColumns(std::string_view text, std::string file, CsvSeparator separator = CsvSeparator::comma)
       : file_(std::move(file)) {
     detail::CsvScanner scanner(text, file_, separator);
-    if (!scanner.next(header_))
-      throw_input_error("'{}' is empty (a table begins with the names of its columns): add them", file_);
+    if (!scanner.next(header_)) reject("'{}' is empty (a table begins with the names of its columns): add them", file_);
     for (auto name = header_.cells.begin(); name != header_.cells.end(); ++name) {
       if (std::find(header_.cells.begin(), name, *name) != name) {
-        throw_input_error("line {} of '{}' names two columns '{}' (they cannot be distinguished): rename one",
-                          header_.number, file_, *name);
+        reject("line {} of '{}' names two columns '{}' (they cannot be distinguished): rename one", header_.number,
+               file_, *name);
       }
     }
     for (detail::CsvLine line; scanner.next(line);) {
       if (line.cells.size() != header_.cells.size()) {
-        throw_input_error("line {} of '{}' has {} cells (the header names {} columns): give one cell for each",
-                          line.number, file_, line.cells.size(), header_.cells.size());
+        reject("line {} of '{}' has {} cells (the header names {} columns): give one cell for each", line.number, file_,
+               line.cells.size(), header_.cells.size());
       }
       rows_.push_back(std::move(line));
     }
@@ -183,10 +180,10 @@ class CsvColumns {
   }
 
   /// Refuses the value in one cell, naming file, line and column.
-  [[noreturn]] void throw_cell_error(std::size_t row, std::string_view name, std::string_view why,
-                                     std::string_view suggestion) const {
-    throw_input_error("line {} of '{}' has '{}' in column '{}' ({}): {}", line(row), file_,
-                      rows_[row].cells[require(name)], name, why, suggestion);
+  [[noreturn]] void reject_cell(std::size_t row, std::string_view name, std::string_view why,
+                                std::string_view suggestion) const {
+    reject("line {} of '{}' has '{}' in column '{}' ({}): {}", line(row), file_, rows_[row].cells[require(name)], name,
+           why, suggestion);
   }
 
  private:
@@ -199,8 +196,8 @@ class CsvColumns {
   std::size_t require(std::string_view name) const {
     auto const place = find(name);
     if (!place) {
-      throw_input_error("'{}' has no column '{}' (line {} names {}): add it or rename one", file_, name, header_.number,
-                        listed(header_.cells));
+      reject("'{}' has no column '{}' (line {} names {}): add it or rename one", file_, name, header_.number,
+             listed(header_.cells));
     }
     return *place;
   }
@@ -213,14 +210,14 @@ class CsvColumns {
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     auto const& name = header_.cells[place];
     if (error == std::errc::result_out_of_range) {
-      throw_cell_error(row, name, "its size is beyond what a number here can hold", "check the value and its unit");
+      reject_cell(row, name, "its size is beyond what a number here can hold", "check the value and its unit");
     }
     if (error != std::errc() || end != text.data() + text.size()) {
-      if constexpr (std::integral<Number>) throw_cell_error(row, name, "it is no whole number", "write digits only");
-      throw_cell_error(row, name, "it is no number", "write a decimal number with a point, such as 2.5e-3");
+      if constexpr (std::integral<Number>) reject_cell(row, name, "it is no whole number", "write digits only");
+      reject_cell(row, name, "it is no number", "write a decimal number with a point, such as 2.5e-3");
     }
     if constexpr (std::floating_point<Number>) {
-      if (!std::isfinite(value)) throw_cell_error(row, name, "it is not finite", "give an ordinary number");
+      if (!std::isfinite(value)) reject_cell(row, name, "it is not finite", "give an ordinary number");
     }
     return value;
   }

@@ -46,8 +46,8 @@ std::string framed(FileFormat const& format, Write&& write) {
 /// \throws InputError unless the file is of this format and version, whole, unharmed and of this machine's order of bytes
 inline std::string_view payload_of(FileFormat const& format, std::string_view file) {
   if (!file.starts_with(format.magic)) {
-    throw_input_error("it is no {} (it does not begin with {}): give a file that {} wrote", format.content,
-                      format.magic, format.maker);
+    reject("it is no {} (it does not begin with {}): give a file that {} wrote", format.content, format.magic,
+           format.maker);
   }
   StateReader reader(file.substr(format.magic.size()));
   std::uint32_t mark = 0;
@@ -55,27 +55,26 @@ inline std::string_view payload_of(FileFormat const& format, std::string_view fi
   std::uint64_t length = 0;
   reader.take("order of bytes", &mark, sizeof(mark));
   if (mark != byte_order_mark) {
-    throw_input_error(
+    reject(
         "its order of bytes is {:#010x} (this machine writes {:#010x}): load it on a machine like the one that saved "
         "it",
         mark, byte_order_mark);
   }
   reader.take("version", &version, sizeof(version));
   if (version != format.version) {
-    throw_input_error("it is of version {} (this library reads version {}): save it again with this library", version,
-                      format.version);
+    reject("it is of version {} (this library reads version {}): save it again with this library", version,
+           format.version);
   }
   reader.take("length", &length, sizeof(length));
   std::size_t const start = format.magic.size() + sizeof(mark) + sizeof(version) + sizeof(length);
   std::uint64_t hash = 0;
   if (file.size() < start + sizeof(hash) || file.size() - start - sizeof(hash) != length) {
-    throw_input_error(
-        "it has {} bytes (its header promises {} behind the first {}): it was cut off or added to, save it again",
-        file.size(), length, start);
+    reject("it has {} bytes (its header promises {} behind the first {}): it was cut off or added to, save it again",
+           file.size(), length, start);
   }
   std::memcpy(&hash, file.data() + file.size() - sizeof(hash), sizeof(hash));
   if (hash != hash_of(file.substr(0, file.size() - sizeof(hash)))) {
-    throw_input_error("its bytes have changed since it was written (hash {:#x} does not fit): save it again", hash);
+    reject("its bytes have changed since it was written (hash {:#x} does not fit): save it again", hash);
   }
   return file.substr(start, static_cast<std::size_t>(length));
 }

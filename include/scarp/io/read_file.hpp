@@ -22,13 +22,13 @@ inline void refuse_stand_in(std::string_view content, std::string_view file) {
   for (char const letter : begin.substr(0, 16))
     lower += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
   if (lower.starts_with("<!doctype html") || lower.starts_with("<html"))
-    throw_input_error("cannot read '{}' (it is a web page): download the file itself", file);
+    reject("cannot read '{}' (it is a web page): download the file itself", file);
   if (begin.starts_with("version https://git-lfs"))
-    throw_input_error("cannot read '{}' (it is a pointer of Git LFS): fetch the file itself by `git lfs pull`", file);
+    reject("cannot read '{}' (it is a pointer of Git LFS): fetch the file itself by `git lfs pull`", file);
   if (begin.starts_with("\x1f\x8b") || begin.starts_with("PK\x03\x04") || begin.starts_with("BZh") ||
       begin.starts_with("\xfd"
                         "7zXZ"))
-    throw_input_error("cannot read '{}' (it is compressed): unpack it", file);
+    reject("cannot read '{}' (it is compressed): unpack it", file);
 }
 
 }  // namespace detail
@@ -38,10 +38,10 @@ inline void refuse_stand_in(std::string_view content, std::string_view file) {
 inline std::string read_file(std::filesystem::path const& path) {
   std::error_code trouble;
   if (!std::filesystem::exists(path, trouble)) {
-    throw_input_error("cannot read '{}' (there is no such file): check its name and folder", path.string());
+    reject("cannot read '{}' (there is no such file): check its name and folder", path.string());
   }
   if (std::filesystem::is_directory(path, trouble)) {
-    throw_input_error("cannot read '{}' (it is a folder): give the name of a file", path.string());
+    reject("cannot read '{}' (it is a folder): give the name of a file", path.string());
   }
   std::string content;
   std::ifstream stream(path, std::ios::binary);
@@ -49,7 +49,7 @@ inline std::string read_file(std::filesystem::path const& path) {
   while (stream.read(block, sizeof block) || stream.gcount() > 0) {
     content.append(block, static_cast<std::size_t>(stream.gcount()));
   }
-  if (!stream.eof()) throw_input_error("cannot read '{}' (the system denies it): check its permissions", path.string());
+  if (!stream.eof()) reject("cannot read '{}' (the system denies it): check its permissions", path.string());
   detail::refuse_stand_in(content, path.string());
   return content;
 }
@@ -60,7 +60,7 @@ decltype(auto) with_context(std::string_view place, Action&& action) {
   try {
     return action();
   } catch (InputError const& error) {
-    throw_input_error("{}: {}", place, error.what());
+    reject("{}: {}", place, error.what());
   }
 }
 

@@ -138,8 +138,8 @@ class StateReader {
   /// count values of the given bytes each, in any memory
   void take(std::string_view name, void* values, std::size_t bytes, std::size_t count = 1) {
     if (count > rest_.size() / bytes) {
-      throw_input_error("it ends inside '{}' (for {} numbers of {} bytes only {} bytes are left): save it again", name,
-                        count, bytes, rest_.size());
+      reject("it ends inside '{}' (for {} numbers of {} bytes only {} bytes are left): save it again", name, count,
+             bytes, rest_.size());
     }
     if (count > 0) std::memcpy(values, rest_.data(), count * bytes);
     rest_.remove_prefix(count * bytes);
@@ -154,7 +154,7 @@ class StateReader {
     std::uint8_t stored = 0;
     expect(name, sizeof(value));
     take(name, &stored, sizeof(stored));
-    if (stored > 1) throw_input_error("'{}' is {} (it can be 0 or 1): save it again", name, stored);
+    if (stored > 1) reject("'{}' is {} (it can be 0 or 1): save it again", name, stored);
     value = stored == 1;
   }
   void operator()(std::string_view name, std::string& text) {
@@ -184,8 +184,7 @@ class StateReader {
     expect_list<T>(name);
     std::size_t const length = take_length(name, element_bytes<T>());
     if (length != values.size()) {
-      throw_input_error("it has {} '{}' (the scene has {}): load it into the scene that was saved", length, name,
-                        values.size());
+      reject("it has {} '{}' (the scene has {}): load it into the scene that was saved", length, name, values.size());
     }
     elements(name, values);
   }
@@ -211,8 +210,7 @@ class StateReader {
       if (known_) intern(shared_[number], from.substr(0, from.size() - rest_.size()));
     }
     if (number >= shared_.size() || shared_[number].first != typeid(T) || !shared_[number].second) {
-      throw_input_error("'{}' is number {} of the shared parts (there is none of this kind): save it again", name,
-                        number);
+      reject("'{}' is number {} of the shared parts (there is none of this kind): save it again", name, number);
     }
     shared = std::static_pointer_cast<T const>(shared_[number].second);
   }
@@ -255,8 +253,8 @@ class StateReader {
     take(name, saved.data(), sizeof(char), letters);
     take(name, &bytes, sizeof(bytes));
     if (saved != name || bytes != element) {
-      throw_input_error("it has '{}' of {} bytes where '{}' of {} bytes should be: load it as the type that was saved",
-                        saved, bytes, name, element);
+      reject("it has '{}' of {} bytes where '{}' of {} bytes should be: load it as the type that was saved", saved,
+             bytes, name, element);
     }
   }
 
@@ -265,7 +263,7 @@ class StateReader {
     std::uint64_t length = 0;
     take(name, &length, sizeof(length));
     if (length > rest_.size() / bytes) {
-      throw_input_error("'{}' has a length of {} (only {} bytes follow): save it again", name, length, rest_.size());
+      reject("'{}' has a length of {} (only {} bytes follow): save it again", name, length, rest_.size());
     }
     return static_cast<std::size_t>(length);
   }

@@ -128,12 +128,12 @@ inline std::string vtu_field(VtuField const& field, std::size_t entries, std::st
       [&](auto const values) {
         using Number = std::remove_const_t<typename decltype(values)::element_type>;
         if (field.components < 1 || values.size() != entries * index(field.components)) {
-          throw_input_error("field '{}' has {} numbers (there are {} {} with {} components): size it accordingly",
-                            field.name, values.size(), entries, place, field.components);
+          reject("field '{}' has {} numbers (there are {} {} with {} components): size it accordingly", field.name,
+                 values.size(), entries, place, field.components);
         }
         if (!field.component_names.empty() && count(field.component_names) != field.components) {
-          throw_input_error("field '{}' has {} component names (it has {} components): name each or none", field.name,
-                            field.component_names.size(), field.components);
+          reject("field '{}' has {} component names (it has {} components): name each or none", field.name,
+                 field.component_names.size(), field.components);
         }
         if (dim > 1 && field.components == dim && field.component_names.empty()) {
           return vtu_array(field.name, space, vtk_padded<Number>(values, 1, dim, 1, space));
@@ -152,11 +152,10 @@ inline void require_field_name(std::string const& name, std::set<std::string>& k
   bool sound = !name.empty() && valid_utf8(name) == name;
   for (char const letter : name) sound = sound && static_cast<unsigned char>(letter) >= 0x20 && letter != 0x7f;
   if (!sound)
-    throw_input_error(
-        "a field is named '{}' (names are of one letter and more in UTF-8, without control characters): rename it",
-        valid_utf8(name));
+    reject("a field is named '{}' (names are of one letter and more in UTF-8, without control characters): rename it",
+           valid_utf8(name));
   if (!known.insert(name).second)
-    throw_input_error("two fields are named '{}' (a file cannot distinguish them): rename one", name);
+    reject("two fields are named '{}' (a file cannot distinguish them): rename one", name);
 }
 
 inline std::string vtu_fields(std::vector<VtuField> const& fields, std::string_view tag, std::size_t entries,
@@ -198,8 +197,7 @@ void write_vtu(std::filesystem::path const& path, Mesh<Element> const& mesh,
   constexpr int dim = Element::dim;
   constexpr bool little = std::endian::native == std::endian::little;
   if (positions.size() != mesh.nodes.size()) {
-    throw_input_error("{} positions are given (the mesh has {} nodes): give one for each", positions.size(),
-                      mesh.nodes.size());
+    reject("{} positions are given (the mesh has {} nodes): give one for each", positions.size(), mesh.nodes.size());
   }
   std::vector<double> flat;
   for (auto const& position : positions) {
@@ -238,8 +236,8 @@ class PvdSeries {
   /// \throws InputError for a time that is not above the last one, FileError when the list cannot be written
   void add(double time, std::filesystem::path const& file) {
     if (!std::isfinite(time) || (!entries_.empty() && !(time > entries_.back().first))) {
-      throw_input_error("time {} of '{}' cannot be added (times must be finite and increase): order the files", time,
-                        file.string());
+      reject("time {} of '{}' cannot be added (times must be finite and increase): order the files", time,
+             file.string());
     }
     entries_.emplace_back(time, file.generic_string());
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";

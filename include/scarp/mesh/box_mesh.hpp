@@ -55,13 +55,11 @@ struct BoxMesh {
       require_positive("length of the box", lengths(axis));
       int const along = cells[detail::index(axis)];
       if (along < 1 || along > 10000) {
-        throw_input_error("the box has {} cells along axis {} (it must be from 1 to 10000): choose another count",
-                          along, axis);
+        reject("the box has {} cells along axis {} (it must be from 1 to 10000): choose another count", along, axis);
       }
     }
     if (!(distortion >= 0.0 && distortion <= 0.2)) {
-      throw_input_error("the distortion is {} (elements may turn over beyond 0.2): choose one from 0 to 0.2",
-                        distortion);
+      reject("the distortion is {} (elements may turn over beyond 0.2): choose one from 0 to 0.2", distortion);
     }
   }
 

@@ -17,7 +17,7 @@ namespace scarp {
 /// \throws InputError for another share
 inline void jitter_grid(std::vector<Vector<2>>& nodes, GridNumbers const& numbers, double share, std::uint64_t seed) {
   if (!(share >= 0.0 && share <= 0.3)) {
-    throw_input_error("the jitter is {} (elements may turn over beyond 0.3): choose one from 0 to 0.3", share);
+    reject("the jitter is {} (elements may turn over beyond 0.3): choose one from 0 to 0.3", share);
   }
   if (share == 0.0) return;
   auto const before = nodes;

@@ -35,19 +35,18 @@ namespace detail {
 template <class Element>
 void validate_sizes(Mesh<Element> const& mesh) {
   if (mesh.nodes.empty() || mesh.elements.empty()) {
-    throw_input_error(
-        "the mesh has {} nodes and {} elements (it is empty): check the generator or the file it came from",
-        mesh.nodes.size(), mesh.elements.size());
+    reject("the mesh has {} nodes and {} elements (it is empty): check the generator or the file it came from",
+           mesh.nodes.size(), mesh.elements.size());
   }
   if (mesh.element_region.size() != mesh.elements.size()) {
-    throw_input_error("the mesh has {} elements but {} region numbers (each element needs one): fill element_region",
-                      mesh.elements.size(), mesh.element_region.size());
+    reject("the mesh has {} elements but {} region numbers (each element needs one): fill element_region",
+           mesh.elements.size(), mesh.element_region.size());
   }
   for (int e = 0; e < count(mesh.elements); ++e) {
     int const region = mesh.element_region[index(e)];
     if (region < 0 || region >= count(mesh.regions)) {
-      throw_input_error("element {} has the region number {} (the mesh names {} regions: {}): name it in regions", e,
-                        region, mesh.regions.size(), listed(mesh.regions));
+      reject("element {} has the region number {} (the mesh names {} regions: {}): name it in regions", e, region,
+             mesh.regions.size(), listed(mesh.regions));
     }
   }
 }
@@ -58,20 +57,19 @@ void validate_nodes(Mesh<Element> const& mesh) {
   for (int e = 0; e < count(mesh.elements); ++e) {
     for (int const node : mesh.elements[index(e)]) {
       if (node < 0 || node >= count(mesh.nodes)) {
-        throw_input_error("element {} names node {} (the mesh has nodes 0 to {}): check the numbering", e, node,
-                          mesh.nodes.size() - 1);
+        reject("element {} names node {} (the mesh has nodes 0 to {}): check the numbering", e, node,
+               mesh.nodes.size() - 1);
       }
       used[index(node)] = true;
     }
   }
   for (int n = 0; n < count(mesh.nodes); ++n) {
     if (!mesh.nodes[index(n)].allFinite()) {
-      throw_input_error("node {} is at ({}) (not a finite position): check the coordinates", n,
-                        listed(mesh.nodes[index(n)]));
+      reject("node {} is at ({}) (not a finite position): check the coordinates", n, listed(mesh.nodes[index(n)]));
     }
     if (!used[index(n)]) {
-      throw_input_error("node {} at ({}) belongs to no element (its equations would be singular): remove it", n,
-                        listed(mesh.nodes[index(n)]));
+      reject("node {} at ({}) belongs to no element (its equations would be singular): remove it", n,
+             listed(mesh.nodes[index(n)]));
     }
   }
 }
@@ -93,7 +91,7 @@ template <class Element>
 void validate_jacobians(Mesh<Element> const& mesh) {
   for (int e = 0; e < count(mesh.elements); ++e) {
     if (auto const determinant = bad_jacobian(mesh, e)) {
-      throw_input_error(
+      reject(
           "element {} (nodes {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way round): "
           "reorder or move its nodes",
           e, listed(mesh.elements[index(e)]), *determinant, Element::dim);
@@ -121,12 +119,11 @@ void validate_boundaries(Mesh<Element> const& mesh) {
     std::set<std::array<int, Element::facet_nodes>> known;
     for (auto const& facet : facets) {
       if (!std::binary_search(sides.begin(), sides.end(), sorted(facet))) {
-        throw_input_error("boundary '{}' holds the facet ({}) (no element has this side): check its node numbers", name,
-                          listed(facet));
+        reject("boundary '{}' holds the facet ({}) (no element has this side): check its node numbers", name,
+               listed(facet));
       }
       if (!known.insert(sorted(facet)).second) {
-        throw_input_error("boundary '{}' holds the facet ({}) twice (loads on it would double): remove one", name,
-                          listed(facet));
+        reject("boundary '{}' holds the facet ({}) twice (loads on it would double): remove one", name, listed(facet));
       }
     }
   }
@@ -154,10 +151,10 @@ std::vector<std::array<int, Element::facet_nodes>> const& boundary(Mesh<Element>
     for (auto const& entry : mesh.boundaries) {
       known.push_back(entry.first);
     }
-    throw_input_error("there is no boundary '{}' (the mesh has: {}): use one of these names", name, listed(known));
+    reject("there is no boundary '{}' (the mesh has: {}): use one of these names", name, listed(known));
   }
   if (found->second.empty()) {
-    throw_input_error(
+    reject(
         "the boundary '{}' has no facets (nothing can be held, loaded or measured on it): put sides of elements into "
         "it, or "
         "take another",
@@ -184,7 +181,7 @@ template <class Element>
 int region_number(Mesh<Element> const& mesh, std::string_view name) {
   auto const found = std::find(mesh.regions.begin(), mesh.regions.end(), name);
   if (found == mesh.regions.end()) {
-    throw_input_error("there is no region '{}' (the mesh has: {}): use one of these names", name, listed(mesh.regions));
+    reject("there is no region '{}' (the mesh has: {}): use one of these names", name, listed(mesh.regions));
   }
   return static_cast<int>(found - mesh.regions.begin());
 }

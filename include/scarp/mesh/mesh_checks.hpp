@@ -30,7 +30,7 @@ void require_no_duplicate_nodes(Mesh<Element> const& mesh) {
     }
   }
   if (found == 0) return;
-  throw_input_error(
+  reject(
       "nodes {} and {} are both at ({}) (the elements there would come apart; {} nodes in all are at the place of "
       "another): merge them, in Gmsh by 'Coherence Mesh'",
       first.first, first.second, listed(mesh.nodes[detail::index(first.first)]), found);
@@ -110,7 +110,7 @@ void require_no_hanging_nodes(Mesh<Element> const& mesh) {
     index.near(low, high, [&](Vector<dim> const& place, int node) {
       auto const end = side.nodes.begin() + corners;
       if (std::find(side.nodes.begin(), end, node) != end || !detail::is_inside(place, places, same)) return;
-      throw_input_error(
+      reject(
           "node {} at ({}) hangs: it is a corner inside a side of element {} (nodes {}), which would slide along it: "
           "divide that element, or mesh the parts with common nodes",
           node, listed(place), side.element, listed(mesh.elements[detail::index(side.element)]));

@@ -140,8 +140,8 @@ template <ReferenceElement Element>
     for (int a = 0; a < Element::nodes; ++a) {
       weights[detail::index(a)] = Linear::shape(Element::node_places()[detail::index(a)]);
       if (a < Linear::nodes && !weights[detail::index(a)].isApprox(ShapeValues<Linear>::Unit(a), 1e-12)) {
-        throw_input_error(
-            "node {} of an element is not at the corner of this number (corners come first): correct node_places()", a);
+        reject("node {} of an element is not at the corner of this number (corners come first): correct node_places()",
+               a);
       }
     }
     constexpr double parts = 1e6;  // two places of one element are further apart than that

@@ -34,12 +34,12 @@ int elements_per_cell(Pattern pattern) {
   constexpr int dim = Element::dim;
   constexpr bool simplex = LinearOf<Element>::nodes == dim + 1;
   if (dim == 2 && simplex && pattern == Pattern::quads) {
-    throw_input_error(
+    reject(
         "triangles are requested in the pattern 'quads' (it does not divide the rectangles): use 'crossed', 'left' "
         "or 'right', or quadrilaterals");
   }
   if (!(dim == 2 && simplex) && (pattern == Pattern::left || pattern == Pattern::right)) {
-    throw_input_error(
+    reject(
         "the pattern '{}' is requested with elements of {} nodes in {} dimensions (only triangles follow its "
         "diagonals): use 'quads', or triangles",
         name(pattern), Element::nodes, dim);

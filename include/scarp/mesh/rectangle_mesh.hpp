@@ -24,12 +24,11 @@ struct RectangleMesh {
     require_positive("width of the rectangle", width);
     require_positive("height of the rectangle", height);
     if (columns < 1 || rows < 1 || columns > 10000 || rows > 10000) {
-      throw_input_error("the rectangle has {} columns and {} rows (each must be from 1 to 10000): choose other counts",
-                        columns, rows);
+      reject("the rectangle has {} columns and {} rows (each must be from 1 to 10000): choose other counts", columns,
+             rows);
     }
     if (!(distortion >= 0.0 && distortion <= 0.2)) {
-      throw_input_error("the distortion is {} (triangles may turn over beyond 0.2): choose one from 0 to 0.2",
-                        distortion);
+      reject("the distortion is {} (triangles may turn over beyond 0.2): choose one from 0 to 0.2", distortion);
     }
     Mesh<Tri3> mesh;
     mesh.regions = {"soil"};

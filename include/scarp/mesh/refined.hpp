@@ -51,8 +51,8 @@ double excess(Field const& field, std::vector<Vector<2>> const& nodes, std::arra
   Vector<2> const centre = centre_of(nodes, ring);
   double const size = field.size(centre);
   if (!(std::isfinite(size) && size > 0.0)) {
-    throw_input_error("the element size at ({}) is {} m (a finite size above 0 is expected): correct the size field",
-                      listed(centre), size);
+    reject("the element size at ({}) is {} m (a finite size above 0 is expected): correct the size field",
+           listed(centre), size);
   }
   return longest / size;
 }

@@ -141,8 +141,7 @@ class FieldSeries : public NeverStops {
     for (auto const& [name, column] : at_elements.quantities) {
       if (std::any_of(fields.at_elements.begin(), fields.at_elements.end(),
                       [&, &own = name](auto const& field) { return field.name == own; }))
-        throw_input_error(
-            "an own quantity is named '{}' (fields of that name are written already): give it another name", name);
+        reject("an own quantity is named '{}' (fields of that name are written already): give it another name", name);
       fields.at_elements.push_back({name, 1, std::span<double const>(column), {}});
     }
     auto const file = std::filesystem::path("fields") / fmt::format("step_{:04}.vtu", frame_++);

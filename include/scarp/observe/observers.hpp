@@ -120,7 +120,7 @@ template <class Problem>
 int require_point(Problem const& problem, int point) {
   int const count = problem.points().size();
   if (point < 0 || point >= count)
-    throw_input_error("point {} is to be observed (there are points 0 to {}): choose one of these", point, count - 1);
+    reject("point {} is to be observed (there are points 0 to {}): choose one of these", point, count - 1);
   return point;
 }
 }  // namespace detail

@@ -33,9 +33,8 @@ class PackingSeries : public NeverStops {
     double before = -1.0;
     for (double const share : shares_) {
       if (!(share >= 0.0 && share <= 1.0 && share > before))
-        throw_input_error(
-            "packings are to be written at a share {} of the load (after {}): give increasing shares from 0 to 1",
-            share, before);
+        reject("packings are to be written at a share {} of the load (after {}): give increasing shares from 0 to 1",
+               share, before);
       before = share;
     }
   }

@@ -28,7 +28,7 @@ class AnyProvider {
 
   /// Points of this provider, none yet. \throws InputError where there is no provider
   std::unique_ptr<detail::PointBatch<Dim>> batch() const {
-    if (!empty_) throw_input_error("an AnyProvider is used that holds no provider: assign one to it first");
+    if (!empty_) reject("an AnyProvider is used that holds no provider: assign one to it first");
     return empty_->without_points();
   }
 

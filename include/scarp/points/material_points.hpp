@@ -56,20 +56,17 @@ class MaterialPoints {
     boost::hana::for_each(regions, [&](auto const& region) {
       auto const named = std::ranges::find(names, region.name);
       if (named == names.end()) {
-        throw_input_error("there is no region '{}' (the mesh has: {}): use one of these names", region.name,
-                          listed(names));
+        reject("there is no region '{}' (the mesh has: {}): use one of these names", region.name, listed(names));
       }
       int& number = numbers[static_cast<std::size_t>(named - names.begin())];
-      if (number >= 0)
-        throw_input_error("region '{}' is given two providers (only one can respond): leave one out", region.name);
+      if (number >= 0) reject("region '{}' is given two providers (only one can respond): leave one out", region.name);
       number = add_material(region.provider);
     });
     for (std::size_t k = 0; k < sites.size(); ++k) {
       int const region = sites[k].region;
       if (region < 0 || region >= std::ssize(numbers) || numbers[detail::index(region)] < 0) {
-        throw_input_error(
-            "region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
-            region < 0 || region >= std::ssize(names) ? fmt::to_string(region) : names[detail::index(region)], k);
+        reject("region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
+               region < 0 || region >= std::ssize(names) ? fmt::to_string(region) : names[detail::index(region)], k);
       }
     }
     fill(
@@ -95,7 +92,7 @@ class MaterialPoints {
   /// \throws InputError for means over another number of points
   void average(PointMeans<Dim> means) {
     if (means.mean().size() != size())
-      throw_input_error("means are over {} points (there are {}): make them of all sites", means.mean().size(), size());
+      reject("means are over {} points (there are {}): make them of all sites", means.mean().size(), size());
     means_.reset();
     if (!means.mean().is_local()) means_ = std::move(means);
   }
@@ -112,7 +109,7 @@ class MaterialPoints {
   ResponseReport respond(Executor& executor, int max_refinements = 4) {
     for (int point = 0; point < size(); ++point) {
       if (!own_[detail::index(point)].allFinite())
-        throw_input_error("the displacement gradient of point {} is not finite: take a smaller step", point);
+        reject("the displacement gradient of point {} is not finite: take a smaller step", point);
     }
     set_gradients(own_, executor);
     if (!is_planned_) plan();
@@ -237,15 +234,14 @@ class MaterialPoints {
   template <class State>
   State const& state(int point) const {
     auto const* state = static_cast<State const*>(batch(point).state(local(point), typeid(State)));
-    if (!state)
-      throw_input_error("the state of point {} is requested as another type: take its provider's State", point);
+    if (!state) reject("the state of point {} is requested as another type: take its provider's State", point);
     return *state;
   }
   /// The provider of a point. \throws InputError unless it is of this type
   template <class Provider>
   Provider const& provider(int point) const {
     auto const* provider = static_cast<Provider const*>(batch(point).provider(typeid(Provider)));
-    if (!provider) throw_input_error("the provider of point {} is requested as another type: take its own", point);
+    if (!provider) reject("the provider of point {} is requested as another type: take its own", point);
     return *provider;
   }
 
@@ -281,8 +277,7 @@ class MaterialPoints {
       if (means_) reader("tau", states.back().second);
     }
     if (!reader.at_end())
-      throw_input_error("it holds more than the states of {} points: unpack what was packed of such points",
-                        points.size());
+      reject("it holds more than the states of {} points: unpack what was packed of such points", points.size());
     for (std::size_t k = 0; k < points.size(); ++k) put(points[k], std::move(states[k].first), states[k].second);
   }
   void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }

@@ -37,9 +37,8 @@ struct Mirror {
     } else if constexpr (Described<T>) {
       T::members(value, *this);
     } else if constexpr (!std::is_arithmetic_v<T> && !std::is_enum_v<T>) {
-      throw_input_error(
-          "a state cannot be mirrored (nothing is known of the mirror image of its member '{}'): copy it as it is",
-          name);
+      reject("a state cannot be mirrored (nothing is known of the mirror image of its member '{}'): copy it as it is",
+             name);
     }
   }
 };

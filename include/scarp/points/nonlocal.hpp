@@ -47,8 +47,8 @@ NeighbourMean neighbour_mean(std::span<Site<Dim> const> sites, std::span<double 
   using Tree =
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, Dim, std::uint32_t>;
   if (volumes.size() != sites.size() || lengths.size() != sites.size()) {
-    throw_input_error("{} volumes and {} lengths are given for {} points: give one of each to every point",
-                      volumes.size(), lengths.size(), sites.size());
+    reject("{} volumes and {} lengths are given for {} points: give one of each to every point", volumes.size(),
+           lengths.size(), sites.size());
   }
   Cloud const cloud{sites};
   Tree const tree(Dim, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(12));

@@ -67,9 +67,8 @@ class PointMeans {
         by_own_(neighbourhoods.size(), VoigtTangent<Dim>::Zero()),
         by_mean_(by_own_) {
     if (detail::index(mean_.size()) != neighbourhoods.size() || initial.size() != neighbourhoods.size()) {
-      throw_input_error(
-          "{} neighbourhoods and {} initial tangents are given for {} points: give one of each to every point",
-          neighbourhoods.size(), initial.size(), mean_.size());
+      reject("{} neighbourhoods and {} initial tangents are given for {} points: give one of each to every point",
+             neighbourhoods.size(), initial.size(), mean_.size());
     }
     for (std::size_t k = 0; k < initial.size(); ++k) {
       fading_.push_back(detail::validated(neighbourhoods[k]).fading);
@@ -122,7 +121,7 @@ class PointMeans {
     visit("basis", saved);
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (!(std::abs(saved[k] - own[k]) <= 1e-9 * std::abs(own[k])))  // round-off of another compiler
-        throw_input_error(
+        reject(
             "a saved state is of points that see other means, {} for {} (another mesh, length, stiffness or fading): "
             "go on with the same ones",
             saved[k], own[k]);

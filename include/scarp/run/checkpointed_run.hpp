@@ -96,7 +96,7 @@ class CheckpointedRun {
       members(*this, problem, session, state, reader);
       // The observers' memory is for the root rank alone.
       if (is_root_rank(problem.executor()) && !reader.at_end())
-        throw_input_error("it holds more than the scene has: load it into the scene that was saved");
+        reject("it holds more than the scene has: load it into the scene that was saved");
     });
     files_.release();
     keep_own_states(problem);

@@ -90,8 +90,8 @@ inline std::string memory_text(double bytes) {
 inline void require_memory(std::string_view what, double bytes, std::string_view way_out,
                            FreeMemory const& memory = free_memory()) {
   if (!(bytes > memory.bytes)) return;
-  throw_input_error("{} would take about {} of memory ({} are left by {}): {}", what, memory_text(bytes),
-                    memory_text(memory.bytes), memory.limit, way_out);
+  reject("{} would take about {} of memory ({} are left by {}): {}", what, memory_text(bytes),
+         memory_text(memory.bytes), memory.limit, way_out);
 }
 
 }  // namespace scarp

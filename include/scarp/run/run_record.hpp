@@ -74,7 +74,7 @@ struct RunRecord {
       }
     }
     if (record.identity.empty() || record.state.empty())
-      throw_input_error("it is no record of a run (members are missing): remove it");
+      reject("it is no record of a run (members are missing): remove it");
     return record;
   }
 

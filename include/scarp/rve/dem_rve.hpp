@@ -84,9 +84,8 @@ struct DemRve {
     State state;
     state.packing = source.at(site);
     if (!state.packing.population) {
-      throw_input_error(
-          "point {} got a packing of zero grains (nothing can carry stress): give the provider's source a packing",
-          site.index);
+      reject("point {} got a packing of zero grains (nothing can carry stress): give the provider's source a packing",
+             site.index);
     }
     require_positive("normal stiffness of the contact law", spring_modulus(state.packing, law));
     require_consistent(law, state.packing.population->largest_radius());
@@ -94,8 +93,8 @@ struct DemRve {
     stepper.boundary = boundary;
     state.verdict = observe(stepper, state);
     if (state.verdict.status == Status::failed)
-      throw_input_error("the packing of point {} cannot be used ({}): give the provider's source another one",
-                        site.index, name(state.verdict.reason));
+      reject("the packing of point {} cannot be used ({}): give the provider's source another one", site.index,
+             name(state.verdict.reason));
     if (state.verdict.status == Status::fluid && !fluid_start)
       require_contacts(fmt::format("the packing of point {}", site.index), 0);
     return state;

@@ -37,13 +37,12 @@ struct LevelGround {
   template <class PackingType, DampsMotion Damping = LocalDamping>
   PackingsByDepth<PackingType> make(typename PackingType::Law const& law, std::vector<double> depths,
                                     Damping const& damping = {}) const {
-    if (depths.empty())
-      throw_input_error("no depths are given (level ground needs at least one): pass the depths of the points");
+    if (depths.empty()) reject("no depths are given (level ground needs at least one): pass the depths of the points");
     validate();
     for (double const depth : depths) require_finite("depth of a packing", depth);
     std::sort(depths.begin(), depths.end());
     if (preparation.pressure > overburden(depths.front())) {
-      throw_input_error(
+      reject(
           "the packing is prepared at {} Pa (the uppermost point carries {} Pa, so that the ground would be unloaded): "
           "lower the pressure or raise the surcharge",
           preparation.pressure, overburden(depths.front()));

@@ -29,14 +29,13 @@ struct PackingsByDepth {
   /// \throws InputError unless there is a packing for each depth and depths increase
   void validate() const {
     if (depths.empty() || depths.size() != packings.size()) {
-      throw_input_error("{} depths with {} packings are given (each depth needs one): prepare the column first",
-                        depths.size(), packings.size());
+      reject("{} depths with {} packings are given (each depth needs one): prepare the column first", depths.size(),
+             packings.size());
     }
     double before = -std::numeric_limits<double>::infinity();
     for (double const depth : depths) {
       if (!(depth > before && std::isfinite(depth)))
-        throw_input_error("a packing's depth {} m follows {} m (depths must be finite and increase): sort them", depth,
-                          before);
+        reject("a packing's depth {} m follows {} m (depths must be finite and increase): sort them", depth, before);
       before = depth;
     }
   }
@@ -44,7 +43,7 @@ struct PackingsByDepth {
   /// \throws InputError as validate() does, and for a point whose depth is no number
   PackingType const& at(Site<PackingType::dim> const& site) const {
     validate();
-    if (std::isnan(site.depth)) throw_input_error("point {} lies {} m deep: give it a depth", site.index, site.depth);
+    if (std::isnan(site.depth)) reject("point {} lies {} m deep: give it a depth", site.index, site.depth);
     auto const nearest = std::min_element(depths.begin(), depths.end(), [&](double a, double b) {
       return std::abs(a - site.depth) < std::abs(b - site.depth);
     });

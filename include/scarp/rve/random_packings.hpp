@@ -55,8 +55,8 @@ struct RandomChoice {
   template <int Dim>
   decltype(auto) at(Site<Dim> const& site) const {
     if (sources.empty()) {
-      throw_input_error("point {} is to draw from an empty pool of packings (none was prepared): prepare at least one",
-                        site.index);
+      reject("point {} is to draw from an empty pool of packings (none was prepared): prepare at least one",
+             site.index);
     }
     return sources[drawn(seed, site.index, sources.size())].at(site);
   }
@@ -94,8 +94,7 @@ struct RandomPackings {
   /// \throws PreparationError, naming the number in the pool; InputError for a pool of no packings
   template <class Executor>
   RandomChoice<SamePacking<Packing>> pool(int count, Executor&& executor) const {
-    if (count < 1)
-      throw_input_error("a pool of {} packings was requested (points need one to draw): request at least one", count);
+    if (count < 1) reject("a pool of {} packings was requested (points need one to draw): request at least one", count);
     std::vector<std::optional<Prepared<Packing>>> prepared(detail::index(count));
     executor.for_each(
         count, [&](int k) { prepared[detail::index(k)] = recipe(family_seed(seed, static_cast<std::uint64_t>(k))); });

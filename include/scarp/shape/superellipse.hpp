@@ -35,9 +35,8 @@ struct Superellipse {
     require_positive("half axis rx of a superellipse", size[0]);
     require_positive("half axis ry of a superellipse", size[1]);
     if (!(size[2] >= smallest_exponent && size[2] <= largest_exponent)) {
-      throw_input_error(
-          "exponent of a superellipse is {} (contact search holds between {} and {}): choose one in that range",
-          size[2], smallest_exponent, largest_exponent);
+      reject("exponent of a superellipse is {} (contact search holds between {} and {}): choose one in that range",
+             size[2], smallest_exponent, largest_exponent);
     }
   }
 

@@ -31,8 +31,7 @@ struct WithSpecies {
   static void check(Size<double> const& size) {
     double const species = size.back();
     if (!(species >= 1.0 && species <= Species && species == std::floor(species)))
-      throw_input_error("a grain is of species {} (there are 1 to {}): give the last number of its size", species,
-                        Species);
+      reject("a grain is of species {} (there are 1 to {}): give the last number of its size", species, Species);
     if constexpr (requires { Shape::check(bare(size)); }) Shape::check(bare(size));
   }
 

@@ -47,20 +47,18 @@ class SCARP_EXPORT EquilibriumProblem final
         free_dofs_(constraints_.free_dofs()),
         regions_(discretisation_.mesh(), constraints_) {
     if (points_.size() != discretisation_.point_count()) {
-      throw_input_error("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
-                        discretisation_.point_count());
+      reject("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
+             discretisation_.point_count());
     }
     if (loads_.size() == 0) loads_ = LoadHistory(Eigen::VectorXd::Zero(dof_count()));
     if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count()) {
-      throw_input_error(
-          "loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
-          loads_.size(), constraints_.dof_count(), dof_count());
+      reject("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
+             loads_.size(), constraints_.dof_count(), dof_count());
     }
     if constexpr (requires { this->attached_.thickness(); }) {
       if (this->attached_.thickness() != discretisation_.thickness()) {
-        throw_input_error(
-            "what is attached to the mesh is {} m thick out of the plane (the mesh is {} m): give both the same",
-            this->attached_.thickness(), discretisation_.thickness());
+        reject("what is attached to the mesh is {} m thick out of the plane (the mesh is {} m): give both the same",
+               this->attached_.thickness(), discretisation_.thickness());
       }
     }
     set_load(0.0);
@@ -206,7 +204,7 @@ class SCARP_EXPORT EquilibriumProblem final
   /// \throws InputError unless the increment is the last one that was evaluated: trial states belong to that one
   void commit(Eigen::VectorXd const& increment) override {
     if (evaluated_.size() != increment.size() || evaluated_ != increment) {
-      throw_input_error(
+      reject(
           "the increment to be committed is not the one that was evaluated last (the points' trial states belong to "
           "that one): evaluate it first, and commit it once");
     }

@@ -160,8 +160,7 @@ struct LoadStepping {
     validate();
     require_finite("load factor at the start", from);
     require_finite("load factor at the end", to);
-    if (to < from)
-      throw_input_error("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
+    if (to < from) reject("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
     RunState state;
     state.report.load = from;
     state.increment = std::min({first, largest, to - from});

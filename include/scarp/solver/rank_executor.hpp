@@ -28,8 +28,7 @@ class MpiSession {
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     if (provided < MPI_THREAD_FUNNELED) {
       MPI_Finalize();
-      throw_input_error(
-          "MPI was requested with threads of its ranks (this one cannot): take an MPI with MPI_THREAD_FUNNELED");
+      reject("MPI was requested with threads of its ranks (this one cannot): take an MPI with MPI_THREAD_FUNNELED");
     }
   }
   MpiSession(MpiSession const&) = delete;
@@ -92,7 +91,7 @@ class RankExecutor {
     int initialised = 0;
     MPI_Initialized(&initialised);
     if (initialised == 0)
-      throw_input_error("ranks were requested before MPI was initialised (there is none yet): make an MpiSession");
+      reject("ranks were requested before MPI was initialised (there is none yet): make an MpiSession");
     MPI_Comm_rank(communicator_, &rank_);
     MPI_Comm_size(communicator_, &ranks_);
   }
@@ -134,7 +133,7 @@ class RankExecutor {
     words.resize(static_cast<std::size_t>(length));
     MPI_Bcast(words.data(), length, MPI_CHAR, first, communicator_);
     if (own) std::rethrow_exception(own);
-    throw_input_error("rank {} has stopped ({}): see its words", first, words);
+    reject("rank {} has stopped ({}): see its words", first, words);
   }
 
   /// The bytes of numbers are sent: ranks run the same binary on machines of one kind.
@@ -186,8 +185,7 @@ class RankExecutor {
     MPI_Get_count(&status, MPI_BYTE, &length);
     std::string bytes(static_cast<std::size_t>(length), '\0');
     MPI_Recv(bytes.data(), length, MPI_BYTE, owner, status.MPI_TAG, communicator_, MPI_STATUS_IGNORE);
-    if (status.MPI_TAG == failure)
-      throw_input_error("rank {} cannot return point {} ({}): see its words", owner, point, bytes);
+    if (status.MPI_TAG == failure) reject("rank {} cannot return point {} ({}): see its words", owner, point, bytes);
     return bytes;
   }
 
@@ -227,8 +225,8 @@ class RankExecutor {
       try {
         bytes = answer_to(point);
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-          throw_input_error("the state of point {} has {} bytes (MPI sends no more than {} at once): make it smaller",
-                            point, bytes.size(), std::numeric_limits<int>::max());
+          reject("the state of point {} has {} bytes (MPI sends no more than {} at once): make it smaller", point,
+                 bytes.size(), std::numeric_limits<int>::max());
         }
       } catch (std::exception const& error) {
         thrown = std::current_exception();

@@ -25,8 +25,7 @@ class ThreadExecutor {
   /// \throws InputError for a negative number, or more than can be started
   explicit ThreadExecutor(int threads = 0) {
     if (threads < 0)
-      throw_input_error("{} threads were requested (at least one must work): give a positive number, or 0 for all",
-                        threads);
+      reject("{} threads were requested (at least one must work): give a positive number, or 0 for all", threads);
     if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     team_.reserve(static_cast<std::size_t>(threads - 1));
     try {
@@ -34,7 +33,7 @@ class ThreadExecutor {
     } catch (std::system_error const& error) {
       int const started = this->threads();
       end_service();
-      throw_input_error(
+      reject(
           "{} threads were requested (only {} could be started: {}): request fewer, or raise the limit of processes "
           "and memory",
           threads, started, error.what());

@@ -26,14 +26,13 @@ int alignment_of_library();
 
 struct OneAlignment {
   explicit OneAlignment(int own) {
-    if (alignment_of_functions() != own)
-      throw_input_error(own, alignment_of_functions(), "functions of the same names");
+    if (alignment_of_functions() != own) reject(own, alignment_of_functions(), "functions of the same names");
 #ifdef SCARP_PRECOMPILED
-    if (alignment_of_library() != own) throw_input_error(own, alignment_of_library(), "scarp::precompiled");
+    if (alignment_of_library() != own) reject(own, alignment_of_library(), "scarp::precompiled");
 #endif
   }
 
-  [[noreturn]] static void throw_input_error(int own, int other, char const* what) {
+  [[noreturn]] static void reject(int own, int other, char const* what) {
     std::fprintf(
         stderr,
         "scarp: a source in which Eigen aligns by %d bytes (static objects by %d) meets %d (%d) (%s): compile the "

@@ -59,7 +59,7 @@ void require_straight_outline(Mesh<Element> const& mesh) {
     for (int const node : boundary_nodes(mesh, part.name)) {
       auto const& place = mesh.nodes[index(node)];
       if (std::abs(place(part.axis) - end) <= same) continue;
-      throw_input_error(
+      reject(
           "the boundary '{}' passes through ({}), but the soil {} at {} = {} m (it must be straight, level below and "
           "above, upright beside): mesh a layer with level surface and bottom and upright ends",
           part.name, listed(place), part.upper ? "ends" : "begins", "xyz"[part.axis], end);
@@ -87,7 +87,7 @@ void require_closed_outline(Mesh<Element> const& mesh) {
     for (auto const& side : boundary(mesh, part.name)) {
       auto const [found, is_new] = part_of.try_emplace(sorted(side), part.name);
       if (is_new) continue;
-      throw_input_error(
+      reject(
           "the side with its middle at ({}) is in '{}' and in '{}' (loads and motions would count twice): put it in "
           "one physical group, once",
           listed(middle(side)), found->second, part.name);
@@ -101,7 +101,7 @@ void require_closed_outline(Mesh<Element> const& mesh) {
     if (part_of.erase(sorted(side.nodes)) == 0 && ++open == 1) first = side.nodes;
   }
   if (open > 0) {
-    throw_input_error(
+    reject(
         "the side with its middle at ({}) bounds the soil but is in none of {} ({} such sides: a hole, a crack or a "
         "part "
         "of the outline without physical group): close it or put it in its group",
@@ -109,7 +109,7 @@ void require_closed_outline(Mesh<Element> const& mesh) {
   }
   for (auto const& [side, name] : part_of) {
     if (name == "footing_base") continue;  // a block stands on it
-    throw_input_error(
+    reject(
         "the side with its middle at ({}) is in '{}' but lies between two elements (a boundary bounds the soil): take "
         "it "
         "out of the group{}",

@@ -17,28 +17,26 @@ void require_shape(Layer const& layer) {
   require_positive("depth of the layer", layer.depth);
   require_positive("length of the layer along the strike", layer.strike);
   if (!(layer.strike_cells >= 1 && layer.strike_cells <= 10'000)) {
-    throw_input_error("the layer has {} cells along the strike (from 1 to 10000 are possible): choose another number",
-                      layer.strike_cells);
+    reject("the layer has {} cells along the strike (from 1 to 10000 are possible): choose another number",
+           layer.strike_cells);
   }
   require_positive("element size", layer.size);
   require_positive("row aspect", layer.row_aspect);
   require_positive("row coarsening", layer.row_coarsening);
   if (!(layer.left < layer.right)) {
-    throw_input_error("the layer reaches from x = {} to {} m (it has no width): put left below right", layer.left,
-                      layer.right);
+    reject("the layer reaches from x = {} to {} m (it has no width): put left below right", layer.left, layer.right);
   }
   if (!(layer.tip > layer.left && layer.tip < layer.right)) {
-    throw_input_error(
-        "the fault tip is at x = {} m (the layer's bottom reaches from {} to {} m): move the tip between them",
-        layer.tip, layer.left, layer.right);
+    reject("the fault tip is at x = {} m (the layer's bottom reaches from {} to {} m): move the tip between them",
+           layer.tip, layer.left, layer.right);
   }
   if (!(std::isfinite(layer.coarsening) && layer.coarsening >= 1.0)) {
-    throw_input_error("the coarsening is {} (cells grow away from the band): give a number from 1", layer.coarsening);
+    reject("the coarsening is {} (cells grow away from the band): give a number from 1", layer.coarsening);
   }
   if (!(std::isfinite(layer.band_left) && std::isfinite(layer.band_right) && layer.band_left < layer.band_right &&
         layer.band_left < layer.right && layer.band_right > layer.left)) {
-    throw_input_error("the fine band reaches from x = {} to {} m (it must overlap the layer, {} to {} m): move it",
-                      layer.band_left, layer.band_right, layer.left, layer.right);
+    reject("the fine band reaches from x = {} to {} m (it must overlap the layer, {} to {} m): move it",
+           layer.band_left, layer.band_right, layer.left, layer.right);
   }
 }
 
@@ -46,7 +44,7 @@ template <class Layer>
 void require_inside(Layer const& layer, std::vector<double> const& edges) {
   for (double const edge : edges) {
     if (!(edge > layer.left && edge < layer.right)) {
-      throw_input_error(
+      reject(
           "an edge of a structure is at x = {} m (the surface reaches from {} to {} m): move or narrow the structure",
           edge, layer.left, layer.right);
     }
@@ -57,7 +55,7 @@ void require_inside(Layer const& layer, std::vector<double> const& edges) {
 inline void require_apart(std::vector<double> const& lines, double size) {
   for (std::size_t k = 1; k < lines.size(); ++k) {
     if (lines[k] - lines[k - 1] < size / 4.0) {
-      throw_input_error(
+      reject(
           "grid lines are needed at x = {} and {} m (closer than a quarter of the element size {} m, the elements "
           "would be slivers): choose smaller elements, or move the structure or the tip",
           lines[k - 1], lines[k], size);

@@ -34,7 +34,7 @@ inline void require_corner(std::vector<double> const& corners, double edge, doub
             [&](double a, double b) { return std::abs(a - edge) < std::abs(b - edge); });
   if (!by_distance.empty() && std::abs(by_distance.front() - edge) <= same) return;
   by_distance.resize(std::min<std::size_t>(by_distance.size(), 2));
-  throw_input_error(
+  reject(
       "the edge of a structure at x = {} m is at no corner node of the surface (the nearest are at {} m): move the "
       "edge there, or mesh the ground with a node below the edge",
       edge, listed(by_distance, " and ", "{:.7g}"));
@@ -54,9 +54,8 @@ class StepAtTip {
   StepAtTip(Mesh<Element> const& mesh, double tip) : is_quadratic_(HasMidSides<Element>) {
     auto const lines = corners_along(mesh, "bottom");
     if (!(tip > lines.front() && tip < lines.back())) {
-      throw_input_error(
-          "the fault tip is at x = {} m (the mesh's bottom reaches from {} to {} m): move the tip between them", tip,
-          lines.front(), lines.back());
+      reject("the fault tip is at x = {} m (the mesh's bottom reaches from {} to {} m): move the tip between them", tip,
+             lines.front(), lines.back());
     }
     round_off_ = 1e-9 * (lines.back() - lines.front());
     double const same = same_place * (lines.back() - lines.front());
@@ -65,7 +64,7 @@ class StepAtTip {
     double const share = (tip - lines[before]) / (lines[before + 1] - lines[before]);
     bool const on_line = std::abs(tip - lines[before]) <= same;
     if (before == 0 || before + (on_line ? 1 : 2) >= lines.size()) {
-      throw_input_error(
+      reject(
           "the fault tip is at x = {} m (in the outermost facet of the bottom, {} to {} m, whose end moves with the "
           "side): move the tip inwards or make the mesh finer there",
           tip, lines[before], lines[before + 1]);

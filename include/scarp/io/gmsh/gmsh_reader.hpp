@@ -53,18 +53,18 @@ inline void require_gmsh_kind(GmshContent const& content, int wanted) {
   }
   auto const kinds = gmsh_kinds(content, highest);
   if (highest < 2) {
-    throw_input_error(
+    reject(
         "'{}' holds neither surface nor volume elements (once there is a physical group, Gmsh saves only what is in "
         "one): mesh in {}D and put surfaces or volumes into groups",
         content.file, type.dim);
   }
   if (highest != type.dim) {
-    throw_input_error("'{}' is a {}D mesh with {} ({} needs a {}D one): {}", content.file, highest,
-                      shown_gmsh_kinds(kinds), type.element, type.dim, other_kind_advice(kinds));
+    reject("'{}' is a {}D mesh with {} ({} needs a {}D one): {}", content.file, highest, shown_gmsh_kinds(kinds),
+           type.element, type.dim, other_kind_advice(kinds));
   }
   if (kinds.size() > 1 || kinds.begin()->first != wanted) {
-    throw_input_error("'{}' holds {} (all elements of a mesh of {} are of type {}): {}", content.file,
-                      shown_gmsh_kinds(kinds), type.element, wanted, other_kind_advice(kinds));
+    reject("'{}' holds {} (all elements of a mesh of {} are of type {}): {}", content.file, shown_gmsh_kinds(kinds),
+           type.element, wanted, other_kind_advice(kinds));
   }
 }
 
@@ -85,9 +85,8 @@ void read_gmsh_positions(GmshContent const& content, GmshNumbering const& number
   if constexpr (Element::dim == 2) {
     for (auto const& node : nodes) {
       if (std::abs(node.position[2] - nodes.front().position[2]) > flat * extent) {
-        throw_input_error(
-            "node {} of '{}' is at z = {}, node {} at z = {} (a plane mesh has one z): turn it into the xy plane",
-            node.tag, content.file, node.position[2], nodes.front().tag, nodes.front().position[2]);
+        reject("node {} of '{}' is at z = {}, node {} at z = {} (a plane mesh has one z): turn it into the xy plane",
+               node.tag, content.file, node.position[2], nodes.front().tag, nodes.front().position[2]);
       }
     }
   }
@@ -98,9 +97,8 @@ inline int gmsh_region(GmshContent const& content, GmshPick const& pick, int dim
   for (int const other : pick.groups) {
     auto const first = gmsh_group_name(content, {dim, pick.groups[0]});
     if (auto const name = gmsh_group_name(content, {dim, other}); name != first) {
-      throw_input_error(
-          "element {} of '{}' is in the physical groups '{}' and '{}' (it can have one material): keep one of them",
-          pick.tag, content.file, first, name);
+      reject("element {} of '{}' is in the physical groups '{}' and '{}' (it can have one material): keep one of them",
+             pick.tag, content.file, first, name);
     }
   }
   return pick.groups.empty() ? 0 : pick.groups.front();
@@ -134,14 +132,14 @@ void refuse_repeated_elements(GmshContent const& content, std::vector<GmshPick> 
     auto& nodes = entries.back().first;
     std::sort(nodes.begin(), nodes.end());
     if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) {
-      throw_input_error("element {} of '{}' names a node twice (it has collapsed): mesh the geometry again",
-                        picks[e].tag, content.file);
+      reject("element {} of '{}' names a node twice (it has collapsed): mesh the geometry again", picks[e].tag,
+             content.file);
     }
   }
   std::sort(entries.begin(), entries.end());
   auto const twice = std::ranges::adjacent_find(entries, {}, &Entry::first);
   if (twice != entries.end()) {
-    throw_input_error(
+    reject(
         "elements {} and {} of '{}' have the same nodes (MSH 2.2 repeats what is in two physical groups): give each "
         "element one group of its dimension",
         twice->second, std::next(twice)->second, content.file);
@@ -158,7 +156,7 @@ void refuse_inverted_elements(GmshContent const& content, std::vector<GmshPick> 
   for (int e = 0; e < count(mesh.elements); ++e) {
     if (auto const determinant = bad_jacobian(mesh, e)) {
       auto const& pick = picks[index(e)];
-      throw_input_error(
+      reject(
           "element {} of '{}' (its nodes there: {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way "
           "round): {}",
           pick.tag, content.file, listed(std::span(pick.nodes, index(Element::nodes))), *determinant, Element::dim,

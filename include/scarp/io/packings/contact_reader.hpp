@@ -28,8 +28,8 @@ std::vector<std::size_t> grains_of(NamedPacking<PackingType> const& named, CsvCo
   for (std::int64_t const id : table.column<std::int64_t>(column)) {
     auto const known = named.grain.find(id);
     if (known == named.grain.end()) {
-      table.throw_cell_error(grains.size(), column, "no grain of the packing has this id",
-                             "check that both files are of one packing");
+      table.reject_cell(grains.size(), column, "no grain of the packing has this id",
+                        "check that both files are of one packing");
     }
     grains.push_back(known->second);
   }
@@ -124,7 +124,7 @@ void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, ty
   static_assert(PackingType::Law::inputs.shear, "a law that remembers no shear force has no use for a table of them");
   static_assert(part_count<typename PackingType::Shape>() == 1, "grains of several parts may touch more than once");
   if (named.packing.pairs.skin >= 0.0) {
-    throw_input_error(
+    reject(
         "the contacts of '{}' cannot be read (the packing has a list of pairs, so its grains may have changed places): "
         "read them right after the grains",
         table.file());
@@ -132,9 +132,8 @@ void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, ty
   auto packing = named.packing;
   auto listed = detail::listed_contacts(named, table);
   if (!TimeStepper<PackingType>{}.refresh(packing, law).acceptable()) {
-    throw_input_error(
-        "the contacts of '{}' cannot be read (the packing's cell is too thin for its grains): use a larger packing",
-        table.file());
+    reject("the contacts of '{}' cannot be read (the packing's cell is too thin for its grains): use a larger packing",
+           table.file());
   }
   detail::PairsOfGrains<dim> const pairs(packing, law);
   auto const overlaps = table.has("overlap") ? table.column("overlap") : std::vector<double>{};
@@ -143,7 +142,7 @@ void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, ty
   for (std::size_t c = 0; c < listed.size(); ++c) {
     Contact<dim> const* const contact = pairs.find(listed[c]);
     if (contact == nullptr) {
-      throw_input_error(
+      reject(
           "line {} of '{}' lists a contact of grains {} and {} (they are not near each other at this image): check "
           "that "
           "both files are of one moment, and the cell",
@@ -151,13 +150,12 @@ void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, ty
     }
     auto const [other, is_new] = row_of_pair.emplace(contact->pair, c);
     if (!is_new) {
-      throw_input_error("line {} of '{}' lists a contact of grains {} and {} (line {} lists the same): remove one",
-                        table.line(c), table.file(), named.ids[listed[c].first], named.ids[listed[c].second],
-                        table.line(other->second));
+      reject("line {} of '{}' lists a contact of grains {} and {} (line {} lists the same): remove one", table.line(c),
+             table.file(), named.ids[listed[c].first], named.ids[listed[c].second], table.line(other->second));
     }
     if (!overlaps.empty() && !(std::abs(overlaps[c] - contact->touch.overlap) <= allowed)) {
-      table.throw_cell_error(c, "overlap", fmt::format("in the packing it is {} m", contact->touch.overlap),
-                             "check that both files are of one moment, or allow a wider tolerance");
+      table.reject_cell(c, "overlap", fmt::format("in the packing it is {} m", contact->touch.overlap),
+                        "check that both files are of one moment, or allow a wider tolerance");
     }
     detail::write_shear(packing.pairs.shear, *contact, listed[c].shear);
   }

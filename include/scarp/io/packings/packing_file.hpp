@@ -41,8 +41,8 @@ void refuse_other_layout(StateReader& reader) {
     std::uint32_t saved = 0;
     reader(entry.what, saved);
     if (saved != entry.value) {
-      throw_input_error("it has {} {} (the requested type has {}): load it as the type that was saved", saved,
-                        entry.what, entry.value);
+      reject("it has {} {} (the requested type has {}): load it as the type that was saved", saved, entry.what,
+             entry.value);
     }
   }
 }
@@ -69,7 +69,7 @@ template <class PackingType>
 void save_packing(std::filesystem::path const& path, PackingType const& packing,
                   Durability durability = Durability::handed_over) {
   if (packing.population == nullptr) {
-    throw_input_error("the packing for '{}' has no grains (there is nothing to save): make it first", path.string());
+    reject("the packing for '{}' has no grains (there is nothing to save): make it first", path.string());
   }
   auto const bytes = detail::framed(detail::packing_format, [&](StateWriter& file) {
     for (auto const& entry : detail::packing_layout<PackingType>()) file(entry.what, entry.value);

@@ -88,8 +88,8 @@ void read_ids(CsvColumns const& table, NamedPacking<PackingType>& named) {
   for (std::size_t i = 0; i < table.rows(); ++i) {
     auto const [other, is_new] = named.grain.emplace(named.ids[i], i);
     if (!is_new) {
-      table.throw_cell_error(i, "id", fmt::format("line {} has the same", table.line(other->second)),
-                             "give each grain its own id");
+      table.reject_cell(i, "id", fmt::format("line {} has the same", table.line(other->second)),
+                        "give each grain its own id");
     }
   }
 }
@@ -101,8 +101,7 @@ std::vector<std::array<double, static_cast<std::size_t>(Shape::size_count)>> rea
     auto const name = GrainColumns<Shape>::size[k];
     auto const values = table.column(name);
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-      if (!(values[i] > 0.0))
-        table.throw_cell_error(i, name, "a size is above zero", "correct it or leave the grain out");
+      if (!(values[i] > 0.0)) table.reject_cell(i, name, "a size is above zero", "correct it or leave the grain out");
       sizes[i][k] = values[i];
     }
   }
@@ -128,8 +127,7 @@ void read_places(CsvColumns const& table, PackingType& packing) {
     auto const values = table.column(name);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::abs(values[i]) > limit) {
-        table.throw_cell_error(i, name, "it is more than a million cells away",
-                               "check the units, or wrap the position");
+        table.reject_cell(i, name, "it is more than a million cells away", "check the units, or wrap the position");
       }
       packing.position(i, a) = static_cast<Scalar>(values[i]);
     }
@@ -149,8 +147,8 @@ inline void refuse_places_in_space(CsvColumns const& table) {
   auto const places = table.column("z");
   for (std::size_t i = 1; i < places.size(); ++i) {
     if (places[i] == places[0]) continue;
-    table.throw_cell_error(i, "z", fmt::format("the first grain has {}, and grains in the plane lie in one", places[0]),
-                           "read them as grains in space, or leave the column out");
+    table.reject_cell(i, "z", fmt::format("the first grain has {}, and grains in the plane lie in one", places[0]),
+                      "read them as grains in space, or leave the column out");
   }
 }
 
@@ -159,7 +157,7 @@ template <class PackingType>
 void refuse_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& ids, std::string const& file) {
   using Shape = typename PackingType::Shape;
   if (!rebuild_pairs(packing, 0.0).acceptable()) {
-    throw_input_error(
+    reject(
         "the grains of '{}' do not fit into their cell (its base vectors must be right-handed and its faces more than "
         "two "
         "of the largest diameters apart): check cell and units",
@@ -170,7 +168,7 @@ void refuse_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& 
     double const overlap = near.touch.overlap;
     double const radius = std::min(Shape::contact_radius(near.first), Shape::contact_radius(near.second));
     if (overlap <= radius) continue;
-    throw_input_error(
+    reject(
         "grains {} and {} of '{}' overlap by {} m (more than the smaller one's radius {}): check cell, units and "
         "repeated grains",
         ids[grain_of_row(packing, detail::index(packing.pairs.first[p]))],
@@ -188,12 +186,10 @@ template <class PackingType>
   requires HasGrainColumns<typename PackingType::Shape> NamedPacking<PackingType> read_packing(
       CsvColumns const& table, Tensor<PackingType::dim> const& cell, double density, double thickness) {
     using Shape = typename PackingType::Shape;
-    if (table.rows() == 0)
-      throw_input_error("'{}' lists no grain (a packing needs one at least): add lines", table.file());
+    if (table.rows() == 0) reject("'{}' lists no grain (a packing needs one at least): add lines", table.file());
     if (!(cell.allFinite() && cell.determinant() > 0.0)) {
-      throw_input_error(
-          "the cell for '{}' has a content of {} (its base vectors must be finite and right-handed): check them",
-          table.file(), cell.determinant());
+      reject("the cell for '{}' has a content of {} (its base vectors must be finite and right-handed): check them",
+             table.file(), cell.determinant());
     }
     if constexpr (PackingType::dim == 2) detail::refuse_places_in_space(table);
     NamedPacking<PackingType> named;

@@ -53,9 +53,8 @@ class Bisection {
         found = true;
       }
       if (constexpr double most = 1e7; wanted > most) {
-        throw_input_error(
-            "the size field requires about {:.3g} elements (up to {:.3g} are supported): choose larger sizes", wanted,
-            most);
+        reject("the size field requires about {:.3g} elements (up to {:.3g} are supported): choose larger sizes",
+               wanted, most);
       }
       make_fit();
       std::vector<Triangle> halves;

@@ -138,7 +138,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
   std::any state_from(PointBatch<dim> const& other, int k, bool is_mirrored) const override {
     auto const* const same = dynamic_cast<PointBatchOf const*>(&other);
-    if (!same) throw_input_error("a point is to be copied from one of another provider: copy points of one provider");
+    if (!same) reject("a point is to be copied from one of another provider: copy points of one provider");
     State state = same->committed_[index(k)];
     if (is_mirrored) described(Mirror<dim>{}, state);
     return state;
@@ -207,7 +207,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     if constexpr (std::default_initializable<State>) {
       return {};
     } else {
-      throw_input_error(
+      reject(
           "points are shared out among processes, but their state cannot be left empty (it has no default "
           "constructor): give it one");
     }
@@ -218,8 +218,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     if constexpr (Described<State>) {
       visit(name, visited);
     } else {
-      throw_input_error(
-          "states of a provider cannot be saved or sent (they name no members): give them a function members");
+      reject("states of a provider cannot be saved or sent (they name no members): give them a function members");
     }
   }
 

@@ -85,16 +85,15 @@ class GmshNumbering {
     std::ranges::stable_sort(nodes_, {}, &GmshNode::tag);
     auto const twice = std::ranges::adjacent_find(nodes_, {}, &GmshNode::tag);
     if (twice != nodes_.end()) {
-      throw_input_error("'{}' lists node {} twice (each node has its own tag): write the file again", content.file,
-                        twice->tag);
+      reject("'{}' lists node {} twice (each node has its own tag): write the file again", content.file, twice->tag);
     }
     std::vector<bool> used(nodes_.size(), false);
     for (auto const& pick : picks) {
       for (auto const tag : std::span(pick.nodes, index(nodes_each))) {
         int const node = (*this)(tag);
         if (node < 0) {
-          throw_input_error("element {} of '{}' names node {} (the file has no such node): write the file again",
-                            pick.tag, content.file, tag);
+          reject("element {} of '{}' names node {} (the file has no such node): write the file again", pick.tag,
+                 content.file, tag);
         }
         used[index(node)] = true;
       }
@@ -181,7 +180,7 @@ void refuse_other_sides(GmshContent const& content) {
   for (auto const& block : content.blocks) {
     bool const other_side = block.type.dim == Element::dim - 1 && block.type.type != Element::Facet::gmsh_type;
     if (!other_side || block.groups.empty() || block.tags.empty()) continue;
-    throw_input_error(
+    reject(
         "the physical group '{}' of '{}' holds elements of type {} ({}), such as {} (the sides of {} have type {}): "
         "give sides and elements the same order",
         gmsh_group_name(content, {block.type.dim, block.groups.front()}), content.file, block.type.type,
@@ -205,9 +204,8 @@ void read_gmsh_boundaries(GmshContent const& content, GmshNumbering const& numbe
   for (auto const& pick : picks) {
     auto side = numbering.template numbers<typename Element::Facet>(pick);
     if (!sides.orient(side)) {
-      throw_input_error(
-          "element {} of '{}' in the physical group '{}' lies on no side of an element: mesh the geometry again",
-          pick.tag, content.file, gmsh_group_name(content, {dim, pick.groups.front()}));
+      reject("element {} of '{}' in the physical group '{}' lies on no side of an element: mesh the geometry again",
+             pick.tag, content.file, gmsh_group_name(content, {dim, pick.groups.front()}));
     }
     auto key = side;
     std::sort(key.begin(), key.end());

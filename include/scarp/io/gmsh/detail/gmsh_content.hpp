@@ -102,7 +102,7 @@ inline void add_group(std::vector<int>& groups, int tag) {
 inline GmshType known_gmsh_type(GmshStream const& stream, int type) {
   auto const* const found = find_gmsh_type(type);
   if (!found) {
-    throw_input_error("{} has elements of type {} (not known here): leave them out of the mesh", stream.place(), type);
+    reject("{} has elements of type {} (not known here): leave them out of the mesh", stream.place(), type);
   }
   return *found;
 }
@@ -112,8 +112,8 @@ inline std::array<double, 3> read_gmsh_position(GmshStream& stream, std::int64_t
   for (double& coordinate : position) {
     coordinate = stream.value<double>("a coordinate of a node");
     if (!std::isfinite(coordinate)) {
-      throw_input_error("{} has the coordinate {} of node {} (it must be finite): mesh the geometry again",
-                        stream.place(), coordinate, tag);
+      reject("{} has the coordinate {} of node {} (it must be finite): mesh the geometry again", stream.place(),
+             coordinate, tag);
     }
   }
   return position;
@@ -128,8 +128,8 @@ inline void read_gmsh_names(GmshStream& stream, GmshContent& content) {
     auto name = stream.quoted("the name of a physical group");
     auto const [other, is_new] = content.names.emplace(DimTag(dim, tag), name);
     if (!is_new) {
-      throw_input_error("{} names group {} of dimension {} '{}' (it is '{}' already): give each group one name",
-                        stream.place(), tag, dim, name, other->second);
+      reject("{} names group {} of dimension {} '{}' (it is '{}' already): give each group one name", stream.place(),
+             tag, dim, name, other->second);
     }
   }
 }

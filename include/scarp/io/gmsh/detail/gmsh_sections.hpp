@@ -36,7 +36,7 @@ class GmshSections22 {
         following = entries(stream, "the number of elements of a type", static_cast<std::size_t>(type.nodes));
         header.tags = entries(stream, "the number of tags of an element", 1);
         if (following == 0 || following > elements - read) {
-          throw_input_error(
+          reject(
               "{} has {} tags and announces {} elements ({} are missing in all): the file is damaged, write it again",
               stream.place(), header.tags, following, elements - read);
         }
@@ -62,8 +62,7 @@ class GmshSections22 {
 
   static std::size_t entries(GmshStream& stream, std::string_view what, std::size_t numbers) {
     auto const given = stream.value<std::int32_t>(what);
-    if (given < 0)
-      throw_input_error("{} has {} for {} (a count is not negative): write it again", stream.place(), given, what);
+    if (given < 0) reject("{} has {} for {} (a count is not negative): write it again", stream.place(), given, what);
     return stream.checked_count(static_cast<std::uint64_t>(given), what, numbers);
   }
 
@@ -127,9 +126,8 @@ class GmshSections41 {
       auto entity = entity_of(stream, {dim, tag});
       auto const type = known_gmsh_type(stream, stream.value<std::int32_t>("the type of elements"));
       if (type.dim != dim) {
-        throw_input_error(
-            "{} has elements of type {} ({}) on an entity of dimension {} (they have dimension {}): write it again",
-            stream.place(), type.type, type.name, dim, type.dim);
+        reject("{} has elements of type {} ({}) on an entity of dimension {} (they have dimension {}): write it again",
+               stream.place(), type.type, type.name, dim, type.dim);
       }
       auto const in_block =
           stream.count("the number of elements of an entity", static_cast<std::size_t>(type.nodes) + 1);
@@ -167,8 +165,8 @@ class GmshSections41 {
 
   static void require_total(GmshStream const& stream, std::string_view what, std::size_t announced, std::size_t read) {
     if (announced == read) return;
-    throw_input_error("the section that ends at {} holds {} {} (it announces {}): the file is damaged, write it again",
-                      stream.place(), read, what, announced);
+    reject("the section that ends at {} holds {} {} (it announces {}): the file is damaged, write it again",
+           stream.place(), read, what, announced);
   }
 
   void read_entity(GmshStream& stream, int dim) {
@@ -192,9 +190,8 @@ class GmshSections41 {
     if (!entities_) return {};
     auto const found = entities_->find(entity);
     if (found == entities_->end()) {
-      throw_input_error(
-          "{} names entity {} of dimension {} (it is not listed in $Entities): write it again, not partitioned",
-          stream.place(), entity.second, entity.first);
+      reject("{} names entity {} of dimension {} (it is not listed in $Entities): write it again, not partitioned",
+             stream.place(), entity.second, entity.first);
     }
     return found->second;
   }
@@ -212,18 +209,17 @@ inline bool read_gmsh_format(GmshStream& stream) {
     stream.skip_section(section);
     section = stream.next_section();
   }
-  if (section == "NOD") throw_input_error(other, stream.file(), 1.0);
+  if (section == "NOD") reject(other, stream.file(), 1.0);
   if (section != "MeshFormat") {
-    throw_input_error("'{}' is no Gmsh mesh (it does not begin with $MeshFormat): export the mesh as MSH 4.1",
-                      stream.file());
+    reject("'{}' is no Gmsh mesh (it does not begin with $MeshFormat): export the mesh as MSH 4.1", stream.file());
   }
   double const version = stream.text<double>("the version of the format");
-  if (version != 2.2 && version != 4.1) throw_input_error(other, stream.file(), version);
+  if (version != 2.2 && version != 4.1) reject(other, stream.file(), version);
   int const type = stream.text<int>("the type of the file");
   int const size = stream.text<int>("the size of a number");
   if ((type != 0 && type != 1) || size != 8) {
-    throw_input_error("'{}' has file type {} and numbers of {} bytes (0 or 1, and 8, are read): write it again",
-                      stream.file(), type, size);
+    reject("'{}' has file type {} and numbers of {} bytes (0 or 1, and 8, are read): write it again", stream.file(),
+           type, size);
   }
   if (type == 1) {
     stream.to_next_line();
@@ -231,8 +227,8 @@ inline bool read_gmsh_format(GmshStream& stream) {
     auto const one = stream.value<std::uint32_t>("the number one");
     constexpr std::uint32_t swapped = 1U << 24U;
     if (one != 1 && one != swapped) {
-      throw_input_error("{} has {:#x} where the number one should stand (it tells the order of bytes): write it again",
-                        stream.place(), one);
+      reject("{} has {:#x} where the number one should stand (it tells the order of bytes): write it again",
+             stream.place(), one);
     }
     stream.be_binary(one == swapped);
   }
@@ -266,9 +262,8 @@ inline GmshContent read_gmsh_content(std::string bytes, std::string const& file)
     stream.end_section(name);
   }
   if (!has_elements) {
-    throw_input_error(
-        "'{}' has no section $Elements (it is cut off or holds a geometry only): mesh it and save it again",
-        content.file);
+    reject("'{}' has no section $Elements (it is cut off or holds a geometry only): mesh it and save it again",
+           content.file);
   }
   return content;
 }

@@ -48,9 +48,9 @@ class GmshStream {
     last_ = at_;
     if (at_ == content_.size()) return {};
     if (content_[at_] != '$') {
-      throw_input_error("{} has '{}' (a section such as $Nodes must begin): {}", place(), shown(peek_word()),
-                        at_section_ ? "check the counts of the section before it, and leave out comments"
-                                    : "give a mesh of Gmsh, which begins with $MeshFormat");
+      reject("{} has '{}' (a section such as $Nodes must begin): {}", place(), shown(peek_word()),
+             at_section_ ? "check the counts of the section before it, and leave out comments"
+                         : "give a mesh of Gmsh, which begins with $MeshFormat");
     }
     at_section_ = true;
     std::string name(next_word("the name of a section").substr(1));
@@ -61,8 +61,7 @@ class GmshStream {
   void end_section(std::string_view name) {
     auto const word = next_word("the end of a section");
     if (word != fmt::format("$End{}", name)) {
-      throw_input_error("{} has '{}' ($End{} must follow): check the counts of the section", place(), shown(word),
-                        name);
+      reject("{} has '{}' ($End{} must follow): check the counts of the section", place(), shown(word), name);
     }
   }
 
@@ -71,8 +70,7 @@ class GmshStream {
     auto const end = fmt::format("$End{}", name);
     auto const found = content_.find(end, at_);
     if (found == std::string::npos) {
-      throw_input_error("{} begins the section ${} (the file ends before {}): write it again", place(), shown(name),
-                        shown(end));
+      reject("{} begins the section ${} (the file ends before {}): write it again", place(), shown(name), shown(end));
     }
     at_ = found + end.size();
   }
@@ -92,9 +90,8 @@ class GmshStream {
     Number number{};
     auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size()) {
-      throw_input_error("{} has '{}' for {} (it is no {}): check the line and the counts of its section", place(),
-                        shown(whole), what,
-                        std::floating_point<Number> ? "number" : "whole number that can stand here");
+      reject("{} has '{}' for {} (it is no {}): check the line and the counts of its section", place(), shown(whole),
+             what, std::floating_point<Number> ? "number" : "whole number that can stand here");
     }
     return number;
   }
@@ -110,8 +107,8 @@ class GmshStream {
   std::size_t checked_count(std::uint64_t entries, std::string_view what, std::size_t numbers) {
     std::size_t const least = 2 * std::max<std::size_t>(numbers, 1);  // a digit and a blank
     if (entries > (content_.size() - at_) / least + 1 || entries > std::numeric_limits<int>::max()) {
-      throw_input_error("{} says {} for {} (only {} bytes follow): the file is cut off or damaged, write it again",
-                        place(), entries, what, content_.size() - at_);
+      reject("{} says {} for {} (only {} bytes follow): the file is cut off or damaged, write it again", place(),
+             entries, what, content_.size() - at_);
     }
     return static_cast<std::size_t>(entries);
   }
@@ -125,7 +122,7 @@ class GmshStream {
     auto const open = line.find('"');
     auto const close = line.rfind('"');
     if (open == std::string_view::npos || open == close) {
-      throw_input_error("{} has '{}' for {} (it must stand in quotes): write it again", place(), shown(line), what);
+      reject("{} has '{}' for {} (it must stand in quotes): write it again", place(), shown(line), what);
     }
     at_ = end;
     return std::string(line.substr(open + 1, close - open - 1));
@@ -179,10 +176,10 @@ class GmshStream {
   }
 
   [[noreturn]] void refuse_end(std::string_view what) const {
-    throw_input_error("'{}' ends at {} where {} should stand (it is cut off): write or copy it again", file_,
-                      binary_ ? fmt::format("byte {}", last_)
-                              : fmt::format("line {}", std::count(content_.begin(), content_.end(), '\n') + 1),
-                      what);
+    reject("'{}' ends at {} where {} should stand (it is cut off): write or copy it again", file_,
+           binary_ ? fmt::format("byte {}", last_)
+                   : fmt::format("line {}", std::count(content_.begin(), content_.end(), '\n') + 1),
+           what);
   }
 
   std::string content_;
