@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 #include <concepts>
 #include <cstddef>
 #include <cstring>
@@ -91,12 +95,10 @@ template <class Scalar, std::size_t Width>
     __builtin_memcpy(halves, &condition.vector, bytes);
     return any_of(BasicMask<Scalar, Width / 2>(halves[0] | halves[1]));
   }
-  if constexpr (bytes == 32)
-    return __builtin_ia32_movmskps256(reinterpret_cast<VectorOf<float, 8>>(condition.vector)) != 0;
+  if constexpr (bytes == 32) return _mm256_movemask_ps(reinterpret_cast<__m256>(condition.vector)) != 0;
 #endif
 #if defined(__SSE2__)
-  if constexpr (bytes == 16)
-    return __builtin_ia32_movmskps(reinterpret_cast<VectorOf<float, 4>>(condition.vector)) != 0;
+  if constexpr (bytes == 16) return _mm_movemask_ps(reinterpret_cast<__m128>(condition.vector)) != 0;
 #endif
   auto found = condition.vector[0];
   for (std::size_t lane = 1; lane < Width; ++lane) found |= condition.vector[lane];

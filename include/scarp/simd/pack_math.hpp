@@ -39,20 +39,17 @@ template <class Scalar, std::size_t Width>
   using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
   [[maybe_unused]] constexpr std::size_t bytes = Width * sizeof(Scalar);
   [[maybe_unused]] constexpr bool is_double = sizeof(Scalar) == 8;
-#if defined(__AVX512F__) && defined(__clang__)
-  if constexpr (bytes == 64 && is_double) return Pack(__builtin_ia32_sqrtpd512(x.vector, 4));
-  if constexpr (bytes == 64 && !is_double) return Pack(__builtin_ia32_sqrtps512(x.vector, 4));
-#elif defined(__AVX512F__)
-  if constexpr (bytes == 64 && is_double) return Pack(__builtin_ia32_sqrtpd512_mask(x.vector, x.vector, -1, 4));
-  if constexpr (bytes == 64 && !is_double) return Pack(__builtin_ia32_sqrtps512_mask(x.vector, x.vector, -1, 4));
+#if defined(__AVX512F__)
+  if constexpr (bytes == 64 && is_double) return Pack(_mm512_sqrt_pd(x.vector));
+  if constexpr (bytes == 64 && !is_double) return Pack(_mm512_sqrt_ps(x.vector));
 #endif
 #if defined(__AVX__)
-  if constexpr (bytes == 32 && is_double) return Pack(__builtin_ia32_sqrtpd256(x.vector));
-  if constexpr (bytes == 32 && !is_double) return Pack(__builtin_ia32_sqrtps256(x.vector));
+  if constexpr (bytes == 32 && is_double) return Pack(_mm256_sqrt_pd(x.vector));
+  if constexpr (bytes == 32 && !is_double) return Pack(_mm256_sqrt_ps(x.vector));
 #endif
 #if defined(__SSE2__)
-  if constexpr (bytes == 16 && is_double) return Pack(__builtin_ia32_sqrtpd(x.vector));
-  if constexpr (bytes == 16 && !is_double) return Pack(__builtin_ia32_sqrtps(x.vector));
+  if constexpr (bytes == 16 && is_double) return Pack(_mm_sqrt_pd(x.vector));
+  if constexpr (bytes == 16 && !is_double) return Pack(_mm_sqrt_ps(x.vector));
 #endif
   return detail::lane_by_lane([](Scalar value) { return std::sqrt(value); }, x);
 }
@@ -82,14 +79,11 @@ template <class Scalar, std::size_t Width>
 #if defined(__AVX__)
   using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
   // g++ compares and chooses where one operand is a constant.
-#if defined(__AVX512F__) && !defined(__clang__)
-  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
-    return Pack(__builtin_ia32_minpd512_mask(a.vector, b.vector, a.vector, -1, 4));
+#if defined(__AVX512F__)
+  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8) return Pack(_mm512_min_pd(a.vector, b.vector));
 #endif
-  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 8)
-    return Pack(__builtin_ia32_minpd256(a.vector, b.vector));
-  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 4)
-    return Pack(__builtin_ia32_minps256(a.vector, b.vector));
+  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 8) return Pack(_mm256_min_pd(a.vector, b.vector));
+  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 4) return Pack(_mm256_min_ps(a.vector, b.vector));
 #endif
   return BasicPack<Scalar, Width>(a.vector < b.vector ? a.vector : b.vector);
 }
@@ -99,14 +93,11 @@ template <class Scalar, std::size_t Width>
                                                            BasicPack<Scalar, Width> const& b) {
 #if defined(__AVX__)
   using Pack [[maybe_unused]] = BasicPack<Scalar, Width>;
-#if defined(__AVX512F__) && !defined(__clang__)
-  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8)
-    return Pack(__builtin_ia32_maxpd512_mask(a.vector, b.vector, a.vector, -1, 4));
+#if defined(__AVX512F__)
+  if constexpr (Width * sizeof(Scalar) == 64 && sizeof(Scalar) == 8) return Pack(_mm512_max_pd(a.vector, b.vector));
 #endif
-  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 8)
-    return Pack(__builtin_ia32_maxpd256(a.vector, b.vector));
-  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 4)
-    return Pack(__builtin_ia32_maxps256(a.vector, b.vector));
+  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 8) return Pack(_mm256_max_pd(a.vector, b.vector));
+  if constexpr (Width * sizeof(Scalar) == 32 && sizeof(Scalar) == 4) return Pack(_mm256_max_ps(a.vector, b.vector));
 #endif
   return BasicPack<Scalar, Width>(a.vector > b.vector ? a.vector : b.vector);
 }

@@ -34,11 +34,11 @@ template <class Scalar>
   using T = BasicPack<Scalar, 8>;
   constexpr bool is_double = sizeof(Scalar) == 8;
   auto const root = [](T const& x) {
-    T estimate{};
+    T estimate;
     if constexpr (is_double) {
-      estimate.vector = __builtin_ia32_rsqrt14pd512_mask(x.vector, estimate.vector, 0xff);
+      estimate.vector = _mm512_rsqrt14_pd(x.vector);
     } else {
-      estimate.vector = __builtin_ia32_rsqrt14ps256_mask(x.vector, estimate.vector, 0xff);
+      estimate.vector = _mm256_rsqrt14_ps(x.vector);
     }
     T const product = x * estimate;
     T const e = broadcast<T>(1) - product * estimate;
