@@ -27,9 +27,9 @@ constexpr auto packing_layout() {
                     LayoutEntry{"numbers of an orientation", Shape::orientation_count},
                     LayoutEntry{"parts of a grain", part_count<Shape>()},
                     LayoutEntry{"remembered normals of a contact", Shape::warm_starts_normal},
-                    LayoutEntry{"remembered shear forces of a contact", needs.shear},
-                    LayoutEntry{"remembered moments of a contact", needs.moment},
-                    LayoutEntry{"further remembered numbers of a contact", static_cast<std::uint32_t>(needs.scalars)},
+                    LayoutEntry{"remembered shear forces of a contact", inputs.shear},
+                    LayoutEntry{"remembered moments of a contact", inputs.moment},
+                    LayoutEntry{"further remembered numbers of a contact", static_cast<std::uint32_t>(inputs.scalars)},
                     LayoutEntry{"bytes of a number", sizeof(typename PackingType::Scalar)},
                     LayoutEntry{"rows of a full vector",
                                 static_cast<std::uint32_t>(SoaArray<typename PackingType::Scalar, 1>::padding)}};
