@@ -271,7 +271,7 @@ TEST_CASE("a process asks its own points only, and has no states of others until
   CHECK(alone.committed_stress(0) == all.committed_stress(1));
   CHECK(own.committed_stress(1).isZero(0.0));
   own.unpack(1, all.pack(1));
-  CHECK_REFUSED(own.unpack(1, all.pack(1) + "x"), "more than a state");
+  CHECK_REFUSED(own.unpack(1, all.pack(1) + "x"), "more than the states of 1 points");
   CHECK(own.committed_stress(1) == all.committed_stress(1));
   own.release(1);
   CHECK(own.committed_stress(1).isZero(0.0));

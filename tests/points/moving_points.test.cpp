@@ -140,7 +140,7 @@ TEST_CASE("the stress that holds what means do not contain travels with a point"
   auto const gradient = [](int k) { return increment(1e-5 * (k * k + 1)); };
   Points from(soil, sites, volumes);
   for (int step = 1; step <= 2; ++step) strain(from, gradient);
-  REQUIRE(from.means()->committed_stress(3).norm() > 0.0);
+  REQUIRE(from.means()->committed_tau(3).norm() > 0.0);
   Points sent(soil, sites, volumes);
   Points copied(soil, sites, volumes);
   std::vector const all{0, 1, 2, 3, 4, 5};
@@ -152,7 +152,7 @@ TEST_CASE("the stress that holds what means do not contain travels with a point"
   CHECK(copied.stresses() == from.stresses());
   Points image(soil, sites, volumes);
   image.copy(3, from, 3, true);
-  CHECK(image.means()->committed_stress(3) == scarp::mirrored_stress<2>(from.means()->committed_stress(3)));
+  CHECK(image.means()->committed_tau(3) == scarp::mirrored_stress<2>(from.means()->committed_tau(3)));
 }
 
 TEST_CASE("two processes that exchange the gradients of points near their border see the same means as one") {

@@ -261,7 +261,7 @@ class MaterialPoints {
     StateWriter writer;
     for (int const point : points) {
       batch(point).write(local(point), writer);
-      if (means_) writer("tau", means_->committed_stress(point));
+      if (means_) writer("tau", means_->committed_tau(point));
     }
     return std::move(writer.bits());
   }
@@ -285,7 +285,7 @@ class MaterialPoints {
   /// x -> -x if wanted, so that one packing's accidents are not repeated.
   /// \throws InputError for a point of another provider, and for states that cannot be mirrored
   void copy(int to, MaterialPoints const& from, int point, bool is_mirrored = false) {
-    VoigtStress<Dim> tau = from.means_ ? from.means_->committed_stress(point) : VoigtStress<Dim>::Zero();
+    VoigtStress<Dim> tau = from.means_ ? from.means_->committed_tau(point) : VoigtStress<Dim>::Zero();
     if (is_mirrored) tau = mirrored_stress<Dim>(tau);
     put(to, batch(to).state_from(from.batch(point), from.local(point), is_mirrored), tau);
   }
@@ -391,7 +391,7 @@ class MaterialPoints {
 
   void put(int point, std::any state, VoigtStress<Dim> const& tau) {
     batch(point).put(local(point), std::move(state));
-    if (means_) means_->set_committed_stress(point, tau);
+    if (means_) means_->set_committed_tau(point, tau);
     is_planned_ = false;
   }
 

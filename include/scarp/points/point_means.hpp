@@ -107,8 +107,8 @@ class PointMeans {
   void commit() { committed_ = trial_; }
 
   /// tau [Pa] of a point after the last commit; it belongs to the point's state.
-  VoigtStress<Dim> const& committed_stress(int point) const { return committed_[detail::index(point)]; }
-  void set_committed_stress(int point, VoigtStress<Dim> const& tau) {
+  VoigtStress<Dim> const& committed_tau(int point) const { return committed_[detail::index(point)]; }
+  void set_committed_tau(int point, VoigtStress<Dim> const& tau) {
     committed_[detail::index(point)] = trial_[detail::index(point)] = tau;
   }
 
