@@ -110,7 +110,7 @@ scarp::FootingLog<Structure> footing_log(std::filesystem::path const& folder, St
 template <class Problem, class SceneType>
 scarp::ErrorBudget<Problem> error_budget(Choice const& choice, SceneType const& scene, Problem const& problem,
                                          int probe) {
-  scarp::ErrorSampling const sampling{.followed = {probe}, .pressure_floor = scene.pressure_floor};
+  scarp::ErrorSampling const sampling{.tracked = {probe}, .pressure_floor = scene.pressure_floor};
   scarp::ErrorBounds const usual{.unbalanced_largest = choice.unbalanced_tolerance};
   return scarp::ErrorBudget<Problem>(problem, examples::error_bounds(choice.budget, usual), sampling);
 }

@@ -35,7 +35,7 @@ struct SensitivityRuns {
       if (before != known.end() && before->second.commit == commit) continue;
       if (scarp::StopSignal::wants_stop()) return;
       try {
-        ask(run, steps, file);
+        add(run, steps, file);
       } catch (std::exception const& problem) {
         examples::say(stderr, "warning: the sensitivity run for {} has failed, so that this part is not known: {}\n",
                       run.part, problem.what());
@@ -44,14 +44,14 @@ struct SensitivityRuns {
   }
 
  private:
-  void ask(SensitivityRun run, int steps, SensitivityFile& file) const {
-    auto summary = answer_of(run);
+  void add(SensitivityRun run, int steps, SensitivityFile& file) const {
+    auto summary = summary_of(run);
     // Where other things limit the load steps, a limit of their gradient has to be much smaller to say anything.
     constexpr int max_halvings = 6;
     auto const as_large = [&] { return run.part == "load_step" && summary["steps"].get<int>() < 1.3 * steps; };
     for (int k = 0; k < max_halvings && as_large(); ++k) {
       run = with_smaller_steps(std::move(run));
-      summary = answer_of(run);
+      summary = summary_of(run);
     }
     if (as_large())
       scarp::reject(
@@ -62,14 +62,14 @@ struct SensitivityRuns {
   }
 
   /// \return its summary \throws scarp::InputError where it has stopped early
-  nlohmann::json answer_of(SensitivityRun const& run) const {
-    examples::say(stderr, "sensitivity run for {}: {}\n", run.part, command_options(run));
+  nlohmann::json summary_of(SensitivityRun const& varied) const {
+    examples::say(stderr, "sensitivity run for {}: {}\n", varied.part, command_options(varied));
     scarp::CheckpointFiles nowhere;
-    auto const own = folder / fmt::format("sensitivity_{}", run.part);
-    scarp::RunFolder writes({.folder = own, .overwrite = true}, record_of(run, own));
-    auto const scene = make_scene(run.choice, 1, true);
+    auto const own = folder / fmt::format("sensitivity_{}", varied.part);
+    scarp::RunFolder writes({.folder = own, .overwrite = true}, record_of(varied, own));
+    auto const scene = make_scene(varied.choice, 1, true);
     Start const start{nowhere, &writes, started};
-    int const code = std::visit([&](auto const& one) { return run(run.choice, one, start); }, scene);
+    int const code = std::visit([&](auto const& one) { return run(varied.choice, one, start); }, scene);
     if (code != 0) scarp::reject("it has stopped early: see {}", (own / "summary.txt").string());
     return nlohmann::json::parse(scarp::read_file(own / "summary.json"));
   }

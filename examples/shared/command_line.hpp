@@ -78,12 +78,12 @@ class ConfigFile : public CLI::ConfigTOML {
     std::string text(std::istreambuf_iterator<char>(input), {});
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
     std::istringstream rest(text);
-    auto items = CLI::ConfigTOML::from_config(rest);
-    for (auto& item : items) {
+    auto found = CLI::ConfigTOML::from_config(rest);
+    for (auto& item : found) {
       item.name = present_name(app_, item.name);
       for (auto& value : item.inputs) value = present_value(item.name, value);
     }
-    return items;
+    return found;
   }
 
  private:
