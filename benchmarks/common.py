@@ -139,10 +139,10 @@ def measures(summary):
     bands = summary.get("bands") or [{}]
     budget = summary.get("error_budget", {}).get("parts", {})
     return {"elements": summary["elements"], "h/H": summary["throw_over_depth"], "x05 [m]": place("surface_x05"), "x50 [m]": place("surface_x50"),
-            "x95 [m]": place("surface_x95"), "outcrop width [m]": place("outcrop_width"), "mid-line dip [deg]": place("rupture_dip", 180.0 / math.pi),
+            "x95 [m]": place("surface_x95"), "outcrop width [m]": place("outcrop_width"), "rupture dip [deg]": place("rupture_dip", 180.0 / math.pi),
             "largest slope": place("surface_slope_max"), "x50 at 3/4 of the depth [m]": bands[-1].get("band_x50") if summary["status"] == "ok" else None,
-            "tilt [deg]": of("tilt", 180.0 / math.pi), "sideways [m]": of("horizontal_displacement"), "settlement [m]": of("settlement"),
-            "pressed share": of("contact_share"), "least base pressure [kPa]": of("contact_pressure_min", 1e-3),
+            "tilt [deg]": of("tilt", 180.0 / math.pi), "horizontal displacement [m]": of("horizontal_displacement"), "settlement [m]": of("settlement"),
+            "contact share": of("contact_share"), "least base pressure [kPa]": of("contact_pressure_min", 1e-3),
             "largest base pressure [kPa]": of("contact_pressure_max", 1e-3), "imbalance over weight": of("force_imbalance"), "K0": of("k0"),
             "void ratio": of("void_ratio"), "least void ratio": of("void_ratio_min"), "largest void ratio": of("void_ratio_max"),
             "steps": summary["steps"], "refused": summary["rejected_steps"], "iterations": summary["iterations"],

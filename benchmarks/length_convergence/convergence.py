@@ -22,7 +22,7 @@ LIMITS = {0.3: "centrifuge", 0.1: "ten grains"}  # lengths [m] of real bands
 DRAWS, SEED = 500, 1
 PLACES = {"x05 [m]": figures.BLUE, "x50 [m]": figures.VERMILION, "x95 [m]": figures.GREEN, "mean [m]": figures.BLACK}
 AREA = "dilated area over throw [m]"
-QUANTITIES = [*PLACES, AREA, "mid-line dip [deg]", "reaction [MN/m]"]
+QUANTITIES = [*PLACES, AREA, "rupture dip [deg]", "reaction [MN/m]"]
 WIDTHS = [f"width at {level} of the height [m]" for level in ("1/4", "1/2", "3/4")]
 CRITICAL = ["critical strain [%]", "critical volume [%]"]
 SOILS = {"sand": "Sand", "mohr_coulomb": "Mohr-Coulomb"}
@@ -143,7 +143,7 @@ def held_out(rows):
 
 def page(rows):
     """Rows of the table of docs/length.md: means over seeds and meshes, with the deviation of the mean place."""
-    shown = [*PLACES, AREA, WIDTHS[1], "mid-line dip [deg]", "CPU time [s]"]
+    shown = [*PLACES, AREA, WIDTHS[1], "rupture dip [deg]", "CPU time [s]"]
     digits = [1, 1, 1, 2, 2, 1, 1, 0]
     for soil, title in SOILS.items():
         known = usable(rows, soil)

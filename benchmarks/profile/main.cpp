@@ -163,7 +163,7 @@ void profile_scene(bool quick) {
   add("share of their tangents", tangents / cpu);
   add("share of all else", 1.0 - (responses + tangents) / cpu);
   add("accepted steps", report.steps);
-  add("refused attempts", report.refused);
+  add("rejected attempts", report.rejected);
   add("first iterations", static_cast<double>(iterations.first));
   add("further iterations", static_cast<double>(iterations.further));
   add("x50 [m]", survey.surface.surface_x50);
@@ -171,7 +171,7 @@ void profile_scene(bool quick) {
   add("h/H", report.load / tallies->depth);
   add("wall time [s]", report.seconds);
   add("memory [MB]", 1e-3 * 1.024 * static_cast<double>(used.ru_maxrss));
-  add("iterations of refused attempts", static_cast<double>(iterations.refused));
+  add("iterations of rejected attempts", static_cast<double>(iterations.refused));
   add("most iterations of one step", iterations.most);
   for (auto const status : {scarp::Status::fluid, scarp::Status::not_converged}) {
     table.add("run", fmt::format("responses {}", name(status)),

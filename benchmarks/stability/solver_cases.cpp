@@ -20,8 +20,8 @@ constexpr double degree = std::numbers::pi / 180.0;
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 
 std::string words(scarp::RunReport const& run, Watch const& watch) {
-  return fmt::format("{} (last refusal {}) at load {:.5g}, {} attempts, {} refused, {} iterations",
-                     name(run.verdict.reason), name(run.last_failure), run.load, watch.attempts, run.refused,
+  return fmt::format("{} (last refusal {}) at load {:.5g}, {} attempts, {} rejected, {} iterations",
+                     name(run.verdict.reason), name(run.last_failure), run.load, watch.attempts, run.rejected,
                      run.iterations);
 }
 

@@ -34,7 +34,7 @@ static_assert(scarp::PackingSource<LatticeByDepth, Grains>);
 int main() {
   double const height = 2.0;
   auto const mesh = scarp::BoxMesh<scarp::Quad4>{.lengths = {4.0, height}, .cells = {4, 2}}.generate();
-  scarp::UsualGrid<scarp::Quad4> const grid(mesh);
+  scarp::DefaultGrid<scarp::Quad4> const grid(mesh);
   LatticeByDepth const source;
   scarp::DemRve<Grains, LatticeByDepth> const sand{.law = law, .source = source};
   bool good = true;

@@ -31,7 +31,7 @@ struct SettlementCurve {
 int main() {
   double const height = 2.0, young = 20e6, poisson = 0.3, pressure = 1e3;
   auto const mesh = scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, height}, .cells = {1, 4}}.generate();
-  scarp::UsualGrid<scarp::Quad4> const grid(mesh);
+  scarp::DefaultGrid<scarp::Quad4> const grid(mesh);
   scarp::Constraints fixed(mesh);  // an oedometer: nothing moves sideways
   for (int node = 0; node < grid.node_count(); ++node) fixed.fix(node, 0);
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) fixed.fix(node, 1);

@@ -87,19 +87,19 @@ void declare_test(CLI::App& app, Choice& choice) {
 }
 
 void declare_results(CLI::App& app, Choice& choice, examples::Output& output) {
-  auto const folder = [](std::string const& given) { return examples::refused_folder(given); };
+  auto const folder = [](std::string const& given) { return examples::folder_problem(given); };
   auto* const all = examples::declare_output(app, output, "folder of all results")->capture_default_str();
   auto* const table = app.add_option("--out", choice.table, "the table alone, instead of --output")->excludes(all);
   app.add_option("--fields", choice.fields, "folder for VTU files beside --out")->check(folder)->needs(table);
   app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, instead of the default ones")
-      ->check([](std::string const& given) { return examples::refused_bound(given); });
+      ->check([](std::string const& given) { return examples::bound_problem(given); });
   app.add_option("--frames", choice.frames, "VTU files over the test")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
 }
 
 int run_mesh(Choice choice) {
-  examples::refuse_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
+  examples::reject_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
   if (choice.mesh.empty()) return run<scarp::Tri3>(choice);
   scarp::GmshFile const file(choice.mesh);
   examples::tell(file.notes());

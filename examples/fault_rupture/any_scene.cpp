@@ -22,9 +22,9 @@ void require_probes_inside(Choice const& choice, SceneType const& scene) {
     right = std::max(right, node.x());
   }
   double const depth = scene.ground.depth();
-  auto const check = [&](char name, double x, double y, double usual_x, double usual_y) {
+  auto const check = [&](char name, double x, double y, double default_x, double default_y) {
     bool const inside = x >= left && x <= right && y >= 0.0 && y <= depth;
-    if (inside || (x == usual_x && y == usual_y)) return;
+    if (inside || (x == default_x && y == default_y)) return;
     scarp::reject(
         "probe {} at x = {} m, {} m above bedrock, lies outside of the ground (x from {} to {} m, up to {} m): "
         "put it inside",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "ensemble.hpp"
+#include "../shared/renamed_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +54,8 @@ Spread spread_of(std::vector<double> const& values) {
 /// All numbers of a summary by their names, those of bands with their height.
 void collect(Json const& summary, std::vector<std::string>& names, std::map<std::string, std::vector<double>>& values) {
   auto const add = [&](std::string const& name, Json const& value) {
-    if (!value.is_number() || std::ranges::find(no_measures, std::string_view(name)) != no_measures.end()) return;
+    if (!value.is_number() || examples::is_key_from_before(name)) return;
+    if (std::ranges::find(no_measures, std::string_view(name)) != no_measures.end()) return;
     auto& all = values[name];
     if (all.empty()) names.push_back(name);
     all.push_back(value.get<double>());

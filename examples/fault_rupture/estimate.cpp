@@ -90,7 +90,7 @@ CostModel read_cost_model(std::filesystem::path const& file) {
   return model;
 }
 
-std::filesystem::path usual_cost_model() { return FAULT_RUPTURE_COSTS; }
+std::filesystem::path default_cost_model() { return FAULT_RUPTURE_COSTS; }
 
 Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control, CostModel const& model,
              double speed) {
@@ -160,7 +160,7 @@ double kernel_seconds() {
 }
 
 std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int threads) {
-  auto const model = read_cost_model(usual_cost_model());
+  auto const model = read_cost_model(default_cost_model());
   double const kernel = kernel_seconds();
   double const speed = kernel / model.kernel;
   auto const cost = cost_of(choice, size, control_of(choice), model, speed);

@@ -67,7 +67,7 @@ struct CostModel {
 /// \throws scarp::InputError for a file that does not hold all these
 CostModel read_cost_model(std::filesystem::path const& file);
 /// The file that comes with the program.
-std::filesystem::path usual_cost_model();
+std::filesystem::path default_cost_model();
 
 /// How load steps are made and judged.
 struct Control {

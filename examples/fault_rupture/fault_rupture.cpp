@@ -191,7 +191,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, preparation and all; 0 for none")
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, instead of the default ones")
-      ->check([](std::string const& given) { return examples::refused_bound(given); });
+      ->check([](std::string const& given) { return examples::bound_problem(given); });
   app.add_flag(
          "--sensitivity-runs", choice.sensitivity_runs,
          "run the scene again on a mesh of other directions and once with smaller load steps, for the error budget")
@@ -208,7 +208,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   auto* const folder =
       app.add_option("--checkpoint", choice.checkpoint,
                      "folder for checkpoints of the run, also made on Ctrl-C and at the time limit; empty for none")
-          ->check([](std::string const& given) { return given.empty() ? "" : examples::refused_folder(given); });
+          ->check([](std::string const& given) { return given.empty() ? "" : examples::folder_problem(given); });
   auto* const resume =
       app.add_flag("--resume", choice.resume, "resume from the newest checkpoint there; start anew where there is none")
           ->needs(folder)

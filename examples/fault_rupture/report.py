@@ -28,7 +28,7 @@ NUMBERS = (
     page.Number("tilt", "tilt of the footing to the hanging wall", "degrees", ".3f", DEGREES),
     page.Number("settlement", "settlement of the footing", "m", ".3f"),
     page.Number("contact_pressure_max", "largest pressure on its base", "kPa", ".0f", 1e-3),
-    page.Number("contact_share", "pressed share of its base", "%", ".0f", 100.0),
+    page.Number("contact_share", "contact share of its base", "%", ".0f", 100.0),
     page.Number("max_accepted_residual", "largest residual of an accepted step", "", ".2e"),
     page.Number("steps", "accepted load steps", "", ".0f"),
     page.Number("rejected_steps", "rejected load steps", "", ".0f"),

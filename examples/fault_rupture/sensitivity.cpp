@@ -49,10 +49,14 @@ SensitivityRun turned_mesh(Choice choice) {
   return {"mesh", std::move(options), std::move(choice)};
 }
 
-/// All that a file holds: scenes with the answers of their sensitivity runs.
+/// All that a file holds: scenes with the results of their sensitivity runs.
 Json content(std::filesystem::path const& path) {
   if (!std::filesystem::exists(path)) return Json::array();
-  auto const found = Json::parse(scarp::read_file(path), nullptr, false);
+  auto found = Json::parse(scarp::read_file(path), nullptr, false);
+  for (auto& entry : found) {  // written before version 0.2
+    if (entry.is_object() && entry.contains("companions")) entry["runs"] = entry["companions"];
+    if (entry.is_object()) entry.erase("companions");
+  }
   bool sound = found.is_array();
   for (auto const& entry : found) {
     sound = sound && entry.is_object() && entry.contains("runs") && entry["runs"].is_object();

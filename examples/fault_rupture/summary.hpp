@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 
 #include "../shared/process_usage.hpp"
+#include "../shared/renamed_keys.hpp"
 #include "any_scene.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/fault/footing_log.hpp"
@@ -139,26 +139,6 @@ inline void add_strip(nlohmann::ordered_json& json, scarp::PilotSize const& stri
   json["strip_margin"] = margin;
 }
 
-/// Keys as they were before version 0.2, beside the present ones until version 0.3.
-inline void add_keys_from_before(nlohmann::ordered_json& json) {
-  constexpr std::array<std::array<char const*, 2>, 11> renamed = {{
-      {"settlement_footwall_over_throw", "settlement_foot_over_throw"},
-      {"settlement_hanging_wall_over_throw", "settlement_hanging_over_throw"},
-      {"horizontal_displacement", "sideways"},
-      {"contact_share", "pressed_share"},
-      {"force_imbalance", "support_error"},
-      {"rejected_steps", "refused_steps"},
-      {"last_rejection", "last_refusal"},
-      {"rupture_dip", "mid_line_dip"},
-      {"fault_line_x50", "block_x50"},
-      {"share_of_time_in_points", "share_of_time_in_rves"},
-      {"share_of_time_outside_points", "share_of_time_outside_rves"},
-  }};
-  for (auto const& [now, before] : renamed) {
-    if (json.contains(now)) json[before] = nlohmann::ordered_json(json[now]);
-  }
-}
-
 /// reaction: of the moving bedrock, less that at rest [N]
 template <class Problem, class SceneType>
 nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Problem const& problem,
@@ -208,7 +188,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["tolerance"] = scene.tolerance;
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;
-  json["rejected_steps"] = run.refused;
+  json["rejected_steps"] = run.rejected;
   json["last_rejection"] = std::string(name(run.last_failure));
   if (choice.soil == Soil::dem) json["floor_share"] = scarp::floor_share(problem);
   json["iterations"] = run.iterations;
@@ -220,7 +200,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["cpu_seconds"] = notes.used.cpu_seconds();
   json["wall_seconds"] = notes.used.wall_seconds();
   json["peak_memory_bytes"] = notes.used.peak_memory_bytes();
-  add_keys_from_before(json);
+  examples::add_keys_from_before(json);
   return json;
 }
 

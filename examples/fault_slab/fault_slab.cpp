@@ -52,7 +52,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output) {
       ->check(number_from(0.0, true, 1e9));
   auto* const folder =
       app.add_option("--checkpoint", choice.checkpoint, "folder for checkpoints; empty for none")
-          ->check([](std::string const& given) { return given.empty() ? "" : examples::refused_folder(given); });
+          ->check([](std::string const& given) { return given.empty() ? "" : examples::folder_problem(given); });
   auto* const resume = app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there")->needs(folder);
   examples::declare_output(app, output, "folder for all results");
   resume->excludes("--overwrite");

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "../shared/process_usage.hpp"
+#include "../shared/renamed_keys.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/tell.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
@@ -55,13 +56,14 @@ nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, Problem
   for (auto const& section : all) json["sections"].push_back(json_of(section));
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;
-  json["rejected_steps"] = run.refused;
+  json["rejected_steps"] = run.rejected;
   json["last_rejection"] = std::string(name(run.last_failure));
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_points"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
   json["cpu_seconds"] = used.cpu_seconds();
   json["peak_memory_bytes"] = used.peak_memory_bytes();
+  examples::add_keys_from_before(json);
   return json;
 }
 

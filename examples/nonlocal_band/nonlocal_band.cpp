@@ -87,7 +87,7 @@ Outcome print_row(Choice const& choice, int cells, double length) {
   examples::say(
       stdout, "{:6} {:6} {:8.4f} {:9.2f} {:9.2f} {:8.4f} {:8.4f} {:7.2f} {:9.1e} {:6} {:8} {:6} {:8.1f}  {}\n", cells,
       length, last[0], peak / 1e3, last[1] / 1e3, outcome.band.width, outcome.band.spread, outcome.band.angle, last[2],
-      run.steps, run.refused, run.iterations, watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
+      run.steps, run.rejected, run.iterations, watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
   std::fflush(stdout);
   if (!run.verdict.acceptable()) outcome.band.width = std::nan("");
   return outcome;
@@ -96,7 +96,7 @@ Outcome print_row(Choice const& choice, int cells, double length) {
 /// Whether widths and last pressures of all meshes with a length agree within a part of the first.
 bool print_specimens(Choice const& choice) {
   examples::say(stdout, "{:>6} {:>6} {:>8} {:>9} {:>9} {:>8} {:>8} {:>7} {:>9} {:>6} {:>8} {:>6} {:>8}\n", "cells",
-                "l [m]", "end [m]", "peak kPa", "last kPa", "width", "spread", "angle", "tau", "steps", "refused",
+                "l [m]", "end [m]", "peak kPa", "last kPa", "width", "spread", "angle", "tau", "steps", "rejected",
                 "iter", "s");
   bool good = true;
   for (double const length : choice.lengths) {

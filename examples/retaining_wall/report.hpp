@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "../shared/renamed_keys.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/tell.hpp"
 #include "run.hpp"
@@ -37,14 +38,14 @@ inline void print_table(std::vector<Outcome> const& outcomes) {
                   outcome.friction.source);
   }
   examples::say(stdout, "\n{:<8} {:>8} {:>9} {:>8} {:>6} {:>8} {:>6} {:>11} {:>9} {:>10} {:>8}\n", "wall", "K at rest",
-                "K at end", "to", "steps", "refused", "iter", "DEM steps", "residual", "imbalance", "seconds");
+                "K at end", "to", "steps", "rejected", "iter", "DEM steps", "residual", "imbalance", "seconds");
   for (auto const& outcome : outcomes) {
     auto const& run = outcome.run;
     auto const ratio = [&](bool first) {
       return outcome.rows.empty() ? std::nan("") : (first ? outcome.rows.front() : outcome.rows.back()).ratio();
     };
     examples::say(stdout, "{:<8} {:9.4f} {:9.4f} {:6.2f} % {:6} {:8} {:6} {:11} {:9.1e} {:10.1e} {:8.1f}\n",
-                  name(outcome.movement), ratio(true), ratio(false), 100.0 * run.load, run.steps, run.refused,
+                  name(outcome.movement), ratio(true), ratio(false), 100.0 * run.load, run.steps, run.rejected,
                   run.iterations, run.inner_steps, run.largest_residual, imbalance(outcome), run.seconds);
   }
 }
@@ -86,11 +87,12 @@ inline nlohmann::ordered_json summary(Outcome const& outcome) {
   json["strain"] = run.load;
   json["imbalance"] = imbalance(outcome);
   json["steps"] = run.steps;
-  json["rejected_steps"] = run.refused;
+  json["rejected_steps"] = run.rejected;
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["max_accepted_residual"] = run.largest_residual;
   json["seconds"] = run.seconds;
+  examples::add_keys_from_before(json);
   return json;
 }
 

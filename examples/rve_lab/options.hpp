@@ -116,7 +116,7 @@ inline void declare_replay(CLI::App& app, Replay& replay) {
 }
 
 /// \throws InputError for an option that was given and is not used
-inline void refuse_unused(CLI::App const& app, std::string const& name, std::string_view why) {
+inline void reject_unused(CLI::App const& app, std::string const& name, std::string_view why) {
   auto const* const option = app.get_option_no_throw("--" + name);
   if (option == nullptr || option->count() == 0) return;
   scarp::reject("--{} is given but not used ({}): leave it out", name, why);
@@ -125,9 +125,9 @@ inline void refuse_unused(CLI::App const& app, std::string const& name, std::str
 /// \throws InputError for options of a path that it has no use for
 inline void require_used(CLI::App const& app, Path const& path) {
   if (path_named(path.name).held == nullptr)
-    refuse_unused(app, "lateral-stress", fmt::format("the path '{}' holds no stress", path.name));
-  if (path.cycles > 0) refuse_unused(app, "strain", "--cycles go to --amplitude");
-  if (path.cycles == 0) refuse_unused(app, "amplitude", "without --cycles");
+    reject_unused(app, "lateral-stress", fmt::format("the path '{}' holds no stress", path.name));
+  if (path.cycles > 0) reject_unused(app, "strain", "--cycles go to --amplitude");
+  if (path.cycles == 0) reject_unused(app, "amplitude", "without --cycles");
 }
 
 /// \throws InputError for options of a material that it has no use for
@@ -135,13 +135,13 @@ inline void require_used(CLI::App const& app, Material const& material) {
   auto const used = parameters_of(material.law);
   for_each_parameter(material, [&](std::string const& name, auto const&, char const*) {
     if (std::find(used.begin(), used.end(), name) == used.end())
-      refuse_unused(app, name, fmt::format("the law is '{}'", material.law));
+      reject_unused(app, name, fmt::format("the law is '{}'", material.law));
   });
   auto const of_shape = fmt::format("grains are of the shape '{}'", material.shape);
-  if (material.shape == "disc") refuse_unused(app, "aspect", of_shape);
-  if (material.shape != "superellipse") refuse_unused(app, "exponent", of_shape);
+  if (material.shape == "disc") reject_unused(app, "aspect", of_shape);
+  if (material.shape != "superellipse") reject_unused(app, "exponent", of_shape);
   if (app.get_option_no_throw("--target-void-ratio") != nullptr && app.count("--target-void-ratio") == 0)
-    refuse_unused(app, "void-ratio-tolerance", "without --target-void-ratio");
+    reject_unused(app, "void-ratio-tolerance", "without --target-void-ratio");
 }
 
 /// Whether an option stands on the command line or in the configuration file.

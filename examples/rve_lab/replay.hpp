@@ -106,7 +106,7 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
   long const steps_per_row = steps_of(choice.path.row_strain.value_or(path.row_strain), choice.path.strain_step);
   for (long step = 1; step <= steps; ++step) {
     auto const verdict = lab.step();
-    if (!verdict.acceptable()) refuse_verdict(verdict, path.strain(lab.deformation()), choice.out);
+    if (!verdict.acceptable()) reject_verdict(verdict, path.strain(lab.deformation()), choice.out);
     if (step % steps_per_row == 0 || step == steps) write(step);
   }
   if (path.held != nullptr) require_held(lab, path);
@@ -115,7 +115,7 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
 }
 
 inline void replay(Replay choice, GivenLaw const& given) {
-  examples::refuse_overwriting(choice.out, {choice.particles, choice.contacts});
+  examples::reject_overwriting(choice.out, {choice.particles, choice.contacts});
   auto const input = examples::read_packing_input(choice.particles, choice.contacts, choice.cell);
   if (input.contacts) take_law_from(*input.contacts, given, choice.material);
   choice.material.shape = examples::shape_of(input.particles);

@@ -71,7 +71,7 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   for (long step = 1; step <= steps; ++step) {
     double const volume = lab.packing().volume();
     auto const verdict = lab.step();
-    if (!verdict.acceptable()) refuse_verdict(verdict, path.strain(lab.deformation()), (folder / "path.csv").string());
+    if (!verdict.acceptable()) reject_verdict(verdict, path.strain(lab.deformation()), (folder / "path.csv").string());
     recorder.look(lab, volume);
     travelled += sign;
     int const next = cyclic ? cycle.next_sign(static_cast<double>(travelled) * choice.strain_step, sign) : 1;

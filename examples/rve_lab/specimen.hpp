@@ -124,7 +124,7 @@ class Specimen {
 };
 
 /// \throws InputError always: the path came to an end at a strain
-[[noreturn]] inline void refuse_verdict(scarp::Verdict const& verdict, double strain, std::string const& file) {
+[[noreturn]] inline void reject_verdict(scarp::Verdict const& verdict, double strain, std::string const& file) {
   scarp::reject(
       "the packing ended with {} ({}) beyond strain {:.6g}; the rows so far are in '{}': take smaller steps, or "
       "check the stress to hold",

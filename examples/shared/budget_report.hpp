@@ -41,7 +41,7 @@ inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given, sc
 }
 
 /// \return what is wrong with such a bound; empty if nothing is
-inline std::string refused_bound(std::string const& given) {
+inline std::string bound_problem(std::string const& given) {
   try {
     error_bounds({given});
   } catch (scarp::InputError const& problem) {

@@ -99,7 +99,7 @@ inline void declare_config(CLI::App& app, std::string const& what = "file with l
 
 /// Why a folder cannot take results, or nothing. The folder itself is made when results are written; what it lies in must
 /// exist, unless it is below the default folder "output".
-inline std::string refused_folder(std::string const& given) {
+inline std::string folder_problem(std::string const& given) {
   std::filesystem::path const folder = given;
   if (given.empty()) return "the name of the output folder is empty";
   std::error_code trouble;

@@ -184,7 +184,7 @@ inline PackingInput read_packing_input(std::string const& particles, std::string
 }
 
 /// \throws InputError when a result would take the place of an input
-inline void refuse_overwriting(std::string const& out, std::initializer_list<std::string> inputs) {
+inline void reject_overwriting(std::string const& out, std::initializer_list<std::string> inputs) {
   for (auto const& input : inputs) {
     std::error_code trouble;
     if (!std::filesystem::equivalent(out, input, trouble) || trouble) continue;

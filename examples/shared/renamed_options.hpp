@@ -39,7 +39,7 @@ inline constexpr RenamedOption renamed_options[] = {
     {"halvings", "max-halvings"},
 };
 
-/// The name that an option of this program has now.
+/// The name that an option of this program has now; not of its subcommands, which have none of these.
 inline std::string present_name(CLI::App const& app, std::string const& name) {
   auto const* const found = std::ranges::find(renamed_options, std::string_view(name), &RenamedOption::before);
   if (found == std::end(renamed_options)) return name;

@@ -169,7 +169,7 @@ def convergence(run):
             f"{sum(one['iterations'] for one in attempts)} iterations; largest residual of an accepted step {worst:.2g}.")
     rows = [("" if one["accepted"] else "outside",
              (one["step"], f"{one['load']:.5f}", one["iterations"], f"{one['residual']:.2e}",
-              "accepted" if one["accepted"] else f"refused ({one['reason']})", one["dem"], f"{one['seconds']:.2f}"))
+              "accepted" if one["accepted"] else f"rejected ({one['reason']})", one["dem"], f"{one['seconds']:.2f}"))
             for one in attempts]
     head = ("step", "load (h/H)", "iterations", "residual", "", "DEM steps", "seconds")
     return element("p", text(lead)) + folded("Every load step", table(head, rows, (0, 1, 2, 3, 5, 6)))

@@ -26,7 +26,7 @@ struct Output {
 inline CLI::Option* declare_output(CLI::App& app, Output& output, std::string const& what,
                                    std::string const& names = "--output") {
   auto* const option =
-      app.add_option(names, output.folder, what)->check([](std::string const& given) { return refused_folder(given); });
+      app.add_option(names, output.folder, what)->check([](std::string const& given) { return folder_problem(given); });
   app.add_flag("--overwrite", output.overwrite, "results that are there already may be replaced")->configurable(false);
   return option;
 }

@@ -31,7 +31,7 @@ inline constexpr double depth = 25.0;                ///< [m]
 inline constexpr std::array<int, 2> coarsest{6, 2};  ///< cells of the mesh whose nodes are compared
 
 /// Displacement of the surface at the corners of the coarsest mesh, along x and up, in throws; shape (2, places).
-template <class Element, class Scheme = scarp::UsualIntegration<Element>>
+template <class Element, class Scheme = scarp::DefaultIntegration<Element>>
 Eigen::MatrixXd surface(ElasticGround const& ground) {
   constexpr int dim = Element::dim;
   scarp::BoxMesh<Element> box;

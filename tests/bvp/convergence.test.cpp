@@ -14,7 +14,7 @@ namespace {
 /// coarse for the orders by up to 0.15 (`./examples/run mesh_orders` shows them on finer ones).
 template <class Element>
 void check_orders() {
-  using Scheme = scarp::UsualIntegration<Element>;
+  using Scheme = scarp::DefaultIntegration<Element>;
   int const degree = scarp::HasMidSides<Element> ? 2 : 1;
   int const cells = Element::dim == 2 ? 8 : 4;
   auto const coarse = mesh_orders::solve<Element, Scheme>(cells);

@@ -110,7 +110,7 @@ TEST_CASE("points tell through every adaptor around every adaptor what the provi
 
       auto trial = before;
       auto const doubled = points.doubled_response(1);
-      auto const expected = scarp::answer_with_double_work(provider, before, increment, plan, trial);
+      auto const expected = scarp::respond_with_double_work(provider, before, increment, plan, trial);
       CHECK(doubled.work == 2 * points.work(1));
       CHECK(doubled.work == expected.work);
       CHECK(doubled.response.stress == expected.response.stress);
@@ -125,7 +125,7 @@ TEST_CASE("points tell through every adaptor around every adaptor what the provi
         path_of_its_own = state;
       } else {
         auto const from = path_of_its_own;
-        auto const along = scarp::answer_with_double_work(provider, from, increment, plan, path_of_its_own);
+        auto const along = scarp::respond_with_double_work(provider, from, increment, plan, path_of_its_own);
         CHECK(answer.work == along.work);
         CHECK(answer.response.stress == along.response.stress);
       }

@@ -220,3 +220,16 @@ TEST_CASE("species that are not there are refused") {
   for (double const species : {3.0, 1.5, 0.5})
     CHECK_REFUSED(Grains({{1.0, species}}, 1.0, 1.0), fmt::format("a grain is of species {}", species));
 }
+
+TEST_CASE("a law per species has no other pairs, and a pair that becomes wrong is found") {
+  scarp::LawPerSpecies<scarp::LinearFrictional, 2> law;
+  for (int const wrong : {-1, 0, 3}) CHECK_REFUSED(law.between(1, wrong), "no law between species", "1 to 2");
+  for (auto& one : law.laws) one = samples::study_law();
+  using Packing = scarp::Packing<scarp::WithSpecies<scarp::Disc, 2>, scarp::LawPerSpecies<scarp::LinearFrictional, 2>>;
+  auto packing = samples::place<Packing>(scarp::Tensor<2>{{0.1, 0.0}, {0.0, 0.1}}, {{5e-3, 1.0}, {5e-3, 2.0}},
+                                         {{0.02, 0.02}, {0.0299, 0.02}});
+  scarp::TimeStepper<Packing> stepper;
+  REQUIRE(stepper.refresh(packing, law).acceptable());
+  law.between(1, 2).normal_stiffness *= -0.5;  // softer than the others, which alone bound the time step
+  CHECK_REFUSED(stepper.refresh(packing, law), "normal stiffness");
+}

@@ -31,7 +31,7 @@ if os.environ.get("SCARP_SCENES") == "all":
             case = ["--case", "free"] if structure == "free" else ["--case", "heavy", "--footing", structure]
             SCENES[f"{soil}, {structure}"] = ["--quick", "--grains", "49", "--soil", soil, *case,
                                               "--throw-over-depth", "0.005"]
-WALL_TIMES = ("threads", "cpu_seconds", "wall_seconds", "peak_memory_bytes", "share_of_time_in_points",
+WALL_TIMES = ("threads", "cpu_seconds", "wall_seconds", "peak_memory_bytes", "share_of_time_in_points", "share_of_time_in_rves", "share_of_time_outside_rves",
               "share_of_time_outside_points", "run", "seconds", "seconds_in_points", "share_outside_points")
 
 

@@ -15,7 +15,7 @@ using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 template <int dim>
 using Soil = scarp::LinearElastic<dim, scarp::GeostaticStress<dim>>;
 
-template <class Ground, class Motion = scarp::NormalFault, class Grid = scarp::UsualGrid<typename Ground::Element>>
+template <class Ground, class Motion = scarp::NormalFault, class Grid = scarp::DefaultGrid<typename Ground::Element>>
 using Scene = scarp::FreeFieldFault<Soil<Ground::Element::dim>, Newton, Ground, Motion, Grid>;
 
 template <class SceneType>
@@ -54,7 +54,7 @@ Eigen::VectorXd ruptured(SceneType const& scene, std::vector<double> const& plac
   return found;
 }
 
-template <class Element, class Grid = scarp::UsualGrid<Element>>
+template <class Element, class Grid = scarp::DefaultGrid<Element>>
 Eigen::VectorXd on_layer(scarp::FaultMesh const& layer) {
   Scene<scarp::StructuredGround<Element>, scarp::NormalFault, Grid> scene;
   scene.ground.layer = layer;
@@ -74,8 +74,8 @@ struct FullyIntegrated {
   using Space = scarp::Discretisation<scarp::Hex8>;
 };
 struct Reduced {
-  using Plane = scarp::UsualGrid<scarp::Quad8>;
-  using Space = scarp::UsualGrid<scarp::Hex20>;
+  using Plane = scarp::DefaultGrid<scarp::Quad8>;
+  using Space = scarp::DefaultGrid<scarp::Hex20>;
 };
 
 scarp::FaultMesh coarse() { return {.size = 5.0}; }

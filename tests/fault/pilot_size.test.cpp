@@ -21,7 +21,7 @@ using scarp::Vector;
 /// Ground of 8 m by 4 m in cells of 1 m whose nodes have moved.
 template <class Element>
 struct MovedGround {
-  scarp::UsualGrid<Element> grid{
+  scarp::DefaultGrid<Element> grid{
       scarp::FaultMesh{.left = 0.0, .right = 8.0, .depth = 4.0, .tip = 4.0, .size = 1.0, .coarsening = 1.0}
           .generate<Element>()};
 

@@ -34,7 +34,7 @@ struct Ground {
 };
 
 auto unit_squares() {
-  return scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::UsualIntegration<scarp::Quad4>>(
+  return scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::DefaultIntegration<scarp::Quad4>>(
       scarp::BoxMesh<scarp::Quad4>{.lengths = {2.0, 1.0}, .cells = {2, 1}}.generate());
 }
 
@@ -70,7 +70,7 @@ TEST_CASE_TEMPLATE("elements of a regular mesh have the mean ratio of their line
                    scarp::Quad8) {
   using Linear = typename Element::Linear;
   auto const ratio_of = []<class Cell>(scarp::BoxMesh<Cell> const& mesh) {
-    scarp::Discretisation<Cell, scarp::UpdatedLagrangian, scarp::UsualIntegration<Cell>> const grid(mesh.generate());
+    scarp::Discretisation<Cell, scarp::UpdatedLagrangian, scarp::DefaultIntegration<Cell>> const grid(mesh.generate());
     return scarp::largest_distortion(grid).mean_ratio;
   };
   CHECK(ratio_of(scarp::BoxMesh<Element>{.cells = {2, 2}}) ==

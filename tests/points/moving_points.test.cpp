@@ -111,7 +111,6 @@ TEST_CASE("points that are sent together hold what they share once, and share it
   CHECK(to.committed_stress(2) == from.committed_stress(0));
   CHECK(to.committed_stress(0) == from.committed_stress(2));
   auto const population = [&](int point) { return to.state<Rve::State>(point).packing.population; };
-  CHECK(population(0) == population(2));
   to.unpack(1, from.pack(1));
   CHECK(population(1) == population(2));
   CHECK(to.pack(std::vector{1, 2, 0}) == from.pack(std::vector{1, 0, 2}));
@@ -129,8 +128,44 @@ TEST_CASE("points take no states that are not theirs, and then nothing has chang
   CHECK_REFUSED(points.unpack(all, bits + "x"), "more than the states of 2 points");
   CHECK_REFUSED(points.unpack(0, bits), "more than the states of 1 points");
   Points const elastic(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3), sites);
-  CHECK_REFUSED(points.copy(0, elastic, 0), "another provider");
+  CHECK_REFUSED(points.copy(0, elastic, 0), "another type of provider");
   CHECK(points.pack(all) == before);
+}
+
+TEST_CASE("a batch refuses numbers, sizes and orders of calls that do not fit") {
+  auto const sites = in_a_row(3);
+  scarp::SerialExecutor serial;
+  Points points(sand(), sites);
+  for (int const wrong : {-1, 3}) {
+    CAPTURE(wrong);
+    CHECK_REFUSED(points.gradient(wrong), "there are 3 points");
+    CHECK_REFUSED(points.stress(wrong), "there are 3 points");
+    CHECK_REFUSED(points.pack(wrong), "there are 3 points");
+    CHECK_REFUSED(points.copy(0, points, wrong), "there are 3 points");
+    CHECK_REFUSED(points.tangent(wrong), "there are 3 points");
+  }
+  CHECK_REFUSED(points.set_gradients({}, serial), "0 displacement gradients", "3 points");
+  CHECK_REFUSED(Points(sand(), sites, std::vector<double>(7, 0.1)), "7 volumes", "3 points");
+  CHECK_REFUSED(points.commit(), "without a response");
+  strain(points, [](int) { return increment(1e-5); });
+  CHECK_REFUSED(points.commit(), "without a response");
+  auto const before = points.pack(0);
+  for (int k = 0; k < 3; ++k) points.gradient(k) = increment(1e-5);
+  static_cast<void>(points.respond(serial));
+  points.discard();
+  CHECK_REFUSED(points.commit(), "without a response");
+  CHECK(points.pack(0) == before);
+  CHECK_REFUSED(points.unpack(std::vector{0, 0}, points.pack(std::vector{0, 1})), "unpacked twice");
+  CHECK_REFUSED(points.extract(0, points.pack(std::vector{0, 1})), "more than the state of point 0");
+  CHECK(points.pack(0) == before);
+
+  Points shared(sand(), sites, {}, [](int point) { return point == 0; });
+  CHECK_REFUSED(shared.pack(1), "point 1", "another process owns it");
+  CHECK_REFUSED(points.copy(0, shared, 2), "point 2", "another process owns it");
+  points.copy(0, shared, 0);
+
+  Points const wide(scarp::Nonlocal{sand(), 0.15}, sites, std::vector<double>(3, 0.1));
+  CHECK_REFUSED(points.copy(0, wide, 0), "points with means and points without");
 }
 
 TEST_CASE("the stress that holds what means do not contain travels with a point") {

@@ -24,7 +24,7 @@ TEST_CASE("twice the work is the refined plan, or two halves of a plan that cann
   auto const check = [&](auto const& provider, auto const& plan, long work, auto const& expected) {
     auto const from = provider.initial_state({});
     auto trial = from;
-    auto const answer = scarp::answer_with_double_work(provider, from, increment, plan, trial);
+    auto const answer = scarp::respond_with_double_work(provider, from, increment, plan, trial);
     CHECK(answer.work == work);
     CHECK(answer.response.stress == expected(from));
     CHECK(provider.stress(trial) == answer.response.stress);

@@ -22,7 +22,7 @@ scarp::MohrCoulomb<Dim> clayey_sand(double young = 1e7) {
 }
 
 template <class Element>
-using Grid = scarp::Discretisation<Element, scarp::SmallStrain, scarp::UsualIntegration<Element>>;
+using Grid = scarp::Discretisation<Element, scarp::SmallStrain, scarp::DefaultIntegration<Element>>;
 
 template <class Element>
 using Problem = scarp::EquilibriumProblem<Grid<Element>, scarp::SerialExecutor>;

@@ -19,21 +19,21 @@ namespace scarp {
 /// that spread: reduced for quadratic quadrilaterals and hexahedra, the mean dilatation for linear ones, full for
 /// simplices.
 template <CheckedElement Element>
-using UsualIntegration =
+using DefaultIntegration =
     std::conditional_t<!GivesReducedQuadrature<Element>, FullIntegration,
                        std::conditional_t<HasMidSides<Element> || PlacesNodes<Element>, ReducedIntegration, BBar>>;
 
 /// Updated Lagrangian elements with that integration.
 template <CheckedElement Element>
-using UsualGrid = Discretisation<Element, UpdatedLagrangian, UsualIntegration<Element>>;
+using DefaultGrid = Discretisation<Element, UpdatedLagrangian, DefaultIntegration<Element>>;
 
 #ifdef SCARP_PRECOMPILED
 /// DECLARE: `extern template`, or `template` in the library.
-#define SCARP_GRIDS(DECLARE)                                                       \
-  DECLARE class Discretisation<Tri3, UpdatedLagrangian, UsualIntegration<Tri3>>;   \
-  DECLARE class Discretisation<Tri6, UpdatedLagrangian, UsualIntegration<Tri6>>;   \
-  DECLARE class Discretisation<Quad4, UpdatedLagrangian, UsualIntegration<Quad4>>; \
-  DECLARE class Discretisation<Quad8, UpdatedLagrangian, UsualIntegration<Quad8>>;
+#define SCARP_GRIDS(DECLARE)                                                         \
+  DECLARE class Discretisation<Tri3, UpdatedLagrangian, DefaultIntegration<Tri3>>;   \
+  DECLARE class Discretisation<Tri6, UpdatedLagrangian, DefaultIntegration<Tri6>>;   \
+  DECLARE class Discretisation<Quad4, UpdatedLagrangian, DefaultIntegration<Quad4>>; \
+  DECLARE class Discretisation<Quad8, UpdatedLagrangian, DefaultIntegration<Quad8>>;
 SCARP_GRIDS(extern template)
 #endif
 

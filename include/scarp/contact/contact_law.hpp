@@ -30,8 +30,8 @@ struct ContactInputs {
   int species = 0;      ///< how many the law tells apart; `species` is given
 };
 
-/// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and roll are
-/// zero where the memory already contains them.
+/// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and rotation
+/// are zero where the memory already contains them.
 template <int Dim, class T>
 struct ContactKinematics {
   T overlap;                                  ///< [m], positive in compression
@@ -94,7 +94,7 @@ concept HasContactStiffness = requires(Law const& law) {
 };
 
 template <class Law>
-concept NamesContactNeeds = requires {
+concept NamesContactInputs = requires {
   { Law::inputs } -> std::convertible_to<ContactInputs>;
   requires Law::inputs.scalars <= max_contact_scalars;
 };
@@ -107,7 +107,7 @@ concept RemembersItsShear = !requires(Law & law) {
 || Law::inputs.shear;
 
 template <class Law>
-concept ContactLaw = std::is_aggregate_v<Law> && NamesContactNeeds<Law> && RemembersItsShear<Law> &&
+concept ContactLaw = std::is_aggregate_v<Law> && NamesContactInputs<Law> && RemembersItsShear<Law> &&
     RespondsToApproach<Law> && RespondsInPacks<Law> && HasContactStiffness<Law>;
 
 /// A law whose friction coefficient can be exchanged, as the preparation of a packing needs.
@@ -116,7 +116,7 @@ concept Frictional = ContactLaw<Law> && requires(Law law) {
   { law.friction_coefficient() } -> std::same_as<double&>;
 };
 
-/// Calls visit(one) for the laws of all pairs of species, or for the law itself where it tells none apart.
+/// Calls visit(one) for the laws of all pairs of species, or for the law itself where there is only one.
 template <class Law, class Visit>
 void for_each_law(Law& law, Visit&& visit) {
   if constexpr (requires { law.laws; }) {
@@ -134,10 +134,10 @@ void for_each_friction(Law& law, Visit&& visit) {
   });
 }
 
-/// Stiffness of one contact by the law, by the law between its species where they are told apart.
+/// Stiffness of one contact by the law, by the law between its species where there is one for each pair.
 template <class Law, int Dim>
 ContactStiffness contact_stiffness(Law const& law, ContactKinematics<Dim, double> const& approach) {
-  if constexpr (Law::inputs.species > 0) {
+  if constexpr (requires { law.laws; }) {
     auto const [first, second] = approach.species;
     return law.between(static_cast<int>(first), static_cast<int>(second))
         .stiffness(approach.overlap, approach.reduced_radius);
@@ -221,11 +221,11 @@ template <class Law>
 struct MissingOfContactLaw {
   static_assert(std::is_aggregate_v<Law>,
                 "scarp: a contact law is an aggregate of parameters: no constructors, no private or virtual members");
-  static_assert(NamesContactNeeds<Law>,
+  static_assert(NamesContactInputs<Law>,
                 "scarp: a contact law needs `static constexpr ContactInputs inputs{...}`, with at most "
                 "max_contact_scalars scalars");
   static_assert(
-      !NamesContactNeeds<Law> || RemembersItsShear<Law>,
+      !NamesContactInputs<Law> || RemembersItsShear<Law>,
       "scarp: a contact law with friction_coefficient() needs `.shear = true` in its inputs: nothing would rub");
   static_assert(
       RespondsToApproach<Law>,
@@ -233,7 +233,7 @@ struct MissingOfContactLaw {
       "const&, ContactMemory<Dim, T>&) const`");
   static_assert(
       !RespondsToApproach<Law> || RespondsInPacks<Law>,
-      "scarp: a contact law is requested several contacts at once: make respond a template over the scalar T");
+      "scarp: a contact law is evaluated for several contacts at once: make respond a template over the scalar T");
   static_assert(
       HasContactStiffness<Law>,
       "scarp: a contact law needs `ContactStiffness stiffness(double overlap, double reduced_radius) const` [N/m]");

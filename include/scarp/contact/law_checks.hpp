@@ -15,7 +15,7 @@ namespace scarp {
 template <ContactLaw Law>
 void require_consistent(Law const& law, double radius) {
   detail::validated(law);
-  if constexpr (Law::inputs.species > 0) {
+  if constexpr (requires { law.laws; }) {
     for_each_law(law, [&](auto const& one) { require_consistent(one, radius); });
     return;
   }

@@ -5,6 +5,8 @@
 #include <array>
 
 #include "scarp/contact/contact_law.hpp"
+#include "scarp/contact/linear_frictional.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/simd/select.hpp"
 
@@ -23,9 +25,9 @@ struct LawPerSpecies {
 
   std::array<Law, detail::index(Species*(Species + 1) / 2)> laws{};  ///< of 1-1, 1-2, ... 2-2, 2-3, ...
 
-  /// The law between two species, 1 to `Species`.
-  Law& between(int first, int second) { return laws[place(first, second)]; }
-  Law const& between(int first, int second) const { return laws[place(first, second)]; }
+  /// The law between two species, 1 to `Species`. \throws InputError for others
+  Law& between(int first, int second) { return laws[checked_place(first, second)]; }
+  Law const& between(int first, int second) const { return laws[checked_place(first, second)]; }
 
   void validate() const {
     for (Law const& law : laws) detail::validated(law);
@@ -86,6 +88,13 @@ struct LawPerSpecies {
   }
 
  private:
+  static std::size_t checked_place(int first, int second) {
+    if (std::min(first, second) < 1 || std::max(first, second) > Species)
+      reject("there is no law between species {} and {} (there are 1 to {}): use these numbers", first, second,
+             Species);
+    return place(first, second);
+  }
+
   static constexpr std::size_t place(int first, int second) {
     int const low = std::min(first, second) - 1;
     return detail::index(low * Species - low * (low - 1) / 2 + std::max(first, second) - 1 - low);
@@ -98,7 +107,7 @@ struct LawPerSpecies {
     T const high = lanes::at_least(approach.species[0], approach.species[1]);
     for (int i = 1; i <= Species; ++i) {
       for (int j = std::max(i, 2); j <= Species; ++j)
-        visit(between(i, j), low == broadcast<T>(i) && high == broadcast<T>(j));
+        visit(laws[place(i, j)], low == broadcast<T>(i) && high == broadcast<T>(j));
     }
   }
 
@@ -109,5 +118,7 @@ struct LawPerSpecies {
     return most;
   }
 };
+
+static_assert(ContactLaw<LawPerSpecies<LinearFrictional, 2>>);
 
 }  // namespace scarp

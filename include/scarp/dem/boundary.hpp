@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cassert>
+#include <cstddef>
+
 #include "scarp/core/precompiled.hpp"
 #include "scarp/dem/damping.hpp"
 
@@ -16,10 +19,12 @@ class GrainHolds {
   GrainHolds(PackingType& packing, Scalar* forces) : packing_(packing), forces_(forces) {}
 
   void hold_centre(std::size_t grain, int axis) const {
+    assert(grain < packing_.grain_count() && 0 <= axis && axis < PackingType::dim);
     packing_.velocity(grain, axis) = Scalar(0);
     row(grain)[axis] = Scalar(0);
   }
   void hold_spin(std::size_t grain) const {
+    assert(grain < packing_.grain_count());
     for (int k = 0; k < spin_size<PackingType::dim>; ++k) {
       packing_.spin(grain, k) = Scalar(0);
       row(grain)[static_cast<int>(Layout::torque) + k] = Scalar(0);

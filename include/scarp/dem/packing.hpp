@@ -180,7 +180,7 @@ struct Packing {
   friend bool operator==(Packing const&, Packing const&) = default;
 };
 
-/// What a list with this skin [m] follows from: the springs of smallest and of largest grains at the skin, which is how deep
+/// What a list with this skin [m] follows from: the springs, summed over species, of smallest and of largest grains at the skin, which is how deep
 /// a near pair may get at least, and at twice the skin.
 template <class PackingType>
 ListBasis list_basis(PackingType const& packing, typename PackingType::Law const& law, double skin) {
@@ -190,10 +190,13 @@ ListBasis list_basis(PackingType const& packing, typename PackingType::Law const
   std::size_t k = 0;
   for (double const radius : {population.smallest_radius(), population.largest_radius()}) {
     for (double const depth : {skin, 2.0 * skin}) {
-      ContactStiffness const springs = law.stiffness(depth, radius / 2.0);
-      basis.stiffness[k++] = springs.normal;
-      basis.stiffness[k++] = springs.tangential;
-      basis.stiffness[k++] = springs.rolling;
+      for_each_law(law, [&](auto const& one) {
+        ContactStiffness const springs = one.stiffness(depth, radius / 2.0);
+        basis.stiffness[k] += springs.normal;
+        basis.stiffness[k + 1] += springs.tangential;
+        basis.stiffness[k + 2] += springs.rolling;
+      });
+      k += 3;
     }
   }
   return basis;

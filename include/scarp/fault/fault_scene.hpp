@@ -99,7 +99,7 @@ struct ProblemOfFault {
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
 template <CheckedMaterial Soil, class Structure, class Solver = QuasiNewton<>,
           Ground GroundType = StructuredGround<Tri3>, BedrockMotion Motion = NormalFault,
-          class GridType = UsualGridOf<GroundType>>
+          class GridType = DefaultGridOf<GroundType>>
 struct SCARP_EXPORT FaultScene {
   using Grid = GridType;
   static constexpr int dim = Grid::dim;
@@ -210,15 +210,15 @@ FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Execu
   DECLARE Mesh<ELEMENT> FaultMesh::generate<ELEMENT>(std::vector<double> const&) const;                        \
   DECLARE void require_node_at_tip(Mesh<ELEMENT> const&, double);                                              \
   DECLARE Constraints bedrock_constraints(Mesh<ELEMENT> const&, NormalFault const&, int, TimeFunction const&); \
-  DECLARE Eigen::VectorXd body_force(UsualGrid<ELEMENT> const&, std::vector<Vector<2>> const&);                \
-  DECLARE Eigen::VectorXd traction(UsualGrid<ELEMENT> const&, std::string_view, Vector<2> const&);             \
+  DECLARE Eigen::VectorXd body_force(DefaultGrid<ELEMENT> const&, std::vector<Vector<2>> const&);              \
+  DECLARE Eigen::VectorXd traction(DefaultGrid<ELEMENT> const&, std::string_view, Vector<2> const&);           \
   DECLARE detail::RegionResiduals<2>::RegionResiduals(Mesh<ELEMENT> const&, Constraints const&);
 
 SCARP_GROUND(extern template, Tri3)
 SCARP_GROUND(extern template, Tri6)
 SCARP_GROUND(extern template, Quad4)
 SCARP_GROUND(extern template, Quad8)
-extern template class EquilibriumProblem<UsualGrid<Tri3>, ThreadExecutor>;
+extern template class EquilibriumProblem<DefaultGrid<Tri3>, ThreadExecutor>;
 #endif
 
 }  // namespace scarp

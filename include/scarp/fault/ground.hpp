@@ -59,6 +59,6 @@ concept Ground = requires(G const& ground, std::vector<double> const& edges) {
 
 /// The grid that a ground takes where nobody says otherwise.
 template <class G>
-using UsualGridOf = UsualGrid<typename G::Element>;
+using DefaultGridOf = DefaultGrid<typename G::Element>;
 
 }  // namespace scarp

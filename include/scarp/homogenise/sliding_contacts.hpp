@@ -14,7 +14,7 @@ namespace scarp {
 struct SlidingContacts {
   double shear_share = 0.0;  ///< of the tangential stiffness that stays along the direction of sliding
   bool coupled = false;      ///< the shear force follows the normal force, \f$ dF_t = \mu\,dF_n \f$; not symmetric
-  /// Shear force that is requested, as a share of the contact's force. While grains move, contacts that slide under a
+  /// Increment of shear force by which contacts are tried, as a share of the contact's force. While grains move, contacts that slide under a
   /// growing normal force stand a little below the limit: it grows once more after their last slip.
   double nearness = 1e-2;
 

@@ -38,7 +38,7 @@ namespace detail {
 inline constexpr FileFormat checkpoint_format{"SCARPCHK", 3, "checkpoint", "a checkpointed run"};
 
 /// \throws InputError naming the first line that differs
-inline void refuse_other_scene(std::string const& saved, std::string const& asked) {
+inline void reject_other_scene(std::string const& saved, std::string const& asked) {
   if (saved == asked) return;
   std::istringstream ours(asked);
   std::istringstream theirs(saved);
@@ -157,7 +157,7 @@ class CheckpointFiles {
     StateReader reader(detail::payload_of(detail::checkpoint_format, bytes));
     CheckpointFiles there;
     there.read_head(reader);
-    detail::refuse_other_scene(there.scene_, scene_);
+    detail::reject_other_scene(there.scene_, scene_);
     return bytes;
   }
 

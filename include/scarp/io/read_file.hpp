@@ -15,7 +15,7 @@ namespace scarp {
 namespace detail {
 
 /// What often lies where a file should be: no format that is read here begins so.
-inline void refuse_stand_in(std::string_view content, std::string_view file) {
+inline void reject_stand_in(std::string_view content, std::string_view file) {
   auto begin = content.substr(0, 256);
   begin.remove_prefix(std::min(begin.find_first_not_of(" \t\r\n"), begin.size()));
   std::string lower;
@@ -50,7 +50,7 @@ inline std::string read_file(std::filesystem::path const& path) {
     content.append(block, static_cast<std::size_t>(stream.gcount()));
   }
   if (!stream.eof()) reject("cannot read '{}' (the system denies it): check its permissions", path.string());
-  detail::refuse_stand_in(content, path.string());
+  detail::reject_stand_in(content, path.string());
   return content;
 }
 

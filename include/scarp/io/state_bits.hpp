@@ -123,7 +123,8 @@ class StateWriter {
   std::map<void const*, std::uint32_t> numbers_;
 };
 
-/// Shared parts that readers have met, so that what several bits share is shared again by the states made from them.
+/// Shared parts that readers have met, so that what several bits share is shared again by the states made from them. Of parts
+/// that hold no shared parts themselves.
 using SharedParts = std::map<std::pair<std::type_index, std::string>, std::weak_ptr<void const>>;
 
 /// Takes members off bits in the order of the writer.
@@ -269,6 +270,7 @@ class StateReader {
   }
 
   void intern(std::pair<std::type_index, std::shared_ptr<void const>>& part, std::string_view bits) {
+    std::erase_if(*known_, [](auto const& one) { return one.second.expired(); });
     auto& known = (*known_)[{part.first, std::string(bits)}];
     if (auto const same = known.lock()) part.second = same;
     known = part.second;

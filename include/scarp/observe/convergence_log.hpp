@@ -20,13 +20,13 @@ class ConvergenceLog : public NeverStops {
  public:
   /// \throws FileError when a file cannot be written
   ConvergenceLog(std::filesystem::path const& file, LoadMeasure measure, CsvStart start = CsvStart::anew)
-      : table_(file,
-               {"step", measure.name, "iteration", "residual", "accepted", "reason", "max_displacement_gradient",
+      : measure_(detail::validated(std::move(measure))),
+        table_(file,
+               {"step", measure_.name, "iteration", "residual", "accepted", "reason", "max_displacement_gradient",
                 "dem_steps", "seconds", "seconds_in_points",
                 "largest_gradient"},  // as before version 0.2, until version 0.3
                start),
-        lines_(std::filesystem::path(file).replace_extension(".jsonl"), start == CsvStart::resumed),
-        measure_(detail::validated(std::move(measure))) {}
+        lines_(std::filesystem::path(file).replace_extension(".jsonl"), start == CsvStart::resumed) {}
 
   template <class Problem>
   void attempted(Problem const&, StepReport const& report) {
@@ -93,9 +93,9 @@ class ConvergenceLog : public NeverStops {
     return line.add("share_outside_points", 1.0 - in_points / report.seconds);
   }
 
+  LoadMeasure measure_;  ///< checked before a file is made
   CsvLog table_;
   JsonLog lines_;
-  LoadMeasure measure_;
   int attempt_ = 0;
 };
 

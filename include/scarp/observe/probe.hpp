@@ -31,12 +31,12 @@ class RveProbe : public NeverStops {
   /// point: number of a material point, see nearest_point
   /// \throws InputError for a unit that is not positive
   RveProbe(std::filesystem::path const& file, int point, LoadMeasure measure, CsvStart start = CsvStart::anew)
-      : log_(file,
-             {measure.name, "eps_q", "eps_v", "p", "q", "contact_fabric", "particle_fabric", "void_ratio", "sxx", "syy",
-              "sxy"},
+      : measure_(detail::validated(std::move(measure))),
+        log_(file,
+             {measure_.name, "eps_q", "eps_v", "p", "q", "contact_fabric", "particle_fabric", "void_ratio", "sxx",
+              "syy", "sxy"},
              start),
-        point_(point),
-        measure_(detail::validated(std::move(measure))) {}
+        point_(point) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
@@ -61,9 +61,9 @@ class RveProbe : public NeverStops {
   SCARP_MEMBERS_EXCEPT((point_, measure_), log_)
 
  private:
+  LoadMeasure measure_;  ///< checked before a file is made
   CsvLog log_;
   int point_;
-  LoadMeasure measure_;
 };
 
 }  // namespace scarp

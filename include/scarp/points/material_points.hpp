@@ -5,6 +5,7 @@
 #include <any>
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <span>
@@ -100,7 +101,7 @@ class MaterialPoints {
   PointMeans<Dim> const* means() const { return means_ ? &*means_ : nullptr; }
 
   /// Displacement gradient of a point since the last commit, for `respond`; to be set anew after each commit.
-  Gradient<Dim>& gradient(int point) { return own_[detail::index(point)]; }
+  Gradient<Dim>& gradient(int point) { return own_[detail::index(existing(point))]; }
 
   /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit, and points that do not converge take
   /// harder, up to so many times and until the next commit.
@@ -122,6 +123,8 @@ class MaterialPoints {
   /// Sets all points' own gradients, and what the points see of them.
   template <ExecutesTasks Executor>
   void set_gradients(Gradients own, Executor& executor) {
+    if (own.size() != places_.size())
+      reject("{} displacement gradients are given for {} points: give one to each", own.size(), places_.size());
     own_ = std::move(own);
     seen_ = means_ ? means_->average(own_, executor) : own_;
   }
@@ -158,13 +161,15 @@ class MaterialPoints {
   }
 
   /// Leaves the committed states as they are; the next response plans its work anew, as it should for a smaller step.
-  void discard() { is_planned_ = false; }
+  void discard() { is_planned_ = has_trial_ = false; }
 
   /// The trial states, of the last responses, become the committed ones.
+  /// \throws InputError where there is no response since the last commit or discard
   void commit() {
+    if (!has_trial_) reject("a commit without a response since the last one (nothing would be kept): respond first");
     for (auto& one : batches_) one->commit();
     if (means_) means_->commit();
-    is_planned_ = false;
+    is_planned_ = has_trial_ = false;
   }
 
   Gradients const& own_gradients() const { return own_; }
@@ -174,7 +179,7 @@ class MaterialPoints {
   Responses const& responses() const { return responses_; }
   /// Cauchy stress [Pa] of a point's last response, with the stabilising stress of means.
   VoigtStress<Dim> stress(int point) const {
-    auto const k = detail::index(point);
+    auto const k = detail::index(existing(point));
     return means_ ? VoigtStress<Dim>(responses_[k].stress + means_->added_stresses()[k]) : responses_[k].stress;
   }
   Stresses stresses() const {
@@ -268,11 +273,13 @@ class MaterialPoints {
   std::string pack(int point) const { return pack(std::span(&point, 1)); }
   /// Other committed states for points, between load steps, by the bits of as many points of the same providers; points share again
   /// what those shared.
-  /// \throws InputError for other bits, without any change
+  /// \throws InputError for other bits, and for points that are named twice, without any change
   void unpack(std::span<int const> points, std::string_view bits) {
     StateReader reader(bits, &shared_);
     std::vector<std::pair<std::any, VoigtStress<Dim>>> states;
     for (int const point : points) {
+      if (std::ranges::count(points, point) > 1)
+        reject("point {} is to be unpacked twice: name each point once", point);
       states.emplace_back(batch(point).read(local(point), reader), VoigtStress<Dim>::Zero());
       if (means_) reader("tau", states.back().second);
     }
@@ -283,19 +290,26 @@ class MaterialPoints {
   void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }
   /// Gives a point the committed state of another one, as for the children of a refined element; between load steps. In the mirror
   /// x -> -x if wanted, so that one packing's accidents are not repeated.
-  /// \throws InputError for a point of another provider, and for states that cannot be mirrored
+  /// \throws InputError for a point of another type of provider, for one with means and one without, and for states that cannot be mirrored
   void copy(int to, MaterialPoints const& from, int point, bool is_mirrored = false) {
+    if (means_.has_value() != from.means_.has_value())
+      reject("point {} is to be copied between points with means and points without: take the same material for both",
+             point);
     VoigtStress<Dim> tau = from.means_ ? from.means_->committed_tau(point) : VoigtStress<Dim>::Zero();
     if (is_mirrored) tau = mirrored_stress<Dim>(tau);
     put(to, batch(to).state_from(from.batch(point), from.local(point), is_mirrored), tau);
   }
-  /// The point alone, with the state of these bits.
+  /// The point alone, with the state of these bits and without neighbours.
   MaterialPoints extract(int point, std::string_view bits) const {
     MaterialPoints one;
     one.batches_.emplace_back(batch(point).without_points());
     one.add(0, batch(point).site(local(point)), false);
     StateReader reader(bits);
-    one.put(0, one.batch(0).read(0, reader), VoigtStress<Dim>::Zero());
+    auto state = one.batch(0).read(0, reader);
+    if (VoigtStress<Dim> tau; means_) reader("tau", tau);
+    if (!reader.at_end())
+      reject("it holds more than the state of point {}: extract what was packed of this point", point);
+    one.put(0, std::move(state), VoigtStress<Dim>::Zero());
     return one;
   }
   /// Leaves a point without state, since another process owns it.
@@ -306,7 +320,7 @@ class MaterialPoints {
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(batches_, neighbourhoods_, search_, places_, owned_, own_, seen_, responses_, works_, means_,
-                      is_planned_, shared_);
+                      is_planned_, has_trial_, shared_);
     using Visitor = std::remove_cvref_t<Visit>;
     if (self.means_) PointMeans<Dim>::basis_members(*self.means_, visit);
     for (auto& one : self.batches_) {
@@ -315,7 +329,7 @@ class MaterialPoints {
     }
     if (self.means_) visit("means", *self.means_);
   }
-  void after_loading() { is_planned_ = false; }
+  void after_loading() { is_planned_ = has_trial_ = false; }
 
  private:
   struct Place {
@@ -340,11 +354,16 @@ class MaterialPoints {
   using Search = PointMeans<Dim> (*)(std::span<Site<Dim> const>, std::span<double const>,
                                      std::span<Neighbourhood const>, Tangents const&);
 
+  int existing(int point) const {
+    if (point < 0 || point >= size())
+      reject("point {} is named (there are {} points): use numbers from 0 to {}", point, size(), size() - 1);
+    return point;
+  }
   detail::PointBatch<Dim>& batch(int point) {
-    return *batches_[detail::index(places_[detail::index(point)].batch)].held;
+    return *batches_[detail::index(places_[detail::index(existing(point))].batch)].held;
   }
   detail::PointBatch<Dim> const& batch(int point) const {
-    return *batches_[detail::index(places_[detail::index(point)].batch)].held;
+    return *batches_[detail::index(places_[detail::index(existing(point))].batch)].held;
   }
   int local(int point) const { return places_[detail::index(point)].local; }
 
@@ -371,6 +390,8 @@ class MaterialPoints {
   template <class BatchOf, class Owned>
   void fill(std::span<Site<Dim> const> sites, std::span<double const> volumes, BatchOf const& batch_of,
             Owned const& owned) {
+    if (!volumes.empty() && volumes.size() != sites.size())
+      reject("{} volumes are given for {} points: give one to each, or none", volumes.size(), sites.size());
     for (int point = 0; point < std::ssize(sites); ++point) {
       auto const& site = sites[detail::index(point)];
       add(batch_of(site), site, search_ || owned(point));
@@ -392,7 +413,7 @@ class MaterialPoints {
   void put(int point, std::any state, VoigtStress<Dim> const& tau) {
     batch(point).put(local(point), std::move(state));
     if (means_) means_->set_committed_tau(point, tau);
-    is_planned_ = false;
+    is_planned_ = has_trial_ = false;
   }
 
   void add(int batch, Site<Dim> const& site, bool here) {
@@ -445,6 +466,7 @@ class MaterialPoints {
     }
     share(responses_, executor);
     share(worked, executor);
+    has_trial_ = true;
     ResponseReport answers;
     for (int point = 0; point < size(); ++point) {
       auto const k = detail::index(point);
@@ -486,7 +508,8 @@ class MaterialPoints {
   std::vector<long> works_;  ///< inner steps of the points' last responses
   std::optional<PointMeans<Dim>> means_;
   bool is_planned_ = false;
-  SharedParts shared_;  ///< of states that were unpacked
+  bool has_trial_ = false;  ///< whether there is a response since the last commit or discard
+  SharedParts shared_;      ///< of states that were unpacked
 };
 
 }  // namespace scarp

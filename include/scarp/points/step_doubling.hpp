@@ -29,9 +29,9 @@ struct DoubledResponse {
 /// Answers an increment again by twice the work: with the refined plan where that is more work, else in two halves.
 /// trial: overwritten with the state that belongs to the response
 template <CheckedProvider Provider>
-DoubledResponse<Provider::dim> answer_with_double_work(Provider const& provider, typename Provider::State const& from,
-                                                       Gradient<Provider::dim> const& increment,
-                                                       PlanOf<Provider> const& plan, typename Provider::State& trial) {
+DoubledResponse<Provider::dim> respond_with_double_work(Provider const& provider, typename Provider::State const& from,
+                                                        Gradient<Provider::dim> const& increment,
+                                                        PlanOf<Provider> const& plan, typename Provider::State& trial) {
   auto const in_halves = [&](auto const&... work) {
     Gradient<Provider::dim> const half = half_increment<Provider::dim>(increment);
     typename Provider::State middle = from;

@@ -11,8 +11,8 @@
 
 namespace scarp {
 
-/// Calls visit(points, number) with points of which this one has its committed state. Where points are shared out among processes, this
-/// is for the first one, inside on_root_rank: it gets a copy of what another one has.
+/// Calls visit(points, number) with points of which this process has the committed state. Where points are shared out among processes, this
+/// is for the root rank, inside on_root_rank: it gets a copy of what another rank has.
 template <class Problem, class Visit>
 void visit_point(Problem const& problem, int point, Visit const& visit) {
   if constexpr (SharesPoints<std::remove_cvref_t<decltype(problem.executor())>>) {

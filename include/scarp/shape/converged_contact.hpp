@@ -35,14 +35,14 @@ bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
   if constexpr (HasInnerRadius<Shape>) {
     if (touch.overlap < Shape::inner_radius(first) + Shape::inner_radius(second)) return true;
   }
-  return LeastOverlap<Shape>(first, second, branch).is_least_along(touch.normal);
+  return MinimumTranslation<Shape>(first, second, branch).is_least_along(touch.normal);
 }
 
 }  // namespace detail
 
 /// Touch of a pair with the normal iterated until it stands still. Where it does not, or where another direction might have
 /// less overlap, shapes with a support function take the slow certain way, `minimum_translation`; of others a touch that
-/// does not stand still is `normal_error`.
+/// does not stand still has an infinite `normal_error`.
 template <class Shape>
 ContactGeometry<Shape::dim, double> converged_contact(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
                                                       Point<Shape::dim, double> const& branch,

@@ -58,9 +58,9 @@ struct DirectionArc {
 };
 
 template <HasSupport Shape>
-class LeastOverlap {
+class MinimumTranslation {
  public:
-  LeastOverlap(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch)
+  MinimumTranslation(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch)
       : first_(first), second_(second), branch_(branch) {}
 
   /// From directions all round. \return whether no other direction can be better by more than 1e-10 of the grains' size
@@ -221,12 +221,12 @@ class LeastOverlap {
 
 /// The touch of least overlap among all directions, whatever the shapes' curvature: convex polygons within and around the
 /// sum of the two shapes are refined where they leave a better direction possible (the expanding polytope of van den
-/// Bergen, 2001, for support functions), then Newton's method within a bracket. Slow; `normal_error` where the least is not
+/// Bergen, 2001, for support functions), then Newton's method within a bracket. Slow; an infinite `normal_error` where the least is not
 /// certain to 1e-10 of the grains' size (grains about one centre) or not finite.
 template <HasSupport Shape>
 ContactGeometry<2, double> minimum_translation(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
                                                Point<2, double> const& branch) {
-  detail::LeastOverlap<Shape> search(first, second, branch);
+  detail::MinimumTranslation<Shape> search(first, second, branch);
   bool const certain = search.search();
   auto touch = search.touch();
   touch.normal_error = certain && std::isfinite(touch.overlap) ? 0.0 : std::numeric_limits<double>::infinity();

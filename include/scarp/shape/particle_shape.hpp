@@ -198,7 +198,7 @@ struct MissingOfShape<Shape, true> {
                 "scarp: a shape needs `static ContactGeometry<dim, T> "
                 "touch(pose, pose, branch, normal)`");
   static_assert(!(HasPose<Shape> && Touches<Shape>) || TouchesInPacks<Shape>,
-                "scarp: a shape is requested several "
+                "scarp: a shape is evaluated for several "
                 "pairs at once: make pose, contact_radius and touch templates over the scalar");
   static constexpr bool nothing = false;
 };

@@ -185,7 +185,7 @@ ContactGeometry<2, T> superellipse_contact(std::array<T, 7> const& first, std::a
       T const level = half * (a.value - b.value);
       Point<2, T> const middle{half * branch[0] + level * n[0] + shift * t[0],
                                half * branch[1] + level * n[1] + shift * t[1]};
-      // A unit vector to step^4, which is round-off unless the touch is normal_error.
+      // A unit vector to step^4, which is round-off unless the normal has not converged.
       T const shrink = one - half * step * step;
       Point<2, T> const last{(n[0] + step * t[0]) * shrink, (n[1] + step * t[1]) * shrink};
       // Far from the start, or deep inside, another corner may be the nearer one.

@@ -27,7 +27,7 @@ struct WithSpecies {
   template <class T>
   using Pose = PoseOf<WithSpecies, T>;
 
-  /// \throws InputError for another species, and for sizes that the shape refuses
+  /// \throws InputError for another species, and for sizes that the shape rejects
   static void check(Size<double> const& size) {
     double const species = size.back();
     if (!(species >= 1.0 && species <= Species && species == std::floor(species)))

@@ -79,7 +79,7 @@ struct LyingInMemory<Response<Dim>> {
 
 }  // namespace detail
 
-/// An MPI rank: all ranks run the same solver, points are distributed cyclically and holds the states of no others.
+/// An MPI rank: all ranks run the same solver, points are distributed cyclically, each rank holds the states of its own.
 /// Gradients are known everywhere; only stresses, tangents and verdicts travel. Neighbouring points, whose packings
 /// cost alike, belong to different ranks, so that work is shared out evenly. `Local` runs the tasks within the rank.
 template <ExecutesTasks Local = SerialExecutor>
@@ -133,7 +133,7 @@ class RankExecutor {
     words.resize(static_cast<std::size_t>(length));
     MPI_Bcast(words.data(), length, MPI_CHAR, first, communicator_);
     if (own) std::rethrow_exception(own);
-    reject("rank {} has stopped ({}): see its words", first, words);
+    reject("rank {} has stopped ({}): see the messages of that rank", first, words);
   }
 
   /// The bytes of numbers are sent: ranks run the same binary on machines of one kind.
@@ -185,7 +185,8 @@ class RankExecutor {
     MPI_Get_count(&status, MPI_BYTE, &length);
     std::string bytes(static_cast<std::size_t>(length), '\0');
     MPI_Recv(bytes.data(), length, MPI_BYTE, owner, status.MPI_TAG, communicator_, MPI_STATUS_IGNORE);
-    if (status.MPI_TAG == failure) reject("rank {} cannot return point {} ({}): see its words", owner, point, bytes);
+    if (status.MPI_TAG == failure)
+      reject("rank {} cannot return point {} ({}): see the messages of that rank", owner, point, bytes);
     return bytes;
   }
 

@@ -51,7 +51,7 @@ struct Wrong : Disc {
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_3
 
-// first: a shape is requested several pairs at once
+// first: a shape is evaluated for several pairs at once
 namespace case_4 {
 struct Wrong : Disc {
   static double contact_radius(std::array<double, 1> const& pose) { return pose[0]; }
@@ -75,7 +75,7 @@ struct Wrong : LinearFrictional {
 Packing<Disc, Wrong> packing;
 }  // namespace case_6
 
-// first: a contact law is requested several contacts at once
+// first: a contact law is evaluated for several contacts at once
 namespace case_7 {
 struct Wrong : Frictionless {
   ContactForce<2, double> respond(ContactKinematics<2, double> const&, ContactMemory<2, double>&) const {

@@ -123,7 +123,7 @@ void read_gmsh_regions(GmshContent const& content, std::vector<GmshPick> const& 
 }
 
 template <class Element>
-void refuse_repeated_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
+void reject_repeated_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
                               Mesh<Element> const& mesh) {
   using Entry = std::pair<std::array<int, Element::nodes>, std::int64_t>;
   std::vector<Entry> entries;
@@ -148,7 +148,7 @@ void refuse_repeated_elements(GmshContent const& content, std::vector<GmshPick> 
 
 /// Names the elements as the file does, which the check of the mesh cannot.
 template <class Element>
-void refuse_inverted_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
+void reject_inverted_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
                               Mesh<Element> const& mesh) {
   constexpr std::string_view advice = Element::dim == 2
                                           ? "turn the surface so that its normal points along z, or mesh it again"
@@ -174,8 +174,8 @@ Mesh<Element> assemble_gmsh(GmshContent const& content) {
   read_gmsh_positions(content, numbering, mesh);
   for (auto const& pick : picks) mesh.elements.push_back(numbering.template numbers<Element>(pick));
   read_gmsh_regions(content, picks, mesh);
-  refuse_repeated_elements(content, picks, mesh);
-  refuse_inverted_elements(content, picks, mesh);
+  reject_repeated_elements(content, picks, mesh);
+  reject_inverted_elements(content, picks, mesh);
   read_gmsh_boundaries(content, numbering, mesh);
   return mesh;
 }

@@ -36,7 +36,7 @@ constexpr auto packing_layout() {
 }
 
 template <class PackingType>
-void refuse_other_layout(StateReader& reader) {
+void reject_other_layout(StateReader& reader) {
   for (LayoutEntry const& entry : packing_layout<PackingType>()) {
     std::uint32_t saved = 0;
     reader(entry.what, saved);
@@ -51,7 +51,7 @@ void refuse_other_layout(StateReader& reader) {
 template <class PackingType>
 PackingType packing_of(std::string_view file) {
   StateReader reader(payload_of(packing_format, file));
-  refuse_other_layout<PackingType>(reader);
+  reject_other_layout<PackingType>(reader);
   PackingType packing;
   reader("packing", packing);
   require_valid(reader.at_end(), "members leave bytes over");

@@ -142,7 +142,7 @@ void read_places(CsvColumns const& table, PackingType& packing) {
 }
 
 /// Grains in the plane may come with a column z, but then it is the same for all.
-inline void refuse_places_in_space(CsvColumns const& table) {
+inline void reject_places_in_space(CsvColumns const& table) {
   if (!table.has("z")) return;
   auto const places = table.column("z");
   for (std::size_t i = 1; i < places.size(); ++i) {
@@ -154,7 +154,7 @@ inline void refuse_places_in_space(CsvColumns const& table) {
 
 /// Takes a copy, because making the list of pairs wraps the positions.
 template <class PackingType>
-void refuse_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& ids, std::string const& file) {
+void reject_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& ids, std::string const& file) {
   using Shape = typename PackingType::Shape;
   if (!rebuild_pairs(packing, 0.0).acceptable()) {
     reject(
@@ -191,7 +191,7 @@ template <class PackingType>
       reject("the cell for '{}' has a content of {} (its base vectors must be finite and right-handed): check them",
              table.file(), cell.determinant());
     }
-    if constexpr (PackingType::dim == 2) detail::refuse_places_in_space(table);
+    if constexpr (PackingType::dim == 2) detail::reject_places_in_space(table);
     NamedPacking<PackingType> named;
     auto& packing = named.packing;
     packing.cell = cell;
@@ -199,7 +199,7 @@ template <class PackingType>
     packing.population = std::make_shared<Population<Shape, typename PackingType::Scalar> const>(
         detail::read_sizes<Shape>(table), density, thickness);
     detail::read_places(table, packing);
-    detail::refuse_deep_overlaps(packing, named.ids, table.file());
+    detail::reject_deep_overlaps(packing, named.ids, table.file());
     return named;
   }
 

@@ -53,7 +53,7 @@ class PointBatch {
   /// A state of the point, for `put`.
   virtual std::any read(int k, StateReader& reader) const = 0;
   virtual void put(int k, std::any state) = 0;
-  /// A state of a point of another batch, for `put`. \throws InputError unless it has the same provider
+  /// A state of a point of another batch, for `put`. \throws InputError unless it has the same type of provider
   virtual std::any state_from(PointBatch const& other, int k, bool is_mirrored) const = 0;
   virtual void write_all(StateWriter& writer) const = 0;
   virtual void read_all(StateReader& reader) = 0;
@@ -126,7 +126,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
   void commit() override { committed_.swap(trial_); }
 
-  void write(int k, StateWriter& writer) const override { described(writer, committed_[index(k)]); }
+  void write(int k, StateWriter& writer) const override { described(writer, present(k)); }
   std::any read(int k, StateReader& reader) const override {
     State state = scarp::empty_state(*provider_, sites_[index(k)]);
     described(reader, state);
@@ -138,8 +138,8 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
   std::any state_from(PointBatch<dim> const& other, int k, bool is_mirrored) const override {
     auto const* const same = dynamic_cast<PointBatchOf const*>(&other);
-    if (!same) reject("a point is to be copied from one of another provider: copy points of one provider");
-    State state = same->committed_[index(k)];
+    if (!same) reject("a point is to be copied from one of another type of provider: copy points of one provider");
+    State state = same->present(k);
     if (is_mirrored) described(Mirror<dim>{}, state);
     return state;
   }
@@ -175,7 +175,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
 
   DoubledResponse<dim> doubled_response(int k, Gradient<dim> const& increment) const override {
     State trial = trial_[index(k)];
-    return answer_with_double_work(*provider_, trial_[index(k)], increment, plans_[index(k)], trial);
+    return respond_with_double_work(*provider_, trial_[index(k)], increment, plans_[index(k)], trial);
   }
   DoubledResponse<dim> doubled_path(int k, Gradient<dim> const& increment, std::string& bits) const override {
     DoubledResponse<dim> answer{{stress(k), {}}, 0};
@@ -185,7 +185,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
         State from = state;
         StateReader reader(bits);
         reader("state", from);
-        answer = answer_with_double_work(*provider_, from, increment, plans_[index(k)], state);
+        answer = respond_with_double_work(*provider_, from, increment, plans_[index(k)], state);
       }
       StateWriter writer;
       writer("state", state);
@@ -202,6 +202,13 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
 
  private:
+  /// \throws InputError for a point whose state is on another process
+  State const& present(int k) const {
+    if (!here_[index(k)])
+      reject("the state of point {} is asked for where another process owns it: ask that process", numbers_[index(k)]);
+    return committed_[index(k)];
+  }
+
   /// Of a point that another process owns.
   static State no_state() {
     if constexpr (std::default_initializable<State>) {
@@ -218,7 +225,9 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     if constexpr (Described<State>) {
       visit(name, visited);
     } else {
-      reject("states of a provider cannot be saved or sent (they name no members): give them a function members");
+      reject(
+          "states of a provider cannot be saved, sent or mirrored (they name no members): give them a function "
+          "members");
     }
   }
 

@@ -176,7 +176,7 @@ class ElementSides {
 
 /// Physical groups of sides of another kind than the elements have.
 template <class Element>
-void refuse_other_sides(GmshContent const& content) {
+void reject_other_sides(GmshContent const& content) {
   for (auto const& block : content.blocks) {
     bool const other_side = block.type.dim == Element::dim - 1 && block.type.type != Element::Facet::gmsh_type;
     if (!other_side || block.groups.empty() || block.tags.empty()) continue;
@@ -192,7 +192,7 @@ void refuse_other_sides(GmshContent const& content) {
 template <class Element>
 void read_gmsh_boundaries(GmshContent const& content, GmshNumbering const& numbering, Mesh<Element>& mesh) {
   constexpr int dim = Element::dim - 1;
-  refuse_other_sides<Element>(content);
+  reject_other_sides<Element>(content);
   for (auto const& [group, name] : content.names) {
     if (group.first == dim) mesh.boundaries[name];
   }

@@ -157,7 +157,7 @@ class GmshStream {
     skip_blanks();
     last_ = at_;
     auto const word = peek_word();
-    if (word.empty()) refuse_end(what);
+    if (word.empty()) reject_end(what);
     at_ += word.size();
     return word;
   }
@@ -165,7 +165,7 @@ class GmshStream {
   template <class Number>
   Number bytes(std::string_view what) {
     last_ = at_;
-    if (content_.size() - at_ < sizeof(Number)) refuse_end(what);
+    if (content_.size() - at_ < sizeof(Number)) reject_end(what);
     std::array<char, sizeof(Number)> raw;
     std::copy_n(content_.begin() + static_cast<std::ptrdiff_t>(at_), sizeof(Number), raw.begin());
     if (swapped_) std::reverse(raw.begin(), raw.end());
@@ -175,7 +175,7 @@ class GmshStream {
     return number;
   }
 
-  [[noreturn]] void refuse_end(std::string_view what) const {
+  [[noreturn]] void reject_end(std::string_view what) const {
     reject("'{}' ends at {} where {} should stand (it is cut off): write or copy it again", file_,
            binary_ ? fmt::format("byte {}", last_)
                    : fmt::format("line {}", std::count(content_.begin(), content_.end(), '\n') + 1),
