@@ -183,10 +183,10 @@ def base_rows(case):
     yield "surface x50 [m]", 1, lambda one: one.of(case, lambda summary: summary["surface_x50"])
 
 
-def bases(sticking, frictional):
+def bases(tied, frictional):
     """Lines of both kinds of bases."""
-    columns = {**{f"{name}{base}": (of_base, [name]) for name in ("2 m", "8 m") for base, of_base in (("", sticking), (", frictional", frictional))},
-               "8 m, 1904 triangles: three seeds": (sticking, SEED_SETS),
+    columns = {**{f"{name}{base}": (of_base, [name]) for name in ("2 m", "8 m") for base, of_base in (("", tied), (", frictional", frictional))},
+               "8 m, 1904 triangles: three seeds": (tied, SEED_SETS),
                "8 m, frictional, 1904 triangles: three seeds": (frictional, SEED_SETS)}
     return [{"measure": f"base, {case}: {what}", **{title: column(sets, names, measure, digits)
                                                     for title, (sets, names) in columns.items()}}
