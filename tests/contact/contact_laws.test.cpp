@@ -25,7 +25,7 @@ static_assert(scarp::RespondsToApproach<LawWithoutStiffness> && !scarp::ContactL
 struct LawWithTooManyNumbers : Frictionless {
   static constexpr scarp::ContactInputs inputs{.scalars = scarp::max_contact_scalars + 1};
 };
-static_assert(!scarp::NamesContactNeeds<LawWithTooManyNumbers>, "no contact has room for that many numbers");
+static_assert(!scarp::NamesContactInputs<LawWithTooManyNumbers>, "no contact has room for that many numbers");
 
 static_assert(!Frictionless::inputs.shear && LinearFrictional::inputs.shear);
 constexpr scarp::ContactInputs nothing_asked{};
