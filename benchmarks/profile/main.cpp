@@ -163,7 +163,7 @@ void profile_scene(bool quick) {
   add("share of their tangents", tangents / cpu);
   add("share of all else", 1.0 - (responses + tangents) / cpu);
   add("accepted steps", report.steps);
-  add("rejected attempts", report.rejected);
+  add("rejected attempts", report.refused);
   add("first iterations", static_cast<double>(iterations.first));
   add("further iterations", static_cast<double>(iterations.further));
   add("x50 [m]", survey.surface.surface_x50);

@@ -16,7 +16,7 @@ constexpr double gamma_soil = 15.68e3;  // [N/m3]
 
 std::string effort(FaultAnswer const& found) {
   return fmt::format("{} at throw/depth {:.3g}, {} steps, {} rejected, {} iterations", name(found.run.verdict.reason),
-                     found.run.load / 25.0, found.run.steps, found.run.rejected, found.run.iterations);
+                     found.run.load / 25.0, found.run.steps, found.run.refused, found.run.iterations);
 }
 
 /// Reaches the throw in balance, without tension that the strength does not have.

@@ -74,7 +74,7 @@ std::string words(Stand const& found) {
       "{} (last refusal {}) at load {:.4g}, {} attempts, {} rejected; tilt {:.3g}, lifted {:.2f}  linear residual "
       "{:.1e}",
       name(found.run.verdict.reason), name(found.run.last_failure), found.run.load, found.watch.attempts,
-      found.run.rejected, found.motion.tilt, found.lifted, found.watch.linear_residual);
+      found.run.refused, found.motion.tilt, found.lifted, found.watch.linear_residual);
 }
 
 /// Vertical imbalance of the footing, and sideways, over its weight.

@@ -21,7 +21,7 @@ using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 
 std::string words(scarp::RunReport const& run, Watch const& watch) {
   return fmt::format("{} (last refusal {}) at load {:.5g}, {} attempts, {} rejected, {} iterations",
-                     name(run.verdict.reason), name(run.last_failure), run.load, watch.attempts, run.rejected,
+                     name(run.verdict.reason), name(run.last_failure), run.load, watch.attempts, run.refused,
                      run.iterations);
 }
 

@@ -188,7 +188,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["tolerance"] = scene.tolerance;
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;
-  json["rejected_steps"] = run.rejected;
+  json["rejected_steps"] = run.refused;
   json["last_rejection"] = std::string(name(run.last_failure));
   if (choice.soil == Soil::dem) json["floor_share"] = scarp::floor_share(problem);
   json["iterations"] = run.iterations;

@@ -56,7 +56,7 @@ nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, Problem
   for (auto const& section : all) json["sections"].push_back(json_of(section));
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;
-  json["rejected_steps"] = run.rejected;
+  json["rejected_steps"] = run.refused;
   json["last_rejection"] = std::string(name(run.last_failure));
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;

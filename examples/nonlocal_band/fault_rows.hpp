@@ -39,7 +39,7 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
           scarp::outcrop(scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions()), run.load);
       examples::say(stdout, "{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
                     grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
-                    scarp::generalised_reaction(problem) - at_rest, run.steps, run.rejected, run.iterations,
+                    scarp::generalised_reaction(problem) - at_rest, run.steps, run.refused, run.iterations,
                     watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
       std::fflush(stdout);
     }

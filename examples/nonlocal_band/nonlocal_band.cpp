@@ -87,7 +87,7 @@ Outcome print_row(Choice const& choice, int cells, double length) {
   examples::say(
       stdout, "{:6} {:6} {:8.4f} {:9.2f} {:9.2f} {:8.4f} {:8.4f} {:7.2f} {:9.1e} {:6} {:8} {:6} {:8.1f}  {}\n", cells,
       length, last[0], peak / 1e3, last[1] / 1e3, outcome.band.width, outcome.band.spread, outcome.band.angle, last[2],
-      run.steps, run.rejected, run.iterations, watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
+      run.steps, run.refused, run.iterations, watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
   std::fflush(stdout);
   if (!run.verdict.acceptable()) outcome.band.width = std::nan("");
   return outcome;

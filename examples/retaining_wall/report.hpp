@@ -45,7 +45,7 @@ inline void print_table(std::vector<Outcome> const& outcomes) {
       return outcome.rows.empty() ? std::nan("") : (first ? outcome.rows.front() : outcome.rows.back()).ratio();
     };
     examples::say(stdout, "{:<8} {:9.4f} {:9.4f} {:6.2f} % {:6} {:8} {:6} {:11} {:9.1e} {:10.1e} {:8.1f}\n",
-                  name(outcome.movement), ratio(true), ratio(false), 100.0 * run.load, run.steps, run.rejected,
+                  name(outcome.movement), ratio(true), ratio(false), 100.0 * run.load, run.steps, run.refused,
                   run.iterations, run.inner_steps, run.largest_residual, imbalance(outcome), run.seconds);
   }
 }
@@ -87,7 +87,7 @@ inline nlohmann::ordered_json summary(Outcome const& outcome) {
   json["strain"] = run.load;
   json["imbalance"] = imbalance(outcome);
   json["steps"] = run.steps;
-  json["rejected_steps"] = run.rejected;
+  json["rejected_steps"] = run.refused;
   json["iterations"] = run.iterations;
   json["dem_steps"] = run.inner_steps;
   json["max_accepted_residual"] = run.largest_residual;

@@ -52,7 +52,7 @@ double compare(char const* name, Packing const& packing, std::vector<Row> const&
                 "up to the strain {:.5f}, where points differ by less than {:.0f} %: axial stress by {:.2f} %\n",
                 uniform_to, 100.0 * uniform, 100.0 * worst_uniform);
   examples::say(stdout, "{} steps, {} rejected, {} iterations, {} DEM steps, residual {:.1e}, {:.1f} s, {} {}\n",
-                run.steps, run.rejected, run.iterations, run.inner_steps, run.largest_residual, run.seconds,
+                run.steps, run.refused, run.iterations, run.inner_steps, run.largest_residual, run.seconds,
                 scarp::name(run.verdict.status), scarp::name(run.verdict.reason));
   std::fflush(stdout);
   return run.verdict.acceptable() ? worst_uniform : 1.0;

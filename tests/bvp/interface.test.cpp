@@ -111,7 +111,7 @@ TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle
   scarp::NoObserver no_observer;
   auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
   REQUIRE(run.verdict.acceptable());
-  CHECK(run.rejected == 0);
+  CHECK(run.refused == 0);
   double sum = 0.0;
   double contact = 0.0;
   double highest = 0.0;

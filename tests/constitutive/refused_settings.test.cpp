@@ -166,7 +166,7 @@ TEST_CASE("means over neighbours that cannot be are refused") {
   CHECK_REFUSED(make({.length = not_a_number}, volumes), "length that increments are averaged over is nan");
   CHECK_REFUSED(make({.stiffness = -1.0}, volumes), "stiffness against fluctuation strain is -1");
   CHECK_REFUSED(make({.fading = 0.0}, volumes), "strain after which fluctuation stress has faded is 0");
-  CHECK_REFUSED(make({}, std::vector{1.0}), "1 volumes and 2 lengths are given for 2 points");
+  CHECK_REFUSED(make({}, std::vector{1.0}), "1 volumes are given for 2 points");
   CHECK_REFUSED(make({.length = 2.0}, {}), "0 volumes and 2 lengths are given for 2 points");
 }
 

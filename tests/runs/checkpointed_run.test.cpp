@@ -153,7 +153,7 @@ void check_same(Outcome const& outcome, Outcome const& expected) {
   CHECK(outcome.report.last_failure == expected.report.last_failure);
   CHECK(outcome.report.load == expected.report.load);
   CHECK(outcome.report.steps == expected.report.steps);
-  CHECK(outcome.report.rejected == expected.report.rejected);
+  CHECK(outcome.report.refused == expected.report.refused);
   CHECK(outcome.report.iterations == expected.report.iterations);
   CHECK(outcome.report.largest_residual == expected.report.largest_residual);
   CHECK(outcome.notes.settled_residual == expected.notes.settled_residual);
@@ -179,7 +179,7 @@ TEST_CASE("an error budget does not change a bit of the run that it watches") {
 
 TEST_CASE("a run that is stopped before every attempt and continued by new objects keeps its bits") {
   REQUIRE(undisturbed().report.verdict.acceptable());
-  REQUIRE(undisturbed().report.rejected > 0);
+  REQUIRE(undisturbed().report.refused > 0);
   ScratchFolder const folder;
   Outcome outcome;
   int parts = 0;
@@ -189,7 +189,7 @@ TEST_CASE("a run that is stopped before every attempt and continued by new objec
   } while (outcome.report.verdict.reason == scarp::Reason::interrupted && parts < 100);
   check_same(outcome, undisturbed());
   // The step that settles begins without a question; every other attempt is a part, and the first stage's end makes one more at most.
-  int const attempts = undisturbed().report.steps + undisturbed().report.rejected;
+  int const attempts = undisturbed().report.steps + undisturbed().report.refused;
   CHECK(attempts > 10);
   CHECK(parts >= attempts - 1);
 }
@@ -203,7 +203,7 @@ TEST_CASE(
     ScratchFolder const folder;
     auto const stopped = pull(folder, resumed(folder), {.questions = questions});
     CHECK(stopped.report.verdict.reason == scarp::Reason::interrupted);
-    attempts.insert(stopped.report.steps + stopped.report.rejected);
+    attempts.insert(stopped.report.steps + stopped.report.refused);
     check_same(pull(folder, resumed(folder), {}), undisturbed());
   }
   CHECK(attempts.size() > 3);
@@ -211,7 +211,7 @@ TEST_CASE(
 }
 
 TEST_CASE("rows that were written after the last checkpoint vanish when a killed run goes on") {
-  int const attempts = undisturbed().report.steps + undisturbed().report.rejected;
+  int const attempts = undisturbed().report.steps + undisturbed().report.refused;
   for (int last = 2; last < attempts; last += 3) {
     CAPTURE(last);
     ScratchFolder const folder;

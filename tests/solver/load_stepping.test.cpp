@@ -52,7 +52,7 @@ TEST_CASE("a softening block is pulled past its peak in steps that the observer 
   CHECK(run.verdict == Verdict{});
   CHECK(run.load == 0.03);
   CHECK(run.largest_residual <= solver.tolerance);
-  CHECK(run.steps + run.rejected == static_cast<int>(witness.reports.size()));
+  CHECK(run.steps + run.refused == static_cast<int>(witness.reports.size()));
   CHECK(witness.changed_by_refused == 0);
   CHECK(witness.unchanged_by_accepted == 0);
   long iterations = 0;
@@ -78,7 +78,7 @@ TEST_CASE("a step that fails is rolled back to the bit and tried again in smalle
   auto const run = stepping().run(scarp::QuasiNewton<>{}, problem, 0.0, 0.02, witness);
   CHECK(run.verdict == Verdict{});
   CHECK(run.load == 0.02);
-  CHECK(run.rejected >= 2);
+  CHECK(run.refused >= 2);
   CHECK(run.last_failure == Reason::cell_collapsed);
   CHECK(witness.changed_by_refused == 0);
   // An attempt after a refused one is half as large.
@@ -190,7 +190,7 @@ TEST_CASE("settling that an observer stops counts as never made") {
   witness.stop_after = 0;
   auto const stopped = stepping().settle(scarp::QuasiNewton<>{}, problem, 0.0, witness);
   CHECK(stopped.verdict == Verdict{Status::not_converged, Reason::interrupted});
-  CHECK(stopped.rejected == 0);
+  CHECK(stopped.refused == 0);
   CHECK(stopped.last_failure == Reason::none);
   CHECK(witness.reports.empty());
   CHECK(samples::Committed<SoftBlock::Problem>(problem) == witness.committed);
@@ -208,7 +208,7 @@ TEST_CASE("the prediction's largest gradient limits every step before it is trie
   steps.max_displacement_gradient = 2e-3;
   auto const run = steps.run(scarp::QuasiNewton<>{}, problem, 0.0, 0.02, witness);
   CHECK(run.verdict == Verdict{});
-  CHECK(run.rejected == 0);
+  CHECK(run.refused == 0);
   CHECK(run.steps >= 10);  // analytic: the mean strain alone, 0.02, takes ten steps of at most 2e-3
   for (auto const& report : witness.reports) CHECK(report.max_displacement_gradient <= 1.001 * 2e-3);
 }
@@ -279,7 +279,7 @@ TEST_CASE("a step that cannot begin is reported with its load and its reason, an
   REQUIRE(run.steps > 0);
   REQUIRE(run.load > 0.0);
   CHECK(run.last_failure == Reason::singular_system);
-  CHECK(run.rejected == 1);
+  CHECK(run.refused == 1);
   CHECK(run.weak_dof >= 0);
   auto const& last = witness.reports.back();
   CHECK(last.verdict == run.verdict);

@@ -97,7 +97,7 @@ TEST_CASE("settling that fails commits nothing and says why") {
   auto witness = samples::watch(problem);
   auto const run = scarp::LoadStepping{}.settle(scarp::QuasiNewton<>{}, problem, 0.0, witness);
   CHECK(run.verdict == Verdict{Status::failed, Reason::cell_collapsed});
-  CHECK(run.rejected == 1);
+  CHECK(run.refused == 1);
   CHECK(run.worst_point == 0);
   CHECK(witness.reports.size() == 1);
   CHECK(witness.changed_by_refused == 0);

@@ -77,7 +77,7 @@ TEST_CASE(
     auto problem = moved_ground(executor, [&](auto const& place) { return scarp::Vector<2>(strain * place.x(), 0.0); });
     auto const run = in_one_step(problem);
     CHECK(run.verdict.acceptable());
-    CHECK(run.rejected == 0);
+    CHECK(run.refused == 0);
     // Analytic: friction of both halves is in balance as long as what does not slide is between the two points next to
     // the middle, 0.106 m from it each (Gauss points of facets of 0.5 m), and to the elastic slip.
     double const elastic = friction * weight / 2.0 / stiffness;
@@ -127,7 +127,7 @@ TEST_CASE(
     });
     auto const run = in_one_step(problem, 0.01);
     CHECK(run.verdict.acceptable());
-    if (run.rejected > 0) ++refused;
+    if (run.refused > 0) ++refused;
     double up = 0.0;
     for (auto const& point : problem.attached().points()) up += point.stress.y() * point.area;
     CHECK(up == samples::Approx(weight).epsilon(1e-8));

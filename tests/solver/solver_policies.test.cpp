@@ -84,7 +84,7 @@ TEST_CASE("one poisoned point among good ones is found, named, never committed, 
       auto problem = Block::make(soil, serial);
       auto witness = samples::watch(problem);
       auto const run = stepping().run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 0.012, witness);
-      CHECK(run.rejected > 0);
+      CHECK(run.refused > 0);
       CHECK(run.last_failure == reason_of(illness));
       CHECK(run.worst_point == soil.ill_point);
       CHECK(witness.changed_by_refused == 0);

@@ -57,14 +57,14 @@ struct RunReport {
   int weak_dof = -1;                   ///< degree of freedom that its singular system did not hold, -1 for none
   double load = 0.0;                   ///< load factor of the committed state
   int steps = 0;                       ///< accepted
-  int rejected = 0;                    ///< attempts that were rolled back
+  int refused = 0;                     ///< attempts that were rolled back
   long iterations = 0;                 ///< of all attempts
   long inner_steps = 0;                ///< DEM steps of all attempts
   double largest_residual = 0.0;       ///< of the accepted steps
   double material_seconds = 0.0;
   double seconds = 0.0;
 
-  SCARP_MEMBERS(verdict, last_failure, worst_point, weak_dof, load, steps, rejected, iterations, inner_steps,
+  SCARP_MEMBERS(verdict, last_failure, worst_point, weak_dof, load, steps, refused, iterations, inner_steps,
                 largest_residual, material_seconds, seconds)
 };
 
@@ -89,7 +89,7 @@ concept KeepsRuns = ObservesSteps<Observer, Problem> &&
 /// Two stages of a run as one: counts and times add up, verdict and load are the later stage's.
 inline RunReport joined(RunReport const& earlier, RunReport later) {
   later.steps += earlier.steps;
-  later.rejected += earlier.rejected;
+  later.refused += earlier.refused;
   later.iterations += earlier.iterations;
   later.inner_steps += earlier.inner_steps;
   later.largest_residual = std::max(later.largest_residual, earlier.largest_residual);
@@ -268,7 +268,7 @@ struct LoadStepping {
       run.load = step.load;
       run.largest_residual = std::max(run.largest_residual, step.residual());
     } else {
-      ++run.rejected;
+      ++run.refused;
       run.last_failure = step.verdict.reason;
       run.worst_point = step.worst_point;
       run.weak_dof = step.weak_dof;
