@@ -284,7 +284,7 @@ def check_interrupt():
             steps = 0
             for line in process.stderr:
                 said += line
-                steps += len(re.findall(r"^step +\d+ +h/H", line))
+                steps += len(re.findall(r"^step +\d+ +throw_over_depth", line))
                 if steps == 4:
                     process.send_signal(stop)
                     break
