@@ -49,7 +49,7 @@ inline std::string present_name(CLI::App const& app, std::string const& name) {
   return now;
 }
 
-/// The value that an option takes now in the place of one from before.
+/// The present value of an option for one of before version 0.2.
 inline std::string present_value(std::string_view option, std::string value) {
   if (option != "footing" || value != "sticking") return value;
   say(stderr,

@@ -2,7 +2,6 @@
 """[slow] fault_rupture --estimate says what a run will take, and does nothing else. Environment: SCARP_EXAMPLES, the folder of the built
 programs (skipped, exit 77, without)."""
 import json
-import os
 import pathlib
 import re
 import subprocess
@@ -10,12 +9,9 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import expect, finish
+from expectations import example, expect, finish
 
-program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
-if not program.is_file():
-    print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
-    sys.exit(77)
+program = example("fault_rupture")
 
 
 def run(folder, *options):

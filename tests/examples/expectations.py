@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSL-1.0
 """Expectations that a script gathers while it goes on."""
 
+import os
+import pathlib
 import sys
 
 troubles = []
@@ -19,3 +21,12 @@ def finish():
     print("\n".join(troubles))
     print(f"{checks} checks, {len(troubles)} failed")
     sys.exit(1 if troubles else 0)
+
+
+def example(name):
+    """The program of an example in the folder SCARP_EXAMPLES; ends the script as skipped (77) where it is not built."""
+    program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / name
+    if not program.is_file():
+        print(f"skipped: no {name} (set SCARP_EXAMPLES and build the examples)")
+        sys.exit(77)
+    return program

@@ -11,12 +11,9 @@ import tempfile
 import time
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import expect, finish
+from expectations import example, expect, finish
 
-program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
-if not program.is_file():
-    print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
-    sys.exit(77)
+program = example("fault_rupture")
 PART = [] if os.environ.get("SCARP_THROW") == "whole" else ["--throw-over-depth", "0.004", "--grains", "49"]
 # What carries the weight may differ from it by as much, and the share of the attempts that may be refused.
 SOILS = {"mohr_coulomb": ([], 1e-8, 0.05), "dem": (PART, 1e-2, 0.05)}

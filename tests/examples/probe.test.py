@@ -2,19 +2,15 @@
 """[slow] Probes of fault_rupture tell the strain that their packing has, with a length too: its volume grows by what its void ratio says.
 Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
-import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import expect, finish
+from expectations import example, expect, finish
 
-program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
-if not program.is_file():
-    print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
-    sys.exit(77)
+program = example("fault_rupture")
 with tempfile.TemporaryDirectory() as scratch:
     for length in ("0", "12"):
         done = subprocess.run([program.resolve(), "--quick", "--length", length, "--throw-over-depth", "0.02", "--frames", "1", "--output", length],

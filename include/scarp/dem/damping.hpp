@@ -45,7 +45,7 @@ concept SeesAllGrains = requires(Damping& damping, PackingType const& packing, N
 struct LocalDamping {
   double factor = 0.2;
   double drag = 1e-3;        ///< share that velocities lose in `default_time_step_share` of the critical step
-  double kept = 1.0 - drag;  ///< share that stays in the present time step
+  double kept = 1.0 - drag;  ///< share that stays in the present time step: set by before_move, not by users
 
   /// \throws InputError for shares outside of 0 to 1
   void validate() const {

@@ -43,7 +43,7 @@ struct StepObservation {
   double kinetic_energy = 0.0;  ///< of fluctuations, mean of before and after the move
 };
 
-/// What contacts and net forces tell of a packing; no energies of the move.
+/// Observation of a packing from its contact sums and net forces, without the energies of a move.
 template <class PackingType, class Forces>
 StepObservation<PackingType::dim> observation(PackingType const& packing, ContactSums<PackingType::dim> const& sums,
                                               Forces const& forces) {

@@ -131,7 +131,7 @@ using SharedParts = std::map<std::pair<std::type_index, std::string>, std::weak_
 /// \throws InputError naming the member where the bits end too early, are another member's or have another length
 class StateReader {
  public:
-  /// known: parts that are taken in the place of equal ones, and where new ones are added
+  /// known: parts that replace equal ones; new ones are added
   explicit StateReader(std::string_view bits, SharedParts* known = nullptr) : rest_(bits), known_(known) {}
 
   bool at_end() const { return rest_.empty(); }
