@@ -35,7 +35,7 @@ def exists(text, page):
 def program_folder(kind, name):
     """Where the sources of `./examples/run NAME` or `./benchmarks/run NAME` are."""
     here = ROOT / kind
-    candidates = [*here.glob(f"[0-9]*_{name}"), here / name, here / "answers" / f"{name}.cpp", here / f"{name}.cpp"]
+    candidates = [*here.glob(f"[0-9]*_{name}"), here / name, here / "tutorials" / f"{name}.cpp", here / f"{name}.cpp"]
     return next((path for path in candidates if path.exists()), None)
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How does another program call a packing as its material? By a C function: gradient in, stress and tangent out.
+// A packing as the material of another program: a C function takes the gradient and returns stress and tangent.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
@@ -22,7 +22,7 @@ extern "C" {
 scarp_point* scarp_point_new(double stiffness, double friction, double radius, double overlap) try {
   double const spacing = 2.0 * radius - overlap;
   Soil const soil{.law = {.normal_stiffness = stiffness, .tangential_stiffness = stiffness, .friction = friction},
-                  .source = {answers::lattice<Grains>({radius}, {spacing, spacing})}};
+                  .source = {tutorials::lattice<Grains>({radius}, {spacing, spacing})}};
   auto const start = soil.initial_state({});
   return new scarp_point{soil, start, start};
 } catch (...) {
@@ -35,14 +35,14 @@ void scarp_point_free(scarp_point* point) { delete point; }
 /// \return 0; 1 where the packing could not follow (the numbers are then of no use); 2 for wrong input
 int scarp_point_respond(scarp_point* point, double const* gradient, double* stress, double* tangent) try {
   scarp::Gradient<2> const increment{{gradient[0], gradient[1]}, {gradient[2], gradient[3]}};
-  auto const answer = point->soil.respond(point->committed, increment, point->trial);
-  Eigen::Map<scarp::VoigtStress<2>>{stress} = answer.stress;
+  auto const response = point->soil.respond(point->committed, increment, point->trial);
+  Eigen::Map<scarp::VoigtStress<2>>{stress} = response.stress;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{tangent} = point->soil.tangent(point->trial);
-  return answer.verdict.acceptable() ? 0 : 1;
+  return response.verdict.acceptable() ? 0 : 1;
 } catch (...) {
   return 2;
 }
-/// Makes the last answer the state that further gradients count from.
+/// Makes the last response the state that further gradients count from.
 void scarp_point_commit(scarp_point* point) { point->committed = point->trial; }
 }
 
@@ -56,14 +56,14 @@ int main() {
   // One contact of force k u in each spacing d: stress k u / d, and C11 = k in a lattice 1 m thick.
   double const spacing = 2.0 * radius - overlap;
   double const closer = spacing * std::exp(-std::log1p(strain));
-  good &= answers::agree("stress across [Pa]", -stress[1], stiffness * overlap / closer, 1e-4);
-  good &= answers::agree("stress along [Pa]", -stress[0], stiffness * (overlap / spacing + strain), 1e-4);
-  good &= answers::agree("tangent xx, xx [Pa]", tangent[0], stiffness, 1e-4);
+  good &= tutorials::agree("stress across [Pa]", -stress[1], stiffness * overlap / closer, 1e-4);
+  good &= tutorials::agree("stress along [Pa]", -stress[0], stiffness * (overlap / spacing + strain), 1e-4);
+  good &= tutorials::agree("tangent xx, xx [Pa]", tangent[0], stiffness, 1e-4);
   scarp_point_commit(point);
   double const still[4] = {};
   good &= scarp_point_respond(point, still, stress, tangent) == 0;
-  good &=
-      answers::agree("stress along after the commit [Pa]", -stress[0], stiffness * (overlap / spacing + strain), 1e-4);
+  good &= tutorials::agree("stress along after the commit [Pa]", -stress[0], stiffness * (overlap / spacing + strain),
+                           1e-4);
   scarp_point_free(point);
   return good && scarp_point_new(-1.0, 0.5, radius, overlap) == nullptr ? 0 : 1;
 }

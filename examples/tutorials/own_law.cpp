@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does a contact law of one's own take? A spring that stiffens, with friction, in packings of any shape.
+// User-defined contact law: a spring that stiffens, with friction, in packings of any shape.
 #include "scarp/contact/coulomb.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
@@ -39,13 +39,13 @@ int main() {
   using Grains = scarp::Packing<scarp::Disc, Stiffening>;
   Stiffening const law{.coefficient = 1e9, .tangential_stiffness = 5e6, .friction = 0.5};
   double const radius = 5e-3, overlap = 1e-5, spacing = 2.0 * radius - overlap;
-  scarp::SamePacking<Grains> const source{answers::lattice<Grains>({radius}, {spacing, spacing})};
+  scarp::SamePacking<Grains> const source{tutorials::lattice<Grains>({radius}, {spacing, spacing})};
   scarp::DemRve<Grains, scarp::SamePacking<Grains>> const soil{.law = law, .source = source};
   auto const start = soil.initial_state({});
   // One contact of length d along each axis in each cell d x d x 1: stress = force / d.
   double const normal = law.coefficient * overlap * std::sqrt(overlap);
-  bool good = answers::agree("normal stress [Pa]", -start.stress(0), normal / spacing, 1e-9);
-  // Pure shear e: along each axis neighbours slip by e d, which the spring answers up to mu F_n. The branches turn by e, and
+  bool good = tutorials::agree("normal stress [Pa]", -start.stress(0), normal / spacing, 1e-9);
+  // Pure shear e: along each axis neighbours slip by e d, which the spring resists up to mu F_n. The branches turn by e, and
   // the normal forces p with them: less 2 p e.
   auto const shear_after = [&](double strain) {
     auto trial = start;
@@ -53,9 +53,10 @@ int main() {
     return soil.respond(start, increment, trial).stress(2);
   };
   double const pressure = normal / spacing, stuck = 2e-5, slid = 1e-3;
-  good &= answers::agree("shear stress, sticking [Pa]", shear_after(stuck),
-                         (law.tangential_stiffness - 2.0 * pressure) * stuck, 1e-4);
-  // The branches lengthen by e^2 d / 2, which takes 0.75 e^2 d / u = 7.5e-4 of the normal force.
-  good &= answers::agree("shear stress, sliding [Pa]", shear_after(slid), (law.friction - 2.0 * slid) * pressure, 1e-3);
+  good &= tutorials::agree("shear stress, no slip [Pa]", shear_after(stuck),
+                           (law.tangential_stiffness - 2.0 * pressure) * stuck, 1e-4);
+  // The branches lengthen by e^2 d / 2, which lowers the normal force by 0.75 e^2 d / u = 7.5e-4.
+  good &=
+      tutorials::agree("shear stress, sliding [Pa]", shear_after(slid), (law.friction - 2.0 * slid) * pressure, 1e-3);
   return good ? 0 : 1;
 }

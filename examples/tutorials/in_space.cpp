@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What changes in space? The shape, and with it the dimension of everything: a packing of spheres in three tests.
+// Packings in space: the shape sets the dimension of everything; three tests of a packing of spheres.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
@@ -13,15 +13,15 @@ int main() {
   double const radius = 5e-3, overlap = 1e-5, spacing = 2.0 * radius - overlap;
   // As material of a scene: Region{"soil", soil} on a mesh of Hex8, Hex20, Tet4 or Tet10.
   scarp::DemRve<Spheres, scarp::SamePacking<Spheres>> const soil{
-      .law = law, .source = {answers::lattice<Spheres>({radius}, {spacing, spacing, spacing}, 3)}};
+      .law = law, .source = {tutorials::lattice<Spheres>({radius}, {spacing, spacing, spacing}, 3)}};
   auto const start = soil.initial_state({});
   bool good = true;
   // After an increment of the displacement gradient from the start: xx, yy, zz, yz, zx, xy [Pa], tension positive.
   auto const stress_after = [&](scarp::Gradient<3> const& increment) {
     auto trial = start;
-    auto const answer = soil.respond(start, increment, trial);
-    good &= answer.verdict.acceptable();
-    return answer.stress;
+    auto const response = soil.respond(start, increment, trial);
+    good &= response.verdict.acceptable();
+    return response.stress;
   };
 
   // A cubic lattice: one contact of force k u on the area d d of each cell.
@@ -29,17 +29,17 @@ int main() {
   scarp::Gradient<3> pressed = scarp::Gradient<3>::Zero();
   pressed(2, 2) = -strain;
   auto const stress = stress_after(pressed);
-  good &= answers::agree("stress along z [Pa]", -stress(2),
-                         law.normal_stiffness * (2.0 * radius - shorter) / (spacing * spacing), 1e-6);
-  good &= answers::agree("stress along x [Pa]", -stress(0), force / (spacing * shorter), 1e-6);
+  good &= tutorials::agree("stress along z [Pa]", -stress(2),
+                           law.normal_stiffness * (2.0 * radius - shorter) / (spacing * spacing), 1e-6);
+  good &= tutorials::agree("stress along x [Pa]", -stress(0), force / (spacing * shorter), 1e-6);
 
-  // Pure shear e in one plane: both kinds of contact slip by e d; the branches turn, which takes 2 p e.
+  // Pure shear e in one plane: both kinds of contact slip by e d; the branches turn, which subtracts 2 p e.
   scarp::Gradient<3> sheared = scarp::Gradient<3>::Zero();
   sheared(0, 1) = sheared(1, 0) = strain;
   double const pressure = force / (spacing * spacing);
-  good &= answers::agree("stress xy [Pa]", stress_after(sheared)(5),
-                         (law.tangential_stiffness / spacing - 2.0 * pressure) * strain, 1e-3);
+  good &= tutorials::agree("stress xy [Pa]", stress_after(sheared)(5),
+                           (law.tangential_stiffness / spacing - 2.0 * pressure) * strain, 1e-3);
   auto const tangent = soil.tangent(start);
-  good &= answers::agree("tangent zz, zz [Pa]", tangent(2, 2), law.normal_stiffness / spacing, 1e-9);
+  good &= tutorials::agree("tangent zz, zz [Pa]", tangent(2, 2), law.normal_stiffness / spacing, 1e-9);
   return good ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does a boundary of one's own take, one that holds grains on the mean strain of the cell? Plates through a packing.
+// User-defined boundary of a packing: plates whose grains follow the mean strain of the cell.
 #include "scarp/contact/law_per_species.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/uniform_strain_rim.hpp"
@@ -39,7 +39,7 @@ int main() {
   law.between(1, 1) = {a, a, friction};
   law.between(1, 2) = {b, b, friction};
   law.between(2, 2) = {c, c, friction};
-  auto grains = answers::lattice<Grains>({radius, 1.0}, {spacing, spacing});
+  auto grains = tutorials::lattice<Grains>({radius, 1.0}, {spacing, spacing});
   std::vector<Shape::Size<double>> sizes;
   for (std::size_t i = 0; i < grains.grain_count(); ++i) sizes.push_back({radius, i % 4 < 2 ? 1.0 : 2.0});
   grains.population = std::make_shared<scarp::Population<Shape> const>(sizes, 2650.0, 1.0);
@@ -47,10 +47,10 @@ int main() {
   // Free grains: four springs in series. Plates: between two of them a and b, or c and b, in series. All held: the mean.
   double const in_series = 4.0 / (1.0 / a + 2.0 / b + 1.0 / c), mean = (a + 2.0 * b + c) / 4.0;
   double const between_plates = 1.0 / (1.0 / a + 1.0 / b) + 1.0 / (1.0 / c + 1.0 / b);
-  bool good = answers::agree("modulus, periodic [Pa]", modulus(grains, law, scarp::Periodic{}), in_series, 1e-3);
-  good &= answers::agree("modulus between plates [Pa]", modulus(grains, law, Plates{}), between_plates, 1e-3);
+  bool good = tutorials::agree("modulus, periodic [Pa]", modulus(grains, law, scarp::Periodic{}), in_series, 1e-3);
+  good &= tutorials::agree("modulus between plates [Pa]", modulus(grains, law, Plates{}), between_plates, 1e-3);
   scarp::UniformStrainRim const everywhere{.width = 4.0};
-  good &= answers::agree("modulus, all grains held [Pa]", modulus(grains, law, everywhere), mean, 1e-3);
+  good &= tutorials::agree("modulus, all grains held [Pa]", modulus(grains, law, everywhere), mean, 1e-3);
 
   // As a material.
   using Source = scarp::SamePacking<Grains>;
@@ -60,10 +60,10 @@ int main() {
   auto const start = soil.initial_state({});
   auto trial = start;
   double const strain = 1e-5;
-  auto const answer = soil.respond(start, scarp::Gradient<2>{{-strain, 0.0}, {0.0, 0.0}}, trial);
+  auto const response = soil.respond(start, scarp::Gradient<2>{{-strain, 0.0}, {0.0, 0.0}}, trial);
   // At the start the grains are not in balance: what they relax by is that of a response without strain.
   auto still = start;
   auto const relaxed = soil.respond(start, scarp::Gradient<2>::Zero(), still, 1000);
-  double const found = (relaxed.stress(0) - answer.stress(0)) / strain;
-  return answers::agree("modulus of the material [Pa]", found, between_plates, 1e-2) && good ? 0 : 1;
+  double const found = (relaxed.stress(0) - response.stress(0)) / strain;
+  return tutorials::agree("modulus of the material [Pa]", found, between_plates, 1e-2) && good ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does a program take that has material points and no elements? A biaxial test of drained ground at three cell pressures.
+// Material points without elements: a biaxial test of drained ground at three cell pressures.
 #include "lattice.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
@@ -34,7 +34,7 @@ int main() {
   for (int k = 0; k < points.size(); ++k) {
     auto const stress = points.committed_stress(k);
     double const known = (1.0 + std::sin(0.6)) / (1.0 - std::sin(0.6));  // ratio of principal stresses
-    good &= answers::agree("axial over lateral stress", stress(1) / stress(0), known, 1e-8);
+    good &= tutorials::agree("axial over lateral stress", stress(1) / stress(0), known, 1e-8);
   }
   return good ? 0 : 1;
 }

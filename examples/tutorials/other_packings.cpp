@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How does every point get another packing? By a source: a lattice whose overlap grows with depth and varies at random.
+// User-defined source of packings, one for each point: a lattice whose overlap grows with depth and varies at random.
 #include "scarp/bvp/default_integration.hpp"
 #include "scarp/constitutive/correlated_field.hpp"
 #include "scarp/contact/linear_frictional.hpp"
@@ -26,7 +26,7 @@ struct LatticeByDepth {
     double const radius = 5e-3, wanted = pressure(site);  // k u / d = p with d = 2 r - u
     double const overlap = 2.0 * radius * wanted / (law.normal_stiffness + wanted);
     double const spacing = 2.0 * radius - overlap;
-    return answers::lattice<Grains>({radius}, {spacing, spacing});
+    return tutorials::lattice<Grains>({radius}, {spacing, spacing});
   }
 };
 static_assert(scarp::PackingSource<LatticeByDepth, Grains>);

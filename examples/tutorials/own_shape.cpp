@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does a grain shape of one's own take? A convex oval by its support function, from a loose cloud to a packing.
+// User-defined grain shape: a convex oval by its support function, from a loose cloud to a packing.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/preparation.hpp"
@@ -76,14 +76,14 @@ int main() {
   // A lattice of ovals along x: 2 r (1 + eps) long, 2 r (1 - eps) high, both more than the spacing by the overlap.
   double const r = 5e-3, eps = 0.2, overlap = 1e-6;
   scarp::Vector<2> const spacing(2.0 * r * (1.0 + eps) - overlap, 2.0 * r * (1.0 - eps) - overlap);
-  auto lattice = answers::lattice<Grains>({r, eps}, spacing);
+  auto lattice = tutorials::lattice<Grains>({r, eps}, spacing);
   bool good = stepper.observe(lattice, law, seen).acceptable();
   double const force = law.normal_stiffness * overlap;
-  good &= answers::agree("stress of a lattice along x [Pa]", -seen.stress(0, 0), force / spacing.y(), 1e-9);
-  good &= answers::agree("stress of a lattice along y [Pa]", -seen.stress(1, 1), force / spacing.x(), 1e-9);
+  good &= tutorials::agree("stress of a lattice along x [Pa]", -seen.stress(0, 0), force / spacing.y(), 1e-9);
+  good &= tutorials::agree("stress of a lattice along y [Pa]", -seen.stress(1, 1), force / spacing.x(), 1e-9);
 
   scarp::Cloud<OvalGrading> const cloud{.grains = 40, .density = 2650.0, .thickness = 1.0};
   auto made = scarp::IsotropicPreparation{.pressure = 1e5}.prepare(cloud.make<Grains>(), law);
   good &= made.verdict.acceptable() && stepper.observe(made.packing, law, seen).acceptable();
-  return answers::agree("pressure of a packing [Pa]", -seen.stress.trace() / 2.0, 1e5, 1e-3) && good ? 0 : 1;
+  return tutorials::agree("pressure of a packing [Pa]", -seen.stress.trace() / 2.0, 1e5, 1e-3) && good ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does an element of one's own take? Nine nodes on a quadrilateral, in the patch test on a distorted mesh.
+// User-defined element: a quadrilateral of nine nodes, in the patch test on a distorted mesh.
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/mesh/box_mesh.hpp"
@@ -46,11 +46,11 @@ static_assert(scarp::ReferenceElement<Quad9> && scarp::PlacesNodes<Quad9>);
 int main() {
   auto const mesh = scarp::BoxMesh<Quad9>{.lengths = {2.0, 1.0}, .cells = {4, 3}, .distortion = 0.2}.generate();
   scarp::Discretisation<Quad9, scarp::SmallStrain> const grid(mesh);
-  bool good = answers::agree("nodes of 4 x 3 elements", grid.node_count(), 9 * 7, 0.0);
+  bool good = tutorials::agree("nodes of 4 x 3 elements", grid.node_count(), 9 * 7, 0.0);
   double area = 0.0;
   Eigen::VectorXd displacement = Eigen::VectorXd::Zero(grid.dof_count());
   for (double const volume : grid.volumes(displacement)) area += volume;
-  good &= answers::agree("area [m2]", area, 2.0, 1e-12);
+  good &= tutorials::agree("area [m2]", area, 2.0, 1e-12);
 
   // The patch test: a uniform gradient is found at every point, and a uniform stress leaves the inner nodes without force.
   scarp::Tensor<2> const gradient{{1e-3, 4e-4}, {4e-4, -5e-4}};

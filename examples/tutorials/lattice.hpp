@@ -7,7 +7,7 @@
 
 #include "scarp/dem/packing.hpp"
 
-namespace answers {
+namespace tutorials {
 
 /// A square or cubic lattice of equal grains at rest, whose stresses are known: each grain touches its neighbours along
 /// the axes and nothing else.
@@ -35,11 +35,11 @@ PackingType lattice(scarp::SizeOf<typename PackingType::Shape> const& size,
   return packing;
 }
 
-/// Prints a figure beside what it should be; whether they agree to a relative tolerance.
+/// Prints a result and its known value. \return whether they agree to a relative tolerance
 inline bool agree(char const* what, double found, double known, double tolerance) {
   bool const good = std::abs(found - known) <= tolerance * std::abs(known);
   fmt::print("{:<48} {:>14.7g}  known {:>14.7g}  {}\n", what, found, known, good ? "ok" : "WRONG");
   return good;
 }
 
-}  // namespace answers
+}  // namespace tutorials

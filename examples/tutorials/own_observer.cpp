@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does an observer of one's own take? It keeps the curve of load over settlement and ends the run at a settlement.
+// User-defined observer: records the curve of load over settlement and ends the run at a settlement.
 #include "scarp/bvp/default_integration.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -18,7 +18,7 @@ struct SettlementCurve {
   double limit = 0.0;  // settlement at which the run ends [m]
   std::vector<std::pair<double, double>> rows{};
 
-  /// Called after every attempt at a step; one that was refused has been rolled back already.
+  /// Called after every attempt at a step; a rejected attempt has been rolled back already.
   template <class Problem>
   void attempted(Problem const& problem, scarp::StepReport const& report) {
     if (!report.verdict.acceptable()) return;
@@ -51,8 +51,8 @@ int main() {
   auto const run = steps.run(newton, problem, 0.0, 1.0, curve);
 
   bool good = run.verdict.reason == scarp::Reason::interrupted;
-  good &= answers::agree("steps that were seen", static_cast<double>(curve.rows.size()), run.steps, 0.0);
-  good &= answers::agree("load factor at the end", run.load, 0.5, 1e-12);  // the first of 0.1, 0.2, ... beyond 0.45
+  good &= tutorials::agree("steps that were seen", static_cast<double>(curve.rows.size()), run.steps, 0.0);
+  good &= tutorials::agree("load factor at the end", run.load, 0.5, 1e-12);  // the first of 0.1, 0.2, ... beyond 0.45
   // Linear in the load up to half the strain of 4e-5.
-  return answers::agree("settlement there [m]", curve.rows.back().second, 0.5 * whole, 1e-4) && good ? 0 : 1;
+  return tutorials::agree("settlement there [m]", curve.rows.back().second, 0.5 * whole, 1e-4) && good ? 0 : 1;
 }

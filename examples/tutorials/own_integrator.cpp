@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does a relaxation of one's own take, one that looks at all grains before they move? Projected velocities; it
-// prepares a packing and moves one that answers as a material.
+// User-defined relaxation, which evaluates all grains before they move: projected velocities.
+// It prepares a packing and moves one that responds as a material.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
@@ -57,17 +57,17 @@ int main() {
   auto const balance = scarp::balance(made.packing, law);
   fmt::print("void ratio {:.4f}, unbalanced ratio {:.1e}\n", made.packing.void_ratio(), balance.unbalanced_ratio);
   bool good = made.verdict.acceptable();
-  good &= answers::agree("mean stress of a packing [Pa]", balance.stress.trace() / 2.0, -preparation.pressure, 2e-4);
+  good &= tutorials::agree("mean stress of a packing [Pa]", balance.stress.trace() / 2.0, -preparation.pressure, 2e-4);
 
   // As a material: C11 = k_n of the square lattice, per thickness of 1 m, whatever moves the grains.
   double const radius = 5e-3, spacing = 2.0 * radius - 1e-6, strain = 1e-4;
   scarp::DemRve<Grains, Source, scarp::AffineTangent, ProjectedVelocities> const soil{
-      .law = law, .source = {answers::lattice<Grains>({radius}, {spacing, spacing})}};
+      .law = law, .source = {tutorials::lattice<Grains>({radius}, {spacing, spacing})}};
   auto const start = soil.initial_state({});
   auto trial = start;
   scarp::Gradient<2> const increment{{-strain, 0.0}, {0.0, 0.0}};
-  auto const answer = soil.respond(start, increment, trial);
-  double const modulus = (start.stress(0) - answer.stress(0)) / strain;
-  good &= answer.verdict.acceptable();
-  return answers::agree("modulus of a lattice [Pa]", modulus, law.normal_stiffness, 1e-3) && good ? 0 : 1;
+  auto const response = soil.respond(start, increment, trial);
+  double const modulus = (start.stress(0) - response.stress(0)) / strain;
+  good &= response.verdict.acceptable();
+  return tutorials::agree("modulus of a lattice [Pa]", modulus, law.normal_stiffness, 1e-3) && good ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What does a damping of one's own take? Viscous drag on all grains, in a packing that answers as a material.
+// User-defined damping: viscous drag on all grains, in a packing that responds as a material.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
@@ -35,25 +35,25 @@ int main() {
   double const radius = 5e-3;
 
   // Grains that do not touch only feel the drag.
-  auto loose = answers::lattice<Grains>({radius}, {0.011, 0.011});
+  auto loose = tutorials::lattice<Grains>({radius}, {0.011, 0.011});
   loose.velocity(5, 0) = 1e-3;
   scarp::TimeStepper<Grains, ViscousDrag> stepper;
   stepper.damping = drag;
   bool good = true;
   for (int step = 0; step < 20; ++step) good &= stepper.step(loose, law, scarp::Tensor<2>::Zero()).acceptable();
   double const time = 20.0 * loose.last_move.duration;
-  good &=
-      answers::agree("velocity of a free grain [m/s]", loose.velocity(5, 0), 1e-3 * std::exp(-drag.rate * time), 1e-3);
+  good &= tutorials::agree("velocity of a free grain [m/s]", loose.velocity(5, 0), 1e-3 * std::exp(-drag.rate * time),
+                           1e-3);
 
   // As a material: C11 = k_n of the square lattice, per thickness of 1 m, whatever the damping is.
   double const spacing = 2.0 * radius - 1e-6, strain = 1e-4;
   scarp::DemRve<Grains, Source, scarp::AffineTangent, ViscousDrag> const soil{
-      .law = law, .source = {answers::lattice<Grains>({radius}, {spacing, spacing})}, .damping = drag};
+      .law = law, .source = {tutorials::lattice<Grains>({radius}, {spacing, spacing})}, .damping = drag};
   auto const start = soil.initial_state({});
   auto trial = start;
   scarp::Gradient<2> const increment{{-strain, 0.0}, {0.0, 0.0}};
-  auto const answer = soil.respond(start, increment, trial);
-  double const modulus = (start.stress(0) - answer.stress(0)) / strain;
-  good &= answer.verdict.acceptable();
-  return answers::agree("modulus of a lattice [Pa]", modulus, law.normal_stiffness, 1e-3) && good ? 0 : 1;
+  auto const response = soil.respond(start, increment, trial);
+  double const modulus = (start.stress(0) - response.stress(0)) / strain;
+  good &= response.verdict.acceptable();
+  return tutorials::agree("modulus of a lattice [Pa]", modulus, law.normal_stiffness, 1e-3) && good ? 0 : 1;
 }
