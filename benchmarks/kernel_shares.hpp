@@ -7,7 +7,7 @@
 
 namespace scarp_benchmark {
 
-/// The parts of scarp::pair_forces, one by one. The passes over blocks of pairs run over the whole list each; answering and
+/// The parts of scarp::pair_forces, one by one. The passes over blocks of pairs run over the whole list each; responding and
 /// scattering work on the numbers of the first block, so that their data lie in the nearest cache as they do in the library.
 template <class PackingType>
 class Parts {
@@ -34,14 +34,14 @@ class Parts {
   [[gnu::flatten]] void gather() {
     for_each_block(all, [&](std::size_t at, std::size_t) { block_.gather(scratch_.rows.data(), at); });
   }
-  [[gnu::flatten]] void answer() {
+  [[gnu::flatten]] void respond() {
     scarp::detail::PairResponse<scarp::Observe::nothing, PackingType, Law> response(packing_, law_);
     if constexpr (Shape::warm_starts_normal) {
       std::size_t const pairs = packing_.pairs.count();
       for (std::size_t start = 0; start < pairs; start += Block::size)
         response.search(block_, (std::min(Block::size, pairs - start) + width - 1) / width * width, start);
     }
-    for_each_block(all, [&](std::size_t at, std::size_t start) { response.answer(block_, at, start + at); });
+    for_each_block(all, [&](std::size_t at, std::size_t start) { response.respond(block_, at, start + at); });
   }
   [[gnu::flatten]] void scatter() {
     for_each_block(all, [&](std::size_t at, std::size_t) { block_.scatter(scratch_.forces.data(), at); });
@@ -80,7 +80,7 @@ void part(benchmark::State& state, int grains, void (Parts<PackingType>::*run_pa
     (parts.*run_part)();
     benchmark::ClobberMemory();
   }
-  tell(state, packing.pairs.count(), contact_count(packing, law));
+  count_pairs(state, packing.pairs.count(), contact_count(packing, law));
 }
 
 inline double processor_seconds() {
@@ -161,7 +161,7 @@ void declare_shares(std::string const& shape, int grains) {
   declare_part("fill_rows", &P::fill_rows);
   declare_part("clear_forces", &P::clear_forces);
   declare_part("gather", &P::gather);
-  declare_part("answer", &P::answer);
+  declare_part("respond", &P::respond);
   declare_part("scatter", &P::scatter);
   declare_part("gather_ghosts", &P::gather_ghosts);
   declare_part("pair_forces", &P::forces);

@@ -12,7 +12,7 @@ namespace scarp_benchmark {
 
 inline auto const seconds_each = benchmark::Counter::kIsRate | benchmark::Counter::kInvert;
 
-inline void tell(benchmark::State& state, std::size_t near_pairs, std::size_t contacts) {
+inline void count_pairs(benchmark::State& state, std::size_t near_pairs, std::size_t contacts) {
   using benchmark::Counter;
   auto const steps = static_cast<double>(state.iterations());
   state.counters["us_per_step"] = Counter(steps * 1e-6, seconds_each);
@@ -37,7 +37,7 @@ void dem_step(benchmark::State& state, int grains, Numbering numbering = Numberi
       break;
     }
   }
-  tell(state, packing.pairs.count(), contact_count(packing, law));
+  count_pairs(state, packing.pairs.count(), contact_count(packing, law));
   state.counters["state_bytes"] = static_cast<double>(scarp::state_bytes(packing));
 }
 

@@ -47,7 +47,7 @@ void dem_step_naive(benchmark::State& state, int grains) {
   NaiveKernel<PackingType> naive(packing, law, damping, time_step);
   for (auto _ : state) naive.step(shear.next());
   benchmark::DoNotOptimize(naive.grains().data());
-  tell(state, naive.pair_count(), contact_count(packing, law));
+  count_pairs(state, naive.pair_count(), contact_count(packing, law));
 }
 
 /// Cycles per second: the loop is a chain of additions, one cycle each.

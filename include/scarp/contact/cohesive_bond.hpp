@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// A law of constant stiffness whose springs a bond can go on using where the law itself would open or slide.
+/// A law of constant stiffness whose springs a bond can still use where the law itself would open or slide.
 template <class Law>
 concept HasLinearSprings = Frictional<Law> && HasStoredEnergy<Law> && requires(Law const& law) {
   { law.normal_stiffness } -> std::convertible_to<double>;
@@ -20,7 +20,7 @@ concept HasLinearSprings = Frictional<Law> && HasStoredEnergy<Law> && requires(L
 };
 
 /// Bonds between grains: as long as a bond is intact, the springs of the law also pull and do not slide.
-/// \f$ F_n = k_n u_n \ge -T,\quad |F_t| \le C + \mu F_n \f$: Coulomb's line with cohesion, which goes on into tension
+/// \f$ F_n = k_n u_n \ge -T,\quad |F_t| \le C + \mu F_n \f$: Coulomb's line with cohesion, which extends into tension
 /// up to its cut-off (as the parallel bond of Potyondy and Cundall 2004, without moments). A bond that passes either
 /// limit breaks for good and leaves the contact to the law. No contact is bonded unless `bond` was called for it.
 /// tensile strength T and shear strength C [N]. What a bond stored beyond the law's share is dissipated when it breaks;

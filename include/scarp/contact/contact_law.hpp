@@ -22,12 +22,12 @@ using Turning = std::conditional_t<Dim == 2, T, std::array<T, 3>>;
 
 /// What a law needs of a contact. What it does not name is neither stored nor computed.
 struct ContactInputs {
-  bool shear = false;   ///< a tangential force is remembered; `slip_increment` is given
-  bool moment = false;  ///< a moment is remembered; `rotation_increment` is given
-  int scalars = 0;      ///< further numbers that are remembered, zero for a new contact
+  bool shear = false;   ///< a tangential force is stored; `slip_increment` is given
+  bool moment = false;  ///< a moment is stored; `rotation_increment` is given
+  int scalars = 0;      ///< further numbers that are stored, zero for a new contact
   bool radius = false;  ///< `reduced_radius` is given
   bool motion = false;  ///< `overlap_increment`, `tangential_increment`, `reduced_mass` and `time_step` are given
-  int species = 0;      ///< how many the law tells apart; `species` is given
+  int species = 0;      ///< number that the law distinguishes; `species` is given
 };
 
 /// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and rotation
@@ -48,7 +48,7 @@ struct ContactKinematics {
 /// The most numbers that a law, with all that is wrapped around it, may need in `ContactInputs::scalars`.
 inline constexpr int max_contact_scalars = 4;
 
-/// What a contact remembers from step to step, as far as its law needs it.
+/// Memory of a contact from step to step, as far as its law needs it.
 template <int Dim, class T>
 struct ContactMemory {
   Tangential<Dim, T> shear{};  ///< tangential force on the second grain [N]
@@ -99,7 +99,7 @@ concept NamesContactInputs = requires {
   requires Law::inputs.scalars <= max_contact_scalars;
 };
 
-/// A law with a friction coefficient needs a shear force that is remembered: without it none would be computed.
+/// A law with a friction coefficient needs a shear force that is stored: without it none would be computed.
 template <class Law>
 concept RemembersItsShear = !requires(Law & law) {
   law.friction_coefficient();
@@ -154,7 +154,7 @@ concept HasStoredEnergy = ContactLaw<Law> &&
 };
 
 /// interaction_range(): the widest gap [m] across which the law still acts, such as a bond that is pulled. A law that has none acts on
-/// closed contacts only; say `static_assert(HasInteractionRange<MyLaw>)` beside one that has, so that no misspelling is passed over.
+/// closed contacts only. Write `static_assert(HasInteractionRange<MyLaw>)` after one that has it, which finds a misspelled name.
 template <class Law>
 concept HasInteractionRange = requires(Law const& law) {
   { law.interaction_range() } -> std::convertible_to<double>;
@@ -241,13 +241,13 @@ struct MissingOfContactLaw {
 };
 
 /// Compiles the law's response for several contacts at once, before the pair loop does: what cannot be compiled, an `if`
-/// on an overlap say, is then reported with this short name, by clang with the comment below, and not from within the loop.
+/// on an overlap for example, is then reported with this short name, by clang with the comment below, and not from within the loop.
 template <class Law>
-constexpr bool a_law_answers_many_contacts_at_once_so_it_takes_lanes_select_for_if() {
+constexpr bool a_law_responds_to_many_contacts_at_once_so_it_takes_lanes_select_for_if() {
   if constexpr (!is_precompiled<Law>) {
     using T = lanes::Pack<double>;
-    [[maybe_unused]] auto const answer = [](Law const& law, ContactKinematics<2, T> const& approach,
-                                            ContactMemory<2, T>& memory) {
+    [[maybe_unused]] auto const response = [](Law const& law, ContactKinematics<2, T> const& approach,
+                                              ContactMemory<2, T>& memory) {
       return law.respond(approach, memory);  // many_contacts_at_once: lanes::select in the place of `if`
     };
   }
@@ -259,6 +259,6 @@ constexpr bool a_law_answers_many_contacts_at_once_so_it_takes_lanes_select_for_
 /// A `ContactLaw`; for another type the compiler names the missing member.
 template <class Law>
 concept CheckedContactLaw = (ContactLaw<Law> || detail::MissingOfContactLaw<Law>::nothing) &&
-                            detail::a_law_answers_many_contacts_at_once_so_it_takes_lanes_select_for_if<Law>();
+                            detail::a_law_responds_to_many_contacts_at_once_so_it_takes_lanes_select_for_if<Law>();
 
 }  // namespace scarp

@@ -84,7 +84,7 @@ struct HertzRestitution {
   }
 
  private:
-  /// In one step a dashpot acts like a spring of stiffness \f$ c / \Delta t \f$ that remembers nothing.
+  /// In one step a dashpot acts like a spring of stiffness \f$ c / \Delta t \f$ without memory.
   template <int Dim, class T>
   T stiffness_of_step(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
     using std::sqrt;
@@ -189,7 +189,7 @@ struct HertzMindlin {
            lanes::at_least(broadcast<T>(16.0 * reduced_shear_modulus) * contact_radius, smallest_normal<T>());
   }
 
-  /// Gives the remembered shear spring the new contact radius.
+  /// Gives the stored shear spring the new contact radius.
   /// \return energy [J] that leaves the spring; the last term makes up for the step's mean force, see coulomb_slide
   template <int Dim, class T>
   T resize(T const& contact_radius, Tangential<Dim, T> const& slip, ContactMemory<Dim, T>& memory) const {

@@ -13,7 +13,7 @@
 namespace scarp {
 
 /// One contact law with parameters of its own for every pair of species, i with j as j with i; grains are `WithSpecies<Shape, Species>`.
-/// Each contact evaluates the laws of all pairs and takes one: for few species, two or three.
+/// Each contact evaluates the laws of all pairs and selects one: for few species, two or three.
 template <ContactLaw Law, int Species>
   requires(Species >= 1 && Law::inputs.species == 0)
 struct LawPerSpecies {

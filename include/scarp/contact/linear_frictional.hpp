@@ -9,7 +9,7 @@
 namespace scarp {
 
 /// Linear springs with Coulomb's limit, no tension.
-/// \f$ F_n = k_n u_n,\; F_t \leftarrow F_t - k_t\,\Delta s,\; |F_t| \le \mu F_n \f$   (Cundall and Strack 1979; the study's law)
+/// \f$ F_n = k_n u_n,\; F_t \leftarrow F_t - k_t\,\Delta s,\; |F_t| \le \mu F_n \f$   (Cundall and Strack 1979)
 /// Open contacts have F_n = 0, hence F_t = 0: clamping expresses both opening and sliding without a branch.
 /// stiffnesses [N/m], friction coefficient dimensionless
 struct LinearFrictional {

@@ -20,8 +20,8 @@ struct BondedPacking {
 };
 
 /// The same grains under a law with bonds: every contact that touches is bonded, and every gap up to `gap` [m] too. Grains
-/// stand still, contacts go on from the shear forces and moments that they have, so that a packing in balance stays so where
-/// the law's springs are those of the former.
+/// are at rest, contacts retain their shear forces and moments, so that a packing in balance stays so where
+/// both laws have equal springs.
 template <Bonds Law, class PackingType>
 BondedPacking<Packing<typename PackingType::Shape, Law, typename PackingType::Scalar>> bonded(
     PackingType grains, typename PackingType::Law const& former, Law const& law, double gap = 0.0) {

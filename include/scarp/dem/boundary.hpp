@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// What a boundary may do to grains: keep their centres or spins on the cell's mean motion, without fluctuation. What is held
+/// Constraints of a boundary on grains: hold their centres or spins on the cell's mean motion, without fluctuation. What is held
 /// has no net force, also in the unbalanced ratio; the stress is of all contacts.
 template <class PackingType>
 class GrainHolds {

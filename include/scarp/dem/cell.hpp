@@ -20,7 +20,7 @@ double min_height(Tensor<Dim> const& cell) {
 template <int Dim>
 Eigen::Matrix<int, Dim, Dim> lattice_reduction(Tensor<Dim> cell) {
   Eigen::Matrix<int, Dim, Dim> change = Eigen::Matrix<int, Dim, Dim>::Identity();
-  // A ratio of exactly one half would flip to and fro: ask for a little more before changing anything.
+  // A ratio of exactly one half would alternate without end: require a little more before changing anything.
   constexpr double half = 0.5 + 1e-9;
   for (bool reduced = false; !reduced;) {
     reduced = true;

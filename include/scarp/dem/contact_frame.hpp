@@ -69,7 +69,7 @@ std::array<T, 3> rolling_part(std::array<T, 3> const& turn, std::array<T, 3> con
   return tangential_part(turn, normal);
 }
 
-/// Carries a remembered tangential force or rolling moment to the present frame of its contact: it turns with the mean
+/// Carries a stored tangential force or rolling moment to the present frame of its contact: it turns with the mean
 /// rotation about the normal, is laid into the tangent plane and keeps its size. In the plane the number stays.
 template <class T>
 void carry_to_frame(T&, T const&, std::array<T, 2> const&) {}

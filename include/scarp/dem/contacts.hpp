@@ -40,7 +40,7 @@ void read_tangential(SoaArray<Scalar, Count> const& columns, std::size_t row, Ta
 
 }  // namespace detail
 
-/// What the contact of a near pair remembers.
+/// Memory of the contact of a near pair.
 template <class Shape, class Law, class Scalar>
 ContactMemory<Shape::dim, double> contact_memory(VerletList<Shape, Law, Scalar> const& pairs, std::size_t pair) {
   constexpr int dim = Shape::dim;
@@ -76,8 +76,8 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
     auto memory = contact_memory(pairs, p);
     carry_to_frame(memory.shear, {}, touch.normal);
     carry_to_frame(memory.moment, {}, touch.normal);
-    auto const answer = law.respond(still, memory);
-    auto const sideways = as_vector(answer.shear, touch.normal);
+    auto const response = law.respond(still, memory);
+    auto const sideways = as_vector(response.shear, touch.normal);
     Contact<dim> contact{p,
                          grain_of_row(packing, detail::index(pairs.first[p])),
                          grain_of_row(packing, detail::index(pairs.second[p])),
@@ -85,15 +85,15 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
                          still,
                          memory,
                          contact_stiffness(law, still),
-                         answer.normal,
+                         response.normal,
                          Eigen::Map<Vector<dim> const>(near.branch.data()),
                          Eigen::Map<Vector<dim> const>(sideways.data())};
-    contact.force += answer.normal * contact.normal();
+    contact.force += response.normal * contact.normal();
     visit(contact);
   }
 }
 
-/// The same for pairs that touch, or act across a gap.
+/// As for_each_near_pair, of pairs that touch or act across a gap only.
 template <class PackingType, class Visitor>
 void for_each_contact(PackingType const& packing, typename PackingType::Law const& law, Visitor&& visit) {
   for_each_near_pair(packing, law, [&](Contact<PackingType::dim> const& contact) {

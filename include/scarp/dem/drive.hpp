@@ -37,11 +37,11 @@ struct ServoGains {
     for (std::size_t k = 0; k < steady.size(); ++k) {
       auto const& control = loading.controls[k];
       double const missing = control.missing(stress);
-      double const answer = missing / (modulus * response_steps);
+      double const correction = missing / (modulus * response_steps);
       if (learns) {
-        steady[k] = std::clamp(steady[k] + answer / (learning_steps * response_steps), -fastest, fastest);
+        steady[k] = std::clamp(steady[k] + correction / (learning_steps * response_steps), -fastest, fastest);
       }
-      double size = std::clamp(answer + steady[k], -fastest, fastest);
+      double size = std::clamp(correction + steady[k], -fastest, fastest);
       if (!jammed && control.direction.trace() > 0.0 && control.target < 0.0 && missing < nearly_all * control.target)
         size = -fastest;
       step += size * control.direction;
@@ -74,7 +74,7 @@ double spring_modulus(PackingType const& packing, typename PackingType::Law cons
   return detail::slight_springs(packing, law).normal / detail::depth_of_contacts(packing);
 }
 
-/// The same of its dashpots [Pa s], 0 without: over the time step it is the stiffness with which they meet a strain in one step.
+/// Viscosity scale [Pa s] of a law's dashpots, 0 without: over the time step it is their stiffness against a strain in one step.
 template <class PackingType>
 double dashpot_modulus(PackingType const& packing, typename PackingType::Law const& law) {
   double const ratio = damping_ratio_of(law);
@@ -85,7 +85,7 @@ double dashpot_modulus(PackingType const& packing, typename PackingType::Law con
   return detail::dashpots_of(springs, ratio, heaviest / 2.0).normal / detail::depth_of_contacts(packing);
 }
 
-/// Moves a packing step by step under a loading, whatever it says. Looks before its first step.
+/// Applies a loading to a packing, one DEM step at a time. Stress is evaluated once before the first step.
 template <class PackingType, Observe what = Observe::balance>
 class CellDriver {
  public:
@@ -166,8 +166,8 @@ struct Servo {
     validate();
     if (!loading.reachable(Bonds<typename PackingType::Law>)) return {Status::not_converged, Reason::unreachable};
     constexpr double slight = 1e-3;  // of the springs, where no stress at all is prescribed
-    double const asked = loading.stress_scale();
-    double const tolerance = stress_tolerance * (asked > 0.0 ? asked : slight * spring_modulus(packing, law));
+    double const prescribed = loading.stress_scale();
+    double const tolerance = stress_tolerance * (prescribed > 0.0 ? prescribed : slight * spring_modulus(packing, law));
     CellDriver<PackingType> drive(packing, law, loading, feedback);
     for (long step = 1; step <= max_steps; ++step) {
       if (Verdict const verdict = drive.step(stepper); !verdict.acceptable()) return verdict;

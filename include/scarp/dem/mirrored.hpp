@@ -10,9 +10,9 @@
 
 namespace scarp {
 
-/// A packing in the mirror that turns one axis round, x -> -x if none is named, with all that its contacts remember. It responds to a
-/// mirrored strain with the mirrored stress, bit by bit until lists of pairs are made anew, whose order is another, or a grain that
-/// stood still is met, whose +0 damping takes for forwards. Where a packing is stiffer by accident to one side, its image is to the
+/// A packing in the mirror that turns one axis round, x -> -x if none is named, with its contacts' memory. It responds to a
+/// mirrored strain with the mirrored stress, bit by bit until lists of pairs are made anew, whose order is another, or a grain
+/// at rest is met, whose +0 damping treats as forwards. Where a packing is by accident stiffer to one side, its image is stiffer to the
 /// other. axis: 0 to dim - 1. For spheres, and for plane shapes that are symmetric about the axis of their orientation and the one across, as ellipses are;
 /// the image of a clump is another clump.
 template <class PackingType>

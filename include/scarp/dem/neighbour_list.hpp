@@ -27,7 +27,7 @@ struct PairName {
   friend auto operator<=>(PairName const&, PairName const&) = default;
 };
 
-/// A pair of the former list; `swapped` when its name in the new cell has exchanged roles.
+/// A pair of the previous list; `swapped` when its name in the new cell has exchanged roles.
 template <int Dim>
 struct FormerPair {
   PairName<Dim> name;
@@ -35,7 +35,7 @@ struct FormerPair {
   bool swapped;
 };
 
-/// A pair of the new list by its rows; those of `second` go on from grains to images, `former` is null for a pair that was
+/// A pair of the new list by its rows; those of `second` number grains first and then images, `former` is null for a pair that was
 /// not listed before.
 template <int Dim>
 struct NearPair {
@@ -89,7 +89,7 @@ FormerPair<Dim> const* find_former(std::vector<FormerPair<Dim>> const& former, P
   return known != former.end() && known->name == name ? &*known : nullptr;
 }
 
-/// Where the contact search starts: at the remembered normal, for a new pair along the line of centres.
+/// Where the contact search starts: at the stored normal, for a new pair along the line of centres.
 template <class Shape, class Normals>
 Point<Shape::dim, double> start_normal(Normals const& remembered, FormerPair<Shape::dim> const* former,
                                        Point<Shape::dim, double> const& branch, double distance) {
@@ -116,8 +116,8 @@ std::vector<PoseOf<typename PackingType::Shape>> row_poses(PackingType const& pa
   return poses;
 }
 
-/// All pairs whose gap is below `reach` [m], sorted by (first, second); nothing where a touch is not found. What a law
-/// remembers does not matter: compiled once for each shape.
+/// All pairs whose gap is below `reach` [m], sorted by (first, second); nothing where a touch is not found. A law's
+/// memory does not matter: compiled once for each shape.
 template <class Shape, class Scalar, class Normals>
 std::optional<std::vector<NearPair<Shape::dim>>> find_near_pairs(Population<Shape, Scalar> const& population,
                                                                  std::vector<PoseOf<Shape>> const& poses,
@@ -208,7 +208,7 @@ void write_members(Pairs& next, std::vector<NearPair<Dim>> const& found, GrainsA
   }
 }
 
-/// Normals of all pairs, and what the contacts remember of those that were listed before.
+/// Normals of all pairs, and the contacts' memory of those that were listed before.
 template <class Shape, class Law, class Scalar>
 void write_memory(VerletList<Shape, Law, Scalar>& next, std::vector<NearPair<Shape::dim>> const& found,
                   VerletList<Shape, Law, Scalar> const& former) {

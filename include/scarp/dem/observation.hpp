@@ -75,7 +75,7 @@ double lane_sum(Lanes const& values) {
   return sum;
 }
 
-/// The same sums lane by lane.
+/// `ContactSums` lane by lane.
 template <int Dim, class Lanes>
 struct LaneSums {
   std::array<Lanes, static_cast<std::size_t>(Dim* Dim)> moment{};

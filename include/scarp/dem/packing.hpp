@@ -87,7 +87,7 @@ struct ListBasis {
 
 /// Pairs of grains closer than a skin (Verlet list), each once. Numbers are *rows*: part p of grain i has row
 /// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
-/// moved by cell x `ghost_shift[g]`. What a shape or law does not remember takes no room.
+/// moved by cell x `ghost_shift[g]`. What a shape or law has no memory of is not stored.
 template <CheckedShape Shape, CheckedContactLaw Law, class Scalar>
 struct VerletList {
   static constexpr int dim = Shape::dim;
@@ -116,20 +116,19 @@ struct VerletList {
   friend bool operator==(VerletList const&, VerletList const&) = default;
 };
 
-/// How grains and cell moved in the step that led to where they are: what slip and closing at the contacts follow from,
-/// together with the grains' velocities.
+/// Motion of the cell in the last step. Slip and closing at the contacts follow from it and the grains' velocities.
 template <int Dim>
 struct LastMove {
   Tensor<Dim> gradient = Tensor<Dim>::Zero();  ///< displacement gradient of the cell
   double duration = 0.0;                       ///< [s], zero at rest
-  bool answered = false;                       ///< whether what the contacts remember already contains it
+  bool applied = false;                        ///< whether the contacts' memory already contains it
 
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
-    SCARP_ALL_MEMBERS(gradient, duration, answered);
+    SCARP_ALL_MEMBERS(gradient, duration, applied);
     visit("gradient of the last move", self.gradient);
     visit("duration of the last move", self.duration);
-    visit("answer to the last move", self.answered);
+    visit("answer to the last move", self.applied);
   }
 
   friend bool operator==(LastMove const&, LastMove const&) = default;

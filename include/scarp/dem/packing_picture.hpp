@@ -13,7 +13,7 @@ template <class Shape>
 inline constexpr int length_count = Shape::size_count - (species_count<Shape>() > 0 ? 1 : 0);
 }  // namespace detail
 
-/// Whether `packing_picture` takes packings of this type: discs and ellipses in the plane.
+/// Whether `packing_picture` accepts packings of this type: discs and ellipses in the plane.
 template <class PackingType>
 concept HasPicture = PackingType::dim == 2 && detail::length_count<typename PackingType::Shape> <= 2 &&
                      part_count<typename PackingType::Shape>() == 1;

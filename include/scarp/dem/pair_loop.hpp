@@ -22,11 +22,11 @@ class PairResponse {
 
   PairResponse(PackingType& packing, Law const& law) : pairs_(packing.pairs), law_(law) {
     // Dashpots use the last move in every evaluation, springs only once.
-    bool const answered = packing.last_move.answered;
-    LastMove<dim> const move = answered && !Law::inputs.motion ? LastMove<dim>{} : packing.last_move;
+    bool const applied = packing.last_move.applied;
+    LastMove<dim> const move = applied && !Law::inputs.motion ? LastMove<dim>{} : packing.last_move;
     largest_normal_change_ = packing.population->largest_normal_change();
     unique_minimum_depth_ = packing.population->unique_minimum_depth();
-    unanswered_ = broadcast<Lanes>(answered ? 0.0 : 1.0);
+    unapplied_ = broadcast<Lanes>(applied ? 0.0 : 1.0);
     step_ = broadcast<Lanes>(move.duration);
     affine_turn_ = affine_turn<dim, Lanes>(move.gradient);
     for (int a = 0; a < dim; ++a) {
@@ -58,7 +58,7 @@ class PairResponse {
   }
 
   /// The pairs `at` and following of the block, which are the pairs `start` and following of the list.
-  void answer(Block& block, std::size_t at, std::size_t start) {
+  void respond(Block& block, std::size_t at, std::size_t start) {
     auto const branch = block.template read<axes>(Block::branch, at);
     auto const touch = touch_of(block, at, branch);
     auto const& n = touch.normal;
@@ -67,7 +67,7 @@ class PairResponse {
     ContactMemory<dim, Lanes> memory;
     auto const turn_first = turn(block, Block::spin_first, at);
     auto const turn_second = turn(block, Block::spin_second, at);
-    auto const twist = scaled(scaled(sum(turn_first, turn_second), broadcast<Lanes>(0.5)), unanswered_);
+    auto const twist = scaled(scaled(sum(turn_first, turn_second), broadcast<Lanes>(0.5)), unapplied_);
     if constexpr (Law::inputs.shear || Law::inputs.motion) {
       auto const velocity = block.template read<axes>(Block::velocity, at);
       auto const swing_first = turned_motion(turn_first, touch.arm_first);
@@ -85,14 +85,14 @@ class PairResponse {
       if constexpr (Law::inputs.motion) {
         approach.overlap_increment = -dot(meeting, n);
         approach.tangential_increment = approach.slip_increment;
-        if constexpr (Law::inputs.shear) approach.slip_increment = scaled(approach.slip_increment, unanswered_);
+        if constexpr (Law::inputs.shear) approach.slip_increment = scaled(approach.slip_increment, unapplied_);
         approach.reduced_mass = broadcast<Lanes>(1.0) / block.template read<1>(Block::inverse_mass, at)[0];
         approach.time_step = step_;
       }
     }
     if constexpr (Law::inputs.moment) {
       approach.rotation_increment = rolling_part(difference(turn_second, turn_first), n);
-      if constexpr (Law::inputs.motion) approach.rotation_increment = scaled(approach.rotation_increment, unanswered_);
+      if constexpr (Law::inputs.motion) approach.rotation_increment = scaled(approach.rotation_increment, unapplied_);
       load_rows(pairs_.moment, start, memory.moment);
       if constexpr (dim == 3) carry_to_frame(memory.moment, twist, n);
     }
@@ -106,22 +106,22 @@ class PairResponse {
                           Shape::species(pose(block, Block::pose_second, at))};
     }
     if constexpr (Law::inputs.scalars > 0) load_rows(pairs_.scalars, start, memory.scalars);
-    auto const answer = law_.respond(approach, memory);
+    auto const forces = law_.respond(approach, memory);
     if constexpr (Law::inputs.shear) store_rows(memory.shear, start, pairs_.shear);
     if constexpr (Law::inputs.moment) store_rows(memory.moment, start, pairs_.moment);
     if constexpr (Law::inputs.scalars > 0) store_rows(memory.scalars, start, pairs_.scalars);
 
     Point<dim, Lanes> force;  // on the second grain
-    for (std::size_t a = 0; a < axes; ++a) force[a] = answer.normal * n[a];
+    for (std::size_t a = 0; a < axes; ++a) force[a] = forces.normal * n[a];
     if constexpr (Law::inputs.shear) {
-      auto const shear = as_vector(answer.shear, n);
+      auto const shear = as_vector(forces.shear, n);
       for (std::size_t a = 0; a < axes; ++a) force[a] += shear[a];
     }
     auto torque_first = cross(touch.arm_first, force);  // reversed, as the force is
     auto torque_second = cross(touch.arm_second, force);
     if constexpr (Law::inputs.moment) {
-      torque_first = sum(torque_first, answer.moment);
-      torque_second = sum(torque_second, answer.moment);
+      torque_first = sum(torque_first, forces.moment);
+      torque_second = sum(torque_second, forces.moment);
     }
     block.write(Block::force, at, force);
     block.write(Block::torque_first, at, torque_first);
@@ -129,7 +129,7 @@ class PairResponse {
 
     if constexpr (what != Observe::nothing) {
       sums_.force += sqrt(dot(force, force));
-      sums_.contacts += lanes::select(answer.normal != broadcast<Lanes>(0), broadcast<Lanes>(1), broadcast<Lanes>(0));
+      sums_.contacts += lanes::select(forces.normal != broadcast<Lanes>(0), broadcast<Lanes>(1), broadcast<Lanes>(0));
       sums_.deepest = max(sums_.deepest, touch.overlap / approach.reduced_radius);
       for (std::size_t a = 0; a < axes; ++a) {
         for (std::size_t b = 0; b < axes; ++b) sums_.moment[a * axes + b] += force[a] * branch[b];
@@ -137,7 +137,7 @@ class PairResponse {
     }
     if constexpr (what == Observe::energy) {
       sums_.stored += law_.stored_energy(approach, memory);
-      sums_.dissipated += answer.dissipated;
+      sums_.dissipated += forces.dissipated;
     }
   }
 
@@ -209,7 +209,7 @@ class PairResponse {
 
   VerletList<Shape, Law, Scalar>& pairs_;
   Law law_;
-  Lanes unanswered_;
+  Lanes unapplied_;
   Lanes step_;
   std::array<Lanes, axes * axes> affine_;
   Turning<dim, Lanes> affine_turn_;
@@ -221,10 +221,10 @@ class PairResponse {
 
 }  // namespace detail
 
-/// Forces of all near pairs at the present positions, and the update of what contacts remember by the packing's last move,
-/// unless that has been done before. Afterwards `scratch.forces` begins with a row (force, torque) for each grain.
+/// Forces of all near pairs at the present positions, and the update of the contacts' memory by the packing's last move,
+/// unless it was applied before. Afterwards `scratch.forces` begins with a row (force, torque) for each grain.
 /// Pairs go through in blocks: gather the grains' data, evaluate the law, scatter the forces. Each of the three loops is free of the
-/// others' latencies. Flattened, since shape and law must melt into the loop.
+/// others' latencies. Flattened, since shape and law must be inlined into the loop.
 template <Observe what, class PackingType, class Law>
 [[gnu::flatten]] ContactSums<PackingType::dim> pair_forces(PackingType& packing, Law const& law,
                                                            PairScratch<typename PackingType::Scalar>& scratch) {
@@ -252,10 +252,10 @@ template <Observe what, class PackingType, class Law>
     std::size_t const used = (present + width - 1) / width * width;
     for (std::size_t at = 0; at < used; at += width) block.gather(rows, at);
     if constexpr (Shape::warm_starts_normal) response.search(block, used, start);
-    for (std::size_t at = 0; at < used; at += width) response.answer(block, at, start + at);
+    for (std::size_t at = 0; at < used; at += width) response.respond(block, at, start + at);
     for (std::size_t at = 0; at < used; at += width) block.scatter(forces, at);
   }
-  packing.last_move.answered = true;
+  packing.last_move.applied = true;
   gather_forces(packing, forces);
   return response.total();
 }

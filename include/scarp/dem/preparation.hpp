@@ -61,7 +61,7 @@ struct IsotropicPreparation {
 };
 
 /// One-dimensional compression of one packing, as under the growing overburden of level ground: lateral strain zero, shear
-/// stress zero, vertical stress (last axis) through a list of targets. A copy is kept at each.
+/// stress zero, vertical stress (last axis) through a list of targets. A copy is stored at each.
 struct OneDimensionalCompression {
   Servo servo{.feedback = {.fastest = 1e-5}, .stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-4};
 

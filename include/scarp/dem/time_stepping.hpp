@@ -109,7 +109,7 @@ class TimeStepper {
     }
   }
 
-  /// Takes the grains' velocities away, after the contacts have responded to the last move.
+  /// Sets the grains' velocities to zero, after the contacts have responded to the last move.
   Verdict stop(PackingType& packing, Law const& law) {
     StepObservation<dim> unused;
     Verdict const verdict = observe(packing, law, unused);

@@ -26,7 +26,7 @@ VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
   return tangent;
 }
 
-/// Uniform strain relaxed by the packing's own stiffness: centres and spins follow until no grain feels a force,
+/// Uniform strain relaxed by the packing's own stiffness: centres and spins follow until no grain has a net force,
 /// \f$ C = \frac1V (\sum M^T S M - A_l^T K^{-1} A),\; K = \sum B^T S B,\; A = \sum B^T S M,\; A_l = \sum B^T S^T M \f$
 /// with a contact's spring S, its relative motion M in each strain mode and B in the motions of both grains (arms from
 /// the centres to the contact), plus the terms of the present stress, 8 % of C_xxyy at a stress of 0.7 % of the
@@ -49,17 +49,17 @@ struct CondensedTangent {
   /// The condensed tangent, or the one under uniform strain after `on_fallback` was called with the reason.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
-    auto const answer = condense(packing, law);
-    if (!answer.verdict.acceptable() && on_fallback != nullptr) {
-      on_fallback("a packing's tangent could not be condensed, the one under uniform strain is taken", answer.verdict);
+    auto const result = condense(packing, law);
+    if (!result.verdict.acceptable() && on_fallback != nullptr) {
+      on_fallback("a packing's tangent could not be condensed, the one under uniform strain is used", result.verdict);
     }
-    return answer.tangent;
+    return result.tangent;
   }
 
   /// \return tangent [Pa] under uniform strain with failed / singular_system or not_finite where it cannot be relaxed;
   /// zero and fluid / no_contacts without contacts
   template <class PackingType>
-  TangentAnswer<PackingType::dim> condense(PackingType const& packing, typename PackingType::Law const& law) const {
+  TangentResult<PackingType::dim> condense(PackingType const& packing, typename PackingType::Law const& law) const {
     constexpr int dim = PackingType::dim;
     validate();
     Assembly<dim> const assembly = assemble(packing, law);

@@ -13,14 +13,14 @@
 
 namespace scarp {
 
-/// A tangent that takes work which can fail, and whether it did. `tangent` [Pa] is usable whatever the verdict.
+/// A tangent whose evaluation can fail, with its verdict. `tangent` [Pa] is usable whatever the verdict.
 template <int Dim>
-struct TangentAnswer {
+struct TangentResult {
   VoigtTangent<Dim> tangent;
   Verdict verdict;
 };
 
-/// Hears of tangents that a policy had to replace or could not make to its accuracy; may be called by several threads.
+/// Called for tangents that a policy had to replace or could not evaluate to its accuracy; by several threads at once.
 using TangentFallback = void (*)(std::string_view what, Verdict verdict);
 
 /// One line for each on standard error.
@@ -32,7 +32,7 @@ inline void report_tangent_fallback(std::string_view what, Verdict verdict) {
 template <int Dim>
 using FullTangent = Eigen::Matrix<double, Dim * Dim, Dim * Dim>;
 
-/// Elastic tangent under uniform strain, eq. 6 of the study (Kruyt and Rothenburg 1998), every contact counted whatever its
+/// Elastic tangent under uniform strain, (Kruyt and Rothenburg 1998), every contact counted whatever its
 /// shear force: \f$ D_{ijkl} = \frac1V \sum (k_n n_i l_j n_k l_l + k_t t_i l_j t_k l_l) \f$. An upper bound.
 template <class PackingType>
 FullTangent<PackingType::dim> contact_tangent(PackingType const& packing, typename PackingType::Law const& law) {

@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// Second-order fabric \f$ \phi_{ij} = \frac1N \sum n_i n_j \f$, eq. 7 of the study; trace 1.
+/// Second-order fabric \f$ \phi_{ij} = \frac1N \sum n_i n_j \f$ (Satake 1982); trace 1.
 template <int Dim>
 using Fabric = Tensor<Dim>;
 
@@ -39,7 +39,7 @@ Fabric<2> particle_fabric(PackingType const& packing) requires(PackingType::dim 
   return sum / static_cast<double>(packing.grain_count());
 }
 
-/// Deviator in the plane, \f$ F_{ij} = 4(\phi_{ij} - \delta_{ij}/2) \f$ (text after eq. 7 of the study).
+/// Deviator in the plane, \f$ F_{ij} = 4(\phi_{ij} - \delta_{ij}/2) \f$ , as the reference study defines it.
 inline Tensor<2> fabric_deviator(Fabric<2> const& fabric) { return 4.0 * (fabric - Tensor<2>::Identity() / 2.0); }
 
 /// Intensity of anisotropy in the plane, \f$ F = \sqrt{F_{ij} F_{ij} / 2} \f$.

@@ -10,7 +10,7 @@
 namespace scarp {
 
 /// What contacts at their shear limit contribute to a packing's stiffness. A contact slides when its law, strained by a
-/// little more along the present shear force, does not carry it; so a bond that holds does not slide, whatever Coulomb says.
+/// little more along the present shear force, does not carry it; so an unbroken bond does not slide, whatever Coulomb's limit.
 struct SlidingContacts {
   double shear_share = 0.0;  ///< of the tangential stiffness that stays along the direction of sliding
   bool coupled = false;      ///< the shear force follows the normal force, \f$ dF_t = \mu\,dF_n \f$; not symmetric
@@ -28,17 +28,17 @@ struct SlidingContacts {
   bool slides(Contact<Dim> const& contact, Law const& law) const {
     double const tangential = contact.stiffness.tangential;
     if (!(tangential > 0.0)) return false;
-    double const asked = nearness * contact.force.norm();
+    double const more = nearness * contact.force.norm();
     Vector<Dim> const direction = shear_direction(contact);
     auto approach = contact.approach;
     auto memory = contact.memory;
     if constexpr (Dim == 2) {
-      approach.slip_increment = -asked / tangential * direction.dot(tangent(contact));
+      approach.slip_increment = -more / tangential * direction.dot(tangent(contact));
     } else {
-      for (int a = 0; a < Dim; ++a) approach.slip_increment[detail::index(a)] = -asked / tangential * direction(a);
+      for (int a = 0; a < Dim; ++a) approach.slip_increment[detail::index(a)] = -more / tangential * direction(a);
     }
-    auto const answer = as_vector(law.respond(approach, memory).shear, contact.touch.normal);
-    return (Eigen::Map<Vector<Dim> const>(answer.data()) - contact.shear_force()).dot(direction) < 0.5 * asked;
+    auto const shear = as_vector(law.respond(approach, memory).shear, contact.touch.normal);
+    return (Eigen::Map<Vector<Dim> const>(shear.data()) - contact.shear_force()).dot(direction) < 0.5 * more;
   }
 
   /// Stiffness S of a contact [N/m]: force on the second grain \f$ df = -S\,du \f$ as it moves relative to the first.

@@ -19,7 +19,7 @@
 
 namespace scarp {
 
-/// Stiffness of a packing as a provider's tangent: eq. 6 of the study, all contacts elastic under uniform strain.
+/// Stiffness of a packing as a provider's tangent: all contacts elastic under uniform strain (Kruyt and Rothenburg 1998).
 struct AffineTangent {
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
@@ -33,7 +33,7 @@ concept PackingSource = requires(Source const& source, Site<PackingType::dim> co
   { source.at(site) } -> std::convertible_to<PackingType>;
 };
 
-/// tangent(packing, law): stiffness [Pa] of a packing as it stands.
+/// tangent(packing, law): stiffness [Pa] of a packing in its present state.
 template <class Tangent, class PackingType>
 concept PackingTangent = requires(Tangent const& tangent, PackingType const& packing,
                                   typename PackingType::Law const& law) {
@@ -42,7 +42,7 @@ concept PackingTangent = requires(Tangent const& tangent, PackingType const& pac
 
 /// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
 /// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the response is Love and Weber's stress at its end.
-/// Grains keep their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
+/// Grains retain their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
 template <class PackingType, PackingSource<PackingType> Source, PackingTangent<PackingType> Tangent = AffineTangent,
           DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
 struct DemRve {
@@ -216,7 +216,7 @@ struct DemRve {
     return 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
   }
 
-  /// What passes for no pressure [Pa]: 1e-9 for the study's sand, and in any other units.
+  /// Pressure [Pa] that counts as none: 1e-9 for the reference study's sand, and scaled alike in other units.
   double min_pressure(PackingType const& packing) const { return 3e-17 * spring_modulus(packing, law); }
 
   static double mean_pressure(VoigtStress<dim> const& stress) { return -stress.template head<dim>().sum() / dim; }

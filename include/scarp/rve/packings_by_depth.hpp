@@ -12,7 +12,7 @@
 
 namespace scarp {
 
-/// The same packing everywhere.
+/// One packing for all points.
 template <class PackingType>
 struct SamePacking {
   PackingType packing;

@@ -36,47 +36,47 @@ struct PerturbationTangent {
   /// Central differences. What was reached by then is used where a packing does not settle, after `on_fallback` was called.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
-    auto const answer = differentiate(packing, law);
-    if (!answer.verdict.acceptable() && on_fallback != nullptr) {
-      on_fallback("a packing did not settle while its tangent was taken by trial", answer.verdict);
+    auto const result = differentiate(packing, law);
+    if (!result.verdict.acceptable() && on_fallback != nullptr) {
+      on_fallback("a packing did not settle while its tangent was evaluated by perturbation", result.verdict);
     }
-    return answer.tangent;
+    return result.tangent;
   }
 
   /// `towards`: modes where it is not zero are strained to that side only, since a sliding contact responds to one side
   /// unlike to the other.
-  /// \return not_converged / unbalanced when a settling took its most steps, else what the stepper reports; `steps`
+  /// \return not_converged / unbalanced when a settling reached its largest number of steps, else what the stepper reports; `steps`
   /// receives the DEM steps taken
   template <class PackingType>
-  TangentAnswer<PackingType::dim> differentiate(
+  TangentResult<PackingType::dim> differentiate(
       PackingType const& packing, typename PackingType::Law const& law,
       EngineeringStrain<PackingType::dim> const& towards = EngineeringStrain<PackingType::dim>::Zero(),
       long* steps = nullptr) const {
     validate();
     constexpr int dim = PackingType::dim;
-    TangentAnswer<dim> answer{VoigtTangent<dim>::Zero(), {}};
+    TangentResult<dim> result{VoigtTangent<dim>::Zero(), {}};
     long taken = 0;
     Trial<PackingType> trial{law, {}};
     trial.stepper.damping = damping;
     trial.stepper.boundary = boundary;
     PackingType base = packing;
-    answer.verdict = trial.stepper.stop(base, law);
-    VoigtStress<dim> const start = trial.settle(*this, base, answer.verdict, taken);
+    result.verdict = trial.stepper.stop(base, law);
+    VoigtStress<dim> const start = trial.settle(*this, base, result.verdict, taken);
     for (int k = 0; k < voigt_size<dim>; ++k) {
       Tensor<dim> const mode = unit_strain<dim>(k);
       auto const strained = [&](double amount) {
         PackingType copy = base;
-        return trial.strain(*this, copy, (amount / strain_steps * mode).eval(), answer.verdict, taken);
+        return trial.strain(*this, copy, (amount / strain_steps * mode).eval(), result.verdict, taken);
       };
       if (towards(k) == 0.0) {
-        answer.tangent.col(k) = (strained(strain) - strained(-strain)) / (2.0 * strain);
+        result.tangent.col(k) = (strained(strain) - strained(-strain)) / (2.0 * strain);
       } else {
         double const amount = std::copysign(strain, towards(k));
-        answer.tangent.col(k) = (strained(amount) - start) / amount;
+        result.tangent.col(k) = (strained(amount) - start) / amount;
       }
     }
     if (steps != nullptr) *steps = taken;
-    return answer;
+    return result;
   }
 
  private:

@@ -28,7 +28,7 @@ concept PreparesFromSeed = requires(Recipe const& recipe, std::uint64_t seed) {
   { recipe(seed).verdict } -> std::convertible_to<Verdict>;
 };
 
-/// A cloud under isotropic pressure; the seed takes the place of the cloud's.
+/// A cloud under isotropic pressure; the seed replaces the cloud's.
 template <class PackingType, class Grading, DampsMotion Damping = LocalDamping>
 struct IsotropicRecipe {
   Cloud<Grading> cloud{};
@@ -72,7 +72,7 @@ struct RandomChoice {
 /// IsotropicRecipe<Grains, EllipseGrading> recipe{.cloud = {...}, .preparation = {.pressure = 2e5}, .law = law};
 /// DemRve<Grains, RandomPackings<decltype(recipe)>> sand{.law = law, .source = {recipe, seed}};
 /// \endcode
-/// The packing follows from the seed and the point's number. A preparation takes some ten thousand DEM steps, therefore
+/// The packing follows from the seed and the point's number. A preparation costs some ten thousand DEM steps, therefore
 /// \code
 /// auto const pool = RandomPackings{recipe, seed}.pool(32, executor);  // a RandomChoice
 /// \endcode

@@ -41,7 +41,7 @@ bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
 }  // namespace detail
 
 /// Touch of a pair with the normal iterated until it stands still. Where it does not, or where another direction might have
-/// less overlap, shapes with a support function take the slow certain way, `minimum_translation`; of others a touch that
+/// less overlap, shapes with a support function use the slow but certain `minimum_translation`; of others a touch that
 /// does not stand still has an infinite `normal_error`.
 template <class Shape>
 ContactGeometry<Shape::dim, double> converged_contact(PoseOf<Shape> const& first, PoseOf<Shape> const& second,

@@ -28,7 +28,7 @@ concept HasSupport = Shape::dim == 2 && (HasSupportOfOne<Shape> || HasSupportOfP
 
 namespace detail {
 
-/// \f$ f(n) = h_A(n) + h_B(n) - d \cdot n \f$ in one direction, and what it says of all others: with the support point
+/// \f$ f(n) = h_A(n) + h_B(n) - d \cdot n \f$ in one direction, and its bound for all others: with the support point
 /// q = p_A + p_B - d there, f is nowhere less than q . n.
 struct OverlapProbe {
   Point<2, double> normal;

@@ -20,7 +20,7 @@ inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 /// How two grains meet. `overlap` [m] is the least translation that parts them, positive when they touch; `normal` is the
 /// unit vector of that translation, from the first grain to the second; the arms [m] reach from each centre to the
 /// contact point, the middle between the two support points. `normal_error` is the angle [rad] by which the search for the normal
-/// turned it last [rad], infinite where it found none, zero where it does not say: a touch that is far from its end is
+/// turned it last [rad], infinite where it found none, zero where the shape gives none: a touch that is far from its end is
 /// searched anew, one that turned by less than 1e-8 has ended, which is right where errors fall as squares.
 template <int Dim, class T>
 struct ContactGeometry {
@@ -46,7 +46,7 @@ concept HasGrainSize = requires(std::array<double, static_cast<std::size_t>(Shap
   { Shape::min_curvature_radius(size) } -> std::same_as<double>;  // [m]
 };
 
-/// Number of convex parts that a grain is composed of; a shape that does not say has one.
+/// Number of convex parts that a grain is composed of; one where the shape does not declare it.
 template <class Shape>
 constexpr int part_count() {
   if constexpr (requires { Shape::part_count; }) {
@@ -56,7 +56,7 @@ constexpr int part_count() {
   }
 }
 
-/// Number of species that grains of a shape are told apart by, 0 for none.
+/// Number of species that a shape distinguishes, 0 for none.
 template <class Shape>
 constexpr int species_count() {
   if constexpr (requires { Shape::species_count; }) {
@@ -97,7 +97,7 @@ concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::si
 };
 
 /// touch(first, second, branch, normal): `branch` from the first grain's centre to the second's; `normal` a unit vector to
-/// start from where the shape remembers one (`warm_starts_normal`), ignored otherwise. Arms reach from the grains' centres,
+/// start from where the shape stores one (`warm_starts_normal`), ignored otherwise. Arms reach from the grains' centres,
 /// also where the poses are those of parts.
 template <class Shape>
 concept Touches = requires(PoseOf<Shape> const& pose, Point<Shape::dim, double> const& branch) {
@@ -105,7 +105,7 @@ concept Touches = requires(PoseOf<Shape> const& pose, Point<Shape::dim, double> 
   { Shape::warm_starts_normal } -> std::convertible_to<bool>;
 };
 
-/// pose, contact_radius and touch also take packs: the pair loop asks for several pairs at once.
+/// pose, contact_radius and touch accept packs too: the pair loop evaluates several pairs at once.
 template <class Shape>
 concept TouchesInPacks =
     requires(SizeOf<Shape, lanes::Pack<double>> const& size,
@@ -204,7 +204,7 @@ struct MissingOfShape<Shape, true> {
 };
 
 /// Compiles the shape for several pairs at once, before the pair loop does: what cannot be compiled, an `if` on a distance
-/// say, is then reported with this short name, by clang with the comment below, and not from within the loop.
+/// for example, is then reported with this short name, by clang with the comment below, and not from within the loop.
 template <class Shape>
 constexpr bool a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if() {
   if constexpr (!is_precompiled<Shape>) {

@@ -65,7 +65,7 @@ struct Superellipse {
     return largest_of(size, [](Support<double> const& support) { return std::abs(support.slope); });
   }
 
-  /// Above an exponent of one the true value is zero, at the tips; a stand-in takes its place that shrinks from that of
+  /// Above an exponent of one the true value is zero, at the tips; a stand-in replaces it that shrinks from that of
   /// the ellipse to zero at exponent two.
   static double min_curvature_radius(Size<double> const& size) {
     if (size[2] < 1.0) {

@@ -49,7 +49,7 @@ struct SuperellipseFrame {
     normal_beside = lanes::select(nearer_y, abs(nx), abs(ny));
     turn = lanes::select(nearer_y, -(nx * ny), nx * ny);
     large = max(u, v);
-    // Divisions take long: several quotients come from one.
+    // Divisions are slow: several quotients come from one.
     T const inverse = broadcast<T>(1) / (large * along);
     inverse_large = inverse * along;
     inverse_along = inverse * large;
@@ -100,7 +100,7 @@ std::array<SuperellipseSupport<T>, Count> superellipse_supports(std::array<std::
 
 /// Touch of two superellipses: Newton steps for the normal n that minimises
 /// \f$ f(\phi) = h_A(n) + h_B(n) - d \cdot n \f$ until the step left is small, then overlap and arms by their
-/// expansions as in `support_contact`. A pair that rests or moves slowly takes one evaluation.
+/// expansions as in `support_contact`. A pair at rest or in slow motion requires one evaluation.
 ///
 /// Near a flat side f' runs like a power \f$ \psi^{q-1} \f$ of the angle from the side's normal, where Newton's method
 /// leaps back and forth. The step is therefore one in that power of the angle, for the grain of larger radius of

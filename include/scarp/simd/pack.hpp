@@ -35,7 +35,7 @@ constexpr T broadcast(double value) {
   return T(static_cast<typename ScalarOf<T>::type>(value));
 }
 
-/// The smallest normal number: as a floor of divisors it keeps 0/0 away in any system of units.
+/// The smallest normal number: as a floor of divisors it prevents 0/0 in any system of units.
 template <class T>
 constexpr T smallest_normal() {
   return T(std::numeric_limits<typename ScalarOf<T>::type>::min());

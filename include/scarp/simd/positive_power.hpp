@@ -27,7 +27,7 @@ struct FloatBits {
   static constexpr std::size_t exp_terms = sizeof(Scalar) == 8 ? 12 : 7;
 };
 
-/// A power series cut off so that what is left errs evenly from `low` to `high`: the highest powers are taken away with the
+/// A power series cut off so that what is left errs evenly from `low` to `high`: the highest powers are removed with the
 /// multiples of Chebyshev's polynomials that hold them (Lanczos's economisation).
 template <class Scalar, std::size_t Terms, std::size_t More>
 consteval std::array<Scalar, Terms> economised(std::array<long double, More> series, long double low,
@@ -52,7 +52,7 @@ consteval std::array<Scalar, Terms> economised(std::array<long double, More> ser
   return cut;
 }
 
-/// log2((1 + t) / (1 - t)) / t in powers of t^2, for arguments of the logarithm from sqrt(1/2) to sqrt(2). Errors beside 1:
+/// log2((1 + t) / (1 - t)) / t in powers of t^2, for arguments of the logarithm from sqrt(1/2) to sqrt(2). Errors relative to 1:
 /// 1e-18 in double, 1e-9 in float.
 template <class Scalar>
 consteval auto log_coefficients() {
@@ -63,7 +63,7 @@ consteval auto log_coefficients() {
   return economised<Scalar, FloatBits<Scalar>::log_terms>(series, 0.0L, largest * largest);
 }
 
-/// factor 2^x, x from -1/2 to 1/2. Errors beside 1: 3e-18 in double, 2e-9 in float.
+/// factor 2^x, x from -1/2 to 1/2. Errors relative to 1: 3e-18 in double, 2e-9 in float.
 template <class Scalar>
 consteval auto exp_coefficients(long double factor) {
   std::array<long double, 18> series{};
@@ -74,7 +74,7 @@ consteval auto exp_coefficients(long double factor) {
   return economised<Scalar, FloatBits<Scalar>::exp_terms>(series, -0.5L, 0.5L);
 }
 
-/// Several packs that go through the same long chain of steps are taken through it side by side: the processor works on one
+/// Several packs that go through the same long chain of steps are evaluated side by side: the processor works on one
 /// while another waits.
 template <class Scalar, std::size_t Width, std::size_t Count>
 using Packs = std::array<BasicPack<Scalar, Width>, Count>;
@@ -153,7 +153,7 @@ template <class Scalar, std::size_t Width, std::size_t Count>
   return log2_of_quotient(quotients(above, below), whole);
 }
 
-/// 2^x by a polynomial in what is left of x beside a whole number.
+/// 2^x by a polynomial in the distance of x from a whole number.
 template <class Scalar, std::size_t Width, std::size_t Count>
 [[gnu::always_inline]] inline Packs<Scalar, Width, Count> exp2(Packs<Scalar, Width, Count> const& x) {
   using Pack = BasicPack<Scalar, Width>;
@@ -182,7 +182,7 @@ template <class Scalar, std::size_t Width, std::size_t Count>
 
 /// base^exponent of positive normal numbers, all lanes at once. The relative error is below 5e-16 (1 + |ln result|) in double,
 /// 3e-7 (1 + |ln result|) in float; results below 2^-1021 or above 2^1021 become these (2^-125, 2^125 in float).
-/// Two packs side by side take little longer than one.
+/// Two packs side by side cost little more than one.
 template <class Scalar, std::size_t Width, std::size_t Count>
 [[gnu::always_inline]] inline std::array<BasicPack<Scalar, Width>, Count> positive_powers(
     std::array<BasicPack<Scalar, Width>, Count> const& base,
@@ -220,7 +220,7 @@ template <class Scalar, std::size_t Width>
   return positive_powers<Scalar, Width, 1>({base}, {exponent})[0];
 }
 
-// Single numbers take the standard library's function.
+// Single numbers use the standard library's function.
 template <class Scalar>
   requires std::is_floating_point_v<Scalar> Scalar positive_power(Scalar base, Scalar exponent) {
     return std::pow(base, exponent);

@@ -52,7 +52,7 @@ std::array<Vector, 4> transpose_blocks(std::array<Vector, 4> const& rows) {
 }  // namespace detail
 
 /// One quad per lane, as four packs: pack c holds entry c of quad_of(lane). Where registers hold four or eight lanes the quads
-/// are taken whole and transposed in registers, which takes half the loads of a gather.
+/// are loaded whole and transposed in registers, with half the loads of a gather.
 template <class Scalar, std::size_t Width = lane_count<Scalar>, class QuadOf>
 std::array<BasicPack<Scalar, Width>, 4> from_quads(QuadOf const& quad_of) {
   std::array<BasicPack<Scalar, Width>, 4> packs;

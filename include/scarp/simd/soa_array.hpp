@@ -30,7 +30,7 @@ template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
 /// `Count` arrays of equal length in one block (structure of arrays). Each column is padded with the fill value to
-/// full vectors of 64 bytes so that vector loops need no tail. `Count` zero takes no memory.
+/// full vectors of 64 bytes so that vector loops need no tail. `Count` zero needs no memory.
 template <class Scalar, int Count>
 class SoaArray {
  public:

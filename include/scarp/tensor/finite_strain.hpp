@@ -14,7 +14,7 @@ namespace scarp {
 /// \f$ R_{k+1} = (R_k + R_k^{-T})/2,\; R_0 = F \f$   N. J. Higham, "Computing the polar decomposition - with
 /// applications", SIAM J. Sci. Stat. Comput. 7 (1986) 1160.
 /// The iteration converges quadratically: once an iterate moves by less than the square root of the round-off, the
-/// new one is exact to round-off. F near a rotation takes 2 to 5 iterations.
+/// new one is exact to round-off. F near a rotation requires 2 to 5 iterations.
 /// deformation: invertible, with positive determinant when a proper rotation is wanted (the caller checks)
 /// \return R, shape (Dim, Dim); not finite when F is singular or not finite
 template <int Dim, class Scalar>

@@ -8,7 +8,7 @@
 
 namespace scarp::geo {
 
-/// Views for output in the plane, compression positive (p, eps_v) or unsigned (q, eps_q), as the study's group uses them.
+/// Views for output in the plane, compression positive (p, eps_v) or unsigned (q, eps_q).
 /// \f$ p = -\sigma_{ii}/2,\; q = \sqrt{s_{ij}s_{ij}/2} \f$ (half the difference of the principal stresses).
 struct PlaneStress {
   double p;  ///< [Pa]

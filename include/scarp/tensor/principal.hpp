@@ -28,7 +28,7 @@ inline Principal principal(Tensor<3> const& symmetric) {
 /// of_values: derivative of the function's principal values with respect to the argument's, shape (3, 3)
 /// argument, value: principal values of both, in the same order; directions: common, as columns
 /// \f$ D = \sum_{ab} D_{ab}\, M_a \otimes M_b + \sum_{a<b} 4 g_{ab}\, S_{ab} \otimes S_{ab},\; 2 g_{ab} = (s_a - s_b)/(e_a - e_b) \f$
-/// with M_a = n_a n_a, S_ab the symmetric part of n_a n_b (Ogden 1984; de Souza Neto et al., app. A). Equal arguments take the limit.
+/// with M_a = n_a n_a, S_ab the symmetric part of n_a n_b (Ogden 1984; de Souza Neto et al., app. A). Equal arguments give the limit.
 /// \return with respect to engineering strain, shape (6, 6)
 inline VoigtTangent<3> isotropic_derivative(Tensor<3> const& of_values, Vector<3> const& argument,
                                             Vector<3> const& value, Tensor<3> const& directions) {

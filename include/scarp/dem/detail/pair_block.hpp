@@ -165,7 +165,7 @@ struct PairBlock {
   std::array<std::int32_t, size> second;
   alignas(64) std::array<std::array<Scalar, size>, count> fields;
 
-  /// Takes the numbers of the first `present` pairs; the others are pairs of grain 0 and `sentinel_row`.
+  /// Stores the numbers of the first `present` pairs; the others are pairs of grain 0 and `sentinel_row`.
   void name_pairs(std::int32_t const* firsts, std::int32_t const* seconds, std::size_t present,
                   std::int32_t sentinel_row) {
     std::copy(firsts, firsts + present, first.begin());
