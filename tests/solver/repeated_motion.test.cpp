@@ -20,7 +20,7 @@ scarp::RunReport pulled(Block::Problem& problem, Solver const& solver) {
 
 /// One step of the load factor, accepted if it ends in equilibrium.
 scarp::StepReport step(Solver::Session<Block::Problem>& session, double from, double to,
-                       scarp::StopQuestion const& stop = {}) {
+                       scarp::StopCondition const& stop = {}) {
   scarp::StepReport report;
   report.verdict = session.begin(from);
   REQUIRE(report.verdict.acceptable());

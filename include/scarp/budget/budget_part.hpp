@@ -49,7 +49,7 @@ inline std::string budget_table(BudgetParts const& parts) {
   return text;
 }
 
-/// Part of an error budget that a run cannot see itself: how far its result is from that of a sensitivity run, the same scene with one
+/// Part of an error budget that a single run cannot estimate: how far its result is from that of a sensitivity run, the same scene with one
 /// choice made otherwise - a mesh of other directions, smaller load steps.
 /// own, other: the same measure of both runs; size: what an error is relative to, in the measure's unit
 /// \throws InputError for a size that is not finite and positive, and for a bound that is negative or NaN
@@ -60,7 +60,7 @@ inline BudgetPart sensitivity_part(std::string name, double own, double other, d
   return {std::move(name), std::abs(other - own) / size, bound, std::move(meaning)};
 }
 
-/// Beyond which numbers a run says that it is outside its error budget. All are relative; docs/error-budget.md gives the reasons.
+/// Bounds beyond which a run reports that it is outside its error budget. All are relative; docs/error-budget.md gives the reasons.
 struct ErrorBounds {
   double residual = 1e-2;         ///< largest of an accepted step, over the forces that act
   double work_gap = 5e-2;         ///< external against internal work of the run
@@ -91,9 +91,9 @@ struct ErrorBounds {
                 accumulated, mesh, load_step)
 };
 
-/// Where an error budget looks.
+/// Points and shares that an error budget samples.
 struct ErrorSampling {
-  double share = 0.04;          ///< of the run's work that all checks may take; tracked points come first
+  double share = 0.04;          ///< of the run's work that all checks may cost; tracked points come first
   int max_samples = 2;          ///< of one step
   int points_per_tracked = 40;  ///< one of so many points is tracked through the run,
   int max_tracked = 24;         ///< at most so many,

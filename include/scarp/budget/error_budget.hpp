@@ -47,7 +47,7 @@ struct WorkBalanceOf<Problem> {
 /// with twice the work to single increments (samples) and along the whole paths of a few points. Differences of stress are
 /// relative to a point's stress, now or when the budget was made, whichever is larger: soil that has lost its pressure
 /// carries nothing that its error could be compared with. It changes nothing.
-/// Where points are shared out among processes it looks at those of the first.
+/// Where points are distributed over processes, those of the first are evaluated.
 /// \code
 /// ErrorBudget budget(problem, {.residual = 1e-3}, {.pressure_floor = 2e3});
 /// ... run ...
@@ -90,7 +90,7 @@ class ErrorBudget : public NeverStops {
     samples_.sample(problem, seen_, at_rest_, sampling_, affordable - tracked_.work);
   }
 
-  /// What came out so far; parts without anything to look at are left out.
+  /// Results so far; parts without data are left out.
   BudgetParts parts() const {
     constexpr double none = std::numeric_limits<double>::infinity();
     BudgetParts parts;

@@ -49,10 +49,10 @@ struct PackingSurvey {
 /// sample is the most strained point of its step, unless that was taken; the others are spread over all points.
 struct DoubledSamples {
   std::vector<double> differences{};  ///< of the stress, relative, in the order of the samples
-  long work = 0;                      ///< that they took
+  long work = 0;                      ///< that they cost
 
   /// After an accepted step. at_rest [Pa]: sizes of all points' stresses when the run began; afforded: work that samples
-  /// may have taken up to now
+  /// may have cost up to now
   template <class Problem>
   void sample(Problem const& problem, std::vector<int> const& points, std::vector<double> const& at_rest,
               ErrorSampling const& sampling, long afforded) {
@@ -61,10 +61,10 @@ struct DoubledSamples {
     std::vector<long> works(chosen.size());
     problem.executor().for_each(static_cast<int>(chosen.size()), [&](int task) {
       auto const k = detail::index(task);
-      auto const answer = problem.points().doubled_response(chosen[k]);
-      found[k] = stress_difference(problem.points().committed_stress(chosen[k]), answer.response,
+      auto const doubled = problem.points().doubled_response(chosen[k]);
+      found[k] = stress_difference(problem.points().committed_stress(chosen[k]), doubled.response,
                                    at_rest[detail::index(chosen[k])]);
-      works[k] = answer.work;
+      works[k] = doubled.work;
     });
     differences.insert(differences.end(), found.begin(), found.end());
     for (long const one : works) work += one;
@@ -127,7 +127,7 @@ struct TrackedPoint {
 struct TrackedPoints {
   std::vector<TrackedPoint> points{};
   int steps = 0;
-  long work = 0;            ///< that they took
+  long work = 0;            ///< that they cost
   double square_sum = 0.0;  ///< over all steps, see together()
 
   /// Spread over the points that this process sees, and those that are named.
@@ -161,17 +161,17 @@ struct TrackedPoints {
     std::vector<double> carried(points.size());
     problem.executor().for_each(detail::count(points), [&](int task) {
       TrackedPoint& one = points[detail::index(task)];
-      auto const answer = problem.points().doubled_path(one.point, one.bits);
+      auto const doubled = problem.points().doubled_path(one.point, one.bits);
       auto const stress = problem.points().committed_stress(one.point);
       double const least = at_rest[detail::index(one.point)];
-      one.apart = stress_difference(stress, answer.response, least);
+      one.apart = stress_difference(stress, doubled.response, least);
       differences[detail::index(task)] = std::isfinite(one.apart)
-                                             ? VoigtStress<dim>(answer.response.stress - stress)
+                                             ? VoigtStress<dim>(doubled.response.stress - stress)
                                              : VoigtStress<dim>::Constant(std::numeric_limits<double>::infinity());
       carried[detail::index(task)] = std::max(stress_size<dim>(stress), least);
       one.farthest = nan_max(one.farthest, one.apart);
       one.square_sum += one.apart * one.apart;
-      works[detail::index(task)] = answer.work;
+      works[detail::index(task)] = doubled.work;
     });
     for (long const one : works) work += one;
     ++steps;

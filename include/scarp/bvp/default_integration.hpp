@@ -15,7 +15,7 @@
 
 namespace scarp {
 
-/// The integration that an element takes where nobody says otherwise, so that it neither locks nor has free motions
+/// The default integration of an element, chosen so that it neither locks nor has free motions
 /// that spread: reduced for quadratic quadrilaterals and hexahedra, the mean dilatation for linear ones, full for
 /// simplices.
 template <CheckedElement Element>

@@ -16,10 +16,10 @@
 namespace scarp {
 
 /// Finite elements on a mesh: displacement increments to gradients at the integration points, stresses at the points to
-/// nodal forces and stiffness. Knows no material; keeps only the committed positions of the nodes.
+/// nodal forces and stiffness. Has no material; its only state is the committed positions of the nodes.
 /// Degree of freedom = dim * node + axis; point = (number of an element's material points) * element + its own number,
 /// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
-/// gives the same bits. Members that cost much to compile are defined outside, so that a library can keep them.
+/// gives the same bits. Members that cost much to compile are defined outside, so that a library can contain them.
 template <CheckedElement Element, Kinematics Motion = UpdatedLagrangian, Integration<Element> Scheme = FullIntegration>
 class SCARP_EXPORT Discretisation {
  public:

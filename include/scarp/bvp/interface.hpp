@@ -27,7 +27,7 @@ concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k,
   {body.commit(nodes, increment)};
 };
 
-/// What an interface says of one of its points.
+/// Kinematics and stress of one point of an interface.
 struct InterfacePoint {
   Vector<2> place = Vector<2>::Zero();   ///< of the standing body [m]
   double area = 0.0;                     ///< [m2]
@@ -44,7 +44,7 @@ struct InterfacePoint {
 template <CheckedContactLaw Law, StandsOnMesh Body>
 class Interface {
   static_assert(!Law::inputs.moment && !Law::inputs.radius && !Law::inputs.motion,
-                "an interface has neither rolling nor radii nor dashpots: take a law of springs and sliders");
+                "an interface has neither rolling nor radii nor dashpots: use a law of springs and sliders");
 
  public:
   using Memory = ContactMemory<2, double>;
@@ -133,7 +133,7 @@ class Interface {
     return state.pressure * outward(state.along) + state.shear * state.along;
   }
 
-  ContactForce<2, double> answer(double overlap, double slip, Memory& memory) const {
+  ContactForce<2, double> response(double overlap, double slip, Memory& memory) const {
     ContactKinematics<2, double> approach{.overlap = overlap, .slip_increment = slip};
     return law_.respond(approach, memory);
   }
@@ -171,7 +171,7 @@ class Interface {
     Vector<2> const relative =
         state.place - body_.place(k, nodes) - ground_.place(before.foot, moved) + ground_.place(before.foot, nodes);
     double const slip = relative.dot(state.along);
-    auto const force = answer(state.overlap, slip, state.memory);
+    auto const force = response(state.overlap, slip, state.memory);
     state.pressure = force.normal;
     state.shear = force.shear;
 
@@ -182,8 +182,8 @@ class Interface {
     } else {
       Memory closing = before.memory;
       Memory sliding = before.memory;
-      auto const closer = answer(state.overlap + step, slip, closing);
-      auto const further = answer(state.overlap, slip + step, sliding);
+      auto const closer = response(state.overlap + step, slip, closing);
+      auto const further = response(state.overlap, slip + step, sliding);
       Tensor<2> derivative;  // of (pressure, shear) with respect to the motion along (normal, tangent)
       derivative << force.normal - closer.normal, further.normal - force.normal,  //
           force.shear - closer.shear, further.shear - force.shear;

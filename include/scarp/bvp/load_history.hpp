@@ -61,12 +61,12 @@ class TimeFunction {
 };
 
 /// Nodal forces [N] of a problem over its load factor: a sum of fixed patterns, each with its amplitude. Without a pattern
-/// it has no size of its own, and a problem takes it for no load at all.
+/// it has no size of its own, and a problem treats it as no load.
 class LoadHistory {
  public:
   LoadHistory() = default;
 
-  /// The same at every load factor. forces: shape (degrees of freedom)
+  /// Constant loads. forces: shape (degrees of freedom)
   template <class Derived>
   LoadHistory(Eigen::MatrixBase<Derived> const& dead_load) {
     add(dead_load, TimeFunction::constant(1.0));

@@ -54,7 +54,7 @@ SCARP_EXPORT Eigen::VectorXd body_force(Discretisation<Element, Motion, Scheme> 
   return forces;
 }
 
-/// The same with force_of_region(number of a region): b [N/m3], shape (dim).
+/// Body forces by force_of_region(number of a region): b [N/m3], shape (dim).
 template <class Element, class Motion, class Scheme, class ForceOfRegion>
   requires std::convertible_to<std::invoke_result_t<ForceOfRegion const&, int>, Vector<Element::dim>> Eigen::VectorXd
   body_force(Discretisation<Element, Motion, Scheme> const& discretisation, ForceOfRegion const& force_of_region) {

@@ -83,11 +83,11 @@ struct MeanDilatation {
   }
 
   /// Exact. With \f$ \Phi(L) \f$ the motion's flux change, \f$ \theta = (\overline{tr L} - tr L)/dim \f$,
-  /// \f$ \bar L = L + \theta I \f$ and likewise \f$ \bar G = G + \gamma I \f$ for the virtual gradient G:
+  /// \f$ \bar L = L + \theta I \f$, and \f$ \bar G = G + \gamma I \f$ for the virtual gradient G:
   /// \f$ \delta f = \sum_p v\,[\Phi(\bar L):\bar G] \f$, and where the configuration moves also
   /// \f$ \sum_p v\,[\gamma\,\sigma:L - (dim - 1)\theta\,\sigma:\bar G + s\,tr(GL)]
   /// + S\,[\overline{tr L\,tr G - tr(GL)} - \overline{tr L}\;\overline{tr G}],\; S = \sum_p v s \f$
-  /// The first term of these takes back what \f$ \Phi(\bar L) \f$ has too much of; the last is the change of the mean.
+  /// The first term removes the excess of \f$ \Phi(\bar L) \f$; the last is the change of the mean.
   template <class Motion, class Element, std::size_t Points>
   static ElementMatrix<Element> stiffness(std::array<SpatialShape<Element>, Points> const& shapes,
                                           std::span<VoigtStress<Element::dim> const, Points> stresses,

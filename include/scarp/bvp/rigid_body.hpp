@@ -32,7 +32,7 @@ class RigidBody {
   /// Where a place of the body, given relative to the reference point before any rotation [m], is now.
   Vector<2> place(Vector<2> const& own) const { return reference_ + scarp::rotation(angle_) * own; }
 
-  /// The same after an increment of the body's degrees of freedom, which begin at `first`.
+  /// The place after an increment of the body's degrees of freedom, which begin at `first`.
   Vector<2> place(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
     return reference_ + increment.segment<2>(first) + turned(increment(first + 2)) * own;
   }

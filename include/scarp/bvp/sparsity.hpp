@@ -39,7 +39,7 @@ class Sparsity {
   /// For each element its matrix's entries, column by column, as positions in the values of the global matrix.
   std::vector<int> const& addresses() const { return addresses_; }
 
-  /// Makes `matrix` a zero matrix of this pattern; keeps its memory when it already has it.
+  /// Makes `matrix` a zero matrix of this pattern; reuses its memory when it already has it.
   void reset(Eigen::SparseMatrix<double>& matrix) const {
     if (matches(matrix)) {
       matrix.coeffs().setZero();

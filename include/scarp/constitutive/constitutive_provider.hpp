@@ -18,7 +18,7 @@ struct Site {
   double depth = 0.0;                          ///< below the ground surface [m]
 };
 
-/// Answer of a material point to an increment.
+/// Stress and verdict of a material point for an increment.
 template <int Dim>
 struct Response {
   VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy [Pa] at the end of the increment, tension positive
@@ -65,9 +65,9 @@ concept GivesTangent = HasState<Model> && HasDimension<Model> &&
 template <class Model>
 concept ConstitutiveProvider = MakesInitialState<Model> && Responds<Model> && HasStress<Model> && GivesTangent<Model>;
 
-/// A provider whose work for a load step is fixed once, from the step's first increment, so that its response stays a
+/// A provider whose number of inner steps in a load step is fixed once, from the step's first increment, so that its response stays a
 /// smooth function of the increment while the solver iterates: plan(committed, predicted), respond(..., plan). Where a response
-/// is `not_converged` in the end, refined(plan) works harder.
+/// is `not_converged` in the end, refined(plan) is a plan with more inner steps.
 template <class Model>
 concept HasPlan = ConstitutiveProvider<Model> && requires {
   typename Model::Plan;
@@ -78,7 +78,7 @@ concept HasPlan = ConstitutiveProvider<Model> && requires {
   { model.respond(committed, increment, trial, plan) } -> std::same_as<Response<Model::dim>>;
 };
 
-/// No work is planned.
+/// No inner steps are planned.
 struct NoPlan {
   explicit operator long() const { return 0; }
 };
@@ -138,7 +138,7 @@ template <class Model>
 concept CheckedProvider = ConstitutiveProvider<Model> || detail::MissingOfProvider<Model>::nothing;
 
 /// A state that a saved one can be read into, with all that is not saved because it follows from the provider and the site. Providers
-/// whose states keep such things return it by `State empty_state(Site<dim> const&) const`, and so do adaptors, for what they hold.
+/// whose states contain such data return it by `State empty_state(Site<dim> const&) const`, and so do adaptors, for the provider inside.
 /// \throws InputError for states that cannot be made so
 template <ConstitutiveProvider Provider>
 typename Provider::State empty_state(Provider const& provider, Site<Provider::dim> const& site) {

@@ -96,7 +96,7 @@ struct LinearElastic {
 
   VoigtStress<Dim> stress(State const& state) const { return state.stress; }
 
-  /// The same everywhere.
+  /// Elastic stiffness [Pa], equal at all points.
   VoigtTangent<Dim> tangent(State const&) const { return elasticity.template stiffness<Dim>(); }
 
   /// Fails with `not_finite` on NaN or infinity and with `element_inverted` when det(I + increment) is not positive;
@@ -108,12 +108,12 @@ struct LinearElastic {
     Tensor<Dim> const unturned =
         from_voigt_stress<Dim, double>(committed.stress) + elasticity.stress<Dim>(moved.strain);
     Tensor<Dim> const turned = moved.turn * unturned * moved.turn.transpose();
-    VoigtStress<Dim> const answer = to_voigt_stress<Dim, double>(turned);
-    if (!answer.allFinite()) {
+    VoigtStress<Dim> const result = to_voigt_stress<Dim, double>(turned);
+    if (!result.allFinite()) {
       return {committed.stress, {Status::failed, Reason::not_finite}};
     }
-    trial.stress = answer;
-    return {answer, {}};
+    trial.stress = result;
+    return {result, {}};
   }
 };
 

@@ -83,8 +83,8 @@ struct MohrCoulomb {
     if (!returned.found) return {stress(committed), {Status::failed, Reason::no_return}};
     if constexpr (StrengthType::changes) soften_tangent(returned, outer.values, plastic_shear);
     Tensor<3> const directions = turn * outer.directions;
-    Tensor<3> const answer = directions * returned.stress.asDiagonal() * directions.transpose();
-    trial.stress = to_voigt_stress<3, double>(answer);
+    Tensor<3> const turned = directions * returned.stress.asDiagonal() * directions.transpose();
+    trial.stress = to_voigt_stress<3, double>(turned);
     trial.plastic_shear = plastic_shear;
     trial.tangent = tangent_of(returned, outer.values, directions);
     return {stress(trial), {}};

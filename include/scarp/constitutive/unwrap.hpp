@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Calls visit(provider, state) for what adaptors are around: the provider that keeps no state of another one in its own. An
+/// Calls visit(provider, state) for the provider inside all adaptors, whose state contains no other provider's. An
 /// adaptor's state has a member `own`, and `provider` where every point has another one; else the adaptor itself has that member.
 template <class Provider, class State, class Visit>
 decltype(auto) unwrap(Provider const& provider, State const& state, Visit&& visit) {

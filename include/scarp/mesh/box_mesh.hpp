@@ -13,7 +13,7 @@ namespace scarp {
 /// Rectangle or box from the origin to `lengths`, a grid of cells that are divided into the elements; region "soil",
 /// boundaries "left" and "right" along x, "bottom" and "top" along the last axis and in 3D "front" and "back" along y.
 /// Interior corners may be moved at random; then nodes on edges are put in their middles, and at last every node goes
-/// where `map` takes it: a smooth map makes a graded or curved mesh.
+/// at their images by `map`: a smooth map makes a graded or curved mesh.
 template <CheckedElement Element>
 struct BoxMesh {
   static constexpr int dim = Element::dim;

@@ -10,7 +10,7 @@
 namespace scarp {
 
 /// Wanted distance of grid lines along an axis: linear between knots, so that neighbouring cells differ little.
-/// The number of cells between two places is \f$ \int dx / s(x) \f$; lines sit where it takes equal steps.
+/// The number of cells between two places is \f$ \int dx / s(x) \f$; lines are at equal steps of it.
 class Spacing {
  public:
   struct Knot {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// \file
-/// Faults that meshes from elsewhere may have and `validate` does not look for, since what this library makes has none.
+/// Faults that meshes from elsewhere may have and `validate` does not look for, since meshes of this library have none.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -48,7 +48,7 @@ inline bool is_inside(Vector<2> const& place, std::array<Vector<2>, 2> const& co
   return beside <= same && way > same && way < length - same;
 }
 
-/// Likewise on a triangle or, as a ring of corners, a quadrilateral in space.
+/// Whether a place is inside a triangle or, as a ring of corners, a quadrilateral in space, but not at one of its corners.
 template <std::size_t Corners>
 bool is_inside(Vector<3> const& place, std::array<Vector<3>, Corners> const& corners, double same) {
   for (auto const& corner : corners) {

@@ -126,7 +126,7 @@ template <ReferenceElement Element>
     return mesh;
   }
 
-/// The mesh with the further nodes of an element where its node_places() say, each once: elements share a node that has
+/// The mesh with the further nodes of an element at its node_places(), each once: elements share a node that has
 /// the same weights of the same corners. Edges stay straight. Corners keep their numbers, regions and boundaries their
 /// names.
 /// \throws InputError for an invalid mesh, and for an element whose first nodes are not the corners of `Linear`

@@ -11,7 +11,7 @@ namespace scarp {
 /// How the rectangles of a grid become triangles or quadrilaterals. The directions of the sides matter: strain
 /// localises along them.
 enum class Pattern {
-  crossed,  ///< four triangles around the centre; what grids have by default, and quadrilaterals take it for `quads`
+  crossed,  ///< four triangles around the centre; the default of grids; for quadrilaterals the same as `quads`
   left,     ///< two triangles, the diagonal rises to the left
   right,    ///< two triangles, the diagonal rises to the right
   quads,    ///< the rectangle itself

@@ -40,7 +40,7 @@ inline GridNumbers add_grid_nodes(std::vector<Vector<2>>& nodes, std::vector<dou
   return numbers;
 }
 
-/// Adds the cells between grid nodes, divided as the pattern says; crossed cells get a node at the mean of their
+/// Adds the cells between grid nodes, divided by the pattern; crossed cells get a node at the mean of their
 /// corners.
 /// region: number of the new elements
 /// \throws InputError for a pattern that the elements cannot follow

@@ -17,7 +17,7 @@
 
 namespace scarp {
 
-/// How far a point looks around itself, and what holds the strain that it then does not see.
+/// Nonlocal length of a point, and the stress against the strain that its mean does not contain.
 struct Neighbourhood {
   double length = 0.0;     ///< radius [m]; 0: the point is a local one
   double stiffness = 1.0;  ///< share of the point's initial tangent
@@ -123,7 +123,7 @@ class PointMeans {
       if (!(std::abs(saved[k] - own[k]) <= 1e-9 * std::abs(own[k])))  // round-off of another compiler
         reject(
             "a saved state is of points that see other means, {} for {} (another mesh, length, stiffness or fading): "
-            "go on with the same ones",
+            "resume with the saved ones",
             saved[k], own[k]);
     }
   }

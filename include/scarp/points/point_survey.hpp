@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// Statistics of a response of all points: how many have which status, and which take most inner steps.
+/// Statistics of a response of all points: how many have which status, and which require most inner steps.
 struct PointSurvey {
   struct Work {
     int point = -1;

@@ -26,7 +26,7 @@ struct DoubledResponse {
   long work = 0;
 };
 
-/// Answers an increment again by twice the work: with the refined plan where that is more work, else in two halves.
+/// Response to an increment with twice the work: by the refined plan where that has more inner steps, else in two halves.
 /// trial: overwritten with the state that belongs to the response
 template <CheckedProvider Provider>
 DoubledResponse<Provider::dim> respond_with_double_work(Provider const& provider, typename Provider::State const& from,

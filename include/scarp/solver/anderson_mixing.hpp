@@ -57,7 +57,7 @@ class AndersonMixing {
     for (std::size_t k = 1; k < history_.size(); ++k) {
       Change change = between(history_[k], history_[k - 1]);
       double const whole = operations_.dot(change.correction, change.correction);
-      for (int pass = 0; pass < 2; ++pass) {  // the second takes away the round-off of the first
+      for (int pass = 0; pass < 2; ++pass) {  // the second removes the round-off of the first
         for (auto const& newer : changes) {
           double const share = operations_.dot(newer.correction, change.correction) / newer.squared;
           operations_.add(-share, newer.correction, change.correction);

@@ -77,7 +77,7 @@ class SCARP_EXPORT EquilibriumProblem final
 
   DiscretisationType const& discretisation() const { return discretisation_; }
   MaterialPoints<dim> const& points() const { return points_; }
-  /// For those that give or take states between load steps.
+  /// For callers that exchange states between load steps.
   MaterialPoints<dim>& points() { return points_; }
   Constraints const& constraints() const override { return constraints_; }
   std::vector<int> const& free_dofs() const { return free_dofs_; }
@@ -105,7 +105,7 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Whether the rotation in a gradient turns the stress that is there.
   bool turns_stresses() const override { return DiscretisationType::follows_motion; }
 
-  /// Fixes every point's work for the load step from a predicted increment; the points' gradients are kept.
+  /// Fixes every point's work for the load step from a predicted increment; the points' gradients are stored.
   /// \param worst_point where given, a point of the element that the increment turns inside out, -1 for none
   Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) override {
     if (worst_point) *worst_point = -1;
@@ -134,7 +134,7 @@ class SCARP_EXPORT EquilibriumProblem final
     return evaluation;
   }
 
-  /// Lets the points whose last response is not converged take more inner steps, now and for the rest of the load step, at the increment
+  /// Evaluates the points whose last response is not converged with more inner steps, now and for the rest of the load step, at the increment
   /// of the last evaluation.
   Evaluation refine(Eigen::VectorXd const& increment) override {
     Evaluation evaluation{points_.refine(executor_)};
@@ -215,7 +215,7 @@ class SCARP_EXPORT EquilibriumProblem final
     seen_.resize(0);
   }
 
-  /// What evolves from step to step: a problem made anew goes on from these as the one that they were taken from.
+  /// What evolves from step to step: a new problem with these resumes as the one that they were saved from.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     visit("discretisation", self.discretisation_);
@@ -251,17 +251,17 @@ class SCARP_EXPORT EquilibriumProblem final
 
   /// Forces [N] of the mesh's degrees of freedom by the means of strains: strains from displacements, and stresses times volume
   /// [N m] from means.
-  LinearMap forces_around(Eigen::SparseMatrix<double> strains, std::vector<VoigtTangent<dim>> answers) const {
-    return [this, strains = std::move(strains), answers = std::move(answers)](Eigen::VectorXd const& displacement) {
+  LinearMap forces_around(Eigen::SparseMatrix<double> strains, std::vector<VoigtTangent<dim>> tangents) const {
+    return [this, strains = std::move(strains), tangents = std::move(tangents)](Eigen::VectorXd const& displacement) {
       Eigen::VectorXd values = strains * displacement.head(strains.cols());
       auto const of_point = [&](std::size_t k) {
         constexpr int size = voigt_size<dim>;
         return values.segment<size>(static_cast<Eigen::Index>(size * k));
       };
-      std::vector<EngineeringStrain<dim>> means(answers.size());
-      for (std::size_t k = 0; k < answers.size(); ++k) means[k] = of_point(k);
+      std::vector<EngineeringStrain<dim>> means(tangents.size());
+      for (std::size_t k = 0; k < tangents.size(); ++k) means[k] = of_point(k);
       means = points_.means()->mean().means(means, executor_);
-      for (std::size_t k = 0; k < answers.size(); ++k) of_point(k) = answers[k] * means[k];
+      for (std::size_t k = 0; k < tangents.size(); ++k) of_point(k) = tangents[k] * means[k];
       return Eigen::VectorXd(strains.transpose() * values);
     };
   }

@@ -13,7 +13,7 @@
 namespace scarp {
 
 /// What a solver needs of a boundary-value problem in increments, whatever its elements, materials, loads and executor are: a
-/// solver is compiled once for each dimension. `EquilibriumProblem` says what each member means.
+/// solver is compiled once for each dimension. `EquilibriumProblem` documents each member.
 template <int Dim>
 class IncrementalProblem {
  public:
@@ -50,7 +50,7 @@ class IncrementalProblem {
   IncrementalProblem& operator=(IncrementalProblem const&) = delete;
 };
 
-/// The same with something attached to the mesh.
+/// An `IncrementalProblem` with something attached to the mesh.
 template <int Dim>
 class AttachedProblem : public IncrementalProblem<Dim> {
  public:

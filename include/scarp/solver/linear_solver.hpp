@@ -27,7 +27,7 @@ concept LinearSolver = std::default_initializable<Solver> &&
 
 namespace detail {
 
-/// What all direct solvers of Eigen's kind have in common: the ordering is kept as long as the matrix keeps its pattern.
+/// What all direct solvers of Eigen's kind have in common: the ordering is reused as long as the matrix has the same pattern.
 class PatternMemory {
  public:
   /// Whether the matrix has another pattern than the last one, which it replaces.

@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-/// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment keeps its own
+/// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment has its own
 /// forces: contact that opens, closes or slides is followed here, where no material point is evaluated. Without attachment
 /// this is one linear solve.
 template <class Problem, LinearSolver Linear>
@@ -84,7 +84,7 @@ class LinearisedStep {
     }
   };
 
-  /// A straight way through increments, and what the ground says along it.
+  /// A straight way through increments, and the ground's forces along it.
   struct Way {
     Eigen::VectorXd start;
     Eigen::VectorXd direction;
@@ -246,7 +246,7 @@ class LinearPredictor {
   /// accuracy: see LinearisedStep
   LinearPredictor(Problem& problem, double accuracy) : problem_(problem), linearised_(problem, accuracy) {}
 
-  /// At the load factor that the problem is aimed at; says which degree of freedom is weak where the system is singular.
+  /// At the load factor that the problem is aimed at; reports the weak degree of freedom where the system is singular.
   Verdict linearise(std::vector<VoigtTangent<Problem::dim>> const& tangents) {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
     Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, tangents);
@@ -269,7 +269,7 @@ class LinearPredictor {
     return problem_.constraints().displacement(from, to);
   }
 
-  /// First guess of the whole increment from the linearised system, aimed likewise.
+  /// First guess of the whole increment from the linearised system at the load factor `to`.
   Eigen::VectorXd predict(double from, double to) {
     Eigen::VectorXd increment = prescribed(from, to);
     Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);

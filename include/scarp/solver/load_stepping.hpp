@@ -39,7 +39,7 @@ struct MissingOfObserver {
 };
 }  // namespace detail
 
-/// The same; of a type that is none the compiler says in words what is missing.
+/// An `ObservesSteps`; for another type the compiler names the missing member.
 template <class Observer, class Problem>
 concept CheckedObserver = ObservesSteps<Observer, Problem> || detail::MissingOfObserver<Observer, Problem>::nothing;
 
@@ -125,7 +125,7 @@ struct LoadStepping {
     require_at_least("iterations beyond which the load increment shrinks", shrink_above, grow_below);
   }
 
-  /// One step without growth of the load: brings a prepared state into equilibrium, or says why not.
+  /// One step without growth of the load: brings a prepared state into equilibrium, or returns the reason.
   template <class Solver, class Problem, class Observer>
     requires CheckedObserver<Observer, Problem> RunReport settle(Solver const& solver, Problem& problem, double load,
                                                                  Observer& observer)
@@ -152,7 +152,7 @@ struct LoadStepping {
     return advance(session, problem, from, to, observer);
   }
 
-  /// The same with a solver's session on this problem, which keeps what it has learned from one call to the next.
+  /// As advance() with a solver's session on this problem, whose learned tangents persist from one call to the next.
   template <class Session, class Problem, class Observer>
     requires CheckedObserver<Observer, Problem> RunReport advance(Session& session, Problem& problem, double from,
                                                                   double to, Observer& observer)
@@ -242,10 +242,10 @@ struct LoadStepping {
       Eigen::VectorXd const displacement = session.predict(load, end_of(load, to, increment));
       Verdict const planned = problem.plan(displacement);
       if (planned.reason == Reason::not_finite) return displacement;
-      // Of a prediction that turns an element inside out the problem knows no gradient.
+      // A prediction that turns an element inside out has no gradient.
       double const ratio =
           planned.acceptable() ? problem.max_displacement_gradient() / max_displacement_gradient : infinite;
-      // Part of a prediction may come from the present imbalance, which no smaller increment takes away.
+      // Part of a prediction may come from the present imbalance, which no smaller increment removes.
       if (!(ratio > 1.001) || increment < 2.0 * smallest) return displacement;
       increment = std::max(increment * std::max(1.0 / ratio, 0.3), smallest);
     }

@@ -28,7 +28,7 @@ MaterialPoints<DiscretisationType::dim> make_points(DiscretisationType const& di
 }
 
 /// The composition root: one discretisation, a material for each region, constraints and loads, as a problem that a
-/// solver can take. Regions are written as values, `make_problem(..., hana::make_tuple(Region{"soil", soil}))`.
+/// solver can use. Regions are written as values, `make_problem(..., hana::make_tuple(Region{"soil", soil}))`.
 /// \throws InputError when the parts do not fit together
 template <class DiscretisationType, ExecutesTasks Executor,
           AttachmentOrNone<DiscretisationType::dim> Attached = NoAttachment, class... Materials>

@@ -25,24 +25,24 @@ struct OneOf {
         : chosen_(std::visit([&](auto const& one) { return session(one, problem); }, solver.chosen)) {}
 
     Verdict begin(double load) {
-      return ask([&](auto& session) { return session.begin(load); });
+      return with_session([&](auto& session) { return session.begin(load); });
     }
     void describe(StepReport& report) const {
-      ask([&](auto& session) { session.describe(report); });
+      with_session([&](auto& session) { session.describe(report); });
     }
     Eigen::VectorXd predict(double from, double to) {
-      return ask([&](auto& session) { return session.predict(from, to); });
+      return with_session([&](auto& session) { return session.predict(from, to); });
     }
-    void correct(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop = {}) {
-      ask([&](auto& session) { session.correct(increment, report, stop); });
+    void correct(Eigen::VectorXd& increment, StepReport& report, StopCondition const& stop = {}) {
+      with_session([&](auto& session) { session.correct(increment, report, stop); });
     }
     void accept(Eigen::VectorXd const& increment) {
-      ask([&](auto& session) { session.accept(increment); });
+      with_session([&](auto& session) { session.accept(increment); });
     }
 
     template <class Self, class Visit>
     static void members(Self& self, Visit&& visit) {
-      self.ask([&](auto& session) { visit("session", session); });
+      self.with_session([&](auto& session) { visit("session", session); });
     }
 
    private:
@@ -55,9 +55,9 @@ struct OneOf {
       return std::make_unique<SessionOf<Solver>>(solver, problem);
     }
 
-    template <class Ask>
-    decltype(auto) ask(Ask const& ask) const {
-      return std::visit([&](auto const& session) -> decltype(auto) { return ask(*session); }, chosen_);
+    template <class Function>
+    decltype(auto) with_session(Function const& function) const {
+      return std::visit([&](auto const& session) -> decltype(auto) { return function(*session); }, chosen_);
     }
 
     Chosen chosen_;

@@ -16,7 +16,7 @@
 namespace scarp {
 
 /// The iteration of a `QuasiNewton` on one problem, which may be an `IncrementalProblem`: factorisation and what the points'
-/// tangents have learned. Its members are defined outside so that a library can keep them.
+/// tangents have learned. Its members are defined outside so that a library can contain them.
 template <class Settings, class Problem>
 class SCARP_EXPORT QuasiNewtonSession {
  public:
@@ -31,12 +31,12 @@ class SCARP_EXPORT QuasiNewtonSession {
   Eigen::VectorXd predict(double from, double to);
 
   /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
-  void correct(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop = {});
+  void correct(Eigen::VectorXd& increment, StepReport& report, StopCondition const& stop = {});
 
-  /// Commits an increment in equilibrium and keeps what the step has learned.
+  /// Commits an increment in equilibrium; the learned tangents start the next step.
   void accept(Eigen::VectorXd const& increment);
 
-  /// What is remembered from step to step.
+  /// State that persists from step to step.
   SCARP_MEMBERS_EXCEPT((settings_, problem_, start_, mark_, tangent_seconds_, provider_, working_, last_gradients_,
                         last_stresses_, growth_),
                        first_, learned_, motion_)
@@ -46,11 +46,11 @@ class SCARP_EXPORT QuasiNewtonSession {
   using Rule = typename Settings::RuleType;
   using Linear = typename Settings::LinearType;
 
-  void iterate(Eigen::VectorXd& increment, StepReport& report, StopQuestion const& stop);
+  void iterate(Eigen::VectorXd& increment, StepReport& report, StopCondition const& stop);
   Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, bool refine);
   std::vector<VoigtTangent<Problem::dim>> timed_tangents(bool of_trial_states);
   void learn();
-  void learn_from_answers();
+  void learn_from_responses();
 
   Settings settings_;
   Problem& problem_;
@@ -91,7 +91,7 @@ Eigen::VectorXd QuasiNewtonSession<Settings, Problem>::predict(double from, doub
 
 template <class Settings, class Problem>
 void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, StepReport& report,
-                                                    StopQuestion const& stop) {
+                                                    StopCondition const& stop) {
   iterate(increment, report, stop);
   // What led to a rejected step is not repeated; one that was interrupted counts as never made.
   if (!report.verdict.acceptable() && !report.interrupted()) motion_.forget();
@@ -99,7 +99,7 @@ void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, 
 
 template <class Settings, class Problem>
 void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, StepReport& report,
-                                                    StopQuestion const& stop) {
+                                                    StopCondition const& stop) {
   report.verdict = problem_.plan(increment, &report.worst_point);
   if (!report.verdict.acceptable()) return;
   report.max_displacement_gradient = problem_.max_displacement_gradient();
@@ -149,7 +149,7 @@ void QuasiNewtonSession<Settings, Problem>::accept(Eigen::VectorXd const& increm
     motion_.remember(start_.linearised().system().gather(increment), growth_);
 }
 
-/// Asks all points and adds what it took to the report.
+/// Evaluates all points and adds the cost to the report.
 template <class Settings, class Problem>
 Evaluation QuasiNewtonSession<Settings, Problem>::recorded(StepReport& report, Eigen::VectorXd const& increment,
                                                            bool refine) {
@@ -188,13 +188,13 @@ void QuasiNewtonSession<Settings, Problem>::learn() {
     for (std::size_t k = 0; k < working_.size(); ++k)
       working_[k] = settings_.rule.template at_trial<dim>(trial[k], first_[k]);
   } else {
-    learn_from_answers();
+    learn_from_responses();
   }
 }
 
 template <class Settings, class Problem>
-void QuasiNewtonSession<Settings, Problem>::learn_from_answers() {
-  if constexpr (LearnsFromAnswers<Rule, dim>) {
+void QuasiNewtonSession<Settings, Problem>::learn_from_responses() {
+  if constexpr (LearnsFromResponses<Rule, dim>) {
     for (std::size_t k = 0; k < working_.size(); ++k) {
       Gradient<dim> const& gradient = problem_.gradients()[k];
       VoigtStress<dim> const& stress = problem_.responses()[k].stress;
@@ -209,8 +209,8 @@ void QuasiNewtonSession<Settings, Problem>::learn_from_answers() {
   }
 }
 
-/// Newton-type iteration for one load step: the tangent rule says what the points' tangents become on the way. Every iteration
-/// takes the points along the straight path from their committed states to the iterate.
+/// Newton-type iteration for one load step: the tangent rule gives the points' tangents in each iteration. Every iteration
+/// moves the points along the straight path from their committed states to the iterate.
 template <TangentRule<2> Rule = PointwiseBroyden, LinearSolver Linear = SparseLu>
 struct QuasiNewton {
   double tolerance = 5e-3;  ///< force residual, see EquilibriumProblem::residuals

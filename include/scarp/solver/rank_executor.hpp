@@ -28,7 +28,7 @@ class MpiSession {
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     if (provided < MPI_THREAD_FUNNELED) {
       MPI_Finalize();
-      reject("MPI was requested with threads of its ranks (this one cannot): take an MPI with MPI_THREAD_FUNNELED");
+      reject("MPI was requested with threads of its ranks (this one cannot): use an MPI with MPI_THREAD_FUNNELED");
     }
   }
   MpiSession(MpiSession const&) = delete;
@@ -65,15 +65,15 @@ struct LyingInMemory<Eigen::Matrix<Scalar, Rows, Columns, Options, Rows, Columns
 template <int Dim>
 struct LyingInMemory<Response<Dim>> {
   using Stress = LyingInMemory<VoigtStress<Dim>>;
-  using Told = LyingInMemory<Verdict>;
-  static constexpr std::size_t size = Stress::size + Told::size;
+  using Outcome = LyingInMemory<Verdict>;
+  static constexpr std::size_t size = Stress::size + Outcome::size;
   static void write(Response<Dim> const& value, std::byte* to) {
     Stress::write(value.stress, to);
-    Told::write(value.verdict, to + Stress::size);
+    Outcome::write(value.verdict, to + Stress::size);
   }
   static void read(std::byte const* from, Response<Dim>& value) {
     Stress::read(from, value.stress);
-    Told::read(from + Stress::size, value.verdict);
+    Outcome::read(from + Stress::size, value.verdict);
   }
 };
 
@@ -167,18 +167,18 @@ class RankExecutor {
     seconds_sharing_ += MPI_Wtime() - started;
   }
 
-  /// What the root rank says.
-  bool agree(bool said) const {
-    int heard = said ? 1 : 0;
-    MPI_Bcast(&heard, 1, MPI_INT, 0, communicator_);
-    return heard != 0;
+  /// \return the root rank's flag
+  bool agree(bool flag) const {
+    int roots = flag ? 1 : 0;
+    MPI_Bcast(&roots, 1, MPI_INT, 0, communicator_);
+    return roots != 0;
   }
 
   /// On the root rank: what the owner of a point returns while it serves.
   /// \throws InputError with the owner's words where it could not
   std::string fetch(int point) const {
     int const owner = point % ranks_;
-    MPI_Send(&point, 1, MPI_INT, owner, question, communicator_);
+    MPI_Send(&point, 1, MPI_INT, owner, request, communicator_);
     MPI_Status status;
     MPI_Probe(owner, MPI_ANY_TAG, communicator_, &status);
     int length = 0;
@@ -190,18 +190,18 @@ class RankExecutor {
     return bytes;
   }
 
-  /// The root rank does a task, which may request points; the others serve meanwhile: answer_to(point) returns the bytes. What one throws
+  /// The root rank does a task, which may request points; the others serve meanwhile: bytes_of(point) returns the bytes. What one throws
   /// ends all.
-  template <std::invocable Task, std::invocable<int> Answer>
-  void on_first(Task const& task, Answer const& answer_to) const {
+  template <std::invocable Task, std::invocable<int> BytesOf>
+  void on_first(Task const& task, BytesOf const& bytes_of) const {
     together([&] {
-      if (rank_ != 0) return serve(answer_to);
+      if (rank_ != 0) return serve(bytes_of);
       struct Dismissal {
         RankExecutor const& executor;
         ~Dismissal() {
           int const nothing = -1;
           for (int other = 1; other < executor.ranks_; ++other)
-            MPI_Send(&nothing, 1, MPI_INT, other, question, executor.communicator_);
+            MPI_Send(&nothing, 1, MPI_INT, other, request, executor.communicator_);
         }
       } const dismissal{*this};
       task();
@@ -209,22 +209,22 @@ class RankExecutor {
   }
 
  private:
-  static constexpr int question = 1;  // tags of messages
-  static constexpr int answer = 2;
+  static constexpr int request = 1;  // tags of messages
+  static constexpr int reply = 2;
   static constexpr int failure = 3;
 
-  /// Until the root rank has no more questions; then what a request has thrown is thrown.
-  template <class Answer>
-  void serve(Answer const& answer_to) const {
+  /// Until the root rank has no more requests; then what a request has thrown is thrown.
+  template <class BytesOf>
+  void serve(BytesOf const& bytes_of) const {
     std::exception_ptr thrown;
     for (;;) {
       int point = -1;
-      MPI_Recv(&point, 1, MPI_INT, 0, question, communicator_, MPI_STATUS_IGNORE);
+      MPI_Recv(&point, 1, MPI_INT, 0, request, communicator_, MPI_STATUS_IGNORE);
       if (point < 0) break;
       std::string bytes;
-      int tag = answer;
+      int tag = reply;
       try {
-        bytes = answer_to(point);
+        bytes = bytes_of(point);
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
           reject("the state of point {} has {} bytes (MPI sends no more than {} at once): make it smaller", point,
                  bytes.size(), std::numeric_limits<int>::max());

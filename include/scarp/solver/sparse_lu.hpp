@@ -26,7 +26,7 @@ static_assert(LinearSolver<SparseLu>);
 #ifndef SCARP_PRECOMPILED
 #define SCARP_SPARSE_LU_DEFINITIONS inline
 #endif
-#ifdef SCARP_SPARSE_LU_DEFINITIONS  // empty in the library that keeps them
+#ifdef SCARP_SPARSE_LU_DEFINITIONS  // empty in the library that contains them
 SCARP_SPARSE_LU_DEFINITIONS Verdict SparseLu::factorize(SparseMatrix const& matrix) {
   return detail::factorize_with(solver_, pattern_, matrix);
 }

@@ -18,7 +18,7 @@ struct PartResidual {
   double value = 0.0;
 };
 
-/// Forces that an increment of displacement meets, and what the points say.
+/// Forces and residuals of an increment of displacement, with the points' report.
 struct Evaluation : ResponseReport {
   Eigen::VectorXd unbalanced{};       ///< internal minus external force of all degrees of freedom [N]
   double residual = 0.0;              ///< see EquilibriumProblem::residual
@@ -36,8 +36,8 @@ struct IterationRecord {
   PointSurvey points{};
 };
 
-/// Called between two responses of all points, since an attempt of large packings may take minutes. Empty: never.
-using StopQuestion = std::function<bool()>;
+/// Called between two responses of all points, since an attempt of large packings may last minutes. Empty: never.
+using StopCondition = std::function<bool()>;
 
 /// How one attempt at a load step went.
 struct StepReport {
@@ -59,8 +59,8 @@ struct StepReport {
 
   /// Ends an attempt that is not yet in equilibrium where that is requested.
   /// \return whether it has
-  bool stopped(StopQuestion const& asked) {
-    if (!asked || !asked()) return false;
+  bool stopped(StopCondition const& stop) {
+    if (!stop || !stop()) return false;
     verdict = {Status::not_converged, Reason::interrupted};
     return true;
   }

@@ -19,8 +19,8 @@ concept StartsTangent = requires(Rule const& rule, VoigtTangent<Dim> const& tang
 
 /// update(tangent, provider, change of strain, change of stress): how an iteration's response changes the tangent.
 template <class Rule, int Dim>
-concept LearnsFromAnswers = requires(Rule const& rule, VoigtTangent<Dim> const& tangent,
-                                     EngineeringStrain<Dim> const& strain, VoigtStress<Dim> const& stress) {
+concept LearnsFromResponses = requires(Rule const& rule, VoigtTangent<Dim> const& tangent,
+                                       EngineeringStrain<Dim> const& strain, VoigtStress<Dim> const& stress) {
   { rule.template update<Dim>(tangent, tangent, strain, stress) } -> std::same_as<VoigtTangent<Dim>>;
 };
 
@@ -32,12 +32,12 @@ concept FollowsTrialTangent = requires(Rule const& rule, VoigtTangent<Dim> const
 
 /// Which tangent a point has while a step is iterated.
 template <class Rule, int Dim>
-concept TangentRule = StartsTangent<Rule, Dim> &&(LearnsFromAnswers<Rule, Dim> || FollowsTrialTangent<Rule, Dim>);
+concept TangentRule = StartsTangent<Rule, Dim> &&(LearnsFromResponses<Rule, Dim> || FollowsTrialTangent<Rule, Dim>);
 
 /// Tangents that learn at every material point: each iteration's change of strain and stress corrects the point's tangent by
 /// Broyden's rank-one update, so that thousands of points gather curvature at once where a global quasi-Newton method gathers
 /// one direction. A step starts from a mix of the provider's tangent and what the last step has learned.
-/// The symmetric part is kept above a floor, without which softening makes the system indefinite.
+/// The symmetric part is bounded below by a floor, without which softening makes the system indefinite.
 struct PointwiseBroyden {
   double provider_share = 0.5;      ///< of the provider's tangent in the start of a step; the rest is learned
   double floor = 0.02;              ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
@@ -79,7 +79,7 @@ struct PointwiseBroyden {
 
 static_assert(TangentRule<PointwiseBroyden, 2> && TangentRule<PointwiseBroyden, 3>);
 
-/// Newton's method: every iteration takes the provider's tangent at its trial state. Residuals fall quadratically where that is
+/// Newton's method: every iteration uses the provider's tangent at its trial state. Residuals fall quadratically where that is
 /// the derivative of the response and the response is smooth.
 struct ConsistentTangent {
   double floor = 0.0;  ///< share of the first tangent that is mixed in, against singular systems at a limit load
@@ -107,7 +107,7 @@ struct SecantPair {
   VoigtStress<Dim> stress;  ///< [Pa]
 };
 
-/// From the response to one gradient to that to another, both from the same start, in the axes of the former: the rotation
+/// From the response to one gradient to that to another, both from the same start, in the axes of the first: the rotation
 /// between them turns the stress that was there and is no stiffness. Nothing, where no rotation leads from one to the other.
 template <int Dim>
 SecantPair<Dim> corotated_secant_pair(Gradient<Dim> const& from, Gradient<Dim> const& to,

@@ -21,7 +21,7 @@ namespace scarp {
 /// share out evenly. Tasks write only their own results: the result has the same bits for any number of threads.
 class ThreadExecutor {
  public:
-  /// threads, the calling one included; 0 takes as many as the machine has
+  /// threads, the calling one included; 0: as many as the machine has
   /// \throws InputError for a negative number, or more than can be started
   explicit ThreadExecutor(int threads = 0) {
     if (threads < 0)

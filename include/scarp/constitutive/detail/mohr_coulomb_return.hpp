@@ -107,7 +107,7 @@ class MohrCoulombReturn {
     return {};
   }
 
-  /// With exactly these planes active. Outside of the class, so that a library can keep it.
+  /// With exactly these planes active. Outside of the class, so that a library can contain it.
   template <int Count>
   PrincipalReturn attempt(std::array<int, Count> const& active, Vector<3> const& trial, double slack) const;
 
@@ -120,7 +120,7 @@ class MohrCoulombReturn {
 };
 
 /// Multipliers \f$ \mu = 2G\lambda \f$ and the mean stress \f$ p = \kappa\,1\cdot R\mu,\; \kappa = \lambda_L/2G \f$, that plastic flow
-/// R takes away, are unknowns of one system: however large kappa is near incompressibility, nothing large is subtracted,
+/// R subtracts, are unknowns of one system: however large kappa is near incompressibility, nothing large is subtracted,
 /// \f$ N^T R\mu + N^T 1\,p = f^{tr},\; \kappa\,1^T R\mu - p = 0 \f$, the second row divided by 1 + |kappa|.
 template <int Count>
 SCARP_EXPORT PrincipalReturn MohrCoulombReturn::attempt(std::array<int, Count> const& active, Vector<3> const& trial,

@@ -32,7 +32,7 @@ class PlaceIndex {
 
   void add(Vector<Dim> const& place, int number) { buckets_[key(bucket(place))].push_back({place, number}); }
 
-  /// visit(place, number) for everything between the corners low and high [m], and maybe for more beside it
+  /// visit(place, number) for everything between the corners low and high [m], and possibly for others
   template <class Visit>
   void near(Vector<Dim> const& low, Vector<Dim> const& high, Visit const& visit) const {
     Bucket const first = bucket(low);

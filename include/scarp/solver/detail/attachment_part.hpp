@@ -50,7 +50,7 @@ class AttachmentPart : public AttachedProblem<Dim> {
     return assembled([&](auto& entries) { attached_.add_stiffness(entries); });
   }
 
-  /// The same as if nothing there slid.
+  /// Stiffness as if nothing slid.
   Eigen::SparseMatrix<double> stick_stiffness() const override {
     if constexpr (requires(std::vector<Eigen::Triplet<double>> & entries) { attached_.add_stick_stiffness(entries); }) {
       return assembled([&](auto& entries) { attached_.add_stick_stiffness(entries); });

@@ -22,7 +22,7 @@ namespace scarp::detail {
 template <class Work>
 std::optional<double> zero_power_step(Work const& work, double most) {
   constexpr double left = 1e-3;
-  constexpr int max_questions = 40;
+  constexpr int max_evaluations = 40;
   constexpr double min_bracket = 1e-10;  // of the share
   double const whole = work(0.0);
   if (!(whole < 0.0)) return std::nullopt;
@@ -40,7 +40,7 @@ std::optional<double> zero_power_step(Work const& work, double most) {
   }
   double share = above;
   double now = after;
-  for (int k = 0; k < max_questions && std::abs(now) > -left * whole && above - below > min_bracket * above; ++k) {
+  for (int k = 0; k < max_evaluations && std::abs(now) > -left * whole && above - below > min_bracket * above; ++k) {
     // The secant of the bracket, and now and then its middle, since the work bends sharply where points stick or open.
     share = k % 3 == 2 ? (below + above) / 2.0 : below + (above - below) * before / (before - after);
     now = work(share);
@@ -63,13 +63,13 @@ class StandingBalance {
   explicit StandingBalance(Problem& problem)
       : problem_(problem), length_(problem.length()), own_(dofs_beside(problem), problem.dof_count()) {}
 
-  /// Whether the contacts of the last question hold it in every direction.
+  /// Whether the contacts of the last evaluation support the body in every direction.
   bool is_held() const { return own_.free_count() == 0 || factors(problem_.attached_stiffness()).isInvertible(); }
 
-  /// Begins the count of questions to the attachment, which are limited: a body that slides without friction, or on springs so
+  /// Begins the count of evaluations of the attachment, which are limited: a body that slides without friction, or on springs so
   /// stiff that round-off hides its imbalance, could be evaluated without end.
-  void begin() { asked_ = 0; }
-  bool spent() const { return asked_ >= max_questions; }
+  void begin() { evaluations_ = 0; }
+  bool spent() const { return evaluations_ >= max_evaluations; }
 
   /// Moves the entries of attached bodies in an increment [m]; loads [N]: on all degrees of freedom.
   /// The attachment's trial state then belongs to the increment.
@@ -96,7 +96,7 @@ class StandingBalance {
   }
 
   static constexpr int max_iterations = 100;
-  static constexpr int max_questions = 3000;
+  static constexpr int max_evaluations = 3000;
   static constexpr double better = 1e-3;  ///< of the required accuracy, where Newton's method comes that far
   static constexpr double min_share = 0.1;
   static constexpr double decrease = 0.1;  ///< of the imbalance, over the share of Newton's step
@@ -140,7 +140,7 @@ class StandingBalance {
 
   /// Unbalanced forces [N] with the body at a place.
   Eigen::VectorXd at(Eigen::VectorXd const& place, Eigen::VectorXd& increment) {
-    ++asked_;
+    ++evaluations_;
     own_.scatter(place, increment);
     return own_.gather(problem_.attached_forces(increment)) - loads_;
   }
@@ -154,7 +154,7 @@ class StandingBalance {
   double length_;   ///< of the body [m]
   FreeSystem own_;  ///< of attached bodies
   Eigen::VectorXd loads_;
-  int asked_ = 0;
+  int evaluations_ = 0;
 };
 
 }  // namespace scarp::detail
