@@ -77,7 +77,7 @@ TEST_CASE("elements are fine around strained places, coarse far away and grow be
 
 TEST_CASE("a pilot run that strains nothing is refused") {
   MovedGround<scarp::Tri3> const ground([](Vector<2> const&) { return Vector<2>(0.0, -1.0); });
-  CHECK_REFUSED(scarp::strained_places(ground, 0.7), "let the fault move");
+  CHECK_REFUSED(scarp::strained_places(ground, 0.7), "apply a throw");
   CHECK_REFUSED(scarp::strained_places(ground, 1.5), "share of the strain", "1.5");
 }
 

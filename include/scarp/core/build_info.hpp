@@ -35,7 +35,7 @@ consteval BuildInfo build_info() {
 
   info.lanes = detail::bytes_of_register() / static_cast<int>(sizeof(double));
 
-  // The levels of the System V ABI, as far as compilers say which of their instructions they use.
+  // The levels of the System V ABI, as far as compilers define macros for their instructions.
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512CD__) && defined(__AVX512DQ__) && \
     defined(__AVX512VL__)
   info.instruction_set = "x86-64-v4";

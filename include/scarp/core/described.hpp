@@ -19,7 +19,7 @@ constexpr std::string_view plain_name(std::string_view name) {
 }  // namespace detail
 
 /// members(self, visit): calls visit(name, member) for each member that a saved state consists of; a member whose length the
-/// scene knows is passed as a span. Where there is after_loading(), it is called once the members have been read.
+/// scene fixes is passed as a span. Where there is after_loading(), it is called once the members have been read.
 /// A line in the class writes this function:
 /// \code
 /// SCARP_MEMBERS(stress, plastic_shear, tangent)   // all data members

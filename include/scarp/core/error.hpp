@@ -13,7 +13,7 @@
 namespace scarp {
 
 namespace detail {
-/// What a damaged file says must neither end a message early nor steer the terminal that shows it.
+/// Text of a damaged file must neither end a message early nor steer the terminal that shows it.
 inline std::string without_control_characters(std::string text) {
   for (char& letter : text) {
     bool const control = static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;

@@ -19,7 +19,7 @@ SCARP_EXPORT Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& pre
 #ifndef SCARP_PRECOMPILED
 #define SCARP_GMRES_DEFINITIONS inline
 #endif
-#ifdef SCARP_GMRES_DEFINITIONS  // empty in the library that keeps them
+#ifdef SCARP_GMRES_DEFINITIONS  // empty in the library that contains them
 namespace scarp::detail {
 class AppliedMatrix;
 }  // namespace scarp::detail
@@ -57,7 +57,7 @@ class AppliedMatrix : public Eigen::EigenBase<AppliedMatrix> {
   Index size_;
 };
 
-/// The same as a preconditioner.
+/// A linear map as a preconditioner.
 struct AppliedPreconditioner {
   LinearMap const* map = nullptr;
 

@@ -26,8 +26,8 @@ consteval int version_number(std::string_view text = version) {
   return 1000 * parts[0] + parts[1];
 }
 
-/// Of one vector register of the instruction set that a source is compiled for. Where there are no such registers, or we do
-/// not know them, compilers take a vector of 16 bytes apart.
+/// Of one vector register of the instruction set that a source is compiled for. Where there are no such registers, or none that
+/// this header lists, compilers take a vector of 16 bytes apart.
 consteval int bytes_of_register() {
 #if defined(__AVX512F__)
   return 64;
@@ -38,8 +38,8 @@ consteval int bytes_of_register() {
 #endif
 }
 
-/// Of the headers that the functions in use come from, if several have been merged. Read at run time: no compiler may know
-/// the answer beforehand.
+/// Version of the headers from which the linked functions come, if several have been merged. Read at run time, so that no
+/// compiler evaluates it.
 [[gnu::noinline]] inline int version_of_functions() {
   int volatile number = version_number();
   return number;

@@ -7,7 +7,7 @@
 
 #include "scarp/core/one_version.hpp"
 
-/// What nanoflann's search within a radius takes and finds: 1.5 has given both other names.
+/// Types of nanoflann's search within a radius and of its results: 1.5 has given both other names.
 namespace scarp::detail {
 
 #if NANOFLANN_VERSION >= 0x150

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-/// The one place that says which version this is; CMake reads it here. Before 1.0 a new minor number may change names.
+/// The only place that states the version; CMake reads it here. Before 1.0 a new minor number may change names.
 #define SCARP_VERSION "0.2.0"
 
 namespace scarp {

@@ -39,7 +39,7 @@ Mesh<Element> grid_slab(std::vector<Vector<2>> const& nodes, GridNumbers const& 
 
 /// Soil layer over a fault: height 0 is bedrock level, `depth` the ground surface, the fault meets bedrock at (tip, 0).
 /// The last axis is vertical. A grid, finest in the band where the shear band and its outcrop are expected; a line
-/// passes through the tip. Region "soil"; boundaries "left", "right", "bottom", "surface". In space the grid goes on along
+/// passes through the tip. Region "soil"; boundaries "left", "right", "bottom", "surface". In space the grid extends along
 /// the strike, the second axis, in cells of one length, with "front" (y = 0) and "back".
 struct FaultMesh {
   double left = -52.0;                 ///< [m]
@@ -52,7 +52,7 @@ struct FaultMesh {
   double band_right = 5.0;             ///< [m]
   double row_aspect = 1.0;             ///< mean height of a row over `size`
   double row_coarsening = 1.0;         ///< height of the surface row over the bottom row; above 1 is finer at bedrock
-  Pattern pattern = Pattern::crossed;  ///< of triangles; other elements take `crossed` and `quads` alike
+  Pattern pattern = Pattern::crossed;  ///< of triangles; for other elements `crossed` and `quads` are the same
   double jitter = 0.0;                 ///< random move of inner nodes over the distance of the nearest, up to 0.3
   std::uint64_t seed = 1;              ///< of the jitter
   double strike = 1.0;                 ///< thickness in space [m]

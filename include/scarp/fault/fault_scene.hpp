@@ -33,7 +33,7 @@ auto const& alone(Soil const& soil) {
   }
 }
 
-/// Refuses soil whose vertical stress does not carry the weight that the scene puts on it: ground that begins out of
+/// Rejects soil whose vertical stress does not carry the weight that the scene puts on it: ground that begins out of
 /// balance settles or heaves first, and its strength is that of another stress. Of some sites from the shallowest to the
 /// deepest the middle one counts, by its error: packings prepared for a few depths carry too much here and too little there.
 /// unit_weight [N/m3], surcharge [Pa] \throws InputError
@@ -166,7 +166,7 @@ struct SCARP_EXPORT FaultScene {
   }
 };
 
-// Outside of the class, so that a library can keep them.
+// Outside of the class, so that a library can contain them.
 
 template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
 Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::mesh() const {

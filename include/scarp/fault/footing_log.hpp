@@ -52,7 +52,7 @@ inline double support(FootingMotion const& motion) {
   return sum;
 }
 
-/// Takes the surcharge from the ground below a footing while the footing is placed.
+/// Removes the surcharge from the ground below a footing while the footing is placed.
 template <class Grid>
 void add_uncovered_surcharge(Grid const& grid, double surcharge, double start, LoadHistory& loads) {
   Eigen::VectorXd covered = Eigen::VectorXd::Zero(loads.size());

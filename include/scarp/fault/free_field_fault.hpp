@@ -30,7 +30,7 @@ struct NoStructure {
   }
 };
 
-/// Nothing but ground and fault; by default the study's case.
+/// Nothing but ground and fault; by default the reference study's case.
 template <CheckedMaterial Soil, class Solver = QuasiNewton<>, Ground GroundType = StructuredGround<Tri3>,
           BedrockMotion Motion = NormalFault, class Grid = DefaultGridOf<GroundType>>
 using FreeFieldFault = FaultScene<Soil, NoStructure, Solver, GroundType, Motion, Grid>;

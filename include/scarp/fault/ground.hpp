@@ -49,7 +49,7 @@ struct StructuredGround {
 
 /// The ground of a scene: a mesh with the region "soil" and the boundaries "left", "right", "bottom" and "surface",
 /// and the height of its level surface [m]. edges: where along x [m] a structure wants nodes on the surface; a ground
-/// whose mesh is given need not follow, the structure says what it misses.
+/// whose mesh is given need not follow; the structure reports nodes that it misses.
 template <class G>
 concept Ground = requires(G const& ground, std::vector<double> const& edges) {
   requires ReferenceElement<typename G::Element>;
@@ -57,7 +57,7 @@ concept Ground = requires(G const& ground, std::vector<double> const& edges) {
   { ground.surface_level() } -> std::same_as<double>;
 };
 
-/// The grid that a ground takes where nobody says otherwise.
+/// The default grid of a ground.
 template <class G>
 using DefaultGridOf = DefaultGrid<typename G::Element>;
 

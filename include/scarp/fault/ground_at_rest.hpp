@@ -10,18 +10,18 @@
 namespace scarp {
 
 /// Where the nodes were when the fault began to move: settlement counts from here, without what earlier stages brought.
-/// Ask for it by ground_at_rest(problem) between two stages, or let it watch the stages: it takes the last accepted
-/// state whose load factor is not positive. Only positions are kept, dim numbers for a node.
+/// Made by ground_at_rest(problem) between two stages, or as an observer of the stages: it copies the last accepted
+/// state whose load factor is not positive. Only positions are stored, dim numbers for a node.
 template <int Dim = 2>
 struct GroundAtRest : NeverStops {
-  std::vector<Vector<Dim>> positions;  ///< [m], for each node; empty as long as none were taken
+  std::vector<Vector<Dim>> positions;  ///< [m], for each node; empty until some were copied
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (report.verdict.acceptable() && !(report.load > 0.0)) positions = problem.discretisation().positions();
   }
 
-  /// The positions; those of the mesh where nothing was taken.
+  /// The positions; those of the mesh where nothing was copied.
   template <class Element>
   std::vector<Vector<Dim>> const& of(Mesh<Element> const& mesh) const {
     return positions.empty() ? mesh.nodes : positions;

@@ -47,7 +47,7 @@ void require_ground_groups(Mesh<Element> const& mesh) {
   }
 }
 
-/// \throws InputError saying what is wrong and where
+/// \throws InputError naming the fault and its place
 template <class Element>
 void require_ground(Mesh<Element> const& mesh) {
   require_ground_groups(mesh);

@@ -38,9 +38,9 @@ struct PilotSize {
     return found;
   }
 
-  /// \throws InputError for parameters that say nothing of sizes
+  /// \throws InputError for parameters that give no sizes
   void validate() const {
-    if (strained.empty()) reject("the pilot run has strained 0 places: take more of its strain");
+    if (strained.empty()) reject("the pilot run has strained 0 places: use a larger share of its strain");
     require_not_negative("margin around strained places", margin);
     require_positive("size of elements near strained places", fine);
     require_at_least("size of elements far from strained places", coarse, fine);
@@ -56,7 +56,7 @@ struct PilotSize {
 
 /// Where a run has strained the ground most: centres [m], on its mesh before anything moved, of the elements with the
 /// largest deviatoric strains that together have the share of the sum of deviatoric strain over volume.
-/// share: 1 takes all elements that are strained
+/// share: 1 for all elements that are strained
 /// \throws InputError for a share outside of 0 to 1, and for ground that has no strain
 template <class Problem>
   requires(std::remove_cvref_t<decltype(std::declval<Problem const&>().discretisation())>::dim == 2)
@@ -81,7 +81,7 @@ std::vector<Vector<2>> strained_places(Problem const& problem, double share) {
     part.strain += strain;
     all += strain;
   }
-  if (!(all > 0.0)) reject("the strain of the pilot run is {} (nothing has moved): let the fault move", all);
+  if (!(all > 0.0)) reject("the strain of the pilot run is {} (nothing has moved): apply a throw", all);
   for (std::size_t e = 0; e < parts.size(); ++e) {
     for (int const node : mesh.elements[e]) parts[e].centre += mesh.nodes[detail::index(node)];
     parts[e].centre /= static_cast<double>(mesh.elements[e].size());

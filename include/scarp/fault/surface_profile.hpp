@@ -17,7 +17,7 @@ struct SurfacePoint {
   double x_initial;    ///< when the fault began to move
   double x;            ///< now
   double settlement;   ///< since then, positive down
-  bool joined = true;  ///< to the point before it, by ground without a gap; of the first point it says nothing
+  bool joined = true;  ///< to the point before it, by ground without a gap; without meaning for the first point
 };
 
 /// Settlement at a place of a profile, linear between joined points; that of the nearest end outside. NaN inside a gap,

@@ -12,11 +12,12 @@
 
 namespace scarp {
 
-/// A strip footing as an elastic block that shares the ground's nodes: neither slip nor gap, tension passes. The study's way.
+/// A strip footing as an elastic block that shares the ground's nodes: neither slip nor gap, tension is transmitted,
+/// as in the reference study.
 struct TiedFooting {
   StripFooting footing{};
   double height = 1.0;                                               ///< [m]
-  LinearElastic<2> block = LinearElastic<2>::from_lame(20e9, 12e9);  ///< the study's
+  LinearElastic<2> block = LinearElastic<2>::from_lame(20e9, 12e9);  ///< the reference study's
 
   /// \throws InputError
   std::vector<double> edges() const { return footing.edges(); }

@@ -12,11 +12,11 @@
 
 namespace scarp {
 
-/// A text file that grows line by line; every line is handed to the operating system at once. A checkpoint remembers how long
+/// A text file that grows line by line; every line is handed to the operating system at once. A checkpoint stores how long
 /// it was.
 class AppendedFile {
  public:
-  /// continues: goes on behind the last complete line of what the file holds, which is not touched before a line is added;
+  /// continues: appends behind the last complete line of the file, which is not changed before a line is added;
   /// else, and where there is nothing, it begins with `head`
   /// \throws FileError when it cannot be written
   AppendedFile(std::filesystem::path path, std::string_view head, bool continues)
@@ -40,7 +40,7 @@ class AppendedFile {
 
   SCARP_MEMBERS_EXCEPT((path_, head_, file_), bytes_)
 
-  /// The next line will take the place of those that came after the checkpoint.
+  /// The next line will replace those that came after the checkpoint.
   /// \throws InputError when lines from before it are gone
   void after_loading() {
     if (present() < bytes_) {

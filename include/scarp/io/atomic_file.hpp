@@ -45,7 +45,7 @@ using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
       fmt::format("cannot write '{}' ({}): check the folder, its permissions and the free space", path.string(), why));
 }
 
-/// opened: the file to open; wanted: the one that complaints name, in the same folder
+/// opened: the file to open; wanted: the one that messages name, in the same folder
 inline OpenFile open_file(std::filesystem::path const& opened, char const* mode, std::filesystem::path const& wanted) {
   auto const folder = wanted.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
@@ -61,7 +61,7 @@ inline OpenFile open_file(std::filesystem::path const& opened, char const* mode,
 
 inline OpenFile open_file(std::filesystem::path const& path, char const* mode) { return open_file(path, mode, path); }
 
-/// A name beside `path` that no other writer of this machine uses at the same time.
+/// A name in the folder of `path` that no other writer of this machine uses at the same time.
 inline std::filesystem::path partial_name(std::filesystem::path const& path) {
   static std::atomic<unsigned> calls{0};
   long process = 0;
@@ -102,7 +102,7 @@ inline bool flush_folder(std::filesystem::path const& folder) {
 }  // namespace detail
 
 /// Writes a whole file: either all of `content` stands under `path` afterwards, or what was there before.
-/// The content goes to a temporary name in the same folder, which then takes the place of the old file.
+/// The content goes to a temporary name in the same folder, which then replaces the old file.
 /// \throws FileError when the folder is missing or not writable, or the disk is full
 inline void write_file(std::filesystem::path const& path, std::string_view content,
                        Durability durability = Durability::handed_over) {

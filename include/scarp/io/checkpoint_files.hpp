@@ -23,7 +23,7 @@ struct CheckpointSettings {
   bool resume = false;             ///< continue from the newest one; afresh where there is none
   double every_seconds = 600.0;    ///< wall time between two of them
   int every_attempts = 0;          ///< also after so many attempts at a step; 0: by time alone
-  bool locks = true;               ///< keeps the folder for this process; the other ranks of a run do not
+  bool locks = true;               ///< reserves the folder for this process; the other ranks of a run do not
 
   /// \throws InputError
   void validate() const {
@@ -38,9 +38,9 @@ namespace detail {
 inline constexpr FileFormat checkpoint_format{"SCARPCHK", 3, "checkpoint", "a checkpointed run"};
 
 /// \throws InputError naming the first line that differs
-inline void reject_other_scene(std::string const& saved, std::string const& asked) {
-  if (saved == asked) return;
-  std::istringstream ours(asked);
+inline void reject_other_scene(std::string const& saved, std::string const& present) {
+  if (saved == present) return;
+  std::istringstream ours(present);
   std::istringstream theirs(saved);
   std::string our;
   std::string their;
@@ -58,15 +58,15 @@ inline void reject_other_scene(std::string const& saved, std::string const& aske
 
 }  // namespace detail
 
-/// The checkpoints of one run: numbered files in a folder of their own, of which the last two are kept.
-/// What is read from one is kept until release(). The folder is locked as long as this lives: two programs cannot replace each
-/// other's checkpoints.
+/// The checkpoints of one run: numbered files in a folder of their own, of which the last two remain.
+/// The content of one that is read stays in memory until release(). The folder is locked as long as this lives:
+/// two programs cannot replace each other's checkpoints.
 class CheckpointFiles {
  public:
   /// Saves nothing.
   CheckpointFiles() = default;
 
-  /// scene: all choices that make the scene, a line for each; run_folder.hpp says which run it is
+  /// scene: all choices that make the scene, a line for each; run_folder.hpp has the run's identity
   /// \throws FolderError for a folder that is in use or cannot be written
   /// \throws CheckpointError for a newest checkpoint that is harmed, of another scene, version or machine, and for an old one
   /// where the run is to start afresh
@@ -96,7 +96,7 @@ class CheckpointFiles {
   }
 
   std::string const& scene() const { return scene_; }
-  /// Which run is saved here, and the folder of its results; empty where nobody has said so.
+  /// Which run is saved here, and the folder of its results; empty where they were not set.
   std::string const& run() const { return run_; }
   std::string const& run_folder() const { return run_folder_; }
   void name_run(std::string run, std::string folder) {
@@ -125,7 +125,7 @@ class CheckpointFiles {
     remove_older();
   }
 
-  /// read(StateReader&) takes off what write(...) has added; no more need be read than is wanted
+  /// read(StateReader&) reads what write(...) has added; no more need be read than is wanted
   /// \throws CheckpointError when it is of another type or size; what has been read into is then unusable
   template <class Read>
   void load(Read&& read) const {

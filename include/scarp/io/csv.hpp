@@ -114,7 +114,7 @@ class CsvTable {
 /// What a log does with a file that is already there.
 enum class CsvStart {
   anew,    ///< replace it
-  resumed  ///< add rows behind the old ones; the first takes the place of a last line that an interruption cut off
+  resumed  ///< add rows behind the old ones; the first replaces a last line that an interruption cut off
 };
 
 /// A table on disk that grows row by row; every row is handed to the operating system at once.

@@ -30,7 +30,7 @@ struct CsvLine {
   std::vector<std::string> cells;
 };
 
-/// Takes a table's text apart, row by row. Lines without any character are skipped.
+/// Parses a table's text, row by row. Lines without any character are skipped.
 class CsvScanner {
  public:
   CsvScanner(std::string_view text, std::string file, CsvSeparator separator)
@@ -100,7 +100,7 @@ class CsvScanner {
     return cell;
   }
 
-  /// The quotes may enclose ends of lines: then `text` goes on in a later line.
+  /// The quotes may enclose ends of lines: then `text` continues in a later line.
   std::string quoted_cell(std::string_view& text) {
     std::size_t const opened = number_;
     std::string cell;
@@ -140,7 +140,7 @@ class CsvScanner {
 /// hold anything. Does not depend on the locale.
 class CsvColumns {
  public:
-  /// text: content of the file; file: its name in complaints
+  /// text: content of the file; file: its name in messages
   /// \throws InputError for no header, repeated names and lines with too few or too many cells
   CsvColumns(std::string_view text, std::string file, CsvSeparator separator = CsvSeparator::comma)
       : file_(std::move(file)) {
@@ -179,7 +179,7 @@ class CsvColumns {
     return numbers;
   }
 
-  /// Refuses the value in one cell, naming file, line and column.
+  /// Rejects the value in one cell, naming file, line and column.
   [[noreturn]] void reject_cell(std::size_t row, std::string_view name, std::string_view why,
                                 std::string_view suggestion) const {
     reject("line {} of '{}' has '{}' in column '{}' ({}): {}", line(row), file_, rows_[row].cells[require(name)], name,
@@ -205,7 +205,7 @@ class CsvColumns {
   template <class Number>
   Number number(std::size_t row, std::size_t place) const {
     std::string_view text = rows_[row].cells[place];
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars knows no plus
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars accepts no plus
     Number value{};
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     auto const& name = header_.cells[place];

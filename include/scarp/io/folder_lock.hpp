@@ -22,7 +22,7 @@ class FolderError : public InputError {
   using InputError::InputError;
 };
 
-/// Keeps a folder for one writer of a kind, by a locked file in it. The kernel lets go of it when the process dies, however that
+/// Reserves a folder for one writer of a kind, by a locked file in it. The kernel lets go of it when the process dies, however that
 /// comes about. A folder that is not there is made; when the lock goes, so does what was made and got no content.
 class FolderLock {
  public:
@@ -48,7 +48,7 @@ class FolderLock {
   }
   ~FolderLock() { release(); }
 
-  /// False where the file system knows no locks.
+  /// False where the file system has no locks.
   bool holds() const { return held_; }
 
  private:

@@ -5,7 +5,7 @@
 
 namespace scarp {
 
-/// What a binary file says of itself.
+/// Header of a binary file.
 struct FileFormat {
   std::string_view magic;  ///< eight letters
   std::uint32_t version;

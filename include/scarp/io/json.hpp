@@ -56,7 +56,7 @@ inline std::string quoted_json(std::string_view text) {
 
 namespace detail {
 
-/// A character of JSON's \u, behind which `text` goes on; of two halves of a surrogate pair the one that they make.
+/// A character of JSON's \u, behind which `text` continues; of two halves of a surrogate pair the one that they make.
 inline std::string take_json_escape(std::string_view& text) {
   auto const hex = [&] {
     unsigned code = 0xfffd;
@@ -78,7 +78,7 @@ inline std::string take_json_escape(std::string_view& text) {
 
 }  // namespace detail
 
-/// Takes the JSON string off that `text` begins with.
+/// Removes the JSON string that `text` begins with.
 /// \return what stands between its quotes; nothing of text is left when these do not close
 inline std::string take_json_string(std::string_view& text) {
   std::string result;
@@ -112,7 +112,7 @@ inline std::string take_json_string(std::string_view& text) {
 /// Numbers are in the shortest form that reads back to the same bits; one that is not finite becomes null.
 class JsonObject {
  public:
-  /// keys are the caller's to keep apart
+  /// key: distinct from earlier ones, which is not checked
   template <class Value>
   JsonObject& add(std::string_view key, Value const& value) {
     if (!members_.empty()) members_ += ',';

@@ -54,7 +54,7 @@ inline std::string read_file(std::filesystem::path const& path) {
   return content;
 }
 
-/// Does what may find its input wrong; complaints then begin with `place`, such as a file and a line of it.
+/// Runs a task that may reject its input; messages then begin with `place`, such as a file and a line of it.
 template <class Action>
 decltype(auto) with_context(std::string_view place, Action&& action) {
   try {

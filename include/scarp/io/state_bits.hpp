@@ -127,7 +127,7 @@ class StateWriter {
 /// that hold no shared parts themselves.
 using SharedParts = std::map<std::pair<std::type_index, std::string>, std::weak_ptr<void const>>;
 
-/// Takes members off bits in the order of the writer.
+/// Reads members from bits in the order of the writer.
 /// \throws InputError naming the member where the bits end too early, are another member's or have another length
 class StateReader {
  public:
@@ -179,7 +179,7 @@ class StateReader {
       }
     }
   }
-  /// As many as there are: they belong to a scene that knows their number.
+  /// As many as there are: they belong to a scene with their number.
   template <class T>
   void operator()(std::string_view name, std::span<T> values) {
     expect_list<T>(name);

@@ -12,8 +12,8 @@
 
 namespace scarp {
 
-/// How every attempt at a load step converged, rejected ones included: a row of a table for every iteration, and beside it
-/// JSON lines (`.jsonl`) with all that the solver knows. Of these each has a `kind`: "iteration", or "step", which
+/// How every attempt at a load step converged, rejected ones included: a row of a table for every iteration, and a second file of
+/// JSON lines (`.jsonl`) with all of the solver's data. Each of these has a `kind`: "iteration", or "step", which
 /// closes an attempt and has the last residual of every part, where the problem has parts. A rate is the residual over
 /// that of the iteration before; times are wall time [s].
 class ConvergenceLog : public NeverStops {

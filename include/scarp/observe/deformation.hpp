@@ -20,7 +20,7 @@ Tensor<DiscretisationType::dim> total_deformation(DiscretisationType const& disc
   return corners<Element, dim>(nodes, discretisation.positions()).transpose().lazyProduct(shape.gradients);
 }
 
-/// The same as the material of a point sees it: where increments are averaged, the mean around the point.
+/// Deformation that the material of a point receives: where increments are averaged, the mean around the point.
 template <class Problem>
 Tensor<Problem::dim> seen_deformation(Problem const& problem, int point) {
   auto const& grid = problem.discretisation();

@@ -61,14 +61,14 @@ Distortion<DiscretisationType::dim> largest_distortion(DiscretisationType const&
   return worst;
 }
 
-/// Says when an accepted step has brought the least mean ratio below `limit`, and again each time it has halved.
+/// Reports when an accepted step has brought the least mean ratio below `limit`, and again each time it has halved.
 template <int Dim>
 class DistortionWarning : public NeverStops {
  public:
-  using Say = std::function<void(Distortion<Dim> const&)>;
+  using Report = std::function<void(Distortion<Dim> const&)>;
 
-  explicit DistortionWarning(Say say, double limit = 0.2)
-      : say_(std::move(say)), limit_(require_positive("mean ratio that is warned of", limit)) {}
+  explicit DistortionWarning(Report report, double limit = 0.2)
+      : report_(std::move(report)), limit_(require_positive("mean ratio that is warned of", limit)) {}
 
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
@@ -76,13 +76,13 @@ class DistortionWarning : public NeverStops {
     auto const worst = largest_distortion(problem.discretisation());
     if (worst.mean_ratio >= limit_) return;
     limit_ = worst.mean_ratio / 2.0;
-    say_(worst);
+    report_(worst);
   }
 
-  SCARP_MEMBERS_EXCEPT((say_), limit_)
+  SCARP_MEMBERS_EXCEPT((report_), limit_)
 
  private:
-  Say say_;
+  Report report_;
   double limit_;
 };
 

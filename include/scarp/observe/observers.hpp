@@ -25,7 +25,7 @@ struct Observers {
     boost::hana::for_each(parts, [&](auto& part) { part.attempted(problem, report); });
   }
 
-  /// Tells those who want to know where a run has stopped.
+  /// Calls ended(problem, load) of those parts that have it, where a run has stopped.
   template <class Problem>
   void ended(Problem const& problem, double load) {
     boost::hana::for_each(parts, [&](auto& part) {
@@ -39,14 +39,14 @@ struct Observers {
     return stop;
   }
 
-  /// Those that remember something; all but empty ones have to say what.
+  /// The parts with a state; each that is not empty has to name its members.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     boost::hana::for_each(self.parts, [&](auto& part) {
       using Part = std::remove_cvref_t<decltype(part)>;
       static_assert(Described<Part> || std::is_empty_v<Part>,
                     "scarp: an observer of a run that is saved names its members: SCARP_MEMBERS(rows), or "
-                    "SCARP_MEMBERS_EXCEPT((path)) where a run that goes on sets them itself");
+                    "SCARP_MEMBERS_EXCEPT((path)) where a resumed run sets them itself");
       if constexpr (Described<Part>) visit("observer", part);
     });
   }

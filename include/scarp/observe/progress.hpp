@@ -29,13 +29,13 @@ class Progress : public NeverStops {
     double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     if (report.verdict.acceptable()) {
       double const remaining = report.load > 0.0 ? elapsed * (to_ - report.load) / (report.load - from_) : 0.0;
-      say("{}step {:4}  {} {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n", name_,
-          report.step, measure_.name, measure_.of(report.load), report.residual(), report.iterations(), elapsed,
-          remaining);
+      print("{}step {:4}  {} {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n", name_,
+            report.step, measure_.name, measure_.of(report.load), report.residual(), report.iterations(), elapsed,
+            remaining);
     } else {
-      say("{}step {:4}  rejected at {} {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n", name_,
-          report.step, measure_.name, measure_.of(report.load), report.iterations(), report.residual(),
-          name(report.verdict.reason), where(problem, report));
+      print("{}step {:4}  rejected at {} {:.5f} after {} iterations, residual {:.2e}: {}{}; rolled back\n", name_,
+            report.step, measure_.name, measure_.of(report.load), report.iterations(), report.residual(),
+            name(report.verdict.reason), where(problem, report));
     }
   }
 
@@ -44,7 +44,7 @@ class Progress : public NeverStops {
  private:
   /// An error stream that cannot be written ends no run.
   template <class... Arguments>
-  static void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  static void print(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
     std::fputs(fmt::format(text, std::forward<Arguments>(arguments)...).c_str(), stderr);
     std::fflush(stderr);
   }

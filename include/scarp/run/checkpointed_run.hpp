@@ -37,7 +37,7 @@ void with_all_states(Problem& problem, Task const& task) {
   });
 }
 
-/// A run in stages that can be killed at any moment and goes on from its last checkpoint with the same bits. It watches the
+/// A run in stages that can be killed at any moment and resumes from its last checkpoint with the same bits. It watches the
 /// stages in place of other observers, which it passes everything on to and whose memory it saves too:
 /// \code
 /// CheckpointFiles files({.folder = "states", .resume = true}, "size = 2.5\nseed = 1\n");
@@ -49,12 +49,12 @@ void with_all_states(Problem& problem, Task const& task) {
 /// Stages before that of the checkpoint are left out; the problem that it is loaded into is a new one of the same scene. A
 /// checkpoint is made before an attempt when its time has come, where a stage ends, and where it stops, for whatever reason:
 /// with the last accepted state then. When something cannot be written, by an observer or of a checkpoint, the run stops there as
-/// when it is interrupted, and trouble() says what. Where points are shared out among processes, the first one writes for all and each reads all:
-/// another number of processes may go on.
+/// when it is interrupted, and trouble() returns the message. Where points are distributed over processes,
+/// the first one writes for all and each reads all: another number of processes may resume.
 template <class Watched, Described Notes>
 class CheckpointedRun {
  public:
-  /// notes: what the program itself remembers of earlier stages
+  /// notes: the program's own data of earlier stages
   /// \throws CheckpointError
   CheckpointedRun(CheckpointFiles& files, Watched& watched, Notes& notes)
       : files_(files), watched_(watched), notes_(notes), saved_(Clock::now()) {

@@ -26,7 +26,7 @@ class CpuTime {
   std::clock_t start_ = std::clock();
 };
 
-/// What the machine calls its processor; "unknown processor" where it does not say.
+/// What the machine calls its processor; "unknown processor" where the system names none.
 inline std::string processor() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
@@ -36,7 +36,7 @@ inline std::string processor() {
   return "unknown processor";
 }
 
-/// Memory that the process may still take, and what sets the limit.
+/// Memory that the process may still allocate, and what sets the limit.
 struct FreeMemory {
   double bytes = std::numeric_limits<double>::infinity();
   std::string_view limit = "nothing known";
@@ -67,7 +67,7 @@ inline FreeMemory free_memory() {
   constexpr double kilobyte = 1024.0;
   FreeMemory memory;
   memory.at_most(kilobyte * detail::kernel_number("/proc/meminfo", "MemAvailable:"), "the machine's memory");
-  // What the group's files are kept in memory can be had back.
+  // The memory that caches the group's files can be freed.
   double const group = detail::kernel_number("/sys/fs/cgroup/memory.current") -
                        detail::kernel_number("/sys/fs/cgroup/memory.stat", "inactive_file");
   memory.at_most(detail::kernel_number("/sys/fs/cgroup/memory.max") - group, "the limit of the process's group");
@@ -90,7 +90,7 @@ inline std::string memory_text(double bytes) {
 inline void require_memory(std::string_view what, double bytes, std::string_view way_out,
                            FreeMemory const& memory = free_memory()) {
   if (!(bytes > memory.bytes)) return;
-  reject("{} would take about {} of memory ({} are left by {}): {}", what, memory_text(bytes),
+  reject("{} would need about {} of memory ({} are left by {}): {}", what, memory_text(bytes),
          memory_text(memory.bytes), memory.limit, way_out);
 }
 

@@ -41,18 +41,18 @@ bool is_root_rank(Executor const& executor) {
   }
 }
 
-/// What the root rank says.
+/// \return the root rank's flag, on every rank
 template <ExecutesTasks Executor>
-bool broadcast_flag(Executor const& executor, bool said) {
+bool broadcast_flag(Executor const& executor, bool flag) {
   if constexpr (SharesPoints<Executor>) {
-    return executor.agree(said);
+    return executor.agree(flag);
   } else {
     static_cast<void>(executor);
-    return said;
+    return flag;
   }
 }
 
-/// Runs a task on the root rank only, which may look at the points of all ranks by visit_point; the others serve meanwhile.
+/// Runs a task on the root rank only, which may read the points of all ranks by visit_point; the others serve meanwhile.
 /// What one of them throws ends all.
 template <class Problem, class Task>
 void on_root_rank(Problem const& problem, Task const& task) {
@@ -88,9 +88,9 @@ class OnRootRank {
   }
 
   bool wants_stop() const {
-    bool said = false;
-    together(executor_, [&] { said = observers_ && observers_->wants_stop(); });
-    return broadcast_flag(executor_, said);
+    bool flag = false;
+    together(executor_, [&] { flag = observers_ && observers_->wants_stop(); });
+    return broadcast_flag(executor_, flag);
   }
 
   /// Of the observers; nothing on other ranks.

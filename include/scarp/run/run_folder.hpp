@@ -26,13 +26,13 @@ struct RunFolderSettings {
 /// // write results
 /// folder.end("finished");
 /// \endcode
-/// A new run takes a folder without results, or any that it may overwrite. A run that goes on from a checkpoint takes its own folder
-/// only, and one that wants to go on and finds no checkpoint takes that of an unfinished run of the same scene, which has got to none.
+/// A new run uses a folder without results, or any that it may overwrite. A run that resumes from a checkpoint uses its own folder
+/// only. One that is to resume and finds no checkpoint uses that of an unfinished run of the same scene, which has made none.
 /// Until begin() nothing in the folder is changed: a run that is rejected, here or later, leaves it as it was.
 class RunFolder {
  public:
   /// files: where the run saves itself, if it does; they receive its identity
-  /// \throws FolderError for a folder that is in use, holds what must be kept or cannot be written
+  /// \throws FolderError for a folder that is in use, holds results that must not be lost, or cannot be written
   RunFolder(RunFolderSettings settings, RunRecord record, CheckpointFiles* files = nullptr)
       : settings_(std::move(settings)), record_(std::move(record)), lock_(settings_.folder) {
     record_.identity = new_run_identity();
@@ -59,7 +59,7 @@ class RunFolder {
     if (record_.state.empty()) write("running");
   }
 
-  /// state: finished, or why the run has stopped; it may go on later
+  /// state: finished, or why the run has stopped; it may be resumed later
   /// \throws FileError
   void end(std::string state) { write(std::move(state)); }
 
@@ -70,7 +70,7 @@ class RunFolder {
     if (record_.state != "running" || std::uncaught_exceptions() <= exceptions_) return;
     try {
       end("failed");
-    } catch (...) {  // the exception that is under way says more
+    } catch (...) {  // the present exception has more information
     }
   }
 
@@ -118,7 +118,7 @@ class RunFolder {
     if (found.empty()) return;
     if (!wants_to_go_on) {
       throw FolderError(fmt::format(
-          "'{}' holds {} (its results would be lost): choose another folder, or say --overwrite", name(), found));
+          "'{}' holds {} (its results would be lost): choose another folder, or add --overwrite", name(), found));
     }
     if (before && !before->has_finished() && before->checkpoint == record_.checkpoint && before->scene == record_.scene)
       return;

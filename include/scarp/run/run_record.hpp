@@ -14,7 +14,7 @@
 
 namespace scarp {
 
-/// What a run says of itself, kept in a JSON file of its output folder.
+/// Description of a run, in a JSON file of its output folder.
 struct RunRecord {
   using Lines = std::vector<std::pair<std::string, std::string>>;  ///< names and values
 

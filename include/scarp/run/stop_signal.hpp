@@ -9,7 +9,7 @@
 namespace scarp {
 
 namespace detail {
-inline std::atomic<bool> stop_asked{false};
+inline std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch a lock-free flag");
 }  // namespace detail
 
@@ -18,14 +18,14 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only
 struct StopSignal {
   StopSignal() {
     auto const stop = [](int number) {
-      detail::stop_asked = true;
+      detail::stop_requested = true;
       std::signal(number, SIG_DFL);
     };
     for (int const signal : {SIGINT, SIGTERM}) std::signal(signal, stop);
 #ifdef SIGHUP
     if (std::signal(SIGHUP, stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGPIPE, [](int number) {
-      detail::stop_asked = true;
+      detail::stop_requested = true;
       std::signal(number, SIG_IGN);
     });
 #endif
@@ -33,7 +33,7 @@ struct StopSignal {
 
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}
-  static bool wants_stop() { return detail::stop_asked; }
+  static bool wants_stop() { return detail::stop_requested; }
 };
 
 }  // namespace scarp

@@ -25,7 +25,7 @@ class TimeLimit {
            std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count() > seconds_;
   }
 
-  SCARP_MEMBERS_EXCEPT((seconds_, started_))  // a run that goes on has all its time again
+  SCARP_MEMBERS_EXCEPT((seconds_, started_))  // a resumed run has all its time again
 
  private:
   double seconds_;

@@ -61,7 +61,7 @@ void require_straight_outline(Mesh<Element> const& mesh) {
       if (std::abs(place(part.axis) - end) <= same) continue;
       reject(
           "the boundary '{}' passes through ({}), but the soil {} at {} = {} m (it must be straight, level below and "
-          "above, upright beside): mesh a layer with level surface and bottom and upright ends",
+          "above, upright at the ends): mesh a layer with level surface and bottom and upright ends",
           part.name, listed(place), part.upper ? "ends" : "begins", "xyz"[part.axis], end);
     }
   }

@@ -41,10 +41,10 @@ inline void require_corner(std::vector<double> const& corners, double edge, doub
 }
 
 /// A unit step of the bottom at the tip of a fault, in the shapes of the mesh. The shapes cannot jump, so the nodes
-/// next to the tip take values whose interpolant has the step's moments \f$ \int (u - u_h)\, x^k\, dx = 0 \f$ about
+/// next to the tip have values whose interpolant has the step's moments \f$ \int (u - u_h)\, x^k\, dx = 0 \f$ about
 /// the tip: k = 0 with linear facets, k = 0, 1, 2 with quadratic ones; where both facets are equally long that is half
-/// at the tip, and 0 and 1 in their middles. Away from the tip the ground feels moments only, so the step costs no
-/// element its order. A tip between two lines of nodes is a mean of steps at these two.
+/// at the tip, and 0 and 1 in their middles. Away from the tip only moments matter, so the step lowers no
+/// element's order of convergence. A tip between two lines of nodes is a mean of steps at these two.
 class StepAtTip {
  public:
   static constexpr double same_place = 1e-6;  ///< of the bottom's length: what files with seven digits hold
@@ -73,7 +73,7 @@ class StepAtTip {
     if (!on_line) add(lines, before + 1, share);
   }
 
-  /// Share of the step that a bottom node at x [m] takes: 0 left of the tip, 1 right of it.
+  /// Share of the step of a bottom node at x [m]: 0 left of the tip, 1 right of it.
   double share_at(double x) const {
     double sum = 0.0;
     for (auto const& part : parts_) sum += part.weight * share_of(part, x);

@@ -223,7 +223,7 @@ class GmshFile {
  public:
   /// \throws InputError naming file and line or byte for what is no mesh of Gmsh or is damaged
   explicit GmshFile(std::filesystem::path const& path) : GmshFile(read_file(path), path.string()) {}
-  /// bytes: of the file; name: in complaints
+  /// bytes: of the file; name: in messages
   GmshFile(std::string bytes, std::string const& name) : content_(detail::read_gmsh_content(std::move(bytes), name)) {}
 
   /// Gmsh's number of the type of the elements, to choose the one that mesh() reads them as (`Tri6::gmsh_type`); of several types

@@ -110,7 +110,7 @@ void write_shear(SoaArray<Scalar, Count>& columns, Contact<Dim> const& contact, 
 
 }  // namespace detail
 
-/// Reads what contacts remember of shear, and makes the list of pairs on the way. Columns id1, id2; cell_i, cell_j
+/// Reads the shear memory of contacts, and makes the list of pairs on the way. Columns id1, id2; cell_i, cell_j
 /// (cell_k): image of the second grain in base vectors, counted from where the grains stand in their file; ftx, fty
 /// (ftz): shear force on the second grain [N]. Where there is a column overlap [m], it must agree with the packing's
 /// within `tolerance` times the smallest radius; its default is far above round-off of numbers written in full and far
@@ -121,7 +121,7 @@ template <class PackingType>
 void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, typename PackingType::Law const& law,
                    double tolerance = 1e-6) {
   constexpr int dim = PackingType::dim;
-  static_assert(PackingType::Law::inputs.shear, "a law that remembers no shear force has no use for a table of them");
+  static_assert(PackingType::Law::inputs.shear, "a law without shear memory has no use for a table of shear forces");
   static_assert(part_count<typename PackingType::Shape>() == 1, "grains of several parts may touch more than once");
   if (named.packing.pairs.skin >= 0.0) {
     reject(

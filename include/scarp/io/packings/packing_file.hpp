@@ -61,7 +61,7 @@ PackingType packing_of(std::string_view file) {
 
 }  // namespace detail
 
-/// Writes the whole state of a packing, grains and list of pairs included, so that it goes on as if it had never
+/// Writes the whole state of a packing, grains and list of pairs included, so that it resumes as if it had never
 /// stopped.
 /// \throws InputError for a packing without grains
 /// \throws FileError when the file cannot be written; an older file of this name is then untouched

@@ -30,7 +30,7 @@ inline void write_packing_tables(std::filesystem::path const& folder, PackingPic
   cell.write(folder / (stem + "_cell.csv"));
 }
 
-/// The same of a packing. \throws FileError when a file cannot be written
+/// Tables of a packing. \throws FileError when a file cannot be written
 template <class PackingType>
 void write_packing_tables(std::filesystem::path const& folder, PackingType const& packing,
                           typename PackingType::Law const& law) {

@@ -188,7 +188,7 @@ void reject_other_sides(GmshContent const& content) {
   }
 }
 
-/// A side belongs to a boundary once, however often the file says so: in several groups of one name, or as several lines.
+/// A side belongs to a boundary once, however often the file lists it: in several groups of one name, or as several lines.
 template <class Element>
 void read_gmsh_boundaries(GmshContent const& content, GmshNumbering const& numbering, Mesh<Element>& mesh) {
   constexpr int dim = Element::dim - 1;

@@ -199,7 +199,7 @@ class GmshSections41 {
   std::optional<std::map<DimTag, Entity>> entities_{};  ///< none in files without $Entities
 };
 
-/// $MeshFormat, which says how the rest is to be read.
+/// $MeshFormat, which gives the format of all that follows.
 /// \return whether the version is 4.1; it is 2.2 otherwise
 inline bool read_gmsh_format(GmshStream& stream) {
   constexpr std::string_view other =
@@ -227,7 +227,7 @@ inline bool read_gmsh_format(GmshStream& stream) {
     auto const one = stream.value<std::uint32_t>("the number one");
     constexpr std::uint32_t swapped = 1U << 24U;
     if (one != 1 && one != swapped) {
-      reject("{} has {:#x} where the number one should stand (it tells the order of bytes): write it again",
+      reject("{} has {:#x} where the number one is expected (it gives the order of bytes): write it again",
              stream.place(), one);
     }
     stream.be_binary(one == swapped);
@@ -236,7 +236,7 @@ inline bool read_gmsh_format(GmshStream& stream) {
   return version == 4.1;
 }
 
-/// bytes: of the file; file: its name in complaints
+/// bytes: of the file; file: its name in messages
 inline GmshContent read_gmsh_content(std::string bytes, std::string const& file) {
   GmshStream stream(std::move(bytes), file);
   GmshContent content{.file = file};

@@ -20,7 +20,7 @@ namespace scarp::detail {
 /// Every call throws InputError naming the line, or byte in binary files, where something else stands.
 class GmshStream {
  public:
-  /// content: of the file; file: its name in complaints
+  /// content: of the file; file: its name in messages
   GmshStream(std::string content, std::string file) : content_(std::move(content)), file_(std::move(file)) {
     if (content_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark that editors write
   }
@@ -86,7 +86,7 @@ class GmshStream {
   Number text(std::string_view what) {
     auto const whole = next_word(what);
     auto word = whole;
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars knows no plus
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars accepts no plus
     Number number{};
     auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size()) {
@@ -176,7 +176,7 @@ class GmshStream {
   }
 
   [[noreturn]] void reject_end(std::string_view what) const {
-    reject("'{}' ends at {} where {} should stand (it is cut off): write or copy it again", file_,
+    reject("'{}' ends at {} where {} is expected (it is cut off): write or copy it again", file_,
            binary_ ? fmt::format("byte {}", last_)
                    : fmt::format("line {}", std::count(content_.begin(), content_.end(), '\n') + 1),
            what);
