@@ -40,7 +40,7 @@ void declare_grains(CLI::App& app, biaxial_specimen::Grains& grains) {
   for (auto* const of_files :
        {app.add_option("--contacts", grains.contacts, "table of their contacts: cell, law, shear forces")
             ->check(CLI::ExistingFile),
-        app.add_option("--cell", grains.cell, "a1x,a1y,a2x,a2y [m]; --contacts tell it too"),
+        app.add_option("--cell", grains.cell, "a1x,a1y,a2x,a2y [m]; --contacts determine it too"),
         app.add_option("--normal-stiffness", grains.normal_stiffness, "[N/m]; else of --contacts, else 6e6")
             ->check(positive),
         app.add_option("--tangential-stiffness", grains.tangential_stiffness, "[N/m]; likewise")->check(positive),
@@ -102,7 +102,7 @@ int run_mesh(Choice choice) {
   examples::reject_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
   if (choice.mesh.empty()) return run<scarp::Tri3>(choice);
   scarp::GmshFile const file(choice.mesh);
-  examples::tell(file.notes());
+  examples::print_notes(file.notes());
   choice.mesh_file = &file;
   switch (file.element_type()) {
 #ifdef BIAXIAL_SPECIMEN_EVERY_ELEMENT
@@ -115,7 +115,7 @@ int run_mesh(Choice choice) {
                     choice.mesh);
 #endif
     case scarp::Quad8::gmsh_type: return run<scarp::Quad8>(choice);
-    default: return run<scarp::Tri3>(choice);  // says what is wrong with other elements
+    default: return run<scarp::Tri3>(choice);  // rejects other elements with a message
   }
 }
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "../shared/budget_report.hpp"
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "../shared/write_json.hpp"
 #include "rectangle.hpp"
 #include "run.hpp"
@@ -106,9 +106,9 @@ inline std::vector<std::string> const& columns() {
   return names;
 }
 
-/// Says how far the results can be trusted, and first whether a bound is exceeded.
+/// Prints the error budget, first whether a bound is exceeded.
 inline void report_budget(Choice const& choice, scarp::BudgetParts const& parts) {
-  examples::say(stderr, "{}{}", scarp::budget_headline(parts), scarp::budget_table(parts));
+  examples::print(stderr, "{}{}", scarp::budget_headline(parts), scarp::budget_table(parts));
   if (choice.fields.empty()) return;
   examples::write_json(std::filesystem::path(choice.fields) / "error_budget.json", examples::json_of(parts));
 }
@@ -133,8 +133,8 @@ scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Bud
     auto const mean = specimen.mean_stress();
     double const force = specimen.top_force();
     log.add(row, row * step, force, mean(0), mean(1), mean(2), watch.iterations, watch.residual);
-    examples::say(stderr, "step {:3}  axial strain {:.5f}  top force {:.6g} N  iterations {:3}  residual {:.2e}\n", row,
-                  row * step, force, watch.iterations, watch.residual);
+    examples::print(stderr, "step {:3}  axial strain {:.5f}  top force {:.6g} N  iterations {:3}  residual {:.2e}\n",
+                    row, row * step, force, watch.iterations, watch.residual);
     watch.iterations = 0;
   };
   auto report = stepping.settle(solver, problem, 0.0, watch);
@@ -165,15 +165,15 @@ template <class Element>
 int run(Choice const& choice) {
   scarp::ThreadExecutor executor(choice.threads);
   Specimen<Element> specimen(choice, make_mesh<Element>(choice), executor);
-  examples::say(stderr, "{:.6g} m x {:.6g} m, {} elements, {} packings, {} threads\n", specimen.sides().width,
-                specimen.sides().height, specimen.problem().discretisation().mesh().elements.size(),
-                specimen.problem().points().size(), executor.threads());
+  examples::print(stderr, "{:.6g} m x {:.6g} m, {} elements, {} packings, {} threads\n", specimen.sides().width,
+                  specimen.sides().height, specimen.problem().discretisation().mesh().elements.size(),
+                  specimen.problem().points().size(), executor.threads());
   scarp::ErrorBudget budget(specimen.problem(), examples::error_bounds(choice.budget),
                             {.pressure_floor = choice.confining / 100.0});
   auto const report = compress(choice, specimen, budget);
   report_budget(choice, budget.parts());
   if (report.verdict.acceptable()) return 0;
-  examples::say(
+  examples::print(
       stderr,
       "biaxial_specimen: stopped at the axial strain {} ({}; last rejected attempt: {}, point {}); the rows so far "
       "are in '{}'\n",

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "../shared/command_line.hpp"
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "membrane.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
@@ -35,8 +35,8 @@ double limit(Outcomes const& outcomes) {
 
 void print(char const* name, Outcomes const& outcomes, double reference) {
   for (auto const& one : outcomes) {
-    examples::say(stdout, "{:<15} {:5} {:7} {:12.7f} {:8.4f} {:8.3f}\n", name, one.cells, one.dofs, one.deflection,
-                  one.deflection / reference, one.seconds);
+    examples::print(stdout, "{:<15} {:5} {:7} {:12.7f} {:8.4f} {:8.3f}\n", name, one.cells, one.dofs, one.deflection,
+                    one.deflection / reference, one.seconds);
   }
 }
 
@@ -58,11 +58,11 @@ int main(int argc, char** argv) {
   auto const locked = solve_all<Quad4, FullIntegration>(finest, panel);
   auto const triangles = solve_all<Tri6, FullIntegration>(finest, panel);
   double const reference = limit(reduced);
-  examples::say(stdout,
-                "reference: {:.7f} m (limit of Quad8 reduced); limit of Quad4 B-bar {:.7f} m, of Tri6 {:.7f} m\n",
-                reference, limit(mean), limit(triangles));
-  examples::say(stdout, "{:<15} {:>5} {:>7} {:>12} {:>8} {:>8}\n", "element", "cells", "dofs", "deflection", "ratio",
-                "seconds");
+  examples::print(stdout,
+                  "reference: {:.7f} m (limit of Quad8 reduced); limit of Quad4 B-bar {:.7f} m, of Tri6 {:.7f} m\n",
+                  reference, limit(mean), limit(triangles));
+  examples::print(stdout, "{:<15} {:>5} {:>7} {:>12} {:>8} {:>8}\n", "element", "cells", "dofs", "deflection", "ratio",
+                  "seconds");
   print("Quad4 full", locked, reference);
   print("Quad4 B-bar", mean, reference);
   print("Quad8 reduced", reduced, reference);

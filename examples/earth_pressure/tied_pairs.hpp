@@ -8,7 +8,7 @@
 
 namespace earth_pressure {
 
-/// Springs between pairs of nodes, so stiff that both move alike: sides of a body that goes on for ever.
+/// Springs between pairs of nodes, so stiff that both move alike: sides of a body that is endless.
 class TiedPairs {
  public:
   /// stiffness [N/m]

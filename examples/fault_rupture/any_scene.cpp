@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "any_scene.hpp"
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -62,10 +62,10 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
                         choice.soil == Soil::dem ? "choose a larger --size, fewer --elements or fewer --grains"
                                                  : "choose a larger --size or fewer --elements");
   if (speaks) {
-    examples::say(stderr, "preparing {}, about {} of memory\n", what, scarp::memory_text(bytes));
+    examples::print(stderr, "preparing {}, about {} of memory\n", what, scarp::memory_text(bytes));
     constexpr int few = 50;
     if (choice.soil == Soil::dem && choice.grains < few) {
-      examples::say(
+      examples::print(
           stderr,
           "warning: a packing of {} grains is an accident and no sample of the sand: compare --seed, or take 100 "
           "grains and more\n",

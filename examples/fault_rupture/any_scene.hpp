@@ -21,7 +21,7 @@ struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structu
 
 using AnyScene = std::variant<Scene<scarp::NoStructure>, Scene<scarp::TiedFooting>, Scene<RigidFooting>>;
 
-/// processes: that share the packings out among them; says on stderr what is prepared where `speaks`
+/// processes: that share the packings out among them; reports on stderr what is prepared where `speaks`
 /// \throws scarp::InputError for choices that do not make a scene or need too much memory, scarp::PreparationError
 AnyScene make_scene(Choice const& choice, int processes = 1, bool speaks = false);
 

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "ensemble.hpp"
 #include "own_folders.hpp"
 #include "run_scene.hpp"
@@ -19,7 +19,7 @@
 namespace fault_rupture {
 
 /// Runs one scene with several packings in one process: the points of all share the threads, and what one does outside of its points
-/// goes on beside the points of another. Each has the bits of a run of its own.
+/// runs in parallel to the points of another. Each has the bits of a run of its own.
 struct EnsembleRuns {
   CLI::App const& app;
   examples::Output const& output;
@@ -29,7 +29,7 @@ struct EnsembleRuns {
   /// \throws scarp::InputError for seeds that are no ensemble, and what a single run throws before it begins
   int run(Choice const& choice, std::vector<std::uint64_t> const& seeds) const {
     require_ensemble(choice, seeds);
-    // A member that goes on guards its own folder.
+    // A member that resumes guards its own folder.
     scarp::RunFolder folder({.folder = output.folder,
                              .overwrite = output.overwrite || choice.resume,
                              .results = {"ensemble.json", "summary.json"}},
@@ -71,7 +71,7 @@ struct EnsembleRuns {
         if (auto* const folder = own.on_root_rank(); folder != nullptr && folder->record().state == "running") {
           try {
             folder->end("failed");
-          } catch (std::exception const&) {  // the first problem says more
+          } catch (std::exception const&) {  // the first problem has more information
           }
         }
       }
@@ -91,11 +91,11 @@ struct EnsembleRuns {
     auto sorted = seeds;
     std::ranges::sort(sorted);
     if (seeds.size() < 2)
-      scarp::reject("--seeds names one packing (several make an ensemble): say --seed {}", seeds[0]);
+      scarp::reject("--seeds names one packing (several make an ensemble): use --seed {}", seeds[0]);
     if (auto const twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
       scarp::reject("--seeds names {} twice (the same run counts once): give each seed once", *twice);
     if (choice.soil != Soil::dem)
-      scarp::reject("--seeds was given for a soil without packings (all runs would be the same): say --soil dem");
+      scarp::reject("--seeds was given for a soil without packings (all runs would be the same): use --soil dem");
     if (choice.sensitivity_runs)
       scarp::reject("--seeds and --sensitivity-runs were given (sensitivity runs belong to one run): leave one out");
     if (ranks() > 1) scarp::reject("--seeds was given on {} ranks (members run on one): leave the ranks out", ranks());
@@ -119,7 +119,7 @@ struct EnsembleRuns {
     examples::write_json(folder.path() / "ensemble.json", summary);
     scarp::write_file(folder.path() / "ensemble.txt", text);
     write_mean_surface(folder.path() / "surface_mean.csv", members);
-    examples::say(stdout, "{}", text);
+    examples::print(stdout, "{}", text);
     auto const stopped = std::ranges::find_if(members, [](auto const& member) { return member.code != 0; });
     folder.end(stopped == members.end() ? "finished" : "stopped early");
     return stopped == members.end() ? 0 : stopped->code;

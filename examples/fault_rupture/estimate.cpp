@@ -54,7 +54,7 @@ double iterations_of(double gradient, double tolerance, bool has_length, CostMod
                                   : model.iterations + model.iterations_by_decade * decades);
 }
 
-/// DEM steps of one answer, mean of all points.
+/// DEM steps of one response, mean of all points.
 /// crowding: factor of the strain
 double answer_of(Choice const& choice, SceneSize const& size, EqualSteps const& steps, double width, double crowding,
                  CostModel const& model) {

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "../shared/command_line.hpp"
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
 #include "ensemble_runs.hpp"
 #include "estimate.hpp"
@@ -214,7 +214,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
           ->needs(folder)
           ->configurable(false);
   app.add_flag("--estimate")
-      ->description("say what time and memory the whole run would take, and end")
+      ->description("print the time and memory that the whole run would need, and end")
       ->configurable(false)
       ->disable_flag_override();
   app.add_option("--checkpoint-every", choice.checkpoint_every, "seconds between two checkpoints")
@@ -248,9 +248,9 @@ double max_displacement_gradient(fault_rupture::AnyScene const& scene) {
 void print_estimate(Choice const& choice, std::size_t runs) {
   int const ranks = fault_rupture::ranks();
   scarp::ThreadExecutor const threads(fault_rupture::threads_of_a_process(choice.threads));
-  examples::say(stdout, "{}",
-                fault_rupture::estimate(choice, fault_rupture::size_of_scene(choice), ranks, threads.threads()));
-  if (runs > 0) examples::say(stdout, "--seeds: {} times as much of all\n", runs);
+  examples::print(stdout, "{}",
+                  fault_rupture::estimate(choice, fault_rupture::size_of_scene(choice), ranks, threads.threads()));
+  if (runs > 0) examples::print(stdout, "--seeds: {} times as much of all\n", runs);
 }
 
 }  // namespace
@@ -262,7 +262,7 @@ int main(int argc, char** argv) {
   // Flags that change defaults, which must be in place before the other options are read.
   make_objective(choice);
   auto const given = [&](std::string_view flag) {
-    // Another value than true is refused later.
+    // Another value than true is rejected later.
     return std::any_of(argv + 1, argv + argc,
                        [&](std::string_view word) { return word == flag || word == fmt::format("{}=true", flag); });
   };
@@ -284,10 +284,10 @@ int main(int argc, char** argv) {
     return code == 0 ? 0 : 2;
   }
   if (element != fault_rupture::element_name) {
-    examples::say(stderr,
-                  "fault_rupture: --element {} (this program was compiled for {}): build and run the one for it by "
-                  "./examples/run fault_rupture --element {}\n",
-                  element, fault_rupture::element_name, element);
+    examples::print(stderr,
+                    "fault_rupture: --element {} (this program was compiled for {}): build and run the one for it by "
+                    "./examples/run fault_rupture --element {}\n",
+                    element, fault_rupture::element_name, element);
     fault_rupture::give_up(2);
   }
   try {
@@ -308,18 +308,18 @@ int main(int argc, char** argv) {
     std::filesystem::path const known = choice.sensitivity_file.empty()
                                             ? fault_rupture::default_sensitivity_file()
                                             : std::filesystem::path(choice.sensitivity_file);
-    static_cast<void>(fault_rupture::SensitivityFile(known, ""));  // a wrong file is refused before the ground is made
+    static_cast<void>(fault_rupture::SensitivityFile(known, ""));  // a wrong file is rejected before the ground is made
     auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
     fault_rupture::SensitivityFile sensitivity(
         known, std::visit([&](auto const& chosen) { return fault_rupture::scene_lines(choice, app, chosen); }, scene));
-    auto const ask = [&](scarp::RunReport const& report) {
+    auto const run_sensitivity = [&](scarp::RunReport const& report) {
       if (choice.sensitivity_runs) {
         fault_rupture::SensitivityRuns const runs{app, output.folder, started};
         runs.complete(sensitivity_runs_of(choice, max_displacement_gradient(scene)), report.steps, sensitivity);
       }
-      return sensitivity.answers();
+      return sensitivity.results();
     };
-    fault_rupture::Start const start{own.files, own.on_root_rank(), started, ask};
+    fault_rupture::Start const start{own.files, own.on_root_rank(), started, run_sensitivity};
     return std::visit([&](auto const& chosen) { return run(choice, chosen, start); }, scene);
   } catch (std::exception const& error) {
     fault_rupture::give_up(examples::ended_by(error, "fault_rupture", app));

@@ -49,7 +49,7 @@ inline ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
   return lines;
 }
 
-/// Of all that the answer depends on: not what is written on the way.
+/// All options that the result depends on, without those of output.
 /// scene: whose tolerance and limit of the load steps stand where the choice leaves them to the soil
 template <class Scene>
 std::string scene_lines(Choice choice, CLI::App const& app, Scene const& scene) {

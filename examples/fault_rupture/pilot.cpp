@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "run_scene.hpp"
 
 namespace fault_rupture {
@@ -36,7 +36,7 @@ void run_pilot(Choice& choice) {
   pilot.throw_over_depth = std::max(choice.throw_over_depth, Choice{}.throw_over_depth);  // before it, no band
   auto const scene = make_scene(pilot, ranks());
   choice.strained = std::visit([&](auto const& one) { return strained_by(pilot, one); }, scene);
-  if (rank() == 0) examples::say(stderr, "pilot run: refines around {} strained elements\n", choice.strained.size());
+  if (rank() == 0) examples::print(stderr, "pilot run: refines around {} strained elements\n", choice.strained.size());
 }
 
 }  // namespace fault_rupture

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "../shared/budget_report.hpp"
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/fault/pilot_size.hpp"
 #include "scarp/fault/surface_log.hpp"
@@ -36,7 +36,7 @@ struct Start {
   scarp::CheckpointFiles& files;
   scarp::RunFolder* folder = nullptr;  ///< on the root rank
   Moment moment{};                     ///< when the program began
-  /// Asked once the run itself has ended well; its answer is the error budget's.
+  /// Called once the run itself has ended well; returns the parts of the error budget.
   std::function<SensitivityResults(scarp::RunReport const&)> sensitivity{};
   scarp::ThreadExecutor* threads = nullptr;  ///< that several runs share; without, the run has its own
   std::string name{};                        ///< of one among several, before its lines on the error stream
@@ -63,8 +63,8 @@ inline void remove_older_results(std::filesystem::path const& folder, bool goes_
   }
 }
 
-/// Takes the folder over, once: a new run before it writes its tables, one that goes on at its first attempt, since until then
-/// its checkpoint may be refused.
+/// Takes the folder over, once: a new run before it writes its tables, a resumed one at its first attempt, since until then
+/// its checkpoint may be rejected.
 struct Takeover : scarp::NeverStops {
   scarp::RunFolder& folder;
   std::function<void()> also{};
@@ -87,7 +87,7 @@ struct Takeover : scarp::NeverStops {
     take();
   }
 
-  static void members(auto&, auto&&) {}  // a run that goes on takes its folder over anew
+  static void members(auto&, auto&&) {}  // a resumed run takes its folder over anew
 };
 
 /// An observer that has nothing to see.
@@ -115,7 +115,7 @@ scarp::ErrorBudget<Problem> error_budget(Choice const& choice, SceneType const& 
   return scarp::ErrorBudget<Problem>(problem, examples::error_bounds(choice.budget, usual), sampling);
 }
 
-/// Runs a scene, or goes on with one, and writes its results.
+/// Runs a scene, or resumes one, and writes its results.
 /// \return exit code of the program
 template <class SceneType>
 int run(Choice const& choice, SceneType const& scene, Start const& begun) {
@@ -137,14 +137,15 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   fs::path const folder = begun.folder != nullptr ? begun.folder->path() : "";
   std::optional<Takeover> takeover;
   if (is_root_rank(executor)) {
-    if (files.resumes()) examples::say(stderr, "{}going on from '{}'\n", begun.name, files.newest().string());
-    examples::say(stderr, "{}{} {} elements, {} threads, ground made after {:.1f} s\n", begun.name,
-                  problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
+    if (files.resumes()) examples::print(stderr, "{}resuming from '{}'\n", begun.name, files.newest().string());
+    examples::print(stderr, "{}{} {} elements, {} threads, ground made after {:.1f} s\n", begun.name,
+                    problem.discretisation().mesh().elements.size(), element_name, threads.threads(), elapsed());
     if (choice.length > 0.0 && problem.points().means() == nullptr) {
-      examples::say(stderr,
-                    "warning: a --length of {} m reaches no neighbour of any point, so that the soil has none: take a "
-                    "longer one or a smaller --size\n",
-                    choice.length);
+      examples::print(
+          stderr,
+          "warning: a --length of {} m reaches no neighbour of any point, so that the soil has none: take a "
+          "longer one or a smaller --size\n",
+          choice.length);
     }
     takeover.emplace(*begun.folder, files.resumes(), [&] {
       if (scene.write_packing) scene.write_packing(folder);
@@ -175,7 +176,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
         footing_log(folder, scene.structure, to, profiles, depth, start),
         scarp::ConvergenceLog(folder / "convergence.csv", measure, start), scarp::Progress(to, measure, begun.name),
         scarp::DistortionWarning<2>([&](auto const& worst) {
-          examples::say(
+          examples::print(
               stderr,
               "{}warning: element {} at ({:.2f}, {:.2f}) is sheared by {:.0f} % (mean ratio {:.2f}; 1 is regular, "
               "0 without area): compare with another --pattern, or take a longer --length or less throw\n",
@@ -208,7 +209,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     if (!sound) {
       // Its state first: there may be room for no more.
       begun.folder->end(stages.trouble());
-      examples::say(stderr, "{}{}\n", begun.name, stages.trouble());
+      examples::print(stderr, "{}{}\n", begun.name, stages.trouble());
     }
     auto json = summary(choice, scene, problem, notes, reaction, report);
     json["run"] = examples::json_of(begun.folder->record());
@@ -234,7 +235,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     if (!sound) return;
     if (begun.sensitivity && report.verdict.acceptable()) text = written(begun.sensitivity(report));
     begun.folder->end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
-    if (begun.sensitivity) examples::say(stdout, "{}", text);
+    if (begun.sensitivity) examples::print(stdout, "{}", text);
   });
   if (!sound) return 1;
   if (report.verdict.acceptable()) return 0;
@@ -258,8 +259,8 @@ std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const&
     scarp::reject("the pilot run ended before the fault moved ({}): choose --strip-width 0",
                   name(report.verdict.reason));
   if (!report.verdict.acceptable() && is_root_rank(executor))
-    examples::say(stderr, "warning: the pilot run ended at a throw of {:.3g} m ({}): the strip may be too short\n",
-                  report.load, name(report.verdict.reason));
+    examples::print(stderr, "warning: the pilot run ended at a throw of {:.3g} m ({}): the strip may be too short\n",
+                    report.load, name(report.verdict.reason));
   return scarp::strained_places(problem, share);
 }
 

@@ -13,13 +13,13 @@ namespace {
 double pairs_within(double length, std::vector<scarp::Site<2>> const& sites) {
   constexpr std::size_t looked_at = 200;
   double around = 0.0;
-  double asked = 0.0;
+  double wanted = 0.0;
   for (std::size_t i = 0; i < sites.size(); i += sites.size() / looked_at + 1) {
-    asked += 1.0;
+    wanted += 1.0;
     around += static_cast<double>(std::ranges::count_if(
         sites, [&](auto const& site) { return (site.position - sites[i].position).squaredNorm() < length * length; }));
   }
-  return around > asked ? around / asked * static_cast<double>(sites.size()) : 0.0;
+  return around > wanted ? around / wanted * static_cast<double>(sites.size()) : 0.0;
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ Json content(std::filesystem::path const& path) {
   for (auto const& entry : found) {
     sound = sound && entry.is_object() && entry.contains("runs") && entry["runs"].is_object();
     if (!sound) break;
-    for (auto const& [part, answer] : entry["runs"].items())
-      sound = sound && answer.is_object() && answer.contains("surface_x50") && answer["surface_x50"].is_number();
+    for (auto const& [part, result] : entry["runs"].items())
+      sound = sound && result.is_object() && result.contains("surface_x50") && result["surface_x50"].is_number();
   }
   if (!sound)
     scarp::reject("'{}' holds no results of sensitivity runs (a list of scenes is expected): give another file",
@@ -106,36 +106,36 @@ SensitivityFile::SensitivityFile(std::filesystem::path path, std::string scene)
   auto const all = content(path_);
   auto const* const entry = entry_of(all, scene_);
   if (entry == nullptr) return;
-  for (auto const& [part, answer] : (*entry)["runs"].items()) {
-    answers_[part] = {answer.value("surface_x50", std::nan("")), answer.value("options", ""),
-                      answer.value("command", ""), answer.value("date", ""), answer.value("commit", "")};
+  for (auto const& [part, result] : (*entry)["runs"].items()) {
+    results_[part] = {result.value("surface_x50", std::nan("")), result.value("options", ""),
+                      result.value("command", ""), result.value("date", ""), result.value("commit", "")};
   }
 }
 
-void SensitivityFile::add(std::string const& part, SensitivityResult answer) {
+void SensitivityFile::add(std::string const& part, SensitivityResult result) {
   auto all = content(path_);
   auto* entry = entry_of(all, scene_);
   if (entry == nullptr) {
     all.push_back({{"scene", scene_}, {"runs", Json::object()}});
     entry = &all.back();
   }
-  (*entry)["runs"][part] = {{"surface_x50", answer.surface_x50},
-                            {"options", answer.options},
-                            {"command", answer.command},
-                            {"date", answer.date},
-                            {"commit", answer.commit}};
+  (*entry)["runs"][part] = {{"surface_x50", result.surface_x50},
+                            {"options", result.options},
+                            {"command", result.command},
+                            {"date", result.date},
+                            {"commit", result.commit}};
   examples::write_json(path_, all);
-  answers_[part] = std::move(answer);
+  results_[part] = std::move(result);
 }
 
 std::filesystem::path default_sensitivity_file() { return FAULT_RUPTURE_SENSITIVITY; }
 
-scarp::BudgetParts sensitivity_parts(SensitivityResults const& answers, double surface_x50, double depth,
+scarp::BudgetParts sensitivity_parts(SensitivityResults const& results, double surface_x50, double depth,
                                      scarp::ErrorBounds const& bounds) {
   scarp::BudgetParts parts;
   auto const add = [&](char const* name, double bound, char const* meaning) {
-    auto const found = answers.find(name);
-    if (found != answers.end())
+    auto const found = results.find(name);
+    if (found != results.end())
       parts.push_back(scarp::sensitivity_part(name, surface_x50, found->second.surface_x50, depth, bound, meaning));
   };
   add("mesh", bounds.mesh, "surface_x50 on a mesh of other directions, over the depth of the ground");
@@ -143,14 +143,14 @@ scarp::BudgetParts sensitivity_parts(SensitivityResults const& answers, double s
   return parts;
 }
 
-std::string sensitivity_lines(SensitivityResults const& answers) {
-  if (answers.empty())
+std::string sensitivity_lines(SensitivityResults const& results) {
+  if (results.empty())
     return "What the mesh and the load steps are worth is not known: --sensitivity-runs runs the scene once more for "
            "each\n";
   std::string text;
-  for (auto const& [part, answer] : answers) {
-    text += fmt::format("{}: surface_x50 {:.2f} m with {} ({}, commit {}, {})\n", part, answer.surface_x50,
-                        answer.options, answer.date, answer.commit, answer.command);
+  for (auto const& [part, result] : results) {
+    text += fmt::format("{}: surface_x50 {:.2f} m with {} ({}, commit {}, {})\n", part, result.surface_x50,
+                        result.options, result.date, result.commit, result.command);
   }
   return text;
 }

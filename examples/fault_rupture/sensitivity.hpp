@@ -12,7 +12,7 @@
 
 namespace fault_rupture {
 
-/// The scene once more with one choice made otherwise, which tells what that choice is worth.
+/// The scene once more with one other choice, whose effect on the result it estimates.
 struct SensitivityRun {
   std::string part;                 ///< of the error budget
   scarp::RunRecord::Lines options;  ///< those that are other
@@ -45,24 +45,24 @@ class SensitivityFile {
   /// \throws scarp::InputError for a file that is none of these
   SensitivityFile(std::filesystem::path path, std::string scene);
 
-  SensitivityResults const& answers() const { return answers_; }
+  SensitivityResults const& results() const { return results_; }
   /// \throws scarp::FileError
-  void add(std::string const& part, SensitivityResult answer);
+  void add(std::string const& part, SensitivityResult result);
 
  private:
   std::filesystem::path path_;
   std::string scene_;
-  SensitivityResults answers_;
+  SensitivityResults results_;
 };
 
 /// The file that comes with the program.
 std::filesystem::path default_sensitivity_file();
 
 /// surface_x50, depth: of the run and its ground [m]
-scarp::BudgetParts sensitivity_parts(SensitivityResults const& answers, double surface_x50, double depth,
+scarp::BudgetParts sensitivity_parts(SensitivityResults const& results, double surface_x50, double depth,
                                      scarp::ErrorBounds const& bounds);
 
 /// Where the parts come from, or how to get them; lines.
-std::string sensitivity_lines(SensitivityResults const& answers);
+std::string sensitivity_lines(SensitivityResults const& results);
 
 }  // namespace fault_rupture

@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "run_scene.hpp"
 #include "scarp/io/read_file.hpp"
 #include "scarp/io/time_stamp.hpp"
@@ -26,10 +26,10 @@ struct SensitivityRuns {
   std::chrono::steady_clock::time_point started;
   std::string commit{examples::commit()};
 
-  /// Runs those that the file does not know yet of this commit, each in a folder of its own. One that fails is left out, and said.
+  /// Runs those that the file does not have yet of this commit, each in a folder of its own. One that fails is left out with a warning.
   /// steps: of the scene's run
   void complete(std::vector<SensitivityRun> const& runs, int steps, SensitivityFile& file) const {
-    auto const known = file.answers();
+    auto const known = file.results();
     for (auto const& run : runs) {
       auto const before = known.find(run.part);
       if (before != known.end() && before->second.commit == commit) continue;
@@ -37,8 +37,8 @@ struct SensitivityRuns {
       try {
         add(run, steps, file);
       } catch (std::exception const& problem) {
-        examples::say(stderr, "warning: the sensitivity run for {} has failed, so that this part is not known: {}\n",
-                      run.part, problem.what());
+        examples::print(stderr, "warning: the sensitivity run for {} has failed, so that this part is not known: {}\n",
+                        run.part, problem.what());
       }
     }
   }
@@ -46,7 +46,7 @@ struct SensitivityRuns {
  private:
   void add(SensitivityRun run, int steps, SensitivityFile& file) const {
     auto summary = summary_of(run);
-    // Where other things limit the load steps, a limit of their gradient has to be much smaller to say anything.
+    // Where other things limit the load steps, a limit of their gradient has to be much smaller to have an effect.
     constexpr int max_halvings = 6;
     auto const as_large = [&] { return run.part == "load_step" && summary["steps"].get<int>() < 1.3 * steps; };
     for (int k = 0; k < max_halvings && as_large(); ++k) {
@@ -55,7 +55,7 @@ struct SensitivityRuns {
     }
     if (as_large())
       scarp::reject(
-          "its load steps are limited by something else (smaller ones were not to be had): say a smaller "
+          "its load steps are limited by something else (smaller ones were impossible): give a smaller "
           "--max-displacement-gradient");
     file.add(run.part, {summary["surface_x50"].get<double>(), command_options(run),
                         "examples/run fault_rupture --sensitivity-runs", scarp::time_stamp().substr(0, 10), commit});
@@ -63,7 +63,7 @@ struct SensitivityRuns {
 
   /// \return its summary \throws scarp::InputError where it has stopped early
   nlohmann::json summary_of(SensitivityRun const& varied) const {
-    examples::say(stderr, "sensitivity run for {}: {}\n", varied.part, command_options(varied));
+    examples::print(stderr, "sensitivity run for {}: {}\n", varied.part, command_options(varied));
     scarp::CheckpointFiles nowhere;
     auto const own = folder / fmt::format("sensitivity_{}", varied.part);
     scarp::RunFolder writes({.folder = own, .overwrite = true}, record_of(varied, own));

@@ -35,7 +35,7 @@ struct AtRest {
   SCARP_MEMBERS(k0, k0_min, k0_max, void_ratio, void_ratio_min, void_ratio_max, vertical_error, ground)
 };
 
-/// What a run that goes on remembers of the processes before it.
+/// Totals of earlier processes in a resumed run.
 struct RunNotes {
   AtRest rest{};
   double reaction_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< see generalised_reaction [N]

@@ -53,12 +53,13 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output) {
   auto* const folder =
       app.add_option("--checkpoint", choice.checkpoint, "folder for checkpoints; empty for none")
           ->check([](std::string const& given) { return given.empty() ? "" : examples::folder_problem(given); });
-  auto* const resume = app.add_flag("--resume", choice.resume, "go on from the newest checkpoint there")->needs(folder);
+  auto* const resume =
+      app.add_flag("--resume", choice.resume, "resume from the newest checkpoint there")->needs(folder);
   examples::declare_output(app, output, "folder for all results");
   resume->excludes("--overwrite");
 }
 
-/// A line for each option that the answer depends on.
+/// A line for each option that the result depends on.
 std::string scene_lines(CLI::App const& app) {
   std::set<std::string> const others{"quick", "threads", "time-limit", "checkpoint", "resume", "output", "overwrite"};
   std::string lines;

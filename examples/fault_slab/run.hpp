@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
+#include "../shared/print.hpp"
 #include "../shared/process_usage.hpp"
 #include "../shared/renamed_keys.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
@@ -76,14 +76,14 @@ inline void write_surface(std::vector<Section> const& all, std::filesystem::path
 }
 
 inline void print_table(std::vector<Section> const& all) {
-  examples::say(stdout, "{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "y [m]", "throw", "x05 [m]", "x50 [m]",
-                "x95 [m]", "width", "settlement");
+  examples::print(stdout, "{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "y [m]", "throw", "x05 [m]", "x50 [m]",
+                  "x95 [m]", "width", "settlement");
   for (auto const& section : all) {
     auto const json = json_of(section);
     auto const& at = section.measures;
-    examples::say(stdout, "{:8.2f} {:8.3f} {:8.2f} {:8.2f} {:8.2f} {:8.2f} {:10.3f}\n", section.y, section.share,
-                  at.surface_x05, at.surface_x50, at.surface_x95, at.surface_x95 - at.surface_x05,
-                  json["settlement_max"].get<double>());
+    examples::print(stdout, "{:8.2f} {:8.3f} {:8.2f} {:8.2f} {:8.2f} {:8.2f} {:10.3f}\n", section.y, section.share,
+                    at.surface_x05, at.surface_x50, at.surface_x95, at.surface_x95 - at.surface_x05,
+                    json["settlement_max"].get<double>());
   }
 }
 
@@ -96,7 +96,7 @@ inline void begin_anew(std::filesystem::path const& folder) {
   }
 }
 
-/// What a run that goes on remembers of the processes before it.
+/// Totals of earlier processes in a resumed run.
 struct RunNotes {
   scarp::GroundAtRest<3> rest{};
   examples::RunUsage used;
@@ -104,14 +104,14 @@ struct RunNotes {
   SCARP_MEMBERS(rest, used)
 };
 
-/// Runs a scene, or goes on with one, and writes its results.
+/// Runs a scene, or resumes one, and writes its results.
 /// \return exit code of the program: 0, 130 where it was interrupted, 3 where it stopped for another reason
 inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::CheckpointFiles& files, Moment started) {
   auto const scene = make_scene(choice);
   scarp::ThreadExecutor executor(choice.threads);
   auto problem = scene.problem(executor);
-  examples::say(stderr, "{} hexahedra, {} points, {} threads\n", problem.discretisation().mesh().elements.size(),
-                problem.discretisation().point_count(), executor.threads());
+  examples::print(stderr, "{} hexahedra, {} points, {} threads\n", problem.discretisation().mesh().elements.size(),
+                  problem.discretisation().point_count(), executor.threads());
   folder.begin();
   bool const resumes = files.resumes();
   if (!resumes) begin_anew(folder.path());
@@ -134,7 +134,7 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
   auto const& report = stages.report();
   if (stages.stopped()) {
     folder.end(stages.trouble());
-    examples::say(stderr, "fault_slab: {}\n", stages.trouble());
+    examples::print(stderr, "fault_slab: {}\n", stages.trouble());
   } else if (!report.verdict.acceptable()) {
     observers.ended(problem, report.load);
   }
@@ -148,8 +148,8 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
   folder.end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
   print_table(all);
   if (report.verdict.acceptable()) return 0;
-  examples::say(stderr, "fault_slab: stopped at h/H = {:.5f} ({}; last rejected step: {})\n", report.load / depth,
-                name(report.verdict.reason), name(report.last_failure));
+  examples::print(stderr, "fault_slab: stopped at h/H = {:.5f} ({}; last rejected step: {})\n", report.load / depth,
+                  name(report.verdict.reason), name(report.last_failure));
   return report.verdict.reason == scarp::Reason::interrupted ? 130 : 3;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "../shared/command_line.hpp"
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "manufactured.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
@@ -33,15 +33,15 @@ bool block(char const* element, char const* integration, Choice const& choice) {
   int cells = Element::dim == 2 ? 4 : 2;
   for (int level = 0; level < choice.levels - (Element::dim - 2); ++level, cells *= 2) {
     auto const now = mesh_orders::solve<Element, Scheme>(cells, choice.distortion);
-    examples::say(stdout, "{:<6} {:<8} {:8.5f} {:7} {:11.3e} {:11.3e}", element, integration, now.size, now.dofs,
-                  now.error.value, now.error.gradient);
+    examples::print(stdout, "{:<6} {:<8} {:8.5f} {:7} {:11.3e} {:11.3e}", element, integration, now.size, now.dofs,
+                    now.error.value, now.error.gradient);
     if (last) {
       order = orders(*last, now);
-      examples::say(stdout, " {:6.2f} {:6.2f}", order.value, order.gradient);
+      examples::print(stdout, " {:6.2f} {:6.2f}", order.value, order.gradient);
     } else {
-      examples::say(stdout, "{:14}", "");
+      examples::print(stdout, "{:14}", "");
     }
-    examples::say(stdout, " {:8.3f}\n", now.seconds);
+    examples::print(stdout, " {:8.3f}\n", now.seconds);
     last = now;
   }
   return order.value > p + 0.75 && order.gradient > p - 0.25;
@@ -49,8 +49,8 @@ bool block(char const* element, char const* integration, Choice const& choice) {
 
 bool table(Choice const& choice) {
   using namespace scarp;
-  examples::say(stdout, "{:<6} {:<8} {:>8} {:>7} {:>11} {:>11} {:>6} {:>6} {:>8}\n", "shape", "points", "h", "dofs",
-                "L2", "H1", "order", "order", "seconds");
+  examples::print(stdout, "{:<6} {:<8} {:>8} {:>7} {:>11} {:>11} {:>6} {:>6} {:>8}\n", "shape", "points", "h", "dofs",
+                  "L2", "H1", "order", "order", "seconds");
   bool good = block<Tri3, FullIntegration>("Tri3", "full", choice);
   good &= block<Tri6, FullIntegration>("Tri6", "full", choice);
   good &= block<Tri6, BBar>("Tri6", "B-bar", choice);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../shared/convergence_table.hpp"
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "fault.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
@@ -16,8 +16,8 @@ namespace nonlocal_band {
 /// makes it local, bit for bit.
 template <class SceneOn>
 void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
-  examples::say(stdout, "{:>6} {:>9} {:>6} {:>8} {:>10} {:>9} {:>12} {:>6} {:>8} {:>6} {:>7}\n", "size", "triangles",
-                "l", "throw", "outcrop", "width", "reaction", "steps", "rejected", "iter", "s");
+  examples::print(stdout, "{:>6} {:>9} {:>6} {:>8} {:>10} {:>9} {:>12} {:>6} {:>8} {:>6} {:>7}\n", "size", "triangles",
+                  "l", "throw", "outcrop", "width", "reaction", "steps", "rejected", "iter", "s");
   scarp::SerialExecutor executor;
   for (double const length : choice.lengths) {
     for (double const size : choice.sizes) {
@@ -37,10 +37,10 @@ void print_rows(FaultChoice const& choice, SceneOn const& scene_on) {
       auto const& grid = problem.discretisation();
       auto const found =
           scarp::outcrop(scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions()), run.load);
-      examples::say(stdout, "{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
-                    grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
-                    scarp::generalised_reaction(problem) - at_rest, run.steps, run.refused, run.iterations,
-                    watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
+      examples::print(stdout, "{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
+                      grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,
+                      scarp::generalised_reaction(problem) - at_rest, run.steps, run.refused, run.iterations,
+                      watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
       std::fflush(stdout);
     }
   }

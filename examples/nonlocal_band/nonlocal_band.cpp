@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "../shared/command_line.hpp"
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
 #include "band.hpp"
 #include "fault.hpp"
@@ -84,7 +84,7 @@ Outcome print_row(Choice const& choice, int cells, double length) {
     outcome.band = measure(problem, shears);
     if (choice.folder != nullptr) write(choice, problem, record, shears, fmt::format("{}_{}", cells, length));
   }
-  examples::say(
+  examples::print(
       stdout, "{:6} {:6} {:8.4f} {:9.2f} {:9.2f} {:8.4f} {:8.4f} {:7.2f} {:9.1e} {:6} {:8} {:6} {:8.1f}  {}\n", cells,
       length, last[0], peak / 1e3, last[1] / 1e3, outcome.band.width, outcome.band.spread, outcome.band.angle, last[2],
       run.steps, run.refused, run.iterations, watch.seconds(), run.verdict.acceptable() ? "" : name(run.last_failure));
@@ -95,9 +95,9 @@ Outcome print_row(Choice const& choice, int cells, double length) {
 
 /// Whether widths and last pressures of all meshes with a length agree within a part of the first.
 bool print_specimens(Choice const& choice) {
-  examples::say(stdout, "{:>6} {:>6} {:>8} {:>9} {:>9} {:>8} {:>8} {:>7} {:>9} {:>6} {:>8} {:>6} {:>8}\n", "cells",
-                "l [m]", "end [m]", "peak kPa", "last kPa", "width", "spread", "angle", "tau", "steps", "rejected",
-                "iter", "s");
+  examples::print(stdout, "{:>6} {:>6} {:>8} {:>9} {:>9} {:>8} {:>8} {:>7} {:>9} {:>6} {:>8} {:>6} {:>8}\n", "cells",
+                  "l [m]", "end [m]", "peak kPa", "last kPa", "width", "spread", "angle", "tau", "steps", "rejected",
+                  "iter", "s");
   bool good = true;
   for (double const length : choice.lengths) {
     std::vector<Outcome> outcomes;
@@ -178,7 +178,7 @@ int main(int argc, char** argv) {
     bool const good = print_specimens(choice);
     if (folder) folder->end("finished");
     if (good) return 0;
-    examples::say(stderr, "nonlocal_band: meshes with a length differ by more than {:g}\n", choice.gate);
+    examples::print(stderr, "nonlocal_band: meshes with a length differ by more than {:g}\n", choice.gate);
   } catch (std::exception const& error) {
     return examples::ended_by(error, "nonlocal_band", app);
   }

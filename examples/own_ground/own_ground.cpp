@@ -2,7 +2,7 @@
 // Where does a reverse fault come out in ground of one's own: a mesh from Gmsh, quadratic elements, an own soil law?
 #include <filesystem>
 
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
@@ -43,7 +43,7 @@ int main(int count, char** arguments) try {
   scarp::FreeFieldFault<PressureStiffened, Newton, Ground, scarp::ReverseFault> scene;
   std::vector<std::string> notes;
   scene.ground = scarp::ground_from_file<scarp::Quad8>(file, &notes);
-  examples::tell(notes);
+  examples::print_notes(notes);
   scene.fault.dip = 0.8;  // [rad]
   scene.throw_to = 0.5;   // [m]
   scene.solver.tolerance = 1e-8;
@@ -59,15 +59,15 @@ int main(int count, char** arguments) try {
   auto const survey =
       rupture_survey(grid.mesh(), rest.positions, grid.positions(), offset_at(scene.fault, report.load));
   auto const& surface = survey.surface;
-  examples::say(stdout, "{}: throw {:.3f} m up, half of it at x = {:.2f} m, 5 and 95 % at {:.2f} and {:.2f} m\n",
-                name(report.verdict.status), report.load, surface.surface_x50, surface.surface_x05,
-                surface.surface_x95);
+  examples::print(stdout, "{}: throw {:.3f} m up, half of it at x = {:.2f} m, 5 and 95 % at {:.2f} and {:.2f} m\n",
+                  name(report.verdict.status), report.load, surface.surface_x50, surface.surface_x05,
+                  surface.surface_x95);
   // Elastic ground spreads the step widely around the tip's own place; a rupture would follow the fault to the left.
   return report.verdict.acceptable() && surface.surface_x05 < surface.surface_x50 &&
                  surface.surface_x50 < surface.surface_x95
              ? 0
              : 1;
 } catch (std::exception const& problem) {
-  examples::say(stderr, "own_ground: {}\n", problem.what());
+  examples::print(stderr, "own_ground: {}\n", problem.what());
   return 2;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What does a soil law of one's own take? Hyperbolic shear in plane strain, and a column of it that is pushed sideways.
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
@@ -56,6 +56,6 @@ int main() {
   double const moved = problem.discretisation().positions().back().x() - mesh.nodes.back().x();
   double const a = push / (soil.shear_modulus * soil.reference_strain);  // gamma = gamma_r a z / (1 - a z), summed up:
   double const exact = soil.reference_strain * (-std::log1p(-a * height) / a - height);
-  examples::say(stdout, "top moves {:.6f} m, closed form {:.6f} m\n", moved, exact);
+  examples::print(stdout, "top moves {:.6f} m, closed form {:.6f} m\n", moved, exact);
   return done && std::abs(moved / exact - 1.0) < 1e-3 ? 0 : 1;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What changes when every element's elastic law is replaced by a packing of grains? In the program: one template argument.
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
@@ -30,9 +30,9 @@ bool rupture(char const* name, scarp::FreeFieldFault<Soil> const& scene) {
   auto const& mesh = problem.discretisation().mesh();
   auto const offset = offset_at(scene.fault, run.load);
   auto const found = rupture_survey(mesh, rest.of(mesh), problem.discretisation().positions(), offset).surface;
-  examples::say(stdout,
-                "{:<8} K0 {:.3f}  throw {:.3f} m  outcrop_x {:6.2f} m  steepest_x {:6.2f} m  surface_x50 {:6.2f} m\n",
-                name, k0 / problem.points().size(), run.load, found.outcrop_x, found.steepest_x, found.surface_x50);
+  examples::print(stdout,
+                  "{:<8} K0 {:.3f}  throw {:.3f} m  outcrop_x {:6.2f} m  steepest_x {:6.2f} m  surface_x50 {:6.2f} m\n",
+                  name, k0 / problem.points().size(), run.load, found.outcrop_x, found.steepest_x, found.surface_x50);
   return balanced && run.verdict.acceptable();
 }
 

@@ -9,7 +9,7 @@
 
 namespace retaining_wall {
 
-/// Strain over which ratios of stress are averaged, of walls and of tests: single answers of small packings jump.
+/// Strain over which ratios of stress are averaged, of walls and of tests: single responses of small packings jump.
 inline constexpr double window = 0.01;
 
 /// Horizontal over vertical stress against strain, of a wall or of a test on a packing.

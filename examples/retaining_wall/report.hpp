@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "../shared/print.hpp"
 #include "../shared/renamed_keys.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "run.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
@@ -22,35 +22,36 @@ inline double imbalance(Outcome const& outcome) {
 }
 
 inline void print_table(std::vector<Outcome> const& outcomes) {
-  examples::say(
+  examples::print(
       stdout,
       "K is the force on the wall over the integral of the overburden, its extreme mean over {:g} % of strain\n\n",
       100.0 * window);
-  examples::say(stdout, "{:<8} {:>7} {:>8} {:>8} {:>9} {:>14} {:>16}   {}\n", "wall", "K", "from", "Rankine",
-                "K/Rankine", "explained", "phi [degrees]", "phi from");
+  examples::print(stdout, "{:<8} {:>7} {:>8} {:>8} {:>9} {:>14} {:>16}   {}\n", "wall", "K", "from", "Rankine",
+                  "K/Rankine", "explained", "phi [degrees]", "phi from");
   for (auto const& outcome : outcomes) {
     auto const reached = outcome.reached();
     auto const [least, most] = outcome.interval();
-    examples::say(stdout, "{:<8} {:7.4f} {:6.2f} % {:8.4f} {:9.4f} {:>14} {:>16}   {}\n", name(outcome.movement),
-                  reached.ratio, 100.0 * reached.strain, outcome.formula(), reached.ratio / outcome.formula(),
-                  fmt::format("{:.3f} to {:.3f}", least, most),
-                  fmt::format("{:.2f} +- {:.2f}", degrees(outcome.friction.angle), degrees(outcome.friction.scatter)),
-                  outcome.friction.source);
+    examples::print(stdout, "{:<8} {:7.4f} {:6.2f} % {:8.4f} {:9.4f} {:>14} {:>16}   {}\n", name(outcome.movement),
+                    reached.ratio, 100.0 * reached.strain, outcome.formula(), reached.ratio / outcome.formula(),
+                    fmt::format("{:.3f} to {:.3f}", least, most),
+                    fmt::format("{:.2f} +- {:.2f}", degrees(outcome.friction.angle), degrees(outcome.friction.scatter)),
+                    outcome.friction.source);
   }
-  examples::say(stdout, "\n{:<8} {:>8} {:>9} {:>8} {:>6} {:>8} {:>6} {:>11} {:>9} {:>10} {:>8}\n", "wall", "K at rest",
-                "K at end", "to", "steps", "rejected", "iter", "DEM steps", "residual", "imbalance", "seconds");
+  examples::print(stdout, "\n{:<8} {:>8} {:>9} {:>8} {:>6} {:>8} {:>6} {:>11} {:>9} {:>10} {:>8}\n", "wall",
+                  "K at rest", "K at end", "to", "steps", "rejected", "iter", "DEM steps", "residual", "imbalance",
+                  "seconds");
   for (auto const& outcome : outcomes) {
     auto const& run = outcome.run;
     auto const ratio = [&](bool first) {
       return outcome.rows.empty() ? std::nan("") : (first ? outcome.rows.front() : outcome.rows.back()).ratio();
     };
-    examples::say(stdout, "{:<8} {:9.4f} {:9.4f} {:6.2f} % {:6} {:8} {:6} {:11} {:9.1e} {:10.1e} {:8.1f}\n",
-                  name(outcome.movement), ratio(true), ratio(false), 100.0 * run.load, run.steps, run.refused,
-                  run.iterations, run.inner_steps, run.largest_residual, imbalance(outcome), run.seconds);
+    examples::print(stdout, "{:<8} {:9.4f} {:9.4f} {:6.2f} % {:6} {:8} {:6} {:11} {:9.1e} {:10.1e} {:8.1f}\n",
+                    name(outcome.movement), ratio(true), ratio(false), 100.0 * run.load, run.steps, run.refused,
+                    run.iterations, run.inner_steps, run.largest_residual, imbalance(outcome), run.seconds);
   }
 }
 
-/// \return whether all came to the end and within what their friction explains; else says what did not
+/// \return whether all came to the end and within what their friction explains; else prints which did not
 inline bool judge(std::vector<Outcome> const& outcomes) {
   bool good = true;
   for (auto const& outcome : outcomes) {
@@ -58,12 +59,13 @@ inline bool judge(std::vector<Outcome> const& outcomes) {
     good = false;
     auto const& run = outcome.run;
     if (run.verdict.acceptable()) {
-      examples::say(stderr, "retaining_wall: {} pressure is not Rankine's (its ratio lies outside what phi explains)\n",
-                    name(outcome.movement));
+      examples::print(stderr,
+                      "retaining_wall: {} pressure is not Rankine's (its ratio lies outside what phi explains)\n",
+                      name(outcome.movement));
     } else {
-      examples::say(stderr,
-                    "retaining_wall: {} movement stopped at the strain {:.4f} ({}; last rejected attempt: {})\n",
-                    name(outcome.movement), run.load, name(run.verdict.reason), name(run.last_failure));
+      examples::print(stderr,
+                      "retaining_wall: {} movement stopped at the strain {:.4f} ({}; last rejected attempt: {})\n",
+                      name(outcome.movement), run.load, name(run.verdict.reason), name(run.last_failure));
     }
   }
   return good;

@@ -22,7 +22,7 @@ inline Bonded bonded(double stiffness) {
   return {{.normal_stiffness = stiffness, .tangential_stiffness = stiffness, .friction = 0.0}, never, never};
 }
 
-/// How a footing answers to its loads.
+/// Response of a footing to its loads.
 struct Motion {
   double settlement = 0.0;  ///< [m]
   double tilt = 0.0;        ///< [rad], counter-clockwise

@@ -2,7 +2,7 @@
 // Rigid footings on springs and on elastic ground, blocks that become rigid, blocks that slide down an incline.
 #include <CLI/CLI.hpp>
 
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "block.hpp"
 
@@ -18,7 +18,7 @@ bool compare(std::string const& what, Motion const& found, Motion const& wanted,
     examples::Series row{fmt::format("{}, {}", what, tilts ? "tilt" : "settlement"),
                          tilts ? wanted.tilt : wanted.settlement, gate};
     row.outcomes = {found.outcome};
-    row.outcomes.front().answer = tilts ? found.tilt : found.settlement;
+    row.outcomes.front().result = tilts ? found.tilt : found.settlement;
     row.print();
     good &= row.holds();
   }
@@ -40,8 +40,8 @@ bool elastic_layer(int levels) {
   for (int level = 0; level < levels; ++level) {
     Layer const layer{.cells = 8 << level};
     auto const tied = tied_nodes(layer);
-    examples::say(stdout, "footing on the layer, {} cells below it, interface k = x E/B, against tied nodes\n",
-                  layer.cells);
+    examples::print(stdout, "footing on the layer, {} cells below it, interface k = x E/B, against tied nodes\n",
+                    layer.cells);
     for (double const factor : {1e2, 1e3, 1e4, 1e5}) {
       auto const law = rigid_on_elastic::bonded(factor * layer.young / layer.width);
       std::optional<double> gate;
@@ -58,7 +58,7 @@ bool stiff_block(int levels) {
     Layer const layer{.cells = 8 << level};
     auto const law = rigid_on_elastic::bonded(1e3 * layer.young / layer.width);
     auto const rigid = rigid_footing(layer, law, true);
-    examples::say(stdout, "elastic block on the layer, {} cells below it, against the rigid footing\n", layer.cells);
+    examples::print(stdout, "elastic block on the layer, {} cells below it, against the rigid footing\n", layer.cells);
     for (double const contrast : {1e3, 1e4, 1e5, 1e6}) {
       std::optional<double> gate;
       if (contrast == 1e6) gate = 1e-3;

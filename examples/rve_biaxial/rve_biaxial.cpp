@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "../shared/command_line.hpp"
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
 #include "report.hpp"
 #include "tables.hpp"
@@ -20,7 +20,7 @@ namespace {
 struct Options {
   rve_biaxial::Choice choice;
   std::vector<std::string> frictions{fmt::format("{}", choice.preparation_friction)};  ///< as given
-  std::vector<double> preparation_frictions{};                                         ///< what they say
+  std::vector<double> preparation_frictions{};                                         ///< from these files
   int seeds = 5;
   std::uint64_t seed = 1;
   double smoothing = 0.05;
@@ -142,9 +142,9 @@ int main(int argc, char** argv) {
     require_success(results, options);
     rve_biaxial::write_all(folder, options.choice, results, options.smoothing);
     auto const budget = rve_biaxial::error_budget(results, options.choice.pressure, {});
-    examples::say(stdout, "{}", scarp::budget_headline(budget));
+    examples::print(stdout, "{}", scarp::budget_headline(budget));
     rve_biaxial::print_tables(results, options.smoothing);
-    examples::say(stdout, "\n{}", scarp::budget_table(budget));
+    examples::print(stdout, "\n{}", scarp::budget_table(budget));
   } catch (std::exception const& problem) {
     return examples::ended_by(problem, "rve_biaxial", app);
   }

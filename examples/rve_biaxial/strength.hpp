@@ -47,7 +47,7 @@ inline Peak peak_angles(std::vector<Row> const& rows, double window) {
       peak.friction_angle = friction;
       peak.friction_strain = middle;
     }
-    // While both strains are compressive, the first moments of the test, the ratio says nothing about dilation.
+    // While both strains are compressive, the first moments of the test, the ratio does not measure dilation.
     if (minor < 0.0 && !(dilation <= peak.dilation_angle)) {
       peak.dilation_angle = dilation;
       peak.dilation_strain = middle;

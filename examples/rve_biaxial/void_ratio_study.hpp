@@ -40,14 +40,14 @@ inline Row const& peak_row(Result const& result) {
 inline Row const& start_row(Result const& result) { return result.rows.front(); }
 inline Row const& end_row(Result const& result) { return result.rows.back(); }
 
-/// A state of the test that fabrics are told of.
+/// A state of the test whose fabrics are reported.
 struct Moment {
   char const* name;
   Row const& (*row)(Result const&);
 };
 inline constexpr std::array moments{Moment{"start", start_row}, Moment{"peak", peak_row}, Moment{"end", end_row}};
 
-/// An angle [degrees] that a packing has, and what the study says of it.
+/// An angle [degrees] that a packing has, and the reference study's value of it.
 struct Angle {
   enum class Kind { friction, dilation, secant_dilation };
   Kind kind;

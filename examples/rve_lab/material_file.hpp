@@ -51,7 +51,7 @@ inline std::vector<std::string> parameters_of(std::string const& law) {
   return names;
 }
 
-/// Takes what the file beside the packing says, except what `is_given` on the command line, which may be all of it.
+/// Reads the packing's material file (.json), except values that are `is_given` on the command line, which may be all of it.
 /// \throws InputError naming the file and the key for values that cannot be, and for a material that is not known
 inline void read_material(std::filesystem::path const& packing, std::function<bool(std::string const&)> const& is_given,
                           Material& material) {

@@ -76,7 +76,7 @@ inline void declare_test(CLI::App& app, Test& test) {
       ->group("Path");
   auto* const packing =
       app.add_option("--packing", test.packing,
-                     "file of `prepare`; its material, in the .json beside it, counts where no option says otherwise. "
+                     "file of `prepare`; its material, in the .json of the same name, counts where no option is given. "
                      "Without: a packing is prepared");
   declare_material(app, test.material);
   declare_preparation(app, test.preparation);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "material.hpp"
 #include "scarp/dem/preparation.hpp"
 
@@ -33,8 +33,8 @@ PackingType consolidate(PackingType const& cloud, typename PackingType::Law cons
     scarp::reject("the consolidation at friction {} ended with {} ({}): change pressure, stiffness or number of grains",
                   friction, scarp::name(prepared.verdict.status), scarp::name(prepared.verdict.reason));
   }
-  examples::say(stdout, "preparation friction {:.6f} gives void ratio {:.6f}\n", friction,
-                prepared.packing.void_ratio());
+  examples::print(stdout, "preparation friction {:.6f} gives void ratio {:.6f}\n", friction,
+                  prepared.packing.void_ratio());
   std::fflush(stdout);
   return std::move(prepared.packing);
 }

@@ -43,7 +43,7 @@ double mean_radius(PackingType const& packing) {
   return sum / static_cast<double>(count);
 }
 
-/// Looks at a specimen after every step and tells what a row of the table says.
+/// Evaluates a specimen after every step for a row of the table.
 template <class PackingType>
 class Recorder {
  public:

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../shared/packing_input.hpp"
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "material.hpp"
 #include "paths.hpp"
 #include "scarp/dem/drive.hpp"
@@ -13,7 +13,7 @@
 
 namespace rve_lab {
 
-/// Which of a replay's law parameters stand on the command line; the others come from the contacts where they tell.
+/// Which of a replay's law parameters are on the command line; the others follow from the contacts where these determine them.
 struct GivenLaw {
   bool normal_stiffness = false;
   bool tangential_stiffness = false;
@@ -65,11 +65,11 @@ void relax(PackingType& packing, scarp::LinearFrictional const& law, double pres
     scarp::reject("the packing does not come to rest at {} Pa ({}): check cell, stiffness and pressure", pressure,
                   scarp::name(verdict.reason));
   }
-  examples::say(stdout, "relaxed at {} Pa: void ratio {:.8f}, {:.8f} in the file\n", pressure, packing.void_ratio(),
-                before);
+  examples::print(stdout, "relaxed at {} Pa: void ratio {:.8f}, {:.8f} in the file\n", pressure, packing.void_ratio(),
+                  before);
 }
 
-/// \throws InputError for files that are wrong, and when the packing cannot go on; the rows so far are then on disk
+/// \throws InputError for files that are wrong, and when the packing cannot continue; the rows so far are then on disk
 template <class PackingType>
 void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
                 std::optional<scarp::CsvColumns> const& contacts, Tensor const& cell,
@@ -81,23 +81,23 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
   PathKind const& path = path_named(choice.path.name);
   Lab lab(std::move(named.packing), law, path, choice.path.strain_step, choice.path.held);
   auto const first = scarp::balance(lab.packing(), law);
-  examples::say(stdout, "{} grains, {} contacts, void ratio {:.8f}\n", lab.packing().grain_count(), first.contacts,
-                lab.packing().void_ratio());
-  examples::say(stdout, "cell {:.12g},{:.12g},{:.12g},{:.12g} m\n", cell(0, 0), cell(1, 0), cell(0, 1), cell(1, 1));
-  examples::say(stdout, "law: normal stiffness {} N/m, tangential {} N/m, friction {}\n", law.normal_stiffness,
-                law.tangential_stiffness, law.friction);
-  examples::say(stdout, "stress [Pa]: xx {:.6f}, xy {:.6f}, yx {:.6f}, yy {:.6f}\n", first.stress(0, 0),
-                first.stress(0, 1), first.stress(1, 0), first.stress(1, 1));
+  examples::print(stdout, "{} grains, {} contacts, void ratio {:.8f}\n", lab.packing().grain_count(), first.contacts,
+                  lab.packing().void_ratio());
+  examples::print(stdout, "cell {:.12g},{:.12g},{:.12g},{:.12g} m\n", cell(0, 0), cell(1, 0), cell(0, 1), cell(1, 1));
+  examples::print(stdout, "law: normal stiffness {} N/m, tangential {} N/m, friction {}\n", law.normal_stiffness,
+                  law.tangential_stiffness, law.friction);
+  examples::print(stdout, "stress [Pa]: xx {:.6f}, xy {:.6f}, yx {:.6f}, yy {:.6f}\n", first.stress(0, 0),
+                  first.stress(0, 1), first.stress(1, 0), first.stress(1, 1));
   if (first.contacts == 0) {
-    examples::say(
+    examples::print(
         stderr,
         "warning: no grains of '{}' touch, so that the stress is zero until the path brings them together: check units "
         "and cell, or compress it first\n",
         choice.particles);
   }
   auto const fabric = scarp::contact_fabric(lab.packing(), law);
-  examples::say(stdout, "fabric of the contacts: xx {:.10f}, xy {:.10f}, yy {:.10f}\n", fabric(0, 0), fabric(0, 1),
-                fabric(1, 1));
+  examples::print(stdout, "fabric of the contacts: xx {:.10f}, xy {:.10f}, yy {:.10f}\n", fabric(0, 0), fabric(0, 1),
+                  fabric(1, 1));
   scarp::CsvLog log(choice.out, {"step", "strain", "Fxx", "Fxy", "Fyx", "Fyy", "sxx", "sxy", "syx", "syy", "void_ratio",
                                  "n_contacts", "max_overlap_over_rmin"});
   auto const write = [&](long step) { log.add(std::span<double const>(replay_row(lab, path, step))); };
@@ -110,8 +110,8 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
     if (step % steps_per_row == 0 || step == steps) write(step);
   }
   if (path.held != nullptr) require_held(lab, path);
-  examples::say(stdout, "{} to strain {:.6g} in {} steps of {}: {}\n", path.name, path.strain(lab.deformation()), steps,
-                choice.path.strain_step, choice.out);
+  examples::print(stdout, "{} to strain {:.6g} in {} steps of {}: {}\n", path.name, path.strain(lab.deformation()),
+                  steps, choice.path.strain_step, choice.out);
 }
 
 inline void replay(Replay choice, GivenLaw const& given) {

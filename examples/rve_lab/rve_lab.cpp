@@ -3,8 +3,8 @@
 #include <exception>
 #include <iostream>
 
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "../shared/version_option.hpp"
 #include "options.hpp"
 #include "preparation.hpp"
@@ -40,7 +40,7 @@ void write_packing(Test const& choice, scarp::RunFolder& own, PackingType const&
   examples::write_json(material_path(file), document);
   write_state(folder, "packing", packing, law);
   auto const state = scarp::balance(packing, law);
-  examples::say(
+  examples::print(
       stdout, "{}: void ratio {:.6f}, {} contacts, coordination {:.3f}, stress [Pa] xx {:.1f}, xy {:.1f}, yy {:.1f}\n",
       file.string(), packing.void_ratio(), state.contacts, scarp::coordination(packing, law).all, state.stress(0, 0),
       state.stress(0, 1), state.stress(1, 1));

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../shared/budget_report.hpp"
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/tell.hpp"
 #include "choices.hpp"
 #include "material_file.hpp"
 #include "recorder.hpp"
@@ -19,21 +19,21 @@ namespace rve_lab {
 inline double largest_ratio(Row const& row) { return value(row, "mean_q") / value(row, "mean_p"); }
 
 inline void print_head() {
-  examples::say(stdout, "{:>9} {:>11} {:>11} {:>7} {:>9} {:>6} {:>6} {:>9}\n", "strain", "p [Pa]", "q [Pa]", "q/p", "e",
-                "Z", "F_c", "e_v");
+  examples::print(stdout, "{:>9} {:>11} {:>11} {:>7} {:>9} {:>6} {:>6} {:>9}\n", "strain", "p [Pa]", "q [Pa]", "q/p",
+                  "e", "Z", "F_c", "e_v");
 }
 
 inline void print_row(Row const& row) {
-  examples::say(stdout, "{:>9.5f} {:>11.4g} {:>11.4g} {:>7.3f} {:>9.5f} {:>6.3f} {:>6.3f} {:>9.5f}\n",
-                value(row, "strain"), value(row, "mean_p"), value(row, "mean_q"), largest_ratio(row),
-                value(row, "void_ratio"), value(row, "coordination"), value(row, "contact_anisotropy"),
-                value(row, "volumetric_strain"));
+  examples::print(stdout, "{:>9.5f} {:>11.4g} {:>11.4g} {:>7.3f} {:>9.5f} {:>6.3f} {:>6.3f} {:>9.5f}\n",
+                  value(row, "strain"), value(row, "mean_p"), value(row, "mean_q"), largest_ratio(row),
+                  value(row, "void_ratio"), value(row, "coordination"), value(row, "contact_anisotropy"),
+                  value(row, "volumetric_strain"));
   std::fflush(stdout);
 }
 
 /// Sends a packing along the path. In the run's folder: path.csv row by row, the states at the start, at the largest q/p and at
-/// the end, end.packing (with end.json) to go on from, summary.json last.
-/// \throws InputError when the packing cannot go on; the rows so far are then on disk
+/// the end, end.packing (with end.json) to continue from, summary.json last.
+/// \throws InputError when the packing cannot continue; the rows so far are then on disk
 template <class PackingType>
 void run_path(PackingType start, typename PackingType::Law const& law, Path const& choice, scarp::RunFolder& own,
               nlohmann::json const& material) {
@@ -90,8 +90,8 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   write_state(folder, "end", lab.packing(), law);
   scarp::save_packing(folder / "end.packing", lab.packing());
   examples::write_json(folder / "end.json", nlohmann::json{{"material", material}});
-  examples::say(stdout, "{}{}", scarp::budget_headline(budget.parts()), scarp::budget_table(budget.parts()));
-  examples::say(stdout, "largest q/p {:.4f} at strain {:.5f}\n", largest_ratio(peak), value(peak, "strain"));
+  examples::print(stdout, "{}{}", scarp::budget_headline(budget.parts()), scarp::budget_table(budget.parts()));
+  examples::print(stdout, "largest q/p {:.4f} at strain {:.5f}\n", largest_ratio(peak), value(peak, "strain"));
   nlohmann::json const summary{{"path", choice.name},
                                {"material", material},
                                {"grains", lab.packing().grain_count()},

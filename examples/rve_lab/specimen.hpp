@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "paths.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/balance.hpp"
@@ -99,8 +99,8 @@ class Specimen {
           "the packing does not come from {:.6g} Pa to the {:.6g} Pa that its path holds ({}): choose another stress",
           present, pressure_, scarp::name(verdict.reason));
     }
-    examples::say(stdout, "brought from {:.6g} to {:.6g} Pa before the path: void ratio {:.8f}, {:.8f} before\n",
-                  present, pressure_, packing_.void_ratio(), before);
+    examples::print(stdout, "brought from {:.6g} to {:.6g} Pa before the path: void ratio {:.8f}, {:.8f} before\n",
+                    present, pressure_, packing_.void_ratio(), before);
     inverse_start_ = packing_.cell.inverse();
     if (verdict = renew(); !verdict.acceptable())
       scarp::reject("the packing cannot be tested ({}): take a larger one", scarp::name(verdict.reason));

@@ -31,7 +31,7 @@ scarp::CsvTable particle_table(PackingType const& packing) {
 }
 
 /// STEM_contacts.csv: image of the second grain in base vectors, its branch from the first, forces on it.
-/// kn, ks and tan_phi only where the law has constant stiffnesses, as a replay asks for them.
+/// kn, ks and tan_phi only where the law has constant stiffnesses, as a replay requires them.
 template <class PackingType>
 scarp::CsvTable contact_table(PackingType const& packing, typename PackingType::Law law) {
   constexpr bool constant = requires { law.normal_stiffness; };

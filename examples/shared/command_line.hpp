@@ -90,7 +90,7 @@ class ConfigFile : public CLI::ConfigTOML {
   CLI::App const& app_;
 };
 
-/// One with an unknown option is refused when it is read.
+/// One with an unknown option is rejected when it is read.
 inline void declare_config(CLI::App& app, std::string const& what = "file with lines `option = value`") {
   app.set_config("--config", "", what);
   app.config_formatter(std::make_shared<ConfigFile>(app));

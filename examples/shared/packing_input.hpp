@@ -45,7 +45,7 @@ inline Tensor parse_cell(std::string const& text) {
 }
 
 /// Branches of the contacts of a table [m], or nothing where it does not hold them: columns branch_x and branch_y, or
-/// for discs nx, ny and overlap, which with the radii say the same.
+/// for discs nx, ny and overlap, which with the radii are equivalent.
 inline std::vector<scarp::Vector<2>> branches(scarp::CsvColumns const& contacts, std::vector<double> const& radii_sum) {
   std::vector<scarp::Vector<2>> found;
   if (contacts.has("branch_x") && contacts.has("branch_y")) {
@@ -62,7 +62,7 @@ inline std::vector<scarp::Vector<2>> branches(scarp::CsvColumns const& contacts,
   return found;
 }
 
-/// What the contacts say of the cell: branch = x2 - x1 + H image.
+/// Equation of a contact for the cell: branch = x2 - x1 + H image.
 struct CellClues {
   std::vector<scarp::Vector<2>> offset;  ///< branch - (x2 - x1) [m]
   std::vector<scarp::Vector<2>> image;   ///< in base vectors
@@ -151,7 +151,7 @@ inline std::optional<double> only_value(scarp::CsvColumns const& contacts, std::
   return values[0];
 }
 
-/// Name of the grains' shape, as their columns tell.
+/// Name of the grains' shape, by their columns.
 /// \throws InputError where there are no sizes
 inline std::string shape_of(scarp::CsvColumns const& particles) {
   if (particles.has("r")) return "disc";
@@ -160,7 +160,7 @@ inline std::string shape_of(scarp::CsvColumns const& particles) {
                 particles.file());
 }
 
-/// Another code's packing as its files tell: grains, contacts where they are given, cell (columns: base vectors [m]).
+/// Another code's packing from its files: grains, contacts where they are given, cell (columns: base vectors [m]).
 struct PackingInput {
   scarp::CsvColumns particles;
   std::optional<scarp::CsvColumns> contacts;
@@ -168,7 +168,7 @@ struct PackingInput {
 };
 
 /// particles, contacts: names of files; cell: a1x,a1y,a2x,a2y. One of contacts and cell may be empty: the contacts that
-/// cross the boundary tell the cell.
+/// cross the boundary determine the cell.
 /// \throws InputError for files that are wrong or do not fit together
 inline PackingInput read_packing_input(std::string const& particles, std::string const& contacts,
                                        std::string const& cell) {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tell.hpp"
+#include "print.hpp"
 
 namespace examples {
 
@@ -45,15 +45,15 @@ inline std::string present_name(CLI::App const& app, std::string const& name) {
   if (found == std::end(renamed_options)) return name;
   std::string const now(found->now);
   if (app.get_option_no_throw("--" + name) != nullptr || app.get_option_no_throw("--" + now) == nullptr) return name;
-  say(stderr, "warning: --{} is now --{} (the old name ends with version 0.3): use the new name\n", name, now);
+  print(stderr, "warning: --{} is now --{} (the old name ends with version 0.3): use the new name\n", name, now);
   return now;
 }
 
 /// The present value of an option for one of before version 0.2.
 inline std::string present_value(std::string_view option, std::string value) {
   if (option != "footing" || value != "sticking") return value;
-  say(stderr,
-      "warning: --footing sticking is now --footing tied (the old value ends with version 0.3): use the new one\n");
+  print(stderr,
+        "warning: --footing sticking is now --footing tied (the old value ends with version 0.3): use the new one\n");
   return "tied";
 }
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "print.hpp"
 #include "scarp/core/build_info.hpp"
 #include "scarp/run/resources.hpp"
 #include "scarp/run/run_folder.hpp"
-#include "tell.hpp"
 #include "write_json.hpp"
 
 namespace examples {
@@ -31,7 +31,7 @@ inline CLI::Option* declare_output(CLI::App& app, Output& output, std::string co
   return option;
 }
 
-/// An option whose values have names; what is told of it afterwards are these names, not numbers.
+/// An option whose values have names; reports use these names, not numbers.
 template <class Enum, class Member>
 CLI::Option* add_named(CLI::App& app, std::string const& option, Member& member, std::string const& what,
                        std::vector<std::pair<std::string, Enum>> const& names) {
@@ -81,7 +81,7 @@ inline scarp::RunRecord::Lines default_options(CLI::App const& app) {
 /// Of the source that this was built from; "unknown" outside of a repository.
 std::string_view commit();
 
-/// What a program says of the run that it begins.
+/// Description of a run by the program that begins it.
 /// app: with the run's options
 inline scarp::RunRecord record_of(std::string program, CLI::App const& app,
                                   scarp::BuildInfo const& build = scarp::build_info()) {
@@ -105,7 +105,7 @@ inline nlohmann::ordered_json json_of(scarp::RunRecord const& record) {
 }
 
 /// What was requested in numbers that memory depends on.
-inline std::string sizes_asked(CLI::App const& app) {
+inline std::string requested_sizes(CLI::App const& app) {
   std::string text;
   for (char const* name : {"elements", "size", "columns", "rows", "cells", "mesh", "grains", "packings", "seeds"}) {
     for (auto const& [option, value] : all_options(app)) {
@@ -115,13 +115,13 @@ inline std::string sizes_asked(CLI::App const& app) {
   return text;
 }
 
-/// Says why a program ends with an exception.
-/// \return its exit code: 2 for a folder, checkpoint or other input that is refused, else 1
+/// Prints the reason why a program ends with an exception.
+/// \return its exit code: 2 for a folder, checkpoint or other input that is rejected, else 1
 inline int ended_by(std::exception const& problem, std::string const& program, CLI::App const& app) {
   if (dynamic_cast<std::bad_alloc const*>(&problem) != nullptr) {
-    examples::say(stderr, "{}: the memory is spent (requested: {}): request less\n", program, sizes_asked(app));
+    examples::print(stderr, "{}: out of memory (requested: {}): request less\n", program, requested_sizes(app));
   } else {
-    examples::say(stderr, "{}: {}\n", program, problem.what());
+    examples::print(stderr, "{}: {}\n", program, problem.what());
   }
   return dynamic_cast<scarp::InputError const*>(&problem) != nullptr ? 2 : 1;
 }

@@ -29,7 +29,7 @@ inline void declare_version(CLI::App& app) {
 }
 
 /// Reads the command line.
-/// \return exit code when the program is to end: 0 after --help and the like, 2 for options that are refused
+/// \return exit code when the program is to end: 0 after --help and the like, 2 for options that are rejected
 inline std::optional<int> ended_by_options(CLI::App& app, int argc, char** argv) {
   try {
     parse(app, argc, argv);

@@ -18,7 +18,7 @@ struct Footing {
   static constexpr double half_width = 1.0;  ///< [m]
 
   /// \f$ N_q = e^{\pi\tan\varphi}\tan^2(45°+\varphi/2),\; N_c = (N_q - 1)\cot\varphi \f$, 2 + pi without friction; the weightless
-  /// problem's exact answer is \f$ q_u = c N_c + q N_q \f$ (Prandtl 1920, Reissner 1924).
+  /// problem's exact solution is \f$ q_u = c N_c + q N_q \f$ (Prandtl 1920, Reissner 1924).
   double surcharge_factor() const {
     double const passive = std::tan(std::numbers::pi / 4.0 + friction / 2.0);
     return std::exp(std::numbers::pi * std::tan(friction)) * passive * passive;

@@ -23,14 +23,14 @@ struct Choice {
   double gate = 1.0;  ///< [%]
 };
 
-/// Presses a footing into finer and finer meshes; the answer is divided by `unit` to a bearing capacity factor.
+/// Presses a footing into finer and finer meshes; the result is divided by `unit` to a bearing capacity factor.
 template <class Element, class Scheme>
 bool block(std::string const& what, strip_footing::Footing const& footing, double formula, double unit, int levels,
            std::optional<double> gate) {
   examples::Series series{what, formula, gate};
   for (int level = 0; level < levels; ++level) {
     auto pressed = strip_footing::press<Element, Scheme>(footing, {.refinements = level});
-    pressed.answer /= unit;
+    pressed.result /= unit;
     series.outcomes.push_back(pressed);
   }
   series.print();

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "elastic_ground.hpp"
 #include "scarp/element/hex20.hpp"
@@ -30,8 +30,8 @@ bool block(char const* name, Eigen::MatrixXd const& exact, Choice const& choice,
     double const error = surface_orders::distance(
         surface_orders::surface<Element>({.rows = rows, .poisson = choice.poisson, .step = step}), exact);
     found = before > 0.0 ? std::log2(before / error) : 0.0;
-    examples::say(stdout, "{:<6} {:<10} {:5} {:12.2e} {:>6}\n", name, how, rows, error,
-                  before > 0.0 ? fmt::format("{:.2f}", found) : "");
+    examples::print(stdout, "{:<6} {:<10} {:5} {:12.2e} {:>6}\n", name, how, rows, error,
+                    before > 0.0 ? fmt::format("{:.2f}", found) : "");
     before = error;
   }
   return found > order - 0.25;
@@ -41,7 +41,7 @@ bool table(Choice const& choice) {
   using namespace scarp;
   auto const exact =
       surface_orders::surface<Quad8, FullIntegration>({.rows = 4 * choice.rows, .poisson = choice.poisson});
-  examples::say(stdout, "{:<6} {:<10} {:>5} {:>12} {:>6}\n", "shape", "step", "rows", "error/throw", "order");
+  examples::print(stdout, "{:<6} {:<10} {:>5} {:>12} {:>6}\n", "shape", "step", "rows", "error/throw", "order");
   bool good = true;
   auto const each = [&]<class Element>(Element, char const* name) {
     good &= block<Element>(name, exact, choice, Step::moments, "moments");

@@ -29,7 +29,7 @@ struct Cylinder {
 
 struct Pressures {
   examples::Outcome elastic;  ///< pressure over displacement, within the elastic range
-  examples::Outcome limit;    ///< pressure when the wall goes on without more
+  examples::Outcome limit;    ///< pressure at which the wall yields without more
 };
 
 /// Moves the inner wall outwards until the whole ring is plastic.
@@ -72,10 +72,10 @@ Pressures expand(Cylinder const& cylinder, int cells) {
   double const little = 1e-3;
   auto const elastic = stepping.run(newton, problem, 0.0, little, no_observer);
   double const stiffness = pressure() / (little * yield_move);
-  Pressures answer{{elements, done.dof_count(), stiffness, elastic, watch.seconds()}, {}};
+  Pressures result{{elements, done.dof_count(), stiffness, elastic, watch.seconds()}, {}};
   auto const plastic = stepping.run(newton, problem, little, 6.0, no_observer);
-  answer.limit = {elements, done.dof_count(), pressure(), plastic, watch.seconds()};
-  return answer;
+  result.limit = {elements, done.dof_count(), pressure(), plastic, watch.seconds()};
+  return result;
 }
 
 }  // namespace thick_cylinder

@@ -2,7 +2,7 @@
 // Lame's stiffness and the limit pressure of a thick cylinder; the plastic ring round an opening in the ground (Salencon).
 #include <CLI/CLI.hpp>
 
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "cylinder.hpp"
 #include "opening.hpp"
@@ -38,9 +38,9 @@ bool opening(char const* name, thick_cylinder::Opening const& ground, int levels
   }
   radius.print();
   bool const near = errors.back() <= 100.0 * gate;
-  examples::say(stdout, "  stresses within three radii, root of the mean square error over p0:");
-  for (double const error : errors) examples::say(stdout, " {:.3f} %", error);
-  examples::say(stdout, "  {} {:g} %\n", near ? "within" : "MISSES", 100.0 * gate);
+  examples::print(stdout, "  stresses within three radii, root of the mean square error over p0:");
+  for (double const error : errors) examples::print(stdout, " {:.3f} %", error);
+  examples::print(stdout, "  {} {:g} %\n", near ? "within" : "MISSES", 100.0 * gate);
   return radius.holds() && near;
 }
 

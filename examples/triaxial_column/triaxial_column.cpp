@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-// Does a column of packings, in a triaxial test, answer as one packing does? In space, with hexahedra and tetrahedra.
+// A column of packings in a triaxial test, compared with one packing: in space, with hexahedra and tetrahedra.
 
 #include <CLI/CLI.hpp>
 
 #include "../shared/command_line.hpp"
-#include "../shared/tell.hpp"
+#include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "column_test.hpp"
 #include "rve_test.hpp"
@@ -22,8 +22,8 @@ constexpr double uniform = 0.01;  // spread of the axial stress up to which a co
 template <class Element>
 double compare(char const* name, Packing const& packing, std::vector<Row> const& alone, Choice const& choice) {
   auto const column = column_test<Element>(packing, choice);
-  examples::say(stdout, "\n{}: {} elements, {} points\n{:>9} {:>12} {:>12} {:>10} {:>10} {:>9}\n", name,
-                column.elements, column.points, "strain", "axial [Pa]", "packing", "e_v", "packing", "spread");
+  examples::print(stdout, "\n{}: {} elements, {} points\n{:>9} {:>12} {:>12} {:>10} {:>10} {:>9}\n", name,
+                  column.elements, column.points, "strain", "axial [Pa]", "packing", "e_v", "packing", "spread");
   double worst_stress = 0.0;
   double worst_uniform = 0.0;
   double uniform_to = 0.0;  // strain
@@ -42,18 +42,18 @@ double compare(char const* name, Packing const& packing, std::vector<Row> const&
     bool const last = &row == &column.rows.back();
     if (row.axial_strain < next && !last) continue;
     next += choice.strain / 10.0;
-    examples::say(stdout, "{:9.5f} {:12.0f} {:12.0f} {:10.6f} {:10.6f} {:9.1e}\n", row.axial_strain, row.axial_stress,
-                  own.axial_stress, row.volumetric_strain, own.volumetric_strain, row.spread);
+    examples::print(stdout, "{:9.5f} {:12.0f} {:12.0f} {:10.6f} {:10.6f} {:9.1e}\n", row.axial_strain, row.axial_stress,
+                    own.axial_stress, row.volumetric_strain, own.volumetric_strain, row.spread);
   }
   auto const& run = column.run;
-  examples::say(stdout, "{}: axial stress differs by {:.2f} % at most, volumetric strain by {:.1e}\n", name,
-                100.0 * worst_stress, worst_volume);
-  examples::say(stdout,
-                "up to the strain {:.5f}, where points differ by less than {:.0f} %: axial stress by {:.2f} %\n",
-                uniform_to, 100.0 * uniform, 100.0 * worst_uniform);
-  examples::say(stdout, "{} steps, {} rejected, {} iterations, {} DEM steps, residual {:.1e}, {:.1f} s, {} {}\n",
-                run.steps, run.refused, run.iterations, run.inner_steps, run.largest_residual, run.seconds,
-                scarp::name(run.verdict.status), scarp::name(run.verdict.reason));
+  examples::print(stdout, "{}: axial stress differs by {:.2f} % at most, volumetric strain by {:.1e}\n", name,
+                  100.0 * worst_stress, worst_volume);
+  examples::print(stdout,
+                  "up to the strain {:.5f}, where points differ by less than {:.0f} %: axial stress by {:.2f} %\n",
+                  uniform_to, 100.0 * uniform, 100.0 * worst_uniform);
+  examples::print(stdout, "{} steps, {} rejected, {} iterations, {} DEM steps, residual {:.1e}, {:.1f} s, {} {}\n",
+                  run.steps, run.refused, run.iterations, run.inner_steps, run.largest_residual, run.seconds,
+                  scarp::name(run.verdict.status), scarp::name(run.verdict.reason));
   std::fflush(stdout);
   return run.verdict.acceptable() ? worst_uniform : 1.0;
 }
@@ -75,12 +75,12 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   auto const prepared = consolidated(choice);
   if (!prepared.verdict.acceptable()) {
-    examples::say(stderr, "the packing was not prepared ({}): try another seed\n",
-                  scarp::name(prepared.verdict.reason));
+    examples::print(stderr, "the packing was not prepared ({}): try another seed\n",
+                    scarp::name(prepared.verdict.reason));
     return 1;
   }
-  examples::say(stdout, "{} spheres at {:.0f} Pa, void ratio {:.3f}\n", choice.grains, choice.pressure,
-                prepared.packing.void_ratio());
+  examples::print(stdout, "{} spheres at {:.0f} Pa, void ratio {:.3f}\n", choice.grains, choice.pressure,
+                  prepared.packing.void_ratio());
   auto const alone = rve_test(prepared.packing, choice);
   double const hexahedra = compare<scarp::Hex8>("Hex8", prepared.packing, alone, choice);
   double const tetrahedra = compare<scarp::Tet10>("Tet10", prepared.packing, alone, choice);

@@ -94,7 +94,7 @@ def kill_once(scene, folder, chance, seconds):
         process.wait()
         killed = process.returncode < 0
         expect(killed or process.returncode == 0, f"{scene}: ended with {process.returncode}\n{said[-2000:]}")
-        return killed, "going on from" in said
+        return killed, "resuming from" in said
 
 
 def check_kills(scene):
@@ -123,7 +123,7 @@ def check_kills(scene):
                     break
             if killed:
                 code, said = run(saving(scene, chance.choice((1, 2, 3))), folder)
-                continued += "going on from" in said
+                continued += "resuming from" in said
                 expect(code == 0, f"{scene}: the last part ended with {code}\n{said[-2000:]}")
             check_same(f"{scene}, run {chains} after {kills} kills in all", folder / "out", expected)
         expect(continued > 0, f"{scene}: no run went on from a checkpoint")

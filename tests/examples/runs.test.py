@@ -145,7 +145,7 @@ def check_folders(folder):
 
 def check_memory(folder):
     code, said = run(["fault_rupture", "--elements", "60000", "--threads", "1"], folder, 3 * 1024**3)
-    expect(code == 2 and re.search(r"400 grains would take about 15\.\d GB of memory \(\d\.\d GB are left by .*ulimit", said),
+    expect(code == 2 and re.search(r"400 grains would need about 15\.\d GB of memory \(\d\.\d GB are left by .*ulimit", said),
            f"too many triangles: ended with {code}\n{said}")
     code, said = run(["fault_rupture", "--elements", "1000000", "--grains", "100000"], folder)
     expect(code == 2 and "GB are left by" in said, f"far too many: ended with {code}\n{said}")
@@ -153,7 +153,7 @@ def check_memory(folder):
     # Enough to start, by two megabytes: a packing of this size needs more than five.
     start = next(size for size in range(4, 400, 2) if run(["rve_lab", "--version"], folder, size * 1024**2)[0] == 0)
     code, said = run(["rve_lab", "prepare", "--grains", "100000"], folder, (start + 2) * 1024**2)
-    expect(code > 0 and "--grains 100000" in said and "memory is spent" in said, f"no memory: ended with {code}\n{said}")
+    expect(code > 0 and "--grains 100000" in said and "out of memory" in said, f"no memory: ended with {code}\n{said}")
 
 
 def check_values(folder):

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "../tell.hpp"
+#include "../print.hpp"
 #include "scarp/fault/mesh_file_ground.hpp"
 
 namespace fault_rupture {
@@ -65,7 +65,7 @@ ChosenGround<E> ground_of(Choice const& choice) {
   if (!choice.mesh.empty()) {
     std::vector<std::string> notes;
     auto ground = scarp::ground_from_file<E>(choice.mesh, &notes);
-    examples::tell(notes);
+    examples::print_notes(notes);
     return {.given = std::move(ground.given)};
   }
   auto const pattern = choice.pattern.value_or(is_triangle ? MeshPattern::crossed : MeshPattern::quads);

@@ -39,9 +39,9 @@ struct ChosenGround {
   double depth() const;
 };
 
-/// Size of the elements and, unless it is chosen already, width of the strip that a length asks for where it is too short
+/// Size of the elements and, unless it is chosen already, width of the strip that a length requires where it is too short
 /// for the usual mesh.
-/// \throws scarp::InputError for a length that asks for too many elements
+/// \throws scarp::InputError for a length that requires too many elements
 template <class ElementType>
 void choose_strip(Choice& choice);
 

@@ -20,7 +20,7 @@ inline scarp::StripFooting footing_of(Choice const& choice) {
           .bearing = choice.bearing_pressure > 0.0 ? choice.bearing_pressure : own};
 }
 
-/// What the choice says of a structure.
+/// Applies the choice's options to a structure.
 inline void set(scarp::NoStructure&, Choice const&) {}
 inline void set(scarp::TiedFooting& structure, Choice const& choice) { structure.footing = footing_of(choice); }
 inline void set(RigidFooting& structure, Choice const& choice) {

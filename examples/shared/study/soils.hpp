@@ -21,7 +21,7 @@ using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 /// Columns of packings, of which every point draws one.
 using Columns = scarp::RandomChoice<scarp::PackingsByDepth<Grains>>;
 
-/// The study's ellipses, consolidated under the overburden of every depth; the solver learns tangents from answers. Where they lose
+/// The reference study's ellipses, consolidated under the overburden of every depth; the solver learns tangents from responses. Where they lose
 /// all contacts a small stiffness keeps the nodes in place.
 struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, Columns>> {
   using Solver = scarp::QuasiNewton<>;
