@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Your own scene: an aggregate of settings and a function that runs it. Here a packing as provider is sheared at
-// constant volume in load steps, as a point of a boundary-value problem would ask for it.
+// constant volume in load steps, as a point of a boundary-value problem would require it.
 #include "rve_packings.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "subjects.hpp"

@@ -29,7 +29,7 @@ struct Path {
   std::function<scarp::Loading<2>(double rate)> loading;
   double strain = 0.0;
   int samples = 0;
-  bool volume_is_free = true;  ///< else the ratio of lateral to axial stress is told instead of the dilation
+  bool volume_is_free = true;  ///< else the ratio of lateral to axial stress is reported instead of the dilation
 };
 
 /// What a path leaves behind at its samples.
@@ -51,7 +51,7 @@ class Samples {
     other_(sample) = -std::log(packing.cell.determinant() / first_area);
   }
 
-  void tell(Measured& measured) {
+  void report(Measured& measured) {
     if (!path_.volume_is_free) {
       for (int k = 0; k < path_.samples; ++k) other_(k) = stress_(3 * k) / stress_(3 * k + 1);
     }
@@ -105,7 +105,7 @@ Measured walk(PackingType packing, typename PackingType::Law const& law, Damping
   }
   measured.seconds = clock.seconds();
   measured.inner_steps = all;
-  samples.tell(measured);
+  samples.report(measured);
   return measured;
 }
 

@@ -302,7 +302,7 @@ class Sweep {
   static TimedRun timed(std::function<Measured(int)> const& measure, int repetition, double min_seconds) {
     TimedRun run;
     double sum = 0.0;
-    constexpr int most = 1000;  // of runs shorter than the clock can tell
+    constexpr int most = 1000;  // of runs shorter than the clock can resolve
     for (int count = 1; count == 1 || (sum < min_seconds && count <= most); ++count) {
       scarp::CpuTime const clock;
       run.measured = measure(repetition);

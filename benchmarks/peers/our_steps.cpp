@@ -6,8 +6,8 @@
 // our_steps run spheres|discs FILE SPEED DT  from FILE with fluctuations of up to SPEED [m/s] and time steps DT [s]; commands
 //                                            come by standard input, one a line:
 //     start FILE   writes the state at the start, as `grains` below, with accelerations in the place of spins
-//     steps N      makes N steps; answers with CPU nanoseconds, near pairs, lists made
-//     grains FILE  writes positions, velocities, spins; answers with contacts, mean stress [Pa], share of contacts that slide
+//     steps N      makes N steps; prints CPU nanoseconds, near pairs, lists made
+//     grains FILE  writes positions, velocities, spins; prints contacts, mean stress [Pa], share of contacts that slide
 #include <fmt/format.h>
 #include <fmt/os.h>
 

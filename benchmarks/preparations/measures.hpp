@@ -24,7 +24,7 @@ struct Measures {
   double vertical_strain = 0.0;  ///< logarithmic, since the isotropic state
 };
 
-/// What a drained biaxial test says of the packing, and its elastic K0.
+/// Results of a drained biaxial test of the packing, and its elastic K0.
 struct Tested {
   double friction_angle = std::numeric_limits<double>::quiet_NaN();         ///< [degrees], window of 5 %
   double narrow_friction_angle = std::numeric_limits<double>::quiet_NaN();  ///< [degrees], window of 0.5 %

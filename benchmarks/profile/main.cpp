@@ -30,7 +30,7 @@ using Scene = scarp::FreeFieldFault<scarp::Nonlocal<ProfiledSand>>;
 /// Iterations by what they were for, and the progress of a long run.
 struct Iterations : scarp::NeverStops {
   double depth = 25.0;  ///< of the layer [m]
-  long first = 0;       ///< answers to a prediction
+  long first = 0;       ///< responses to a prediction
   long further = 0;
   long refused = 0;  ///< of attempts that were rolled back
   int most = 0;      ///< of one accepted step
@@ -63,7 +63,7 @@ double timed(Call const& call) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / calls;
 }
 
-/// What one iteration does beside the points' answers, each timed alone in the last state.
+/// The parts of an iteration other than the points' responses, each timed alone in the last state.
 template <class Problem>
 void add_parts_of_an_iteration(Problem& problem, Table& table) {
   Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());

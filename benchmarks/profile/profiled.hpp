@@ -23,11 +23,11 @@ inline long thread_nanoseconds() {
   return 1'000'000'000L * now.tv_sec + now.tv_nsec;
 }
 
-/// What decided how many DEM steps an answer takes.
+/// Which bound decided the number of DEM steps of a response.
 enum class Reason { least, strain, inertia, refined, count };
 inline constexpr std::array reason_names{"least number", "strain of a step", "inertial number", "asked again, slower"};
 
-/// Of answers of one kind, or tangents; several threads add to it.
+/// Count and time of responses of one kind, or of tangents; several threads add to it.
 struct Tally {
   std::atomic<long> calls{0};
   std::atomic<long> dem_steps{0};
@@ -57,7 +57,7 @@ struct Tallies {
   }
 };
 
-/// Packings whose answers and tangents are counted and timed.
+/// Packings whose responses and tangents are counted and timed.
 /// Packings: a DemRve
 template <scarp::CheckedProvider Packings>
 struct Profiled {
@@ -95,7 +95,7 @@ struct Profiled {
   Plan plan(State const& committed, scarp::Gradient<dim> const& increment) const {
     auto const own = provider.plan(committed.own, increment);
     if (own <= provider.min_steps) return {own, Reason::least};
-    // The number is rounded up from what the inertial number asks, where that decides.
+    // The number is rounded up from what the inertial number requires, where that decides.
     bool const is_slow = provider.inertial_number_of(committed.own, increment, own - 1) >= provider.inertial_number;
     return {own, is_slow ? Reason::inertia : Reason::strain};
   }

@@ -14,14 +14,14 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double gamma_soil = 15.68e3;  // [N/m3]
 
-std::string effort(FaultAnswer const& found) {
+std::string effort(FaultResponse const& found) {
   return fmt::format("{} at throw/depth {:.3g}, {} steps, {} rejected, {} iterations", name(found.run.verdict.reason),
                      found.run.load / 25.0, found.run.steps, found.run.refused, found.run.iterations);
 }
 
 /// Reaches the throw in balance, without tension that the strength does not have.
 Outcome reaches(FaultGround const& ground, double scale, double limit = 1e-9) {
-  auto const found = answer(ground);
+  auto const found = response(ground);
   Worst worst;
   worst.see(found.run.verdict.acceptable() && found.run.load == ground.throw_to
                 ? 0.0
@@ -54,8 +54,8 @@ Outcome gravity(double times) {
 Outcome units(double length, double stress) {
   FaultGround ground;
   ground.loaded(gamma_soil, 4e3);
-  auto const reference = answer(ground);
-  auto const other = answer(ground.in_units(length, stress));
+  auto const reference = response(ground);
+  auto const other = response(ground.in_units(length, stress));
   Worst worst;
   worst.see(difference(other, reference));
   worst.see(static_cast<double>(other.run.iterations - reference.run.iterations));
@@ -75,7 +75,7 @@ Outcome tiny_throw() {
   FaultGround ground;
   ground.loaded(gamma_soil, 4e3);
   ground.throw_to = 1e-9;
-  auto const found = answer(ground);
+  auto const found = response(ground);
   double most = 0.0;
   for (auto const& moved : found.surface) most = scarp::nan_max(most, moved.norm() * ground.layer().depth);
   // No node goes further than the hanging wall, the square root of 1 + 1/tan(60 degrees)^2 times the throw.

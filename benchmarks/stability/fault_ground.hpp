@@ -57,7 +57,7 @@ struct FaultGround : scarp::FreeFieldFault<FaultSoil, FaultNewton> {
 };
 
 /// What a run on such ground ends with.
-struct FaultAnswer {
+struct FaultResponse {
   scarp::RunReport run;
   std::vector<scarp::Vector<2>> surface;  ///< displacement of the surface's nodes over the depth
   double imbalance = 0.0;                 ///< of vertical reactions and loads, over these or the norm of reactions
@@ -65,14 +65,14 @@ struct FaultAnswer {
 };
 
 template <class Problem>
-FaultAnswer answer(FaultGround const& ground, Problem& problem) {
+FaultResponse response(FaultGround const& ground, Problem& problem) {
   auto scene = ground;
   scene.stepping.first = 1e-3 / 25.0 * ground.layer().depth;
   scene.stepping.smallest = 1e-7 / 25.0 * ground.layer().depth;
   scene.stepping.largest = ground.largest_part * ground.layer().depth;
   scene.stepping.max_displacement_gradient = 0.02;
   scarp::NoObserver no_observer;
-  FaultAnswer found;
+  FaultResponse found;
   auto const settled = scene.settle(problem, no_observer);
   found.run = settled.verdict.acceptable() ? scarp::joined(settled, scene.rupture(problem, no_observer)) : settled;
   auto const& grid = problem.discretisation();
@@ -101,14 +101,14 @@ FaultAnswer answer(FaultGround const& ground, Problem& problem) {
   return found;
 }
 
-inline FaultAnswer answer(FaultGround const& ground) {
+inline FaultResponse response(FaultGround const& ground) {
   scarp::SerialExecutor serial;
   auto problem = ground.problem(serial);
-  return answer(ground, problem);
+  return response(ground, problem);
 }
 
 /// Largest difference of the surfaces' displacements over the larger of them; infinite unless both runs arrived.
-inline double difference(FaultAnswer const& a, FaultAnswer const& b) {
+inline double difference(FaultResponse const& a, FaultResponse const& b) {
   bool const arrived = a.run.verdict.acceptable() && b.run.verdict.acceptable();
   double apart = arrived && a.surface.size() == b.surface.size() ? 0.0 : std::numeric_limits<double>::infinity();
   double most = 0.0;

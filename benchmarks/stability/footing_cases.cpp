@@ -71,7 +71,7 @@ Stand stand(Scene const& scene, scarp::LoadStepping const& last) {
 
 std::string words(Stand const& found) {
   return fmt::format(
-      "{} (last refusal {}) at load {:.4g}, {} attempts, {} rejected; tilt {:.3g}, lifted {:.2f}  linear residual "
+      "{} (last rejection {}) at load {:.4g}, {} attempts, {} rejected; tilt {:.3g}, lifted {:.2f}  linear residual "
       "{:.1e}",
       name(found.run.verdict.reason), name(found.run.last_failure), found.run.load, found.watch.attempts,
       found.run.refused, found.motion.tilt, found.lifted, found.watch.linear_residual);

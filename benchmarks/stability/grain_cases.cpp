@@ -103,10 +103,10 @@ Case in_single_precision(double kappa) {
     int const grains = size == Size::quick ? 60 : 200;
     Sheared const end = at_stiffness_number<FloatDiscs>(kappa, grains);
     double const exact = at_stiffness_number(kappa, grains).strength;
-    constexpr scarp::Verdict refused{scarp::Status::not_converged, scarp::Reason::unbalanced};
+    constexpr scarp::Verdict rejected{scarp::Status::not_converged, scarp::Reason::unbalanced};
     Outcome outcome{.worst = std::abs(end.strength - exact),
                     .measure = "change of the sin of the friction angle against double precision; " + end.words()};
-    outcome.as_expected = resolved ? end.verdict.acceptable() && outcome.worst < 0.05 : end.verdict == refused;
+    outcome.as_expected = resolved ? end.verdict.acceptable() && outcome.worst < 0.05 : end.verdict == rejected;
     return outcome;
   };
   return {.group = group,

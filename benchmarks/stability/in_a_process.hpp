@@ -31,7 +31,7 @@ inline Judged in_a_process(Case const& one, Size size) {
   };
   void* const memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   pid_t const child = memory == MAP_FAILED ? -1 : fork();
-  if (child < 0) scarp::reject("no process for a case (the system refused): try again");
+  if (child < 0) scarp::reject("no process for a case (fork failed): try again");
   auto& shared = *static_cast<Shared*>(memory);
   if (child == 0) {
     rlim_t const most = size == Size::quick ? 20 : 600;

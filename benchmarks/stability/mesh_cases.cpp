@@ -123,8 +123,8 @@ struct Pressed {
   }
 };
 
-/// Keeps why attempts were refused.
-struct Refusals {
+/// Records why attempts were rejected.
+struct Rejections {
   int attempts = 0;
   int inverted = 0;
   int named = 0;  ///< with the point of the element
@@ -144,8 +144,8 @@ Outcome pressed_flat(double first) {
   scarp::SerialExecutor executor;
   auto problem = Pressed::make(executor);
   scarp::LoadStepping const stepping{.first = first, .smallest = 1e-4, .max_displacement_gradient = 10.0};
-  Refusals refusals;
-  auto const run = stepping.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 1.2, refusals);
+  Rejections rejections;
+  auto const run = stepping.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0, 1.2, rejections);
   double smallest = infinity;
   auto const volumes = problem.discretisation().volumes(Eigen::VectorXd::Zero(problem.dof_count()));
   for (double const volume : volumes) smallest = std::min(smallest, volume);
@@ -154,12 +154,12 @@ Outcome pressed_flat(double first) {
   Worst worst;
   worst.see(height - (1.0 - run.load));
   bool const named = run.verdict == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::step_too_small} &&
-                     refusals.inverted > 0 && run.load < 1.0 && smallest > 0.0 && refusals.named == refusals.inverted &&
-                     refusals.attempts <= 2000;
-  return {named && worst.value < 1e-12, worst.value, "height of the committed block less what the load says",
+                     rejections.inverted > 0 && run.load < 1.0 && smallest > 0.0 &&
+                     rejections.named == rejections.inverted && rejections.attempts <= 2000;
+  return {named && worst.value < 1e-12, worst.value, "height of the committed block less that of the load",
           fmt::format("{} ({}) at {:.4f}, element {}, {} attempts, {} inverted of which {} name the element",
-                      name(run.verdict.reason), name(run.last_failure), run.load, run.worst_point, refusals.attempts,
-                      refusals.inverted, refusals.named)};
+                      name(run.verdict.reason), name(run.last_failure), run.load, run.worst_point, rejections.attempts,
+                      rejections.inverted, rejections.named)};
 }
 
 }  // namespace

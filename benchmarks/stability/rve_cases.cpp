@@ -39,18 +39,18 @@ double deviator(VoigtStress<2> const& stress) { return std::hypot(0.5 * (stress(
 /// Largest principal stress [Pa], positive where it pulls.
 double pull(VoigtStress<2> const& stress) { return deviator(stress) - mean_pressure(stress); }
 
-/// Answers increments one after the other. A response that is not balanced is asked again with twice the steps, as a
+/// Responses to increments one after the other. One that is not balanced is evaluated again with twice the steps, as a
 /// solver does, up to the provider's most steps; then it is taken as it is and counted.
 struct Path {
   Rve provider;
   Rve::State state{};
   Verdict verdict{};
   int unbalanced = 0;
-  double tension = 0.0;        ///< largest of balanced answers, over the pressure at the start
+  double tension = 0.0;        ///< largest of balanced responses, over the pressure at the start
   double tension_share = 0.0;  ///< the same, over their own pressure
 
-  explicit Path(Rve const& asked)
-      : provider(asked), state(asked.initial_state({})), start_(mean_pressure(state.stress)) {}
+  explicit Path(Rve const& given)
+      : provider(given), state(given.initial_state({})), start_(mean_pressure(state.stress)) {}
 
   bool go(Gradient<2> const& increment) {
     Rve::State trial;
@@ -96,7 +96,7 @@ Outcome loose_and_back(Size size) {
   }
   outcome.worst = mean_pressure(path.state.stress) / before;
   outcome.remark =
-      fmt::format("{} while loose, then {}, {} unbalanced answers",
+      fmt::format("{} while loose, then {}, {} unbalanced responses",
                   empty ? "stress and tangent exactly zero, fluid" : "not empty", words(path.verdict), path.unbalanced);
   outcome.as_expected = empty && path.verdict.status == Status::ok && outcome.worst > 0.5 && outcome.worst < 2.0;
   return outcome;
@@ -113,11 +113,11 @@ Outcome pulled(Size size) {
   return {.as_expected = path.tension < 1e-3 && path.unbalanced < increments,
           .worst = path.tension,
           .measure = "largest tension on the way over the pressure at the start",
-          .remark = fmt::format("{} at the end, {} unbalanced answers", words(path.verdict), path.unbalanced)};
+          .remark = fmt::format("{} at the end, {} unbalanced responses", words(path.verdict), path.unbalanced)};
 }
 
 /// Pressure [Pa] below which the round-off of places, 1e-18 m times the stiffness, is a thousandth of the forces: a
-/// packing may then say that it does not balance.
+/// packing may then report that it does not balance.
 constexpr double nameable = 1e-5;
 
 /// Packings that were brought to little pressure, then sheared a little.
@@ -140,11 +140,11 @@ Outcome barely_confined(double pressure, Size size) {
   if (path.unbalanced == increments) {
     outcome.as_expected = path.verdict == Verdict{Status::not_converged, scarp::Reason::unbalanced};
     outcome.worst = path.unbalanced;
-    outcome.measure = "answers of ten that are named as unbalanced";
+    outcome.measure = "responses of ten that are named as unbalanced";
     return outcome;
   }
   outcome.worst = path.tension_share;
-  outcome.remark += fmt::format(", sheared: {}, {} of 10 answers unbalanced", words(path.verdict), path.unbalanced);
+  outcome.remark += fmt::format(", sheared: {}, {} of 10 responses unbalanced", words(path.verdict), path.unbalanced);
   // The stress of one contact pulls by 1/cos - 1 of its own pressure, of the angle between force and branch: at most
   // Coulomb's and that by which an ellipse's arm may lean away from the normal.
   double lean = 0.0;
@@ -157,7 +157,7 @@ Outcome barely_confined(double pressure, Size size) {
   return outcome;
 }
 
-/// The cell's lattice is reduced again and again; a copy that is taken half-way goes on with the same bits.
+/// The cell's lattice is reduced again and again; a copy that is taken half-way continues with the same bits.
 Outcome sheared_far(double strain, Size size) {
   Path path(rve(size));
   int const increments = static_cast<int>(std::lround(strain / 0.005));
@@ -174,7 +174,7 @@ Outcome sheared_far(double strain, Size size) {
     if (!again.go(simple_shear(0.005))) return {.measure = "nothing", .remark = words(again.verdict)};
   }
   bool const same = again.state.packing == path.state.packing;
-  outcome.remark = fmt::format("{} unbalanced answers, {} bits when taken up half-way", path.unbalanced,
+  outcome.remark = fmt::format("{} unbalanced responses, {} bits when taken up half-way", path.unbalanced,
                                same ? "the same" : "other");
   outcome.as_expected = same && path.tension < 1e-3 && outcome.worst < 0.8;
   return outcome;
@@ -186,10 +186,10 @@ Outcome leap(double strain, double within, Size size) {
   gradient(0, 0) = strain;
   gradient(1, 1) = 1.0 / (1.0 + strain) - 1.0;
   Path at_once(rve(size));
-  bool const answered = at_once.go(gradient);
+  bool const acceptable = at_once.go(gradient);
   Outcome outcome{.measure = "difference of the stress ratio q/p from that of 50 increments",
                   .remark = words(at_once.verdict)};
-  if (!answered) return outcome;
+  if (!acceptable) return outcome;
   Path slowly(rve(size));
   // 50 equal stretches of the same constant rate.
   Gradient<2> small = Gradient<2>::Zero();
@@ -200,7 +200,7 @@ Outcome leap(double strain, double within, Size size) {
   }
   auto const ratio = [](Path const& path) { return deviator(path.state.stress) / mean_pressure(path.state.stress); };
   outcome.worst = std::abs(ratio(at_once) - ratio(slowly));
-  // An answer that is not balanced tells the solver to cut: that is an answer too.
+  // A response that is not balanced makes the solver cut the step: that is a result too.
   outcome.as_expected = !at_once.verdict.acceptable() || outcome.worst <= within;
   return outcome;
 }
@@ -223,7 +223,7 @@ Outcome cycles(Size size) {
   return {.as_expected = drift <= 1e-3,
           .worst = drift,
           .measure = "change of stress over the pressure after 1000 cycles of 1e-7",
-          .remark = fmt::format("{:.2g} after 100, {} unbalanced answers", drift_of_first, path.unbalanced)};
+          .remark = fmt::format("{:.2g} after 100, {} unbalanced responses", drift_of_first, path.unbalanced)};
 }
 
 }  // namespace
@@ -239,7 +239,7 @@ Cases rve_cases() {
   for (double const pressure : {1.0, 1e-2, 1e-4, 1e-6}) {
     add(fmt::format("confined by {} Pa", pressure),
         fmt::format("{}; sheared, no more tension than of one sliding contact, or named as unbalanced",
-                    pressure < nameable ? "gets there, or says why not" : "gets there"),
+                    pressure < nameable ? "gets there, or reports the reason" : "gets there"),
         [pressure](Size size) { return barely_confined(pressure, size); });
   }
   for (double const strain : {0.25, 0.5, 1.0}) {

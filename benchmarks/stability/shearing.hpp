@@ -63,24 +63,24 @@ scarp::Verdict relieve(PackingType& packing, typename PackingType::Law const& la
 }
 
 template <class Grains = samples::Discs>
-Sheared prepared_and_sheared(Shearing const& asked) {
+Sheared prepared_and_sheared(Shearing const& path) {
   using scarp::Tensor;
-  auto [packing, verdict] = scarp::IsotropicPreparation{.pressure = asked.prepared_at}.prepare(
-      samples::loose_cloud<Grains>(asked.grains, 3), asked.law);
+  auto [packing, verdict] = scarp::IsotropicPreparation{.pressure = path.prepared_at}.prepare(
+      samples::loose_cloud<Grains>(path.grains, 3), path.law);
   Sheared end{.verdict = verdict, .time_step = scarp::default_time_step_share * packing.pairs.critical_step};
-  if (verdict.acceptable()) end.verdict = relieve(packing, asked.law, asked.prepared_at, asked.pressure);
+  if (verdict.acceptable()) end.verdict = relieve(packing, path.law, path.prepared_at, path.pressure);
   if (!end.verdict.acceptable()) return end;
   scarp::TimeStepper<Grains> stepper;
-  scarp::CellDriver<Grains> drive(packing, asked.law,
-                                  scarp::drained_compression<2>(asked.strain_per_step, asked.pressure));
-  long const steps = std::lround(asked.strain / asked.strain_per_step);
+  scarp::CellDriver<Grains> drive(packing, path.law,
+                                  scarp::drained_compression<2>(path.strain_per_step, path.pressure));
+  long const steps = std::lround(path.strain / path.strain_per_step);
   Tensor<2> mean = Tensor<2>::Zero();
   for (long step = 0; step < steps; ++step) {
     end.verdict = drive.step(stepper);
     if (!end.verdict.acceptable()) return end;
     auto const& seen = drive.seen();
-    if (2 * step >= steps) mean += seen.stress / (0.5 * static_cast<double>(steps) * asked.pressure);
-    end.held += std::abs(seen.stress(0, 0) / asked.pressure + 1.0) / static_cast<double>(steps);
+    if (2 * step >= steps) mean += seen.stress / (0.5 * static_cast<double>(steps) * path.pressure);
+    end.held += std::abs(seen.stress(0, 0) / path.pressure + 1.0) / static_cast<double>(steps);
     end.overlap = std::max(end.overlap, seen.deepest_overlap);
   }
   double const shear = 0.5 * (mean(0, 1) + mean(1, 0));

@@ -20,7 +20,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 
 std::string words(scarp::RunReport const& run, Watch const& watch) {
-  return fmt::format("{} (last refusal {}) at load {:.5g}, {} attempts, {} rejected, {} iterations",
+  return fmt::format("{} (last rejection {}) at load {:.5g}, {} attempts, {} rejected, {} iterations",
                      name(run.verdict.reason), name(run.last_failure), run.load, watch.attempts, run.refused,
                      run.iterations);
 }
@@ -91,7 +91,7 @@ Outcome beyond_the_limit_load(double residual_cohesion, double most) {
           carried, "load carried over the unconfined strength", words(run, watch)};
 }
 
-/// A block that may slide along x: the status says singular, the degree of freedom is one along x.
+/// A block that may slide along x: the status is singular, the degree of freedom is one along x.
 Outcome mechanism() {
   auto problem = Block{.top = Block::Top::loaded, .base_held = false}.make();
   Watch watch;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Stiff and extreme cases: each has its expected response or status.
 // stability [--quick] [PART OF A GROUP OR NAME...]; all cases write stability.csv
-#define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
+#define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests requires the rest
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

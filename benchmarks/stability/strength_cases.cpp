@@ -143,12 +143,12 @@ Outcome tiny_cycles(double pressure, double amplitude, bool yielding, Size size)
   return outcome;
 }
 
-/// From peak to residual within 1e-9 to 1 of plastic shear: an answer on the surface of its own strength, or
+/// From peak to residual within 1e-9 to 1 of plastic shear: a stress on the surface of its own strength, or
 /// `no_return`.
 Outcome steep_softening() {
   Worst worst;
   int none = 0;
-  int asked = 0;
+  int evaluated = 0;
   for (double const softening_strain : {1.0, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9}) {
     scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const law{
         .elasticity = elasticity(),
@@ -161,13 +161,13 @@ Outcome steep_softening() {
       state.stress.head<3>().setConstant(-50e3);
       for (int k = 0; k < 50; ++k) {
         auto next = state;
-        ++asked;
-        auto const answer = law.respond(state, diagonal(0.8 * strain, -strain), next);
-        if (answer.verdict.reason == scarp::Reason::no_return) {
+        ++evaluated;
+        auto const response = law.respond(state, diagonal(0.8 * strain, -strain), next);
+        if (response.verdict.reason == scarp::Reason::no_return) {
           ++none;
           break;
         }
-        worst.see(answer.verdict.acceptable() ? 0.0 : infinity);
+        worst.see(response.verdict.acceptable() ? 0.0 : infinity);
         worst.see(excess(law.strength.at(next.plastic_shear), next.stress) / (25e6 * strain + 50e3));
         worst.see(next.tangent.allFinite() ? 0.0 : infinity);
         state = next;
@@ -175,7 +175,7 @@ Outcome steep_softening() {
     }
   }
   return at_most(1e-9, worst.value, "stress outside the surface over the elastic trial stress",
-                 fmt::format("{} of {} increments have no_return", none, asked));
+                 fmt::format("{} of {} increments have no_return", none, evaluated));
 }
 
 }  // namespace
