@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
-"""No tolerance of doctest's own Approx, which is absolute for numbers below one; no refusal that is tested by its type alone."""
+"""No tolerance of doctest's own Approx, which is absolute for numbers below one; no rejection that is tested by its type alone; no
+everyday word in a comment of include/scarp where the field has a term."""
 import pathlib
 import re
 import sys
@@ -8,6 +9,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 WRONG = {r"doctest::Approx\(": "takes tolerances that are absolute for small numbers: use samples::Approx",
          r"CHECK_THROWS\(|CHECK_THROWS_AS\([^;]*(?:InputError|FileError|FolderError|CheckpointError)\);":
          "passes with any refusal on the way: name the quantity and its value by CHECK_REFUSED or samples::message_of"}
+
+# Everyday words and the terms to write instead, see docs/glossary.md.
+TERMS = {"answer(s|ed|ing)?": "response, stress or result", "ask(s|ed|ing)?": "evaluate or require", "(tell|say)(s|ing)?|told|said": "report or return",
+         "refus(e|ed|es|al|als|ing)": "reject", "(go|goes|going) on": "resume or continue", "hangs? on": "depend on",
+         "starv(e|ed|es|ing)": "lose contact stress", "mend(s|ed|ing)?": "fix", "remember(s|ed|ing)?": "store or memory",
+         "(hear|feel)(s|ing)?|heard|felt": "the quantity and the verb of the equation", "complain(s|ed|t|ts|ing)?": "reject or message",
+         "hopeless": "the bound that is exceeded", "sticking": "tied", "foot wall": "footwall", "(?<!reference )study": "the reference study or (Author, year)"}
 
 faults = []
 files = 0
@@ -20,6 +28,14 @@ for folder in ("tests", "benchmarks"):
                 line = text[:match.start()].count("\n") + 1
                 if "///" not in text.splitlines()[line - 1]:
                     faults.append(f"{path.relative_to(ROOT)}:{line}: {match[0].splitlines()[0]} {why}")
-if files < 100:
+comments = 0
+for path in sorted((ROOT / "include" / "scarp").rglob("*.[ch]pp")):
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        comment = re.search(r"//.*", line)
+        comments += comment is not None
+        for word, term in TERMS.items():
+            if comment and (match := re.search(rf"\b({word})\b", comment[0], re.IGNORECASE)):
+                faults.append(f"{path.relative_to(ROOT)}:{number}: '{match[0]}' in a comment: write {term}")
+if files < 100 or comments < 1000:
     faults.append(f"only {files} files found: this test looks in the wrong place")
 sys.exit("\n".join(faults) or None)
