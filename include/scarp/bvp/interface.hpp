@@ -71,7 +71,7 @@ class Interface {
     auto moved = nodes;
     for (std::size_t n = 0; n < nodes.size(); ++n) moved[n] += increment.segment<2>(static_cast<Eigen::Index>(2 * n));
     for (std::size_t k = 0; k < trial_.size(); ++k) {
-      touch(k, nodes, moved, increment);
+      update(k, nodes, moved, increment);
       Vector<2> const force = body_.area(k) * stress_vector(trial_[k]);
       for (auto const& lever : couplings_[k]) forces(lever.dof) -= lever.direction.dot(force);
     }
@@ -157,8 +157,8 @@ class Interface {
 
   /// Finds the closest place of a point, evaluates the law, and stores the derivative by forward differences: laws of springs and
   /// sliders are piecewise linear, and the closing side is the one that matters at a point that just touches.
-  void touch(std::size_t k, std::vector<Vector<2>> const& nodes, std::vector<Vector<2>> const& moved,
-             Eigen::VectorXd const& increment) {
+  void update(std::size_t k, std::vector<Vector<2>> const& nodes, std::vector<Vector<2>> const& moved,
+              Eigen::VectorXd const& increment) {
     State const& before = committed_[k];
     State& state = trial_[k];
     state = before;

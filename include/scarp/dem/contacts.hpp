@@ -63,7 +63,7 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
   constexpr int dim = PackingType::dim;
   auto const& pairs = packing.pairs;
   for (std::size_t p = 0; p < pairs.count(); ++p) {
-    NearTouch<PackingType> const near(packing, p);
+    PairGeometry<PackingType> const near(packing, p);
     auto const& touch = near.touch;
     double const radius_first = Shape::contact_radius(near.first);
     double const radius_second = Shape::contact_radius(near.second);

@@ -57,7 +57,7 @@ Point<PackingType::dim, double> row_position(PackingType const& packing, std::si
 
 /// How the rows of a near pair touch: poses of both, the branch between the centres [m] and the touch.
 template <class PackingType>
-struct NearTouch {
+struct PairGeometry {
   static constexpr int dim = PackingType::dim;
   using Shape = typename PackingType::Shape;
 
@@ -66,7 +66,7 @@ struct NearTouch {
   Point<dim, double> branch;
   ContactGeometry<dim, double> touch;
 
-  NearTouch(PackingType const& packing, std::size_t pair) {
+  PairGeometry(PackingType const& packing, std::size_t pair) {
     auto const& pairs = packing.pairs;
     auto const row_first = detail::index(pairs.first[pair]);
     auto const row_second = detail::index(pairs.second[pair]);

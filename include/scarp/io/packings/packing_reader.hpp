@@ -164,7 +164,7 @@ void reject_deep_overlaps(PackingType packing, std::vector<std::int64_t> const& 
         file);
   }
   for (std::size_t p = 0; p < packing.pairs.count(); ++p) {
-    NearTouch<PackingType> const near(packing, p);
+    PairGeometry<PackingType> const near(packing, p);
     double const overlap = near.touch.overlap;
     double const radius = std::min(Shape::contact_radius(near.first), Shape::contact_radius(near.second));
     if (overlap <= radius) continue;
