@@ -11,8 +11,10 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/points/nonlocal.hpp"
+#include "scarp/points/point_file.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
+#include "support/files.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 
@@ -114,6 +116,37 @@ TEST_CASE("points that are sent together hold what they share once, and share it
   to.unpack(1, from.pack(1));
   CHECK(population(1) == population(2));
   CHECK(to.pack(std::vector{1, 2, 0}) == from.pack(std::vector{1, 0, 2}));
+}
+
+TEST_CASE("points go on from a file as if they had not stopped, and a file that does not fit changes nothing") {
+  samples::ScratchFolder const folder;
+  auto const file = folder / "points";
+  auto const sites = in_a_row(3);
+  std::vector<double> const volumes(3, 0.1);
+  scarp::Nonlocal const soil{sand(), 0.25};
+  Points first(soil, sites, volumes);
+  auto const step = [](Points& points, int number) {
+    strain(points, [&](int k) { return increment(1e-5 * (k * k + number)); });
+  };
+  for (int number = 1; number <= 2; ++number) step(first, number);
+  scarp::save_points(file, first);
+  Points second(soil, sites, volumes);
+  scarp::load_points(file, second);
+  for (auto* points : {&first, &second}) step(*points, 3);
+  std::vector const all{0, 1, 2};
+  CHECK(second.pack(all) == first.pack(all));
+
+  auto const before = second.pack(all);
+  std::string bits = scarp::read_file(file);
+  Points few(soil, std::span(sites).first(2), std::span(volumes).first(2));
+  CHECK_REFUSED(scarp::load_points(file, few), "it has 3 points", "there are 2");
+  Points wider(scarp::Nonlocal{sand(), 0.35}, sites, volumes);
+  CHECK_REFUSED(scarp::load_points(file, wider), "other means");
+  bits[bits.size() / 2] ^= 1;
+  scarp::write_file(file, bits, scarp::Durability::handed_over);
+  CHECK_REFUSED(scarp::load_points(file, second), "its bytes have changed");
+  CHECK_REFUSED(scarp::load_points(folder / "missing", second), "missing");
+  CHECK(second.pack(all) == before);
 }
 
 TEST_CASE("points take no states that are not theirs, and then nothing has changed") {

@@ -240,4 +240,21 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   std::vector<scarp::PlanOf<Provider>> plans_;
 };
 
+/// A batch that is copied with its points.
+template <int Dim>
+struct CopiedBatch {
+  std::unique_ptr<PointBatch<Dim>> held;
+
+  CopiedBatch(std::unique_ptr<PointBatch<Dim>> batch) : held(std::move(batch)) {}
+  CopiedBatch(CopiedBatch const& other) : held(other.held->copy()) {}
+  CopiedBatch(CopiedBatch&&) noexcept = default;
+  CopiedBatch& operator=(CopiedBatch other) noexcept {
+    held = std::move(other.held);
+    return *this;
+  }
+  ~CopiedBatch() = default;
+  PointBatch<Dim>* operator->() { return held.get(); }
+  PointBatch<Dim> const* operator->() const { return held.get(); }
+};
+
 }  // namespace scarp::detail
