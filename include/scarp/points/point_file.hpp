@@ -20,7 +20,7 @@ inline std::vector<int> numbers_to(int count) {
 }
 }  // namespace detail
 
-/// Writes the committed states of all points, which go on from it as if they had never stopped; grains that states share are in it once.
+/// Writes the committed states of all points. Grains that states share are in it once; points that read it continue with the bits of those that were saved.
 /// \throws InputError for states that name no members, and for points of other processes
 /// \throws FileError when the file cannot be written; an older file of this name is then untouched
 template <int Dim>
