@@ -205,7 +205,8 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   /// \throws InputError for a point whose state is on another process
   State const& present(int k) const {
     if (!here_[index(k)])
-      reject("the state of point {} is asked for where another process owns it: ask that process", numbers_[index(k)]);
+      reject("the state of point {} is requested where another process owns it: request it from that process",
+             numbers_[index(k)]);
     return committed_[index(k)];
   }
 
