@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "scarp/constitutive/mohr_coulomb.hpp"
@@ -212,6 +214,28 @@ auto with_material(std::string const& kind, Task const& task) {
   }
   scarp::reject("there is no material '{}' in {} dimensions (linear_elastic, mohr_coulomb, {}): choose one", kind, Dim,
                 Dim == 2 ? "discs, ellipses" : "spheres");
+}
+
+/// A provider and the bits of what it was made from, packings included.
+template <int Dim>
+struct Material {
+  std::string kind;
+  std::string bits;
+  scarp::AnyProvider<Dim> provider;
+};
+
+/// bits: of the material with its keywords, not prepared yet. Compiled in one source, so that all programs get the same numbers.
+/// \throws InputError, PreparationError, and what progress throws
+template <int Dim>
+Material<Dim> prepared(std::string const& kind, std::string_view bits, int threads, Progress const& progress);
+template <int Dim>
+Material<Dim> restored(std::string const& kind, std::string_view bits);
+
+template <class Recipe>
+std::string bits_of(Recipe const& recipe) {
+  scarp::StateWriter writer;
+  writer("material", recipe);
+  return std::move(writer.bits());
 }
 
 }  // namespace python_points

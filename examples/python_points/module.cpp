@@ -120,18 +120,16 @@ template <int Dim>
 Material<Dim> made(std::string const& kind, py::dict keywords) {
   py::object const progress = keywords.attr("pop")("progress", py::none());
   int const threads = keywords.attr("pop")("threads", 1).template cast<int>();
-  return with_material<Dim>(kind, [&]<class Recipe>(std::type_identity<Recipe>) {
+  std::string const bits = with_material<Dim>(kind, [&]<class Recipe>(std::type_identity<Recipe>) {
     Recipe recipe;
     take_keywords(keywords, recipe);
-    {
-      py::gil_scoped_release const release;
-      recipe.prepare(threads, [&](int done, int total, std::string const& text) {
-        py::gil_scoped_acquire const acquire;
-        if (!progress.is_none()) progress(done, total, text);
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      });
-    }
-    return Material<Dim>::of(kind, recipe);
+    return bits_of(recipe);
+  });
+  py::gil_scoped_release const release;
+  return prepared<Dim>(kind, bits, threads, [&](int done, int total, std::string const& text) {
+    py::gil_scoped_acquire const acquire;
+    if (!progress.is_none()) progress(done, total, text);
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   });
 }
 
@@ -158,7 +156,7 @@ void bind(py::module_& module, char const* material_name, char const* points_nam
       .def_property_readonly("dim", [](Material<Dim> const&) { return Dim; })
       .def(py::pickle([](Material<Dim> const& self) { return py::make_tuple(self.kind, py::bytes(self.bits)); },
                       [](py::tuple const& saved) {
-                        return Material<Dim>::restored(saved[0].cast<std::string>(), saved[1].cast<std::string>());
+                        return restored<Dim>(saved[0].cast<std::string>(), saved[1].cast<std::string>());
                       }));
   module.def(Dim == 2 ? "made" : "made_in_space", &made<Dim>);
   module.def(Dim == 2 ? "defaults" : "defaults_in_space", &defaults<Dim>);

@@ -18,29 +18,6 @@ namespace python_points {
 
 inline constexpr scarp::FileFormat points_format{"SCARPPTS", 1, "material points", "MaterialPoints.save"};
 
-/// A provider and the bits of what it was made from, packings included.
-template <int Dim>
-struct Material {
-  std::string kind;
-  std::string bits;
-  scarp::AnyProvider<Dim> provider;
-
-  template <class Recipe>
-  static Material of(std::string kind, Recipe const& recipe) {
-    scarp::StateWriter writer;
-    writer("material", recipe);
-    return {std::move(kind), std::move(writer.bits()), recipe.provider()};
-  }
-  static Material restored(std::string const& kind, std::string_view bits) {
-    return with_material<Dim>(kind, [&]<class Recipe>(std::type_identity<Recipe>) {
-      Recipe recipe;
-      scarp::StateReader reader(bits);
-      reader("material", recipe);
-      return of(kind, recipe);
-    });
-  }
-};
-
 /// Where points are and what they weigh.
 template <int Dim>
 struct Places {
@@ -113,7 +90,7 @@ class Points {
     reader("kind", kind);
     reader("material", material);
     reader("places", places);
-    auto points = std::make_unique<Points>(Material<Dim>::restored(kind, material), std::move(places));
+    auto points = std::make_unique<Points>(restored<Dim>(kind, material), std::move(places));
     reader("points", points->points_);
     return points;
   }
