@@ -74,7 +74,15 @@ def test(path, given):
     return rows
 
 
+def different_points(sand, count):
+    """A point for each packing: indices decide which one is drawn, so those of enough points are tried."""
+    tried = scarp.MaterialPoints(sand, np.zeros((20 * count, 2)))
+    _, indices = np.unique([tried.quantities(k)["void_ratio"] for k in range(len(tried))], return_index=True)
+    return scarp.MaterialPoints(sand, np.zeros((len(indices), 2)), indices=indices.tolist())
+
+
 def quotient(stresses):
+    """q/p of the stresses, with half the difference of the principal stresses as q."""
     half = (stresses[:, 0] - stresses[:, 1]) / 2.0
     return np.hypot(half, stresses[:, 2]) / -(stresses[:, 0] + stresses[:, 1]) * 2.0
 
@@ -94,9 +102,9 @@ def draw(rows, picture, file, lab):
     figure, (stress, volume, packing) = plt.subplots(1, 3, figsize=(10.0, 3.2), layout="constrained")
     stress.plot(strain, [row[1] for row in rows], color="#0072B2", linewidth=0.8)
     volume.plot(strain, 100.0 * np.array([row[2] for row in rows]), color="#0072B2", linewidth=0.8)
-    if lab is not None:
-        stress.plot(100.0 * lab["strain"], lab["mean_q"] / lab["mean_p"], color="#D55E00", label="rve_lab")
-        volume.plot(100.0 * lab["strain"], 100.0 * lab["volumetric_strain"], color="#D55E00")
+    if lab:
+        stress.plot(100.0 * lab["strain"], lab["mean_q"] / lab["mean_p"], color="#D55E00", linestyle="--", label="rve_lab")
+        volume.plot(100.0 * lab["strain"], 100.0 * lab["volumetric_strain"], color="#D55E00", linestyle="--")
         stress.legend()
     stress.set(xlabel="axial strain [%]", ylabel="q/p [-]")
     volume.set(xlabel="axial strain [%]", ylabel="volumetric strain [%]\n(contraction positive)")
@@ -107,14 +115,17 @@ def draw(rows, picture, file, lab):
     packing.add_collection(matplotlib.collections.LineCollection(lines, linewidths=3.0 * forces / forces.max(), colors="#0072B2"))
     packing.set_aspect("equal")
     packing.autoscale_view()
-    packing.set(title="point 0 at the end, force chains", xticks=[], yticks=[])
+    packing.set(xlabel="point 0 at the end, force chains", xticks=[], yticks=[])
     figure.savefig(file, dpi=160)
 
 
 def numbers(path):
+    """Of rve_lab, whose q is the difference of the principal stresses and whose strain is the axial one."""
     with open(path, newline="") as file:
-        table = list(csv.DictReader(file))
-    return {name: np.array([float(row[name]) for row in table]) for name in ("strain", "mean_p", "mean_q", "volumetric_strain")}
+        rows = list(csv.DictReader(file))
+    table = {name: np.array([float(row[name]) for row in rows]) for name in ("strain", "mean_p", "mean_q", "volumetric_strain")}
+    table["mean_q"] /= 2.0
+    return table
 
 
 def main():
@@ -126,17 +137,20 @@ def main():
     parser.add_argument("--strain", type=float, default=0.05, help="axial, logarithmic")
     parser.add_argument("--step", type=float, default=1e-3, help="of the axial strain")
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--lab", type=pathlib.Path, help="path.csv of rve_lab shear, to be drawn beside")
+    parser.add_argument("--lab", type=pathlib.Path, help="folder of rve_lab prepare and shear: its packing in a point, its path drawn beside")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("output/python_points"))
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
     print(f"Python {platform.python_version()}, NumPy {np.__version__}, matplotlib {matplotlib.__version__}; scarp {scarp.build['version']}, "
           f"{scarp.build['compiler']} {scarp.build['compiler_version']}, {scarp.build['instruction_set']}")
     begun = time.perf_counter()
-    sand = scarp.ellipses(grains=given.grains, packings=given.packings, seed=given.seed, pressure=given.pressure, threads=given.threads,
-                          progress=lambda done, total, what: print(f"  prepared {done} of {total}: {what}"))
+    if given.lab:
+        sand = scarp.ellipses(file=str(given.lab / "packing.packing"))
+    else:
+        sand = scarp.ellipses(grains=given.grains, packings=given.packings, seed=given.seed, pressure=given.pressure, threads=given.threads,
+                              progress=lambda done, total, what: print(f"  prepared {done} of {total}: {what}"))
     prepared = time.perf_counter() - begun
-    points = scarp.MaterialPoints(sand, np.zeros((given.packings, 2)))
+    points = different_points(sand, 1 if given.lab else given.packings)
     start = given.output / "start.points"
     points.save(str(start))
     path = Path(points, given.threads)
@@ -150,8 +164,8 @@ def main():
     print(f"{len(rows) - 1} steps, {len(path.rows)} responses of {len(points)} points: {path.seconds:.3f} s in respond, "
           f"{whole - path.seconds:.3f} s in Python ({100.0 * (1.0 - path.seconds / whole):.1f} %), preparation {prepared:.2f} s")
     print(f"the same path in C++: {seconds:.3f} s, stresses differ by {difference} Pa")
-    lab = numbers(given.lab) if given.lab else None
-    if lab is not None:
+    lab = numbers(given.lab / "path.csv") if given.lab else None
+    if lab:
         ours = np.interp(lab["strain"], [row[0] for row in rows], [row[1][0] for row in rows])
         print(f"rve_lab: q/p of point 0 differs by {np.sqrt(np.mean((ours - lab['mean_q'] / lab['mean_p']) ** 2)):.4f} (root mean square)")
     with open(given.output / "biaxial.csv", "w", newline="") as file:
