@@ -50,26 +50,23 @@ template <int Dim>
 py::tuple respond(Points<Dim>& points, py::object const& given, int threads, int refinements, bool tangents) {
   auto const gradients = rows_of(given, "displacement gradients", {Dim, Dim});
   auto const rows = gradients.template unchecked<3>();
-  if (rows.shape(0) != points.now().size())
-    scarp::reject("{} displacement gradients are given for {} points: give one to each", rows.shape(0),
-                  points.now().size());
-  for (int k = 0; k < points.now().size(); ++k) {
-    for (int i = 0; i < Dim; ++i) {
-      for (int j = 0; j < Dim; ++j) points.now().gradient(k)(i, j) = rows(k, i, j);
-    }
-  }
   std::vector<scarp::VoigtStress<Dim>> stresses;
   std::vector<scarp::VoigtTangent<Dim>> moduli;
   std::vector<scarp::Verdict> verdicts;
-  {
+  points.at_work(threads, [&](auto& all, auto& executor) {
     py::gil_scoped_release const release;
-    points.at_work(threads, [&](auto& all, auto& executor) {
-      points.report = all.respond(executor, refinements);
-      stresses = all.stresses();
-      if (tangents) moduli = all.tangents(executor);
-      for (auto const& response : all.responses()) verdicts.push_back(response.verdict);
-    });
-  }
+    if (rows.shape(0) != all.size())
+      scarp::reject("{} displacement gradients are given for {} points: give one to each", rows.shape(0), all.size());
+    for (int k = 0; k < all.size(); ++k) {
+      for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) all.gradient(k)(i, j) = rows(k, i, j);
+      }
+    }
+    points.report = all.respond(executor, refinements);
+    stresses = all.stresses();
+    if (tangents) moduli = all.tangents(executor);
+    for (auto const& response : all.responses()) verdicts.push_back(response.verdict);
+  });
   constexpr py::ssize_t size = scarp::voigt_size<Dim>;
   return py::make_tuple(
       array_of<double>(std::move(stresses), {size}, {number_size}),

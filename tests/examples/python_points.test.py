@@ -94,6 +94,10 @@ for wanted in (0.20, 0.19):
 at_rest = scarp.MaterialPoints(scarp.discs(grains=100, pressure=2e4, vertical_pressure=1e5), np.zeros((1, 2))).stresses()[0]
 expect(abs(at_rest[1] / -1e5 - 1.0) < 2e-3 and 0.2 < at_rest[0] / at_rest[1] < 1.0, f"K0 compression gives {at_rest}")
 
+# Spheres in space; springs softer than the plane's, for contacts have no thickness.
+state = scarp.MaterialPoints(scarp.spheres(grains=60, normal_stiffness=3e5, tangential_stiffness=3e5), np.zeros((1, 3))).quantities(0)
+expect(abs(state["p"] / 2e5 - 1.0) < 1e-3 and state["q"] < 800.0 and state["coordination"] > 4.0, f"spheres at 200 kPa: {state}")
+
 serial, _, _ = points.respond(gradients(4, -1e-3), threads=1)
 several, _, verdicts = points.respond(gradients(4, -1e-3), threads=2)
 expect(np.array_equal(serial, several) and (points.work > 0).all(), "two threads give other bits than one")
