@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSL-1.0
+// How does Python call packings as materials? Points that respond to NumPy arrays, with their states inside: a biaxial test.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include "keywords.hpp"
+#include "points.hpp"
+#include "scarp/core/build_info.hpp"
+#include "scarp/tensor/geo.hpp"
+
+namespace python_points {
+namespace {
+
+constexpr auto number_size = static_cast<py::ssize_t>(sizeof(double));
+
+template <int Dim>
+py::dict quantities(Points<Dim>& points, int point) {
+  py::dict named;
+  for (auto const& [name, value] : points.now().quantities(point)) named[py::str(std::string(name))] = value;
+  auto const stress = points.now().committed_stress(point);
+  if constexpr (Dim == 2) {
+    auto const [p, q] = scarp::geo::plane_stress(stress);
+    named["p"] = p, named["q"] = q;
+  } else {
+    auto const tensor = scarp::from_voigt_stress<3>(stress);
+    double const p = -tensor.trace() / 3.0;
+    named["p"] = p, named["q"] = std::sqrt(1.5) * (tensor + p * scarp::Tensor<3>::Identity()).norm();
+  }
+  return named;
+}
+
+/// Grains and contacts of a plane packing; nothing of other materials.
+py::object picture(Points<2>& points, int point) {
+  auto shown = points.now().picture<scarp::PackingPicture>(point);
+  if (!shown) return py::none();
+  using Picture = scarp::PackingPicture;
+  static_assert(sizeof(Picture::Grain) >= 6 * sizeof(double) && sizeof(Picture::Contact) >= 7 * sizeof(double));
+  py::dict named;
+  py::array_t<double> cell({2, 2});
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) cell.mutable_at(i, j) = shown->cell(i, j);
+  }
+  named["cell"] = cell;
+  named["grains"] = array_of<double>(std::move(shown->grains), {6}, {number_size});
+  named["contacts"] = array_of<double>(std::move(shown->contacts), {7}, {number_size});
+  return named;
+}
+
+template <int Dim>
+py::tuple respond(Points<Dim>& points, py::object const& given, int threads, int refinements, bool tangents) {
+  auto const gradients = rows_of(given, "displacement gradients", {Dim, Dim});
+  auto const rows = gradients.template unchecked<3>();
+  std::vector<scarp::VoigtStress<Dim>> stresses;
+  std::vector<scarp::VoigtTangent<Dim>> moduli;
+  std::vector<scarp::Verdict> verdicts;
+  points.at_work(threads, [&](auto& all, auto& executor) {
+    py::gil_scoped_release const release;
+    if (rows.shape(0) != all.size())
+      scarp::reject("{} displacement gradients are given for {} points: give one to each", rows.shape(0), all.size());
+    for (int k = 0; k < all.size(); ++k) {
+      for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) all.gradient(k)(i, j) = rows(k, i, j);
+      }
+    }
+    points.report = all.respond(executor, refinements);
+    stresses = all.stresses();
+    if (tangents) moduli = all.tangents(executor);
+    for (auto const& response : all.responses()) verdicts.push_back(response.verdict);
+  });
+  constexpr py::ssize_t size = scarp::voigt_size<Dim>;
+  return py::make_tuple(
+      array_of<double>(std::move(stresses), {size}, {number_size}),
+      tangents ? py::object(array_of<double>(std::move(moduli), {size, size}, {number_size, size * number_size}))
+               : py::none(),
+      array_of<scarp::Verdict>(std::move(verdicts), {}, {}));
+}
+
+template <class Number, class Of>
+py::array of_all(int count, std::vector<py::ssize_t> const& shape, std::vector<py::ssize_t> const& strides,
+                 Of const& of) {
+  std::vector<decltype(of(0))> values;
+  for (int k = 0; k < count; ++k) values.push_back(of(k));
+  return array_of<Number>(std::move(values), shape, strides);
+}
+
+template <int Dim>
+Places<Dim> places_of(py::object const& positions, py::object const& volumes, double length, py::object const& depths,
+                      std::optional<std::vector<int>> indices) {
+  Places<Dim> places;
+  places.length = scarp::require_not_negative("length of means", length);
+  auto const rows = rows_of(positions, "positions", {Dim});
+  auto const column = [&](py::object const& given, char const* what) {
+    if (given.is_none()) return std::vector<double>{};
+    auto const found = rows_of(given, what, {});
+    if (found.size() != rows.shape(0))
+      scarp::reject("{} {} are given for {} points: give one to each", found.size(), what, rows.shape(0));
+    return std::vector<double>(found.data(), found.data() + found.size());
+  };
+  for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
+    places.positions.emplace_back(Eigen::Map<scarp::Vector<Dim> const>(rows.data(k, 0)));
+    if (!places.positions.back().allFinite()) scarp::reject("the position of point {} is not finite: correct it", k);
+    places.indices.push_back(indices ? -1 : static_cast<int>(k));
+  }
+  if (indices) {
+    if (indices->size() != places.indices.size())
+      scarp::reject("{} indices are given for {} points: give one to each", indices->size(), places.indices.size());
+    places.indices = std::move(*indices);
+  }
+  places.volumes = column(volumes, "volumes");
+  places.depths = column(depths, "depths");
+  places.depths.resize(places.positions.size());
+  return places;
+}
+
+/// progress, threads: of the preparation; the other keywords are the material's
+template <int Dim>
+Material<Dim> made(std::string const& kind, py::dict keywords) {
+  py::object const progress = keywords.attr("pop")("progress", py::none());
+  int const threads = keywords.attr("pop")("threads", 1).template cast<int>();
+  std::string const bits = with_material<Dim>(kind, [&]<class Recipe>(std::type_identity<Recipe>) {
+    Recipe recipe;
+    take_keywords(keywords, recipe);
+    return bits_of(recipe);
+  });
+  py::gil_scoped_release const release;
+  return prepared<Dim>(kind, bits, threads, [&](int done, int total, std::string const& text) {
+    py::gil_scoped_acquire const acquire;
+    if (!progress.is_none()) progress(done, total, text);
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  });
+}
+
+template <int Dim>
+py::dict defaults(std::string const& kind) {
+  return with_material<Dim>(kind, []<class Recipe>(std::type_identity<Recipe>) { return keywords_of(Recipe{}); });
+}
+
+py::object load(std::string_view bytes) {
+  scarp::StateReader reader(scarp::detail::payload_of(points_format, bytes));
+  int dimensions = 0;
+  reader("dimensions", dimensions);
+  if (dimensions == 2) return py::cast(Points<2>::read(reader));
+  if (dimensions == 3) return py::cast(Points<3>::read(reader));
+  scarp::reject("it holds points of {} dimensions (2 or 3 are known): save it again", dimensions);
+}
+
+template <int Dim>
+void bind(py::module_& module, char const* material_name, char const* points_name) {
+  using All = Points<Dim>;
+  constexpr py::ssize_t size = scarp::voigt_size<Dim>;
+  py::class_<Material<Dim>>(module, material_name, "A material and what it was made from; immutable.")
+      .def_readonly("kind", &Material<Dim>::kind)
+      .def_property_readonly("dim", [](Material<Dim> const&) { return Dim; })
+      .def(py::pickle([](Material<Dim> const& self) { return py::make_tuple(self.kind, py::bytes(self.bits)); },
+                      [](py::tuple const& saved) {
+                        return restored<Dim>(saved[0].cast<std::string>(), saved[1].cast<std::string>());
+                      }));
+  module.def(Dim == 2 ? "made" : "made_in_space", &made<Dim>);
+  module.def(Dim == 2 ? "defaults" : "defaults_in_space", &defaults<Dim>);
+  module.def("points", [](Material<Dim> const& material, py::object const& positions, py::object const& volumes,
+                          double length, py::object const& depths, std::optional<std::vector<int>> indices) {
+    return std::make_unique<All>(material, places_of<Dim>(positions, volumes, length, depths, std::move(indices)));
+  });
+  py::class_<All>(module, points_name, "Material points; see scarp.MaterialPoints.")
+      .def("__len__", [](All& self) { return self.now().size(); })
+      .def_property_readonly("material", &All::material)
+      .def("respond", &respond<Dim>, py::arg("gradients"), py::arg("threads") = 1, py::arg("refinements") = 4,
+           py::arg("tangents") = true,
+           "gradients[n, d, d]: of the displacement since the last commit, d u_i / d x_j. Returns stresses[n, v] [Pa], "
+           "tangents[n, v, v] [Pa] "
+           "and verdicts[n] with the fields status and reason, see scarp.statuses and scarp.reasons. Voigt order xx, "
+           "yy, xy or xx, yy, zz, yz, zx, xy.")
+      .def("commit", &All::commit, "Keeps the last response.")
+      .def(
+          "discard", [](All& self) { self.now().discard(); }, "Lets the next response plan its work anew.")
+      .def(
+          "report",
+          [](All& self) {
+            auto const& [verdict, worst, steps, survey] = self.report;
+            return py::dict(py::arg("status") = scarp::name(verdict.status),
+                            py::arg("reason") = scarp::name(verdict.reason), py::arg("worst_point") = worst,
+                            py::arg("inner_steps") = steps);
+          },
+          "Of the last response: the worst status, its reason and point, DEM steps of all points.")
+      .def(
+          "stresses",
+          [](All& self) {
+            return of_all<double>(self.now().size(), {size}, {number_size},
+                                  [&](int k) { return self.now().committed_stress(k); });
+          },
+          "Committed stresses [Pa].")
+      .def(
+          "tangents",
+          [](All& self) {
+            return of_all<double>(self.now().size(), {size, size}, {number_size, size * number_size},
+                                  [&](int k) { return self.now().committed_tangent(k); });
+          },
+          "Tangents [Pa] of the committed states.")
+      .def_property_readonly(
+          "work",
+          [](All& self) { return of_all<long>(self.now().size(), {}, {}, [&](int k) { return self.now().work(k); }); },
+          "DEM steps of each point's last response.")
+      .def("quantities", &quantities<Dim>, py::arg("point"), "Named numbers of a committed state; p and q [Pa].")
+      .def(
+          "copy",
+          [](All& self, int to, All& source, int point, bool mirrored) {
+            self.now().copy(to, source.now(), point, mirrored);
+          },
+          py::arg("to"), py::arg("source"), py::arg("point"), py::arg("mirrored") = false,
+          "Gives a point the committed state of another one.")
+      .def("pack", [](All& self, std::vector<int> const& points) { return py::bytes(self.now().pack(points)); })
+      .def("unpack", [](All& self, std::vector<int> const& points,
+                        py::bytes const& bits) { self.now().unpack(points, std::string_view(bits)); })
+      .def("save", [](All& self, std::string const& path) { scarp::write_file(path, self.bytes()); })
+      .def("__deepcopy__", [](All& self, py::dict const&) { return load(self.bytes()); })
+      .def("__reduce__", [](All& self) {
+        return py::make_tuple(py::module_::import("scarp").attr("loads"), py::make_tuple(py::bytes(self.bytes())));
+      });
+}
+
+}  // namespace
+}  // namespace python_points
+
+PYBIND11_MODULE(_points, module) {
+  using namespace python_points;
+  PYBIND11_NUMPY_DTYPE(scarp::Verdict, status, reason);
+  bind<2>(module, "Material", "Points");
+  bind<3>(module, "MaterialInSpace", "PointsInSpace");
+  module.def("load", [](std::string const& path) {
+    auto const file = scarp::read_file(path);
+    return scarp::with_context(fmt::format("cannot load '{}'", path), [&] { return load(file); });
+  });
+  module.def("loads", [](py::bytes const& bytes) { return load(std::string_view(bytes)); });
+  module.def("name_of_status", [](int status) { return scarp::name(scarp::Status(status)); });
+  module.def("name_of_reason", [](int reason) { return scarp::name(scarp::Reason(reason)); });
+  static_cast<py::class_<Points<2>>>(module.attr("Points"))
+      .def("picture", &picture, py::arg("point"),
+           "Of a packing: cell (columns are base vectors [m]), grains (x, y, half axes a and b, axis of a), contacts "
+           "(from x, y, branch x, y, "
+           "normal x, y, normal force [N]).");
+  constexpr auto build = scarp::build_info();
+  module.attr("build") = py::dict(py::arg("version") = scarp::version, py::arg("compiler") = build.compiler,
+                                  py::arg("compiler_version") = build.compiler_version,
+                                  py::arg("instruction_set") = build.instruction_set);
+}

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Materials of scarp, packings of grains among them, as points that respond to NumPy arrays."""
+from . import _points
+from ._points import build, load
+from .micro_simulation import MicroSimulation
+
+statuses = tuple(_points.name_of_status(k) for k in range(4))
+reasons = tuple(_points.name_of_reason(k) for k in range(16))
+
+
+def _maker(kind, spaces):
+    def make(dim=spaces[0], **keywords):
+        if dim not in spaces:
+            raise ValueError(f"dim is {dim} (expected is {' or '.join(map(str, spaces))}): correct it")
+        return (_points.made if dim == 2 else _points.made_in_space)(kind, keywords)
+
+    known = (_points.defaults if 2 in spaces else _points.defaults_in_space)(kind)
+    make.__name__ = make.__qualname__ = kind
+    make.__doc__ = "Keywords and their defaults: " + ", ".join(f"{name}={value!r}" for name, value in known.items())
+    return make
+
+
+linear_elastic = _maker("linear_elastic", (2, 3))
+mohr_coulomb = _maker("mohr_coulomb", (2, 3))
+discs = _maker("discs", (2,))
+ellipses = _maker("ellipses", (2,))
+spheres = _maker("spheres", (3,))
+
+
+def loads(saved):
+    """Points from the bytes of their pickle."""
+    return _points.loads(saved)
+
+
+def MaterialPoints(material, positions, volumes=None, length=None, depths=None, indices=None):
+    """Points of a material at positions[n, d] [m]. With a length [m] they see means around them, which volumes[n] [m3] weigh. Depths [m] are
+    those of the geostatic stress; indices decide which of several packings a point draws, its number by default."""
+    return _points.points(material, positions, volumes, length or 0.0, depths, indices)

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "materials.hpp"
+#include "scarp/points/material_points.hpp"
+#include "scarp/points/nonlocal.hpp"
+
+namespace python_points {
+
+inline constexpr scarp::FileFormat points_format{"SCARPPTS", 1, "material points", "MaterialPoints.save"};
+
+/// Where points are and what they weigh.
+template <int Dim>
+struct Places {
+  std::vector<scarp::Vector<Dim>> positions{};  ///< [m]
+  std::vector<double> depths{};                 ///< [m]
+  std::vector<int> indices{};                   ///< by which points draw their packings
+  std::vector<double> volumes{};                ///< [m3], empty for points without means
+  double length = 0.0;                          ///< [m] of means
+  SCARP_MEMBERS(positions, depths, indices, volumes, length)
+};
+
+/// Points of one material with all that is needed to make them again.
+template <int Dim>
+class Points {
+ public:
+  Points(Material<Dim> material, Places<Dim> places) : material_(std::move(material)), places_(std::move(places)) {
+    std::vector<scarp::Site<Dim>> sites;
+    for (std::size_t k = 0; k < places_.positions.size(); ++k)
+      sites.push_back({.index = places_.indices[k], .position = places_.positions[k], .depth = places_.depths[k]});
+    points_ = places_.length > 0.0 ? scarp::MaterialPoints<Dim>(scarp::Nonlocal{material_.provider, places_.length},
+                                                                sites, places_.volumes)
+                                   : scarp::MaterialPoints<Dim>(material_.provider, sites, places_.volumes);
+  }
+
+  /// The points, while no other thread has them.
+  /// \throws std::runtime_error
+  scarp::MaterialPoints<Dim>& now() {
+    if (busy_) throw std::runtime_error(in_use);
+    return points_;
+  }
+
+  /// Calls work(points, executor) on this thread, with the executor's threads. \throws std::runtime_error like now()
+  template <class Work>
+  void at_work(int threads, Work const& work) {
+    if (busy_.exchange(true)) throw std::runtime_error(in_use);
+    struct Done {
+      std::atomic<bool>& busy;
+      ~Done() { busy = false; }
+    } const done{busy_};
+    if (!team_ || threads_ != threads) team_ = std::make_unique<scarp::ThreadExecutor>(threads);
+    threads_ = threads;
+    work(points_, *team_);
+  }
+
+  /// \throws InputError for states that must not be kept
+  void commit() {
+    auto const& last = report.verdict;
+    if (!last.acceptable()) {
+      scarp::reject("point {} is {} ({}; a commit would keep it): respond to a smaller increment, or discard",
+                    report.worst_point, scarp::name(last.status), scarp::name(last.reason));
+    }
+    now().commit();
+  }
+
+  std::string bytes() {
+    auto const& points = now();
+    return scarp::detail::framed(points_format, [&](scarp::StateWriter& writer) {
+      writer("dimensions", Dim);
+      writer("kind", material_.kind);
+      writer("material", material_.bits);
+      writer("places", places_);
+      writer("points", points);
+    });
+  }
+  /// reader: behind the dimensions
+  static std::unique_ptr<Points> read(scarp::StateReader& reader) {
+    std::string kind;
+    std::string material;
+    Places<Dim> places;
+    reader("kind", kind);
+    reader("material", material);
+    reader("places", places);
+    auto points = std::make_unique<Points>(restored<Dim>(kind, material), std::move(places));
+    reader("points", points->points_);
+    return points;
+  }
+
+  Material<Dim> const& material() const { return material_; }
+
+  scarp::ResponseReport report{};  ///< of the last response
+
+ private:
+  static constexpr char const* in_use =
+      "the points respond to another thread (they serve one at a time): wait for it, or give each thread its own";
+
+  Material<Dim> material_;
+  Places<Dim> places_;
+  scarp::MaterialPoints<Dim> points_;
+  std::atomic<bool> busy_ = false;
+  std::unique_ptr<scarp::ThreadExecutor> team_;
+  int threads_ = 0;
+};
+
+}  // namespace python_points

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The Python module responds as the laws say, refuses wrong arrays in words, keeps states through pickles, files and copies, responds to several
+threads, and serves as micro simulation. Environment: SCARP_EXAMPLES, beside whose folder the module is (skipped, exit 77, without)."""
+import copy
+import os
+import pathlib
+import pickle
+import sys
+import tempfile
+import threading
+
+sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
+from expectations import expect, finish
+
+module = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve().parent / "python"
+if not list(module.glob("scarp/_points*")):
+    print("skipped: no Python module (set SCARP_EXAMPLES, install pybind11-dev and python3-dev and build python_points)")
+    sys.exit(77)
+sys.path.insert(0, str(module))
+import numpy as np
+import scarp
+
+
+def refused(kind, said, call):
+    try:
+        call()
+        expect(False, f"no refusal that says '{said}'")
+    except kind as trouble:
+        expect(said in str(trouble), f"'{trouble}' does not say '{said}'")
+
+
+def gradients(count, axial, dim=2):
+    values = np.zeros((count, dim, dim))
+    values[:, dim - 1, dim - 1] = axial
+    return values
+
+
+# Analytic: plane strain, lambda = E nu / ((1 + nu) (1 - 2 nu)), G = E / (2 (1 + nu)), here 4 MPa each; the strain is exact to its second order.
+small, lame = 1e-6, 4e6
+for dim in (2, 3):
+    points = scarp.MaterialPoints(scarp.linear_elastic(dim=dim, young=1e7, poisson=0.25), np.zeros((3, dim)))
+    stresses, tangents, verdicts = points.respond(gradients(3, small, dim), threads=2)
+    expected = np.zeros(dim * (dim + 1) // 2)
+    expected[:dim] = lame * small
+    expected[dim - 1] = 3.0 * lame * small
+    expect(np.allclose(stresses, expected, rtol=2 * small, atol=0.0), f"{stresses} is not {expected} in {dim} dimensions")
+    expect(np.array_equal(tangents[2].diagonal(), [3.0 * lame] * dim + [lame] * (len(expected) - dim)), f"tangent {tangents[2]}")
+    expect(not verdicts["status"].any() and not stresses.flags.owndata, "verdicts are not all ok, or stresses were copied")
+    kept = stresses.copy()
+    points.respond(gradients(3, 2.0 * small, dim))
+    expect(np.array_equal(kept, stresses), "a later response changed earlier stresses")
+
+points = scarp.MaterialPoints(scarp.linear_elastic(young=1e7, poisson=0.25), np.zeros((3, 2)))
+good = gradients(3, small)
+refused(ValueError, "the type float32 (float64", lambda: points.respond(good.astype(np.float32)))
+refused(ValueError, "the shape (3, 2)", lambda: points.respond(good[:, 0]))
+refused(ValueError, "2 displacement gradients are given for 3 points", lambda: points.respond(good[:2]))
+refused(ValueError, "gradient of point 0 is not finite", lambda: points.respond(good * np.nan))
+refused(ValueError, "without a response", points.commit)
+refused(ValueError, "no keyword yung (there are young, poisson", lambda: scarp.linear_elastic(yung=1.0))
+refused(ValueError, "grains is 4.5 (a value like 400", lambda: scarp.ellipses(grains=4.5))
+refused(ValueError, "void ratio 3", lambda: scarp.discs(grains=40, void_ratio=3.0))
+refused(RuntimeError, "could not be consolidated", lambda: scarp.discs(grains=40, pressure=1e12))
+refused(ZeroDivisionError, "division", lambda: scarp.discs(grains=40, progress=lambda *told: 1 / 0))
+refused(ValueError, "point 3 is named (there are 3 points)", lambda: points.quantities(3))
+
+told = []
+sand = scarp.ellipses(grains=60, packings=3, threads=2, progress=lambda *words: told.append(words))
+expect(told[-1][0] == 3 and told[-1][1] == 3, f"the progress ends with {told[-1]}")
+points = scarp.MaterialPoints(sand, np.zeros((4, 2)))
+state = points.quantities(1)
+expect(abs(state["p"] / 2e5 - 1.0) < 1e-3 and state["q"] < 400.0, f"prepared at 200 kPa: {state}")  # tolerance of the preparation, 1e-3
+picture = points.picture(1)
+expect(picture["grains"].shape == (60, 6) and len(picture["contacts"]) > 60, f"{len(picture['contacts'])} contacts of 60 grains")
+# Love and Weber: p = sum of force times branch over twice the volume, of normal forces alone, the trace of the shear parts being small.
+branch, normal, force = picture["contacts"][:, 2:4], picture["contacts"][:, 4:6], picture["contacts"][:, 6]
+pressure = np.sum(force * np.sum(branch * normal, axis=1)) / (2.0 * 0.2 * np.linalg.det(picture["cell"]))
+expect(abs(pressure / 2e5 - 1.0) < 0.05, f"normal forces give {pressure} Pa")  # shear forces on slanted branches of ellipses: within 5 %
+
+
+def at_void_ratio(wanted):
+    """Small packings may jump over a void ratio: the first seed that does not."""
+    for seed in range(1, 9):
+        try:
+            return scarp.MaterialPoints(scarp.discs(grains=200, void_ratio=wanted, seed=seed), np.zeros((1, 2))).quantities(0)["void_ratio"]
+        except ValueError:
+            pass
+    return 0.0
+
+
+for wanted in (0.20, 0.19):
+    found = at_void_ratio(wanted)
+    expect(abs(found - wanted) < 5.01e-4, f"void ratio {found} for {wanted}")
+at_rest = scarp.MaterialPoints(scarp.discs(grains=100, pressure=2e4, vertical_pressure=1e5), np.zeros((1, 2))).stresses()[0]
+expect(abs(at_rest[1] / -1e5 - 1.0) < 2e-3 and 0.2 < at_rest[0] / at_rest[1] < 1.0, f"K0 compression gives {at_rest}")
+
+# Spheres in space; springs softer than the plane's, for contacts have no thickness.
+state = scarp.MaterialPoints(scarp.spheres(grains=60, normal_stiffness=3e5, tangential_stiffness=3e5), np.zeros((1, 3))).quantities(0)
+expect(abs(state["p"] / 2e5 - 1.0) < 1e-3 and state["q"] < 800.0 and state["coordination"] > 4.0, f"spheres at 200 kPa: {state}")
+
+serial, _, _ = points.respond(gradients(4, -1e-3), threads=1)
+several, _, verdicts = points.respond(gradients(4, -1e-3), threads=2)
+expect(np.array_equal(serial, several) and (points.work > 0).all(), "two threads give other bits than one")
+points.commit()
+expect(np.array_equal(points.stresses(), several), "a commit keeps other stresses than those of the response")
+with tempfile.TemporaryDirectory() as scratch:
+    file = os.path.join(scratch, "sand.points")
+    points.save(file)
+    again = [pickle.loads(pickle.dumps(points)), copy.deepcopy(points), scarp.load(file)]
+    damaged = bytearray(pathlib.Path(file).read_bytes())
+    damaged[len(damaged) // 2] ^= 1
+    pathlib.Path(file).write_bytes(damaged)
+    refused(ValueError, "sand.points", lambda: scarp.load(file))
+expected = points.respond(gradients(4, -1e-3))[0]
+for other in again:
+    expect(np.array_equal(other.respond(gradients(4, -1e-3))[0], expected), "a saved state goes on in another way")
+again[0].unpack([2], points.pack([1]))
+again[1].copy(2, points, 1)
+expect(np.array_equal(again[0].stresses()[2], points.stresses()[1]) and np.array_equal(again[1].stresses()[2], points.stresses()[1]),
+       "a packed or copied state is another one")
+points.discard()
+verdicts = points.respond(np.repeat(np.diag([-0.9, -0.9])[None], 4, axis=0))[2]
+expect(scarp.statuses[verdicts["status"][0]] == "failed" and points.report()["worst_point"] == 0, f"{verdicts}")
+refused(ValueError, "a commit would keep it", points.commit)
+
+means = scarp.MaterialPoints(sand, np.array([[0.0, 0.0], [0.5, 0.0]]), volumes=np.ones(2), length=2.0)
+uneven = gradients(2, -1e-3)
+uneven[1] = 0.0
+local = scarp.MaterialPoints(sand, np.array([[0.0, 0.0], [0.5, 0.0]])).respond(uneven)[0]
+expect(np.abs(means.respond(uneven)[0][1] - local[1]).max() > 1e3, "points with a length do not see each other")
+
+# While one thread waits for a response without the interpreter's lock, others are refused the same points, and count.
+counted, troubles = [0], []
+busy = scarp.MaterialPoints(scarp.ellipses(grains=200), np.zeros((40, 2)))
+worker = threading.Thread(target=lambda: busy.respond(gradients(40, -5e-3)))
+worker.start()
+while worker.is_alive():
+    counted[0] += 1
+    try:
+        busy.stresses()
+    except RuntimeError as trouble:
+        troubles.append(str(trouble))
+worker.join()
+expect(counted[0] > 100 and any("serve one at a time" in trouble for trouble in troubles), f"{counted} rounds beside a response, {len(troubles)} refused")
+
+
+class Incremental(scarp.MicroSimulation):
+    material = sand
+    strains = "incremental"
+
+
+class Total(Incremental):
+    strains = "total"
+
+
+# A stub of preCICE's manager: a time step, its repetition from the stored state, the next one; total and incremental strains are one path.
+step = np.array([[0.0, 1e-3], [0.0, -1e-3]])
+incremental, total = Incremental(5), Total(5)
+expect(np.array_equal(incremental.initialize()["stress"], total.initialize()["stress"]), "one id draws two packings")
+start = incremental.get_state()
+first = incremental.solve({"gradient": step.ravel()}, 0.1)
+incremental.set_state(start)
+repeated = incremental.solve({"gradient": step.ravel()}, 0.1)
+expect(np.array_equal(first["stress"], repeated["stress"]), "a repeated time step has another stress")
+total.solve({"gradient": step.ravel()}, 0.1)
+incremental = pickle.loads(pickle.dumps(incremental))
+second = incremental.solve({"gradient": step.ravel()}, 0.1)["stress"]
+whole = (np.eye(2) + step) @ (np.eye(2) + step) - np.eye(2)
+same = total.solve({"gradient": whole.ravel()}, 0.1)["stress"]
+expect(np.abs(second / same - 1.0).max() < 1e-3, f"{second} incremental, {same} total")  # round-off, which grains enlarge
+refused(ValueError, "4 are expected", lambda: total.solve({"gradient": [0.0] * 9}, 0.1))
+refused(RuntimeError, "take smaller time steps", lambda: total.solve({"gradient": [-0.95, 0.0, 0.0, -0.95]}, 0.1))
+refused(ValueError, "no material", lambda: scarp.MicroSimulation(0))
+finish()
