@@ -68,7 +68,7 @@ static void states_come_back(void) {
   good &= scarp_points_unpack(second, 0, bytes, length) == SCARP_DONE;
   good &=
       scarp_points_save(first, "points.scarp") == SCARP_DONE && scarp_points_load(third, "points.scarp") == SCARP_DONE;
-  good &= scarp_points_unpack(second, 0, bytes, length / 2) == SCARP_WRONG_INPUT && said("ends inside");
+  good &= scarp_points_unpack(second, 0, bytes, length / 2) == SCARP_WRONG_INPUT && said("save it again");
   scarp_points* const all[3] = {first, second, third};
   double worst = 0.0;
   for (int k = 0; k < 3; ++k) {

@@ -247,17 +247,21 @@ static void check_wrong_calls(void) {
   int good = is_nan(&point) && said("nowhere.txt");
   abaqus_call(&point, "DISCS", strain);
   host_commit(&point, strain);
-  point.statev[100] += 1.0;
+  double const kept = point.statev[100];
+  point.statev[100] = kept + 1.0;
   abaqus_call(&point, "DISCS", strain);
   good &= is_nan(&point) && said("STATEV was changed");
   point.statev[100] = NAN;
   abaqus_call(&point, "DISCS", strain);
   good &= is_nan(&point) && said("STATEV(101)");
+  point.statev[100] = kept;
   strain[2] = 1e-3;
   abaqus_call(&point, "DISCS", strain);
+  good &= is_nan(&point) && said("out of the plane");
   strain[2] = NAN;
   abaqus_call(&point, "DISCS", strain);
-  check("an unknown material, a changed STATEV and NaN are refused in words", 5, good && is_nan(&point));
+  good &= is_nan(&point) && said("not finite") && host_intact(&point);
+  check("an unknown material, a changed STATEV and NaN are refused in words", 5, good);
   host_end(&point);
 
   umat_(NULL, &statev, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
