@@ -16,6 +16,7 @@ constexpr scarp::FileFormat points_format{"SCARPPTS", 1, "file of points", "scar
 struct Points {
   std::variant<scarp::MaterialPoints<2>, scarp::MaterialPoints<3>> batch;
   std::unique_ptr<scarp::ThreadExecutor> team{};
+  int threads = 0;             ///< as they were requested for the team
   bool has_gradients = false;  ///< since the last commit
   bool has_response = false;   ///< to these gradients
   bool is_acceptable = false;  ///< so that it can be committed
@@ -153,9 +154,10 @@ int scarp_points_respond(scarp_points* points, int threads, scarp_verdict* worst
     if (!own.has_gradients)
       scarp::reject("a response is requested without gradients (since the last commit): set them first");
     own.has_response = own.is_acceptable = false;
-    if (!own.team || threads <= 0 || own.team->threads() != threads) {
+    if (!own.team || own.threads != threads) {
       own.team.reset();
       own.team = std::make_unique<scarp::ThreadExecutor>(threads);
+      own.threads = threads;
     }
     scarp::ResponseReport const report = batch.respond(*own.team);
     own.has_response = true;

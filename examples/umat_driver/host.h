@@ -52,8 +52,27 @@ void kratos_call(host_point* point, double const* dstran, int source);
 /* The last trial becomes the committed state. */
 void host_commit(host_point* point, double const* dstran);
 
+/* Increment of strain of a step: 11, 22, 33, 12. */
+void strain_of_step(int step, double* strain);
+/* The reference's step by the gradient of a strain. */
+void reference_strain_step(reference* known, int dim, int ntens, double const* strain, double* stress, double* tangent);
+/* Largest difference of STRESS and DDSDDE of a host from a stress and tangent of C++. */
+double difference(host_point const* point, int const* places, int size, int rows_first, double const* stress,
+                  double const* tangent);
+extern int const plane[3], short_plane[3], abaqus[6], kratos[6];
+/* Length of STATEV for whole states. */
+int whole_state(int material);
+/* Of the materials: CMNAME, and text of the file. */
+extern char const* const names[MATERIALS + 1];
+extern char const* const texts[MATERIALS + 1];
+
 void check_c_functions(void);
 void check_wrong_input(void);
+void check_sequences(void);
+void check_cut_back(void);
+void check_deformation(void);
+void check_plane_in_space(void);
+void check_wrong_calls(void);
 
 #ifdef __cplusplus
 }

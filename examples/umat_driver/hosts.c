@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSL-1.0 */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -74,4 +75,43 @@ void host_commit(host_point* point, double const* dstran) {
   memcpy(point->statev, point->trial, (size_t)point->nstatv * sizeof(double));
   memcpy(point->committed_stress, point->stress, sizeof point->stress);
   for (int k = 0; k < point->ntens; ++k) point->strain[k] += dstran[k];
+}
+
+void strain_of_step(int step, double* strain) {
+  double const unit = 1.0 / 16384.0 * (step % 2 == 0 ? 1.0 : 2.0);
+  memset(strain, 0, 6 * sizeof(double));
+  strain[0] = unit, strain[1] = -4.0 * unit, strain[3] = 3.0 * unit;
+}
+
+/* Places of the plane's stresses xx, yy, xy in STRESS of four components, and of six in the orders of Abaqus and Kratos. */
+int const plane[3] = {0, 1, 3}, short_plane[3] = {0, 1, 2}, abaqus[6] = {0, 1, 2, 5, 4, 3},
+          kratos[6] = {0, 1, 2, 4, 5, 3};
+
+double difference(host_point const* point, int const* places, int size, int rows_first, double const* stress,
+                  double const* tangent) {
+  double worst = 0.0;
+  for (int i = 0; i < size; ++i) {
+    worst = fmax(worst, apart(&point->stress[places[i]], &stress[i], 1));
+    for (int j = 0; j < size; ++j) {
+      int const row = rows_first ? places[i] : places[j], column = rows_first ? places[j] : places[i];
+      worst = fmax(worst, apart(&point->ddsdde[row * point->ntens + column], &tangent[i * size + j], 1));
+    }
+  }
+  return worst;
+}
+
+void reference_strain_step(reference* known, int dim, int ntens, double const* strain, double* stress,
+                           double* tangent) {
+  double gradient[9];
+  reference_gradient(dim, ntens, strain, gradient);
+  if (!reference_step(known, gradient, stress, tangent)) check("C++ responds", 0, 0);
+}
+
+int whole_state(int material) {
+  scarp_material* made = NULL;
+  int numbers = 0;
+  if (scarp_material_parse(texts[material], &made) || scarp_umat_state_numbers(made, &numbers) ||
+      scarp_material_free(made))
+    check(scarp_last_error(), 0, 0);
+  return numbers + numbers / 5;
 }

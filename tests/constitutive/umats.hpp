@@ -20,7 +20,7 @@ namespace umats {
 
 /// Von Mises' plasticity with linear isotropic hardening by radial return (Simo and Hughes 1998, box 3.1).
 /// PROPS: shear modulus, bulk modulus, yield stress (zero: none), hardening modulus [Pa]; STATEV: equivalent plastic strain, calls.
-extern "C" inline void von_mises(UMAT_ARGUMENTS) {
+inline void von_mises(UMAT_ARGUMENTS) {
   static_cast<void>(cmname), static_cast<void>(nstatv), static_cast<void>(pnewdt), static_cast<void>(dfgrd1);
   int const n = *ntens, normal = *ndi;
   double const shear = props[0], bulk = props[1], yield = props[2], hardening = props[3];
@@ -60,7 +60,7 @@ extern "C" inline void von_mises(UMAT_ARGUMENTS) {
 
 /// Does what its PROPS(1) says: 1 writes behind STATEV, 2 before STRESS, 3 behind DDSDDE, 4 asks for a smaller step, 5 gives NaN,
 /// 6 tells what it was given in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4).
-extern "C" inline void odd(UMAT_ARGUMENTS) {
+inline void odd(UMAT_ARGUMENTS) {
   static_cast<void>(ndi);
   int const n = *ntens;
   bool const at_rest = std::all_of(dstran, dstran + n, [](double part) { return part == 0.0; });
