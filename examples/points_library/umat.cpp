@@ -137,7 +137,7 @@ Tensor3 increment_of(Call const& call, Components const& components, State const
   using Matrix = Eigen::Map<Tensor3 const>;  // columns first, as Fortran's
   if (source == 2) {
     Matrix const before(given(call.dfgrd0, "DFGRD0")), after(given(call.dfgrd1, "DFGRD1"));
-    return after * before.inverse() - Tensor3::Identity();
+    return (after - before) * before.inverse();  // exactly zero without an increment
   }
   Tensor3 const strain = source == 0 ? components.strain_tensor(given(call.dstran, "DSTRAN"))
                          : start     ? Tensor3(told - start->strain)

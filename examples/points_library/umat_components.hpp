@@ -65,11 +65,12 @@ struct Components {
   }
 };
 
-/// Displacement gradient whose stretch has the strain E at its half-way configuration, after the rotation R:
-/// \f$ I + G = (I + E/2)(I - E/2)^{-1} R \f$. `RotatedIncrement` finds E again; DSTRAN and DROT of Abaqus are E and R.
+/// Displacement gradient whose stretch has the strain E at its half-way configuration, and the rotation R before it:
+/// \f$ I + G = (I + E/2)(I - E/2)^{-1} R = (I + E (I - E/2)^{-1}) R \f$. `RotatedIncrement` finds E again, in axes that have not turned;
+/// DSTRAN and DROT of Abaqus are E and R. Zero strain, and what is zero out of a plane, stay exactly zero.
 inline Tensor3 gradient_of(Tensor3 const& strain, Tensor3 const& rotation) {
   Tensor3 const identity = Tensor3::Identity();
-  return (identity + strain / 2.0) * (identity - strain / 2.0).inverse() * rotation - identity;
+  return strain * (identity - strain / 2.0).inverse() * rotation + (rotation - identity);
 }
 
 }  // namespace points_library

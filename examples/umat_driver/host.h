@@ -26,7 +26,7 @@ void reference_gradient(int dimension, int components, double const* strain, dou
 void check(char const* what, double figure, int good);
 /* Whether the last error has these words. */
 int said(char const* words);
-/* Largest difference of two arrays. */
+/* Largest difference of two arrays, infinite where one is no number. */
 double apart(double const* a, double const* b, int count);
 
 /* Arrays of a host's point, each between numbers that nobody may change. */
@@ -71,6 +71,7 @@ void check_wrong_input(void);
 void check_sequences(void);
 void check_cut_back(void);
 void check_deformation(void);
+void check_rotation(void);
 void check_plane_in_space(void);
 void check_wrong_calls(void);
 

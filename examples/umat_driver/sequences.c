@@ -6,7 +6,7 @@
 
 #include "host.h"
 
-/* Abaqus: iterations try other increments from the committed state; a step of twice the size is cut back to two of the size. */
+/* Abaqus: iterations try other increments from the committed state, the first of twice the size, before the last one is kept. */
 static double abaqus_path(int material, int ntens, int nstatv, int* good) {
   int const dim = ntens == 6 ? 3 : 2;
   int const* const places = ntens == 3 ? short_plane : ntens == 4 ? plane : abaqus;

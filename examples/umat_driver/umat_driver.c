@@ -25,25 +25,37 @@ void check(char const* what, double figure, int good) {
 int said(char const* words) { return strstr(scarp_last_error(), words) != NULL; }
 double apart(double const* a, double const* b, int count) {
   double worst = 0.0;
-  for (int k = 0; k < count; ++k) worst = fabs(a[k] - b[k]) <= worst ? worst : fabs(a[k] - b[k]);
+  for (int k = 0; k < count; ++k) {
+    double const one = fabs(a[k] - b[k]);
+    if (isnan(one)) return INFINITY;
+    worst = fmax(worst, one);
+  }
   return worst;
 }
 
-static void write_file(char const* path, char const* text) {
-  FILE* file = fopen(path, "w");
-  if (!file || fputs(text, file) < 0 || fclose(file) != 0) abort();
+/* The file of a material by its number, or by CMNAME in small letters. */
+static void path_of(int material, int by_name, char path[32]) {
+  if (by_name) snprintf(path, 32, "%s.txt", names[material]);
+  if (!by_name) snprintf(path, 32, "material_%d.txt", material);
+  for (char* letter = path; *letter; ++letter) *letter = (char)tolower(*letter);
 }
 
-/* By number and by the name of CMNAME in small letters. */
 static void write_materials(void) {
-  for (int k = 1; k <= MATERIALS; ++k) {
-    char path[32];
-    snprintf(path, sizeof path, "material_%d.txt", k);
-    write_file(path, texts[k]);
-    snprintf(path, sizeof path, "%s.txt", names[k]);
-    for (char* letter = path; *letter; ++letter) *letter = (char)tolower(*letter);
-    write_file(path, texts[k]);
+  char path[32];
+  for (int k = 0; k < 2 * MATERIALS; ++k) {
+    path_of(k / 2 + 1, k % 2, path);
+    FILE* file = fopen(path, "w");
+    if (!file || fputs(texts[k / 2 + 1], file) < 0 || fclose(file) != 0) abort();
   }
+}
+static void remove_files(char const* folder) {
+  char path[32];
+  for (int k = 0; k < 2 * MATERIALS; ++k) {
+    path_of(k / 2 + 1, k % 2, path);
+    remove(path);
+  }
+  remove("points.scarp");
+  rmdir(folder);
 }
 
 int main(void) {
@@ -55,9 +67,11 @@ int main(void) {
   check_sequences();
   check_cut_back();
   check_deformation();
+  check_rotation();
   check_plane_in_space();
   check_wrong_calls();
   scarp_umat_clear();
+  remove_files(folder);
   printf("%d wrong\n", wrong);
   return wrong == 0 ? 0 : 1;
 }

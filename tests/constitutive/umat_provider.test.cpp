@@ -174,8 +174,22 @@ TEST_CASE("a UMAT is told the name of its material and the increment by strain a
   CHECK(told(2) == Approx(1e-3).epsilon(1e-6));  // E differs by a quarter of the square
 }
 
-TEST_CASE("a provider without a UMAT, or with a name that CMNAME cannot hold, is rejected") {
+TEST_CASE("a UMAT is told the total strain in axes that have turned with the increment") {
+  auto const umat = odd(7.0);
+  auto const start = umat.initial_state({});
+  auto strained = start, turned = start;
+  static_cast<void>(umat.respond(start, shear<2>(1e-3), strained));
+  scarp::Tensor<2> const turn = scarp::rotation(0.5);
+  auto const told = umat.respond(strained, turn * 1.000001 - scarp::Tensor<2>::Identity(), turned).stress;
+  // Analytic: gamma turned by the angle a gives -gamma/2 sin 2a, gamma/2 sin 2a and gamma cos 2a, up to gamma squared.
+  CHECK(told(0) == Approx(-5e-4 * std::sin(1.0)).epsilon(2e-3));
+  CHECK(told(1) == Approx(5e-4 * std::sin(1.0)).epsilon(2e-3));
+  CHECK(told(2) == Approx(1e-3 * std::cos(1.0)).epsilon(2e-3));
+}
+
+TEST_CASE("a provider without a UMAT, with a name that CMNAME cannot hold, or without time, is rejected") {
   CHECK_REFUSED(scarp::UmatProvider<2>{}.initial_state({}), "no UMAT");
   CHECK_REFUSED((scarp::UmatProvider<2>{.umat = umats::odd, .name = std::string(81, 'a')}.initial_state({})),
                 "81 letters");
+  CHECK_REFUSED((scarp::UmatProvider<2>{.umat = umats::odd, .time_step = 0.0}.initial_state({})), "time step", "0");
 }
