@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "scarp/core/error.hpp"
@@ -33,17 +34,17 @@ class Handles {
   std::shared_ptr<Object> at(void const* handle) const {
     std::lock_guard const lock(mutex_);
     auto const found = objects_.find(reinterpret_cast<std::uintptr_t>(handle));
-    if (found == objects_.end()) reject_dead(handle);
+    if (found == objects_.end()) reject_freed(handle);
     return found->second;
   }
 
   void remove(void const* handle) {
     std::lock_guard const lock(mutex_);
-    if (objects_.erase(reinterpret_cast<std::uintptr_t>(handle)) == 0) reject_dead(handle);
+    if (objects_.erase(reinterpret_cast<std::uintptr_t>(handle)) == 0) reject_freed(handle);
   }
 
  private:
-  [[noreturn]] void reject_dead(void const* handle) const {
+  [[noreturn]] void reject_freed(void const* handle) const {
     if (!handle) scarp::reject("the handle of {} is null (a handle is expected): make it first", kind_);
     scarp::reject("the handle of {} is not alive (it was freed, or is no such handle): make another one", kind_);
   }

@@ -196,7 +196,8 @@ int scarp_points_committed_tangents(scarp_points const* points, double* tangents
 int scarp_points_commit(scarp_points* points) {
   return with_points(points, [&](Points& own, auto& batch) {
     if (!own.is_acceptable)
-      scarp::reject("a commit is requested without an acceptable response (it would keep nonsense): respond first");
+      scarp::reject(
+          "a commit is requested without an acceptable response (nothing sound would be kept): respond first");
     batch.commit();
     own.forget();
   });

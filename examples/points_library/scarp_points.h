@@ -3,7 +3,7 @@
 
    A material is read from text (materials.hpp lists the keys); a batch has points of one material. Handles are freed by their
    own function; a freed one is rejected, never followed. Functions return a scarp_status; after anything but SCARP_DONE
-   scarp_last_error() says in words what is wrong and what to do. A batch may be used by several threads, one after the other.
+   scarp_last_error() returns what is wrong and what to do. A batch may be used by several threads, one after the other.
 
    Plane (dimension 2): gradients xx, xy, yx, yy; stresses xx, yy, xy. Space (3): gradients of nine numbers, rows first;
    stresses xx, yy, zz, yz, zx, xy. Tangents: rows first, stress by strain with engineering shear. Tension is positive. [Pa] */
@@ -72,7 +72,7 @@ SCARP_POINTS_API int scarp_points_committed_tangents(scarp_points const* points,
 SCARP_POINTS_API int scarp_points_commit(scarp_points* points);
 SCARP_POINTS_API int scarp_points_discard(scarp_points* points);
 
-/* Bytes of a point's committed state. bytes NULL: only the length is told; too little room is rejected. */
+/* Bytes of a point's committed state. bytes NULL: only the length is returned; too little room is rejected. */
 SCARP_POINTS_API int scarp_points_pack(scarp_points const* points, int point, void* bytes, size_t room, size_t* length);
 SCARP_POINTS_API int scarp_points_unpack(scarp_points* points, int point, void const* bytes, size_t length);
 /* All committed states. */

@@ -5,7 +5,7 @@
    PROPS, all optional: 1 number of the material (0: by CMNAME), 2 order of components (0 Abaqus, 1 Kratos), 3 source of the
    increment (0 DSTRAN and DROT, 1 STRAN + DSTRAN as total strain, 2 DFGRD0 and DFGRD1), 4 height of the ground surface [m].
    STATEV is zero at first. Wrong input, and a response that is not acceptable where PNEWDT is null, fill STRESS and DDSDDE
-   with NaN, so that no host goes on in silence; the words stand in scarp_last_error() and on the error stream. */
+   with NaN, so that no host goes on in silence; the reason stands in scarp_last_error() and on the error stream. */
 #ifndef SCARP_UMAT_H
 #define SCARP_UMAT_H
 
@@ -29,7 +29,7 @@ SCARP_POINTS_API void umat(SCARP_UMAT_ARGUMENTS);
 
 /* Length of STATEV that holds a whole state of a material at its start; packings need up to a fifth more later. */
 SCARP_POINTS_API int scarp_umat_state_numbers(scarp_material const* material, int* numbers);
-/* Forgets all materials, snapshots and answers, as at the end of an analysis. No call may be under way. */
+/* Forgets all materials, snapshots and outcomes, as at the end of an analysis. No call may be under way. */
 SCARP_POINTS_API void scarp_umat_clear(void);
 
 #ifdef __cplusplus

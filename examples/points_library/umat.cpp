@@ -91,18 +91,18 @@ scarp::MaterialPoints<Dim> initial_point(scarp::AnyProvider<Dim> const& provider
 }
 
 template <int Dim>
-Answer to_answer(scarp::VoigtStress<Dim> const& stress, scarp::VoigtTangent<Dim> const& tangent) {
-  Answer answer;
-  answer.stress.topLeftCorner<Dim, Dim>() = scarp::from_voigt_stress<Dim, double>(stress);
-  answer.tangent.topLeftCorner<scarp::voigt_size<Dim>, scarp::voigt_size<Dim>>() = tangent;
-  return answer;
+Outcome to_outcome(scarp::VoigtStress<Dim> const& stress, scarp::VoigtTangent<Dim> const& tangent) {
+  Outcome outcome;
+  outcome.stress.topLeftCorner<Dim, Dim>() = scarp::from_voigt_stress<Dim, double>(stress);
+  outcome.tangent.topLeftCorner<scarp::voigt_size<Dim>, scarp::voigt_size<Dim>>() = tangent;
+  return outcome;
 }
 
 /// start: null for a point's first state. An increment of zero finds the state as it is, without a DEM step.
-/// told: total strain that the new state keeps
+/// total: strain by the host that the new state keeps
 template <int Dim>
-Answer respond(scarp::AnyProvider<Dim> const& provider, State const& start, double depth, Tensor3 const& increment,
-               Tensor3 const& told) {
+Outcome respond(scarp::AnyProvider<Dim> const& provider, State const& start, double depth, Tensor3 const& increment,
+                Tensor3 const& total) {
   scarp::Gradient<Dim> const gradient = increment.topLeftCorner<Dim, Dim>();
   if (Dim == 2 && (!increment.row(2).isZero(0.0) || !increment.col(2).isZero(0.0)))
     scarp::reject(
@@ -110,21 +110,21 @@ Answer respond(scarp::AnyProvider<Dim> const& provider, State const& start, doub
         "dimension 3");
   auto point = initial_point(provider, depth);
   if (start) point.unpack(0, start->bits);
-  Answer answer = to_answer<Dim>(point.committed_stress(0), point.committed_tangent(0));
+  Outcome outcome = to_outcome<Dim>(point.committed_stress(0), point.committed_tangent(0));
   if (!gradient.isZero(0.0)) {
     point.gradient(0) = gradient;
     scarp::SerialExecutor serial;
-    answer.verdict = point.respond(serial).verdict;
-    if (!answer.verdict.acceptable()) return answer;
-    answer = to_answer<Dim>(point.stress(0), point.tangent(0));
+    outcome.verdict = point.respond(serial).verdict;
+    if (!outcome.verdict.acceptable()) return outcome;
+    outcome = to_outcome<Dim>(point.stress(0), point.tangent(0));
     point.commit();
   }
-  answer.after = start && gradient.isZero(0.0) ? start : std::make_shared<Snapshot const>(point.pack(0), told);
-  return answer;
+  outcome.after = start && gradient.isZero(0.0) ? start : std::make_shared<Snapshot const>(point.pack(0), total);
+  return outcome;
 }
 
 /// Total strain by the host's account, where it is the source of increments; else what the state has of it.
-Tensor3 told_strain(Call const& call, Components const& components, State const& start) {
+Tensor3 total_strain(Call const& call, Components const& components, State const& start) {
   if (call.property(3, 2) == 1)
     return components.strain_tensor(given(call.stran, "STRAN")) +
            components.strain_tensor(given(call.dstran, "DSTRAN"));
@@ -132,7 +132,7 @@ Tensor3 told_strain(Call const& call, Components const& components, State const&
 }
 
 /// The increment of a call, in the host's axes.
-Tensor3 increment_of(Call const& call, Components const& components, State const& start, Tensor3 const& told) {
+Tensor3 increment_of(Call const& call, Components const& components, State const& start, Tensor3 const& total) {
   int const source = call.property(3, 2);
   using Matrix = Eigen::Map<Tensor3 const>;  // columns first, as Fortran's
   if (source == 2) {
@@ -140,38 +140,38 @@ Tensor3 increment_of(Call const& call, Components const& components, State const
     return (after - before) * before.inverse();  // exactly zero without an increment
   }
   Tensor3 const strain = source == 0 ? components.strain_tensor(given(call.dstran, "DSTRAN"))
-                         : start     ? Tensor3(told - start->strain)
-                                     : told;
+                         : start     ? Tensor3(total - start->strain)
+                                     : total;
   return gradient_of(strain, call.drot ? Tensor3(Matrix(call.drot)) : Tensor3(Tensor3::Identity()));
 }
 
 template <int Dim>
-void write(Call const& call, Components const& components, Answer const& answer) {
-  Tensor3 const& stress = answer.stress;
+void write(Call const& call, Components const& components, Outcome const& outcome) {
+  Tensor3 const& stress = outcome.stress;
   for (int i = 0; i < components.size; ++i) {
     int const row = components.place<Dim>(i);
     auto const [a, b] = components.pairs[scarp::detail::index(i)];
-    if (answer.verdict.acceptable())
+    if (outcome.verdict.acceptable())
       call.stress[i] =
           row < 0 ? 0.0 : stress(components.axis[scarp::detail::index(a)], components.axis[scarp::detail::index(b)]);
     for (int j = 0; j < components.size; ++j) {
       int const column = components.place<Dim>(j);
       call.ddsdde[call.rows_first ? i * components.size + j : j * components.size + i] =
-          row < 0 || column < 0 ? 0.0 : answer.tangent(row, column);
+          row < 0 || column < 0 ? 0.0 : outcome.tangent(row, column);
     }
   }
 }
 
-std::string question(std::string const& file, State const& start, double depth, Tensor3 const& increment,
-                     Tensor3 const& told) {
-  scarp::StateWriter words;
-  words("file", file);
-  words("start", start ? start->hash : 0);
-  words("length", std::uint64_t{start ? start->bits.size() : 0});
-  words("depth", start ? 0.0 : depth);
-  words("increment", increment);
-  words("told", told);
-  return std::move(words.bits());
+std::string request_of(std::string const& file, State const& start, double depth, Tensor3 const& increment,
+                       Tensor3 const& total) {
+  scarp::StateWriter request;
+  request("file", file);
+  request("start", start ? start->hash : 0);
+  request("length", std::uint64_t{start ? start->bits.size() : 0});
+  request("depth", start ? 0.0 : depth);
+  request("increment", increment);
+  request("total", total);
+  return std::move(request.bits());
 }
 
 template <int Dim>
@@ -180,28 +180,28 @@ void call_material(Call const& call, std::string const& file, scarp::AnyProvider
   auto const components = Components::of(Dim, ntens, call.property(2, 1) == 1);
   std::span const statev(call.statev, scarp::detail::index(std::max(*given(call.nstatv, "NSTATV"), 0)));
   State const start = session()->states.read(statev);
-  Tensor3 const told = told_strain(call, components, start);
-  Tensor3 const increment = components.in_material_axes(increment_of(call, components, start, told));
+  Tensor3 const total = total_strain(call, components, start);
+  Tensor3 const increment = components.in_material_axes(increment_of(call, components, start, total));
   if (!increment.allFinite())
     scarp::reject("the increment of a point of '{}' is not finite: take a smaller step", file);
   double const height = call.coords ? call.coords[ntens == 6 ? 2 : 1] : call.surface();
   double const depth = std::max(call.surface() - height, 0.0);
-  std::string const asked = question(file, start, depth, increment, told);
-  auto answer = session()->memory.find(asked);
-  if (!answer) {
-    answer = respond<Dim>(provider, start, depth, increment, told);
-    session()->memory.add(asked, *answer);
+  std::string const request = request_of(file, start, depth, increment, total);
+  auto outcome = session()->memory.find(request);
+  if (!outcome) {
+    outcome = respond<Dim>(provider, start, depth, increment, total);
+    session()->memory.add(request, *outcome);
   }
-  auto const [status, reason] = answer->verdict;
-  if (answer->verdict.acceptable()) {
-    session()->states.write(answer->after, statev);
+  auto const [status, reason] = outcome->verdict;
+  if (outcome->verdict.acceptable()) {
+    session()->states.write(outcome->after, statev);
   } else if (call.pnewdt) {
     *call.pnewdt = std::min(*call.pnewdt, 0.5);
   } else {
     scarp::reject("a point of '{}' is {} ({}), and PNEWDT is null (a smaller step cannot be requested): take one", file,
                   scarp::name(status), scarp::name(reason));
   }
-  write<Dim>(call, components, *answer);
+  write<Dim>(call, components, *outcome);
 }
 
 void call_umat(Call const& call) noexcept {

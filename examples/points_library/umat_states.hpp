@@ -22,7 +22,7 @@ namespace points_library {
 /// State of a point between two calls. Never changed once it is made.
 struct Snapshot {
   std::string bits;                  ///< of the material's state
-  Tensor3 strain = Tensor3::Zero();  ///< total strain that the host has told
+  Tensor3 strain = Tensor3::Zero();  ///< total strain by the host
   std::uint64_t hash = 0;            ///< of the bits
 
   Snapshot(std::string packed, Tensor3 const& total)
@@ -119,7 +119,7 @@ class StateVariables {
     if (numbers < header)
       scarp::reject(
           "STATEV has {} numbers (at least {} are expected, for a state that can be saved as many as "
-          "scarp_umat_state_numbers tells): make it longer",
+          "scarp_umat_state_numbers returns): make it longer",
           numbers, header);
   }
 
@@ -170,43 +170,43 @@ class StateVariables {
   std::uint64_t session_ = (std::uint64_t{std::random_device{}()} << 16 | std::random_device{}() % 0xffff) & mask;
 };
 
-/// What a call found, for the next one that asks for it.
-struct Answer {
+/// Outcome of a call, kept for the next one with the same request.
+struct Outcome {
   Tensor3 stress = Tensor3::Zero();                                 ///< [Pa], in the material's axes
   scarp::VoigtTangent<3> tangent = scarp::VoigtTangent<3>::Zero();  ///< in the plane: its components, the others zero
   scarp::Verdict verdict{};
   State after{};
 };
 
-/// The latest answers by what was asked, as many as fit into some memory.
+/// The latest outcomes by their requests, as many as fit into 256 MB.
 class Memory {
  public:
-  std::optional<Answer> find(std::string const& question) {
+  std::optional<Outcome> find(std::string const& request) {
     std::lock_guard const lock(mutex_);
-    auto const found = answers_.find(question);
-    return found == answers_.end() ? std::nullopt : std::optional(found->second);
+    auto const found = outcomes_.find(request);
+    return found == outcomes_.end() ? std::nullopt : std::optional(found->second);
   }
 
-  void add(std::string const& question, Answer const& answer) {
+  void add(std::string const& request, Outcome const& outcome) {
     std::lock_guard const lock(mutex_);
-    if (!answers_.try_emplace(question, answer).second) return;
-    order_.push_back(question);
-    for (bytes_ += size(question, answer); bytes_ > most && order_.size() > 1; order_.pop_front()) {
-      auto const oldest = answers_.find(order_.front());
+    if (!outcomes_.try_emplace(request, outcome).second) return;
+    order_.push_back(request);
+    for (bytes_ += size(request, outcome); bytes_ > most && order_.size() > 1; order_.pop_front()) {
+      auto const oldest = outcomes_.find(order_.front());
       bytes_ -= size(oldest->first, oldest->second);
-      answers_.erase(oldest);
+      outcomes_.erase(oldest);
     }
   }
 
  private:
   static constexpr std::size_t most = std::size_t{256} << 20;
 
-  static std::size_t size(std::string const& question, Answer const& answer) {
-    return 2 * question.size() + sizeof(Answer) + (answer.after ? answer.after->bits.size() : 0);
+  static std::size_t size(std::string const& request, Outcome const& outcome) {
+    return 2 * request.size() + sizeof(Outcome) + (outcome.after ? outcome.after->bits.size() : 0);
   }
 
   std::mutex mutex_;
-  std::map<std::string, Answer> answers_;
+  std::map<std::string, Outcome> outcomes_;
   std::deque<std::string> order_;
   std::size_t bytes_ = 0;
 };

@@ -63,12 +63,12 @@ static void states_come_back(void) {
   char* bytes = malloc(length + 8);
   if (!bytes) abort();
   memset(bytes, 7, length + 8);
-  good &= scarp_points_pack(first, 0, bytes, length - 1, &again) == SCARP_WRONG_INPUT && said("give more");
+  good &= scarp_points_pack(first, 0, bytes, length - 1, &again) == SCARP_WRONG_INPUT && reports("give more");
   good &= scarp_points_pack(first, 0, bytes, length, &again) == SCARP_DONE && bytes[length] == 7;
   good &= scarp_points_unpack(second, 0, bytes, length) == SCARP_DONE;
   good &=
       scarp_points_save(first, "points.scarp") == SCARP_DONE && scarp_points_load(third, "points.scarp") == SCARP_DONE;
-  good &= scarp_points_unpack(second, 0, bytes, length / 2) == SCARP_WRONG_INPUT && said("save it again");
+  good &= scarp_points_unpack(second, 0, bytes, length / 2) == SCARP_WRONG_INPUT && reports("save it again");
   scarp_points* const all[3] = {first, second, third};
   double worst = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -81,7 +81,7 @@ static void states_come_back(void) {
   double ratio = 0.0;
   long long steps = 0;
   good = scarp_points_quantity(first, 0, "void_ratio", &ratio) == SCARP_DONE && ratio > 0.1 && ratio < 0.4;
-  good &= scarp_points_quantity(first, 0, "mood", &ratio) == SCARP_WRONG_INPUT && said("void_ratio");
+  good &= scarp_points_quantity(first, 0, "mood", &ratio) == SCARP_WRONG_INPUT && reports("void_ratio");
   good &= scarp_points_work(first, 0, &steps) == SCARP_DONE && steps >= 20;
   check("DEM steps of its last response, void ratio by name", (double)steps, good);
   free(bytes);
@@ -96,42 +96,42 @@ void check_c_functions(void) {
   states_come_back();
 }
 
-static int refused(int status, char const* words) { return status == SCARP_WRONG_INPUT && said(words); }
+static int rejected(int status, char const* text) { return status == SCARP_WRONG_INPUT && reports(text); }
 
 void check_wrong_input(void) {
   scarp_material* material = NULL;
   scarp_points* points = points_of(ELASTIC, 2);
   double numbers[18] = {0.0}, few[4] = {0.0};
-  int good = refused(scarp_material_parse("kind elastic\nyoung 1e6\npoison 0.3\n", &material), "'poison'");
-  good &= refused(scarp_material_parse("kind elastic\nyoung -1\n", &material), "Young's modulus is -1");
-  good &= refused(scarp_material_parse("kind elastic\nyoung ten\n", &material), "'ten'") && material == NULL;
-  good &= refused(scarp_material_parse(NULL, &material), "null") && refused(scarp_material_parse("", NULL), "null");
-  good &= refused(scarp_material_read("nowhere.txt", &material), "no such file");
-  check("wrong materials are refused in words", 6, good);
+  int good = rejected(scarp_material_parse("kind elastic\nyoung 1e6\npoison 0.3\n", &material), "'poison'");
+  good &= rejected(scarp_material_parse("kind elastic\nyoung -1\n", &material), "Young's modulus is -1");
+  good &= rejected(scarp_material_parse("kind elastic\nyoung ten\n", &material), "'ten'") && material == NULL;
+  good &= rejected(scarp_material_parse(NULL, &material), "null") && rejected(scarp_material_parse("", NULL), "null");
+  good &= rejected(scarp_material_read("nowhere.txt", &material), "no such file");
+  check("wrong materials are rejected with a reason", 6, good);
 
-  good = refused(scarp_points_set_gradients(points, few, 4), "2 points have 8");
-  good &= refused(scarp_points_set_gradients(points, NULL, 8), "null");
+  good = rejected(scarp_points_set_gradients(points, few, 4), "2 points have 8");
+  good &= rejected(scarp_points_set_gradients(points, NULL, 8), "null");
   numbers[5] = NAN;
-  good &= refused(scarp_points_set_gradients(points, numbers, 8), "point 1");
+  good &= rejected(scarp_points_set_gradients(points, numbers, 8), "point 1");
   numbers[5] = 0.0;
-  good &= refused(scarp_points_respond(points, 1, NULL), "set them first");
-  good &= refused(scarp_points_commit(points), "respond first");
-  good &= refused(scarp_points_stresses(points, numbers, 6), "respond first");
+  good &= rejected(scarp_points_respond(points, 1, NULL), "set them first");
+  good &= rejected(scarp_points_commit(points), "respond first");
+  good &= rejected(scarp_points_stresses(points, numbers, 6), "respond first");
   good &= scarp_points_set_gradients(points, numbers, 8) == SCARP_DONE;
-  good &= refused(scarp_points_respond(points, -3, NULL), "threads");
-  check("wrong sizes, NaN, null and wrong order of calls are refused in words", 7, good);
+  good &= rejected(scarp_points_respond(points, -3, NULL), "threads");
+  check("wrong sizes, NaN, null and wrong order of calls are rejected with a reason", 7, good);
 
   scarp_verdict worst;
   numbers[4] = -2.0; /* the second point turns inside out */
   good = scarp_points_set_gradients(points, numbers, 8) == SCARP_DONE;
   good &= scarp_points_respond(points, 1, &worst) == SCARP_NOT_ACCEPTABLE && worst.point == 1;
-  good &= strcmp(worst.reason_name, "element_inverted") == 0 && refused(scarp_points_commit(points), "acceptable");
+  good &= strcmp(worst.reason_name, "element_inverted") == 0 && rejected(scarp_points_commit(points), "acceptable");
   good &= scarp_points_verdict(points, 0, &worst) == SCARP_DONE && worst.status == 0;
-  check("an inverted point is told by number and reason, and not committed", worst.status, good);
+  check("an inverted point is reported by number and reason, and not committed", worst.status, good);
 
-  scarp_points* const dead = points;
-  good = scarp_points_free(points) == SCARP_DONE && refused(scarp_points_free(dead), "not alive");
-  good &= refused(scarp_points_commit(dead), "not alive") && refused(scarp_points_commit(NULL), "null");
-  good &= refused(scarp_points_commit((scarp_points*)(void*)numbers), "not alive");
-  check("handles that are freed, null or made up are refused in words", 4, good);
+  scarp_points* const freed = points;
+  good = scarp_points_free(points) == SCARP_DONE && rejected(scarp_points_free(freed), "not alive");
+  good &= rejected(scarp_points_commit(freed), "not alive") && rejected(scarp_points_commit(NULL), "null");
+  good &= rejected(scarp_points_commit((scarp_points*)(void*)numbers), "not alive");
+  check("handles that are freed, null or made up are rejected with a reason", 4, good);
 }

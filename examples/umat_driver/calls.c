@@ -11,7 +11,7 @@ static int is_nan(host_point const* point) {
   return all && point->ddsdde[0] != point->ddsdde[0];
 }
 
-/* A response that is not acceptable asks for a smaller step and changes nothing; half of the step, twice, is what C++ finds. */
+/* A response that is not acceptable requests a smaller step and changes nothing; half of the step, twice, gives the stress of C++. */
 void check_cut_back(void) {
   int const room = whole_state(DISCS);
   host_point point;
@@ -25,7 +25,7 @@ void check_cut_back(void) {
     good = good && memcmp(point.trial, point.statev, (size_t)room * sizeof(double)) == 0 && point.ddsdde[0] > 1e5;
     check("a step that is too large: PNEWDT", point.pnewdt, good);
     kratos_call(&point, huge, 0);
-    check("without PNEWDT its stress is no number", 0, is_nan(&point) && said("PNEWDT is null"));
+    check("without PNEWDT its stress is no number", 0, is_nan(&point) && reports("PNEWDT is null"));
     abaqus_call(&point, "DISCS", strain);
     reference_strain_step(known, 2, 4, strain, stress, tangent);
     worst = fmax(worst, difference(&point, plane, 3, 0, stress, tangent));
@@ -99,39 +99,39 @@ void check_wrong_calls(void) {
   host_point point;
   host_start(&point, DISCS, 4, 3);
   abaqus_call(&point, "DISCS", strain);
-  check("a STATEV of 3 numbers is refused in words", 3,
-        is_nan(&point) && said("STATEV has 3 numbers") && host_intact(&point));
+  check("a STATEV of 3 numbers is rejected with a reason", 3,
+        is_nan(&point) && reports("STATEV has 3 numbers") && host_intact(&point));
   host_end(&point);
 
   host_start(&point, DISCS, 6, 4);
   abaqus_call(&point, "DISCS", strain);
-  check("NTENS of 6 for a plane material is refused in words", 6, is_nan(&point) && said("NTENS is 6"));
+  check("NTENS of 6 for a plane material is rejected with a reason", 6, is_nan(&point) && reports("NTENS is 6"));
   host_end(&point);
 
   host_start(&point, DISCS, 4, whole_state(DISCS));
   abaqus_call(&point, "NOWHERE", strain);
-  int good = is_nan(&point) && said("nowhere.txt");
+  int good = is_nan(&point) && reports("nowhere.txt");
   abaqus_call(&point, "DISCS", strain);
   host_commit(&point, strain);
   double const kept = point.statev[100];
   point.statev[100] = kept + 1.0;
   abaqus_call(&point, "DISCS", strain);
-  good &= is_nan(&point) && said("STATEV was changed");
+  good &= is_nan(&point) && reports("STATEV was changed");
   point.statev[100] = NAN;
   abaqus_call(&point, "DISCS", strain);
-  good &= is_nan(&point) && said("STATEV(101)");
+  good &= is_nan(&point) && reports("STATEV(101)");
   point.statev[100] = kept;
   strain[2] = 1e-3;
   abaqus_call(&point, "DISCS", strain);
-  good &= is_nan(&point) && said("out of the plane");
+  good &= is_nan(&point) && reports("out of the plane");
   strain[2] = NAN;
   abaqus_call(&point, "DISCS", strain);
-  good &= is_nan(&point) && said("not finite") && host_intact(&point);
-  check("an unknown material, a changed STATEV and NaN are refused in words", 5, good);
+  good &= is_nan(&point) && reports("not finite") && host_intact(&point);
+  check("an unknown material, a changed STATEV and NaN are rejected with a reason", 5, good);
   host_end(&point);
 
   umat_(NULL, &statev, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
         NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
         NULL);
-  check("a call with null for all is refused in words", 0, said("STRESS is null"));
+  check("a call with null for all is rejected with a reason", 0, reports("STRESS is null"));
 }

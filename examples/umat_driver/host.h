@@ -24,8 +24,8 @@ void reference_gradient(int dimension, int components, double const* strain, dou
 
 /* Prints a line with a figure, and counts it where it is not good. */
 void check(char const* what, double figure, int good);
-/* Whether the last error has these words. */
-int said(char const* words);
+/* Whether the last error contains a text. */
+int reports(char const* text);
 /* Largest difference of two arrays, infinite where one is no number. */
 double apart(double const* a, double const* b, int count);
 

@@ -22,7 +22,7 @@ void check(char const* what, double figure, int good) {
   printf("%-72s %12.5g  %s\n", what, figure, good ? "ok" : "WRONG");
   wrong += !good;
 }
-int said(char const* words) { return strstr(scarp_last_error(), words) != NULL; }
+int reports(char const* text) { return strstr(scarp_last_error(), text) != NULL; }
 double apart(double const* a, double const* b, int count) {
   double worst = 0.0;
   for (int k = 0; k < count; ++k) {

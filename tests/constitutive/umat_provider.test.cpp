@@ -162,29 +162,29 @@ TEST_CASE("a UMAT that writes outside of its arrays is rejected with the name of
   CHECK_REFUSED(response_of(odd(3.0)), "CLAY", "DDSDDE", "16 numbers");
 }
 
-TEST_CASE("a UMAT that wishes a smaller step does not converge, one that gives NaN fails") {
+TEST_CASE("a UMAT that requests a smaller step does not converge, one that gives NaN fails") {
   CHECK(response_of(odd(4.0)).verdict == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::no_return});
   CHECK(response_of(odd(5.0)).verdict == scarp::Verdict{scarp::Status::failed, scarp::Reason::not_finite});
 }
 
-TEST_CASE("a UMAT is told the name of its material and the increment by strain and by deformation") {
-  auto const told = response_of(odd(6.0)).stress;
-  CHECK(told(0) == 1.0);
-  CHECK(told(1) == Approx(5e-4).epsilon(1e-12));
-  CHECK(told(2) == Approx(1e-3).epsilon(1e-6));  // E differs by a quarter of the square
+TEST_CASE("a UMAT receives the name of its material and the increment by strain and by deformation") {
+  auto const received = response_of(odd(6.0)).stress;
+  CHECK(received(0) == 1.0);
+  CHECK(received(1) == Approx(5e-4).epsilon(1e-12));
+  CHECK(received(2) == Approx(1e-3).epsilon(1e-6));  // E differs by a quarter of the square
 }
 
-TEST_CASE("a UMAT is told the total strain in axes that have turned with the increment") {
+TEST_CASE("a UMAT receives the total strain in axes that have turned with the increment") {
   auto const umat = odd(7.0);
   auto const start = umat.initial_state({});
   auto strained = start, turned = start;
   static_cast<void>(umat.respond(start, shear<2>(1e-3), strained));
   scarp::Tensor<2> const turn = scarp::rotation(0.5);
-  auto const told = umat.respond(strained, turn * 1.000001 - scarp::Tensor<2>::Identity(), turned).stress;
+  auto const received = umat.respond(strained, turn * 1.000001 - scarp::Tensor<2>::Identity(), turned).stress;
   // Analytic: gamma turned by the angle a gives -gamma/2 sin 2a, gamma/2 sin 2a and gamma cos 2a, up to gamma squared.
-  CHECK(told(0) == Approx(-5e-4 * std::sin(1.0)).epsilon(2e-3));
-  CHECK(told(1) == Approx(5e-4 * std::sin(1.0)).epsilon(2e-3));
-  CHECK(told(2) == Approx(1e-3 * std::cos(1.0)).epsilon(2e-3));
+  CHECK(received(0) == Approx(-5e-4 * std::sin(1.0)).epsilon(2e-3));
+  CHECK(received(1) == Approx(5e-4 * std::sin(1.0)).epsilon(2e-3));
+  CHECK(received(2) == Approx(1e-3 * std::cos(1.0)).epsilon(2e-3));
 }
 
 TEST_CASE("a provider without a UMAT, with a name that CMNAME cannot hold, or without time, is rejected") {

@@ -59,8 +59,8 @@ inline void von_mises(UMAT_ARGUMENTS) {
   statev[1] += 1.0;
 }
 
-/// Does what its PROPS(1) says: 1 writes behind STATEV, 2 before STRESS, 3 behind DDSDDE, 4 asks for a smaller step, 5 gives NaN,
-/// 6 tells what it was given in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4); 7 tells STRAN.
+/// Does what its PROPS(1) says: 1 writes behind STATEV, 2 before STRESS, 3 behind DDSDDE, 4 requests a smaller step, 5 gives NaN,
+/// 6 returns what it received in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4); 7 returns STRAN.
 inline void odd(UMAT_ARGUMENTS) {
   static_cast<void>(ndi);
   int const n = *ntens;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
-"""A host in C finds the bits of C++ through C functions and through the UMAT, as Abaqus and as Kratos call it; what it does wrong is told
-in words. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
+"""A host in C finds the bits of C++ through C functions and through the UMAT, as Abaqus and as Kratos call it; wrong calls are rejected
+with a reason. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import os
 import pathlib
 import re
@@ -22,7 +22,7 @@ compared = [float(figure) for what, figure, _ in lines if what.endswith("[Pa]")]
 expect(len(lines) >= 25 and len(compared) >= 14, f"only {len(lines)} lines, {len(compared)} of them compare stresses")
 expect(all(figure == 0.0 for figure in compared), f"C++ and others differ by up to {max(compared, default=1.0)} Pa")
 for words in ("STATEV has 3 numbers", "NTENS is 6", "PNEWDT is null", "nowhere.txt", "STATEV was changed", "STRESS is null"):
-    expect(f"umat: " in done.stderr and words in done.stderr, f"the error stream does not say '{words}'")
+    expect("umat: " in done.stderr and words in done.stderr, f"the error stream lacks '{words}'")
 done = subprocess.run([FOLDER / "points_library"], capture_output=True, text=True, timeout=100)
 expect(done.returncode == 0 and done.stdout.count("stress xx") == 2, f"points_library: {done.stdout}{done.stderr}")
 symbols = subprocess.run(["nm", "-D", "--defined-only", FOLDER / "libscarp_points.so"], capture_output=True, text=True).stdout
