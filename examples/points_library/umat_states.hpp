@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "scarp/io/framed_file.hpp"
+#include "scarp/io/read_file.hpp"
 #include "umat_components.hpp"
 
 namespace points_library {
@@ -23,10 +24,13 @@ namespace points_library {
 struct Snapshot {
   std::string bits;                  ///< of the material's state
   Tensor3 strain = Tensor3::Zero();  ///< total strain by the host
-  std::uint64_t hash = 0;            ///< of the bits
+  std::uint64_t hash = 0;            ///< of both
 
   Snapshot(std::string packed, Tensor3 const& total)
-      : bits(std::move(packed)), strain(total), hash(scarp::detail::hash_of(bits)) {}
+      : bits(std::move(packed)),
+        strain(total),
+        hash(scarp::detail::hash_of(bits) ^
+             scarp::detail::hash_of({reinterpret_cast<char const*>(strain.data()), sizeof strain})) {}
 };
 using State = std::shared_ptr<Snapshot const>;
 
@@ -94,8 +98,7 @@ class StateVariables {
     writer("strain", state->strain);
     writer("bits", state->bits);
     if (numbers_of(writer.bits().size()) > statev.size()) return write_key(state, statev);
-    std::uint64_t const hash = scarp::detail::hash_of(writer.bits());
-    std::array const begin{whole, std::uint64_t{writer.bits().size()}, hash & mask, hash >> digits};
+    std::array const begin{whole, std::uint64_t{writer.bits().size()}, state->hash & mask, state->hash >> digits};
     std::copy(begin.begin(), begin.end(), statev.begin());
     std::string_view rest = writer.bits();
     for (std::size_t k = header; !rest.empty(); ++k) {
@@ -147,14 +150,17 @@ class StateVariables {
       std::uint64_t const number = whole_number(statev, k);
       std::memcpy(bytes.data() + at, &number, std::min(bytes_each, length - at));
     }
-    if (scarp::detail::hash_of(bytes) != hash)
-      scarp::reject("STATEV was changed since this routine wrote it (its hash does not fit): leave it alone");
-    scarp::StateReader reader(bytes);
     Tensor3 strain;
     std::string bits;
-    reader("strain", strain);
-    reader("bits", bits);
-    return std::make_shared<Snapshot const>(std::move(bits), strain);
+    scarp::with_context("STATEV", [&] {
+      scarp::StateReader reader(bytes);
+      reader("strain", strain);
+      reader("bits", bits);
+    });
+    auto state = std::make_shared<Snapshot const>(std::move(bits), strain);
+    if (state->hash != hash)
+      scarp::reject("STATEV was changed since this routine wrote it (its hash does not fit): leave it alone");
+    return state;
   }
 
   void write_key(State const& state, std::span<double> statev) {

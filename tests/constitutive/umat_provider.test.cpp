@@ -192,4 +192,7 @@ TEST_CASE("a provider without a UMAT, with a name that CMNAME cannot hold, or wi
   CHECK_REFUSED((scarp::UmatProvider<2>{.umat = umats::odd, .name = std::string(81, 'a')}.initial_state({})),
                 "81 letters");
   CHECK_REFUSED((scarp::UmatProvider<2>{.umat = umats::odd, .time_step = 0.0}.initial_state({})), "time step", "0");
+  scarp::UmatProvider<2> const undefined{
+      .umat = umats::von_mises, .properties = std::vector<double>(4, NAN), .variables = {0.0, 0.0}};
+  CHECK_REFUSED(undefined.initial_state({}), "zero increment", "UMAT");
 }

@@ -90,6 +90,7 @@ struct UmatProvider {
 
   /// The stress out of the plane starts as the horizontal one in it. The UMAT is called with a zero increment, for its tangent.
   /// \throws InputError for a provider without a UMAT, a name of more than 80 letters, and for an initial stress that cannot be
+  /// or that the UMAT does not bear
   State initial_state(Site<Dim> const& site) const {
     if (!umat) reject("a UmatProvider has no UMAT (its address is null): give it one");
     if (name.size() > name_length)
@@ -106,7 +107,11 @@ struct UmatProvider {
     state.position.template head<Dim>() = site.position;
     state.number = site.index + 1;
     State tried = state;
-    call(tried, state.deformation, Tensor<3>::Identity(), Tensor<3>::Zero());
+    if (!call(tried, state.deformation, Tensor<3>::Identity(), Tensor<3>::Zero()).acceptable())
+      reject(
+          "the UMAT '{}' does not bear a zero increment (its numbers are not finite, or PNEWDT is below one): correct "
+          "its properties",
+          name);
     state.tangent = tried.tangent;
     return state;
   }
