@@ -43,7 +43,7 @@ reference make(int material) {
   if (material == DISCS) return {one_point<2>(discs())};
   double const degree = std::numbers::pi / 180.0;
   return {one_point<2>(scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>{
-      elastic, {{.cohesion = 1e3, .friction = 30.0 * degree, .dilation = 5.0 * degree}}, {.surcharge = 1e5}})};
+      elastic, {{.cohesion = 1e3, .friction = 30.0 * degree, .dilation = 5.0 * degree}}, {.surcharge = 1e3}})};
 }
 
 template <class Matrix>

@@ -6,6 +6,9 @@
 
 #include "host.h"
 
+/* Flow that is not associated: the order of rows and columns counts. */
+static int is_plastic(double const* tangent) { return fabs(tangent[1] - tangent[3]) > 1e5; }
+
 /* Abaqus: iterations try other increments from the committed state, the first of twice the size, before the last one is kept. */
 static double abaqus_path(int material, int ntens, int nstatv, int* good) {
   int const dim = ntens == 6 ? 3 : 2;
@@ -27,6 +30,7 @@ static double abaqus_path(int material, int ntens, int nstatv, int* good) {
     *good &= host_intact(&point) && point.pnewdt == 1.0;
     host_commit(&point, strain);
   }
+  *good &= material != MOHR_COULOMB || is_plastic(tangent);
   reference_free(known);
   host_end(&point);
   return worst;
@@ -53,6 +57,7 @@ static double kratos_path(int material, int ntens, int nstatv, int source, int* 
     *good &= host_intact(&point);
     host_commit(&point, strain);
   }
+  *good &= material != MOHR_COULOMB || is_plastic(tangent);
   reference_free(known);
   host_end(&point);
   return worst;
@@ -69,25 +74,32 @@ static int run_task(void* argument) {
   return 0;
 }
 
+static void same_bits(char const* what, double worst, int* good) {
+  check(what, worst, *good && worst == 0.0);
+  *good = 1;
+}
+
 void check_sequences(void) {
   int good = 1;
   int const room = whole_state(DISCS);
   double worst = abaqus_path(DISCS, 4, room, &good);
-  check("Abaqus, packing, whole state in STATEV [Pa]", worst, good && worst == 0.0);
+  same_bits("Abaqus, packing, whole state in STATEV [Pa]", worst, &good);
   worst = abaqus_path(DISCS, 4, 4, &good);
-  check("Abaqus, packing, key in a STATEV of 4 [Pa]", worst, good && worst == 0.0);
+  same_bits("Abaqus, packing, key in a STATEV of 4 [Pa]", worst, &good);
   worst = abaqus_path(MOHR_COULOMB, 3, whole_state(MOHR_COULOMB), &good);
-  check("Abaqus, Mohr-Coulomb, three components [Pa]", worst, good && worst == 0.0);
+  same_bits("Abaqus, Mohr-Coulomb, three components [Pa]", worst, &good);
   worst = abaqus_path(MOHR_COULOMB, 4, whole_state(MOHR_COULOMB), &good);
-  check("Abaqus, Mohr-Coulomb [Pa]", worst, good && worst == 0.0);
+  same_bits("Abaqus, Mohr-Coulomb [Pa]", worst, &good);
   worst = abaqus_path(ELASTIC_IN_SPACE, 6, 200, &good);
-  check("Abaqus, elastic in space [Pa]", worst, good && worst == 0.0);
+  same_bits("Abaqus, elastic in space [Pa]", worst, &good);
   worst = kratos_path(ELASTIC_IN_SPACE, 6, 4, 0, &good);
-  check("Kratos, elastic in space, null pointers [Pa]", worst, good && worst == 0.0);
+  same_bits("Kratos, elastic in space, null pointers [Pa]", worst, &good);
+  worst = kratos_path(MOHR_COULOMB, 4, 4, 0, &good);
+  same_bits("Kratos, Mohr-Coulomb, tangent that is not symmetric [Pa]", worst, &good);
   worst = kratos_path(DISCS, 4, 4, 0, &good);
-  check("Kratos, packing, each response twice [Pa]", worst, good && worst == 0.0);
+  same_bits("Kratos, packing, each response twice [Pa]", worst, &good);
   worst = kratos_path(DISCS, 4, room, 1, &good);
-  check("Kratos, packing, by total strain [Pa]", worst, good && worst == 0.0);
+  same_bits("Kratos, packing, by total strain [Pa]", worst, &good);
 
   task tasks[2] = {{.material = DISCS}, {.material = MOHR_COULOMB}};
   thrd_t threads[2];

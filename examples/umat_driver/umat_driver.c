@@ -14,7 +14,7 @@ static int wrong = 0;
 char const* const names[MATERIALS + 1] = {"", "ELASTIC", "SOIL", "DISCS", "ROCK"};
 char const* const texts[MATERIALS + 1] = {
     "", "kind elastic\nyoung 20e6\npoisson 0.3\n",
-    "kind mohr-coulomb\nyoung 20e6\npoisson 0.3\ncohesion 1e3\nfriction 30\ndilation 5\nsurcharge 1e5\n",
+    "kind mohr-coulomb\nyoung 20e6\npoisson 0.3\ncohesion 1e3\nfriction 30\ndilation 5\nsurcharge 1e3\n",
     "kind packing\nshape disc # of 4 to 6 mm\ngrains 100\npressure 1e5\n",
     "kind elastic\ndimension 3\nyoung 20e6\npoisson 0.3\n"};
 
