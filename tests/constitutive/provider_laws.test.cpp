@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "constitutive/provider_laws.hpp"
 
+#include "constitutive/umats.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
@@ -43,6 +44,23 @@ struct Sample<scarp::MohrCoulomb<Dim>> : Sample<scarp::LinearElastic<Dim>> {
   }
   static bool same(State const& a, State const& b) {
     return a.stress == b.stress && a.plastic_shear == b.plastic_shear && a.tangent == b.tangent;
+  }
+};
+
+template <int Dim>
+struct Sample<scarp::UmatProvider<Dim>> : Sample<scarp::LinearElastic<Dim>> {
+  using Provider = scarp::UmatProvider<Dim>;
+  using State = typename Provider::State;
+
+  static Provider provider() { return umats::elastic<Dim>(); }
+  static State state(Provider const& provider) {
+    State state = provider.initial_state({});
+    state.stress = VoigtStress<3>::LinSpaced(-5e5, 1e5);
+    if (Dim == 2) state.stress.template segment<2>(3).setZero();  // nothing shears out of the plane
+    return state;
+  }
+  static bool same(State const& a, State const& b) {
+    return a.stress == b.stress && a.strain == b.strain && a.variables == b.variables && a.tangent == b.tangent;
   }
 };
 
@@ -96,9 +114,10 @@ using ElasticInPlane = scarp::LinearElastic<2>;
 using ElasticInSpace = scarp::LinearElastic<3>;
 using RveOfDiscs = scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>;
 using RveOfEllipses = scarp::DemRve<samples::Ellipses, scarp::SamePacking<samples::Ellipses>>;
-#define EVERY_PROVIDER                                                                                     \
-  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, RveOfDiscs, RveOfEllipses, \
-      scarp::VariedParameters<ElasticInPlane>, scarp::StiffnessFloor<ElasticInPlane>
+#define EVERY_PROVIDER                                                                                  \
+  ElasticInPlane, ElasticInSpace, scarp::MohrCoulomb<2>, scarp::MohrCoulomb<3>, scarp::UmatProvider<2>, \
+      scarp::UmatProvider<3>, RveOfDiscs, RveOfEllipses, scarp::VariedParameters<ElasticInPlane>,       \
+      scarp::StiffnessFloor<ElasticInPlane>
 
 TEST_CASE_TEMPLATE("every provider: committed state is never touched", Provider, EVERY_PROVIDER) {
   provider_laws::committed_state_is_never_touched<Provider>();

@@ -4,6 +4,7 @@
 
 #include "constitutive/nestings.hpp"
 #include "constitutive/provider_laws.hpp"
+#include "constitutive/umats.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -177,6 +178,11 @@ TEST_CASE("what is saved comes back: elasticity and plasticity, in the plane and
   what_is_saved_comes_back(scarp::MohrCoulomb<3>{elasticity, {strength}});
   what_is_saved_comes_back(scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength>{
       elasticity, {.peak = strength, .residual = {.friction = 0.3}}, {1e3, 2e3, 0.5}});
+}
+
+TEST_CASE("what is saved comes back: a user's UMAT, in the plane and in space") {
+  what_is_saved_comes_back(umats::hardening<2>());
+  what_is_saved_comes_back(umats::hardening<3>());
 }
 
 TEST_CASE("what is saved comes back: packings of several shapes and laws") {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <variant>
+
+#include "scarp/points/any_provider.hpp"
+#include "scarp_points.h"
+
+namespace points_library {
+
+/// A material in the plane or in space.
+using Material = std::variant<scarp::AnyProvider<2>, scarp::AnyProvider<3>>;
+
+/// A material from lines "key value"; what follows # is a comment.
+///
+/// kind elastic | mohr-coulomb | packing; dimension 2 (plane strain, the default) or 3.
+/// Elastic and mohr-coulomb: young [Pa], poisson; initial stress of level ground surcharge [Pa], unit-weight [N/m3], k0 (1).
+/// Mohr-coulomb: cohesion [Pa], friction and dilation [degrees], tension [Pa].
+/// Packing: shape disc | ellipse | sphere with normal-stiffness, tangential-stiffness [N/m], friction, and either the cloud that is
+/// prepared, with smallest, largest [m], aspect, grains, seed, density [kg/m3], thickness [m], pressure [Pa], preparation-friction,
+/// or file: a packing that rve_lab prepared, whose material stands in the .json beside it. In space the thickness is 1.
+/// Also strain-per-step and unbalanced-tolerance of responses.
+/// folder: where a relative `file` begins
+/// \throws InputError for a key that is unknown or given twice, a value that is none, and parameters that no material can have
+Material material_of(std::string_view text, std::filesystem::path const& folder = {});
+
+/// \throws InputError naming the file
+Material read_material(std::filesystem::path const& path);
+
+/// The material behind a handle of C. \throws InputError for one that is not alive
+std::shared_ptr<Material const> material_at(scarp_material const* handle);
+
+}  // namespace points_library

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
+#include "scarp/tensor/finite_strain.hpp"
+#include "scarp/tensor/voigt.hpp"
+
+namespace scarp {
+
+/// A user's material subroutine by the interface that Abaqus publishes, as Fortran compilers call it on Unix. A C function without
+/// the last argument, the length of CMNAME, may be called so too. `extern "C" scarp::Umat umat_;` declares it.
+using Umat = void(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd, double* rpl,
+                  double* ddsddt, double* drplde, double* drpldt, double* stran, double* dstran, double* time,
+                  double* dtime, double* temp, double* dtemp, double* predef, double* dpred, char* cmname, int* ndi,
+                  int* nshr, int* ntens, int* nstatv, double* props, int* nprops, double* coords, double* drot,
+                  double* pnewdt, double* celent, double* dfgrd0, double* dfgrd1, int* noel, int* npt, int* layer,
+                  int* kspt, int* kstep, int* kinc, std::size_t cmname_length);
+
+namespace detail {
+
+/// Numbers that a subroutine may write, between others that it must leave alone.
+class FencedNumbers {
+ public:
+  explicit FencedNumbers(std::size_t count) : numbers_(count + 2 * width, fence) { std::fill_n(data(), count, 0.0); }
+  double* data() { return numbers_.data() + width; }
+
+  /// \throws InputError where a number outside was overwritten
+  void require_intact(std::string_view name, std::string_view umat) const {
+    auto const is_fence = [](double number) { return number == fence; };
+    std::ptrdiff_t const count = std::ssize(numbers_) - 2 * static_cast<std::ptrdiff_t>(width);
+    if (!std::all_of(numbers_.begin(), numbers_.begin() + width, is_fence) ||
+        !std::all_of(numbers_.end() - width, numbers_.end(), is_fence))
+      reject(
+          "the UMAT '{}' wrote outside of {} (which has {} numbers): correct its loops, or give more state variables",
+          umat, name, count);
+  }
+
+ private:
+  static constexpr std::ptrdiff_t width = 8;
+  static constexpr double fence = -8.7654321e300;
+
+  std::vector<double> numbers_;
+};
+
+}  // namespace detail
+
+/// A user's UMAT as provider: in the plane by four components (11, 22, 33, 12), in space by six (11, 22, 33, 12, 13, 23). Stress, total
+/// strain and state variables are parts of the state, so that a trial never changes what is committed. The increment is passed
+/// both as strain with rotation (DSTRAN, DROT; stress and strain are turned before) and as DFGRD0 and DFGRD1. State variables that are
+/// tensors are turned by the UMAT, as for Abaqus.
+/// A UMAT that keeps something between calls (SAVE, COMMON) must not be called by several threads, and is no function of its state.
+template <int Dim, class InitialStress = StressFree<Dim>>
+  requires InitialStressField<InitialStress, Dim>
+struct UmatProvider {
+  static constexpr int dim = Dim;
+
+  struct State {
+    VoigtStress<3> stress = VoigtStress<3>::Zero();              ///< [Pa]
+    EngineeringStrain<3> strain = EngineeringStrain<3>::Zero();  ///< STRAN
+    std::vector<double> variables{};                             ///< STATEV
+    Tensor<3> deformation = Tensor<3>::Identity();               ///< DFGRD0
+    double time = 0.0;                                           ///< [s]
+    Vector<3> position = Vector<3>::Zero();                      ///< COORDS [m]
+    int number = 0;                                              ///< of the point, NOEL
+    VoigtTangent<Dim> tangent = VoigtTangent<Dim>::Zero();       ///< of the increment that led here [Pa]
+
+    SCARP_MEMBERS(stress, strain, variables, deformation, time, position, number, tangent)
+  };
+
+  Umat* umat = nullptr;
+  std::string name = "UMAT";         ///< CMNAME
+  std::vector<double> properties{};  ///< PROPS
+  std::vector<double> variables{};   ///< STATEV at the start; its length is NSTATV
+  InitialStress initial{};           ///< every point's start, by depth
+  double time_step = 1.0;            ///< DTIME of an increment [s]
+
+  /// The stress out of the plane starts as the horizontal one in it. The UMAT is called with a zero increment, for its tangent.
+  /// \throws InputError for a provider without a UMAT, a name of more than 80 letters, and for an initial stress that cannot be
+  /// or that the UMAT does not bear
+  State initial_state(Site<Dim> const& site) const {
+    if (!umat) reject("a UmatProvider has no UMAT (its address is null): give it one");
+    if (name.size() > name_length)
+      reject("the name of a UMAT's material has {} letters (at most {} are expected): shorten it", name.size(),
+             name_length);
+    require_positive("time step of a UMAT", time_step);
+    VoigtStress<Dim> const start = initial_stress<Dim>(initial, site);
+    Tensor<3> stress = Tensor<3>::Zero();
+    stress.template topLeftCorner<Dim, Dim>() = from_voigt_stress<Dim, double>(start);
+    if (Dim == 2) stress(2, 2) = start(0);
+    State state;
+    state.stress = to_voigt_stress<3, double>(stress);
+    state.variables = variables;
+    state.position.template head<Dim>() = site.position;
+    state.number = site.index + 1;
+    State tried = state;
+    if (!call(tried, state.deformation, Tensor<3>::Identity(), Tensor<3>::Zero()).acceptable())
+      reject(
+          "the UMAT '{}' does not bear a zero increment (its numbers are not finite, or PNEWDT is below one): correct "
+          "its properties",
+          name);
+    state.tangent = tried.tangent;
+    return state;
+  }
+
+  VoigtStress<Dim> stress(State const& state) const {
+    Tensor<Dim> const part = from_voigt_stress<3, double>(state.stress).template topLeftCorner<Dim, Dim>();
+    return to_voigt_stress<Dim, double>(part);
+  }
+
+  VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
+
+  /// Not converged (`no_return`) where the UMAT sets PNEWDT below one, failed for an increment that inverts and for stress or state
+  /// that is not finite; `trial` is then a copy of `committed`.
+  /// \throws InputError where the UMAT wrote outside of its arrays
+  Response<Dim> respond(State const& committed, Gradient<Dim> const& increment, State& trial) const {
+    trial = committed;
+    RotatedIncrement<Dim> const moved(increment);
+    if (!moved.verdict.acceptable()) return {stress(committed), moved.verdict};
+    Tensor<3> deformation = Tensor<3>::Identity(), turn = Tensor<3>::Identity(), strain = Tensor<3>::Zero();
+    deformation.template topLeftCorner<Dim, Dim>() += increment;
+    turn.template topLeftCorner<Dim, Dim>() = moved.turn;
+    strain.template topLeftCorner<Dim, Dim>() = moved.strain;
+    State next = committed;
+    next.deformation = deformation * committed.deformation;
+    Verdict const verdict = call(next, committed.deformation, turn, turn * strain * turn.transpose());
+    if (!verdict.acceptable()) return {stress(committed), verdict};
+    trial = std::move(next);
+    return {stress(trial), {}};
+  }
+
+ private:
+  static constexpr int components = Dim == 2 ? 4 : 6;
+  static constexpr std::size_t name_length = 80;
+  /// Places of the UMAT's components in the order of VoigtStress<3>.
+  static constexpr std::array<int, 6> places{0, 1, 2, 5, 4, 3};
+  /// Components of the UMAT that make up VoigtStress<Dim>.
+  static constexpr std::array<int, 6> own = Dim == 2 ? std::array{0, 1, 3, 0, 0, 0} : std::array{0, 1, 2, 5, 4, 3};
+
+  static void copy(VoigtStress<3> const& from, double* to) {
+    for (int k = 0; k < components; ++k) to[k] = from(places[detail::index(k)]);
+  }
+  static void copy(double const* from, VoigtStress<3>& to) {
+    for (int k = 0; k < components; ++k) to(places[detail::index(k)]) = from[k];
+  }
+
+  /// state: committed, with the deformation at the end; then the new one, and of no use where the verdict is not acceptable
+  /// strain: of the increment, in axes that turn with it
+  Verdict call(State& state, Tensor<3> before, Tensor<3> turn, Tensor<3> const& strain) const {
+    Tensor<3> const turned = turn * from_voigt_stress<3, double>(state.stress) * turn.transpose();
+    Tensor<3> half = from_voigt_stress<3, double>(state.strain);  // its shear is that of engineering
+    half += half.diagonal().asDiagonal();
+    Tensor<3> const total = turn * half * turn.transpose() / 2.0;
+    detail::FencedNumbers stress(components), statev(state.variables.size()), ddsdde(components * components);
+    copy(to_voigt_stress<3, double>(turned), stress.data());
+    std::copy(state.variables.begin(), state.variables.end(), statev.data());
+    std::array<double, 6> stran{}, dstran{};
+    copy(to_engineering_strain<3, double>(total), stran.data());
+    copy(to_engineering_strain<3, double>(strain), dstran.data());
+    double sse = 0.0, spd = 0.0, scd = 0.0, rpl = 0.0, drpldt = 0.0, temp = 0.0, dtemp = 0.0, predef = 0.0, dpred = 0.0;
+    double pnewdt = 1.0, celent = 1.0, dtime = time_step;
+    std::array<double, 6> ddsddt{}, drplde{};
+    std::array<double, 2> time{state.time, state.time};
+    std::array<char, name_length> cmname;
+    cmname.fill(' ');
+    std::copy(name.begin(), name.end(), cmname.begin());
+    int ndi = 3, nshr = components - 3, ntens = components, nstatv = detail::count(state.variables);
+    int nprops = detail::count(properties), npt = 1, layer = 1, kspt = 1, noel = state.number;
+    std::array<int, 4> kstep{1, 0, 0, 0};
+    int kinc = 1;
+    auto props = properties;
+    Vector<3> coords = state.position;
+    Tensor<3> after = state.deformation;
+    umat(stress.data(), statev.data(), ddsdde.data(), &sse, &spd, &scd, &rpl, ddsddt.data(), drplde.data(), &drpldt,
+         stran.data(), dstran.data(), time.data(), &dtime, &temp, &dtemp, &predef, &dpred, cmname.data(), &ndi, &nshr,
+         &ntens, &nstatv, props.data(), &nprops, coords.data(), turn.data(), &pnewdt, &celent, before.data(),
+         after.data(), &noel, &npt, &layer, &kspt, kstep.data(), &kinc, name_length);
+    stress.require_intact("STRESS", name);
+    statev.require_intact("STATEV", name);
+    ddsdde.require_intact("DDSDDE", name);
+    for (int i = 0; i < voigt_size<Dim>; ++i) {
+      for (int j = 0; j < voigt_size<Dim>; ++j)
+        state.tangent(i, j) = ddsdde.data()[own[detail::index(j)] * components + own[detail::index(i)]];
+    }
+    copy(stress.data(), state.stress);
+    std::copy_n(statev.data(), state.variables.size(), state.variables.begin());
+    state.strain = to_engineering_strain<3, double>(total + strain);
+    state.time += time_step;
+    if (pnewdt < 1.0) return {Status::not_converged, Reason::no_return};
+    auto const finite = [](double number) { return std::isfinite(number); };
+    if (!state.stress.allFinite() || !state.tangent.allFinite() || !std::ranges::all_of(state.variables, finite))
+      return {Status::failed, Reason::not_finite};
+    return {};
+  }
+};
+
+static_assert(ConstitutiveProvider<UmatProvider<2>>);
+static_assert(ConstitutiveProvider<UmatProvider<3>>);
+static_assert(ConstitutiveProvider<UmatProvider<2, GeostaticStress<2>>>);
+
+}  // namespace scarp

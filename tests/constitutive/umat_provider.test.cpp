@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/constitutive/umat_provider.hpp"
+
+#include <doctest/doctest.h>
+
+#include "constitutive/provider_laws.hpp"
+#include "constitutive/umats.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/core/executor.hpp"
+#include "scarp/points/material_points.hpp"
+#include "support/approx.hpp"
+#include "support/refusals.hpp"
+
+namespace {
+
+using samples::Approx;
+using scarp::Gradient;
+
+template <int Dim>
+Gradient<Dim> shear(double angle) {
+  Gradient<Dim> gradient = Gradient<Dim>::Zero();
+  gradient(0, 1) = gradient(1, 0) = angle / 2.0;
+  return gradient;
+}
+
+template <int Dim>
+void follows_linear_elastic() {
+  auto const umat = umats::elastic<Dim>();
+  auto const own = scarp::LinearElastic<Dim>::from_lame(3e6, 2e6);
+  auto state = umat.initial_state({});
+  auto expected = own.initial_state({});
+  // The same formulas in another order of operations: round-off of each step.
+  CHECK((umat.tangent(state) - own.tangent(expected)).norm() <= 1e-15 * own.tangent(expected).norm());
+  for (double const size : {0.02, -0.1, 0.3}) {
+    auto const increment = provider_laws::ordinary_increment<Dim>(size);
+    auto trial = state;
+    auto trial_expected = expected;
+    auto const response = umat.respond(state, increment, trial);
+    auto const known = own.respond(expected, increment, trial_expected);
+    CHECK(response.verdict.acceptable());
+    CHECK((response.stress - known.stress).norm() <= 1e-14 * known.stress.norm());
+    state = trial;
+    expected = trial_expected;
+  }
+}
+
+/// Analytic: in pure shear tau = (Y + H e)/sqrt(3) and gamma = tau/G + sqrt(3) e with the equivalent plastic strain e.
+template <int Dim>
+void hardens_in_shear() {
+  auto const umat = umats::hardening<Dim>();
+  double const modulus = umat.properties[0], yield = umat.properties[2], hardening = umat.properties[3];
+  constexpr int shear_place = Dim == 2 ? 2 : 5;
+  auto state = umat.initial_state({});
+  int const steps = 40;
+  double const whole = 0.02;
+  for (int step = 0; step < steps; ++step) {
+    auto trial = state;
+    CHECK(umat.respond(state, shear<Dim>(whole / steps), trial).verdict.acceptable());
+    state = trial;
+  }
+  double const plastic =
+      (whole - yield / (std::sqrt(3.0) * modulus)) / (hardening / (std::sqrt(3.0) * modulus) + std::sqrt(3.0));
+  // The strain of an increment of its half-way configuration differs from gamma by gamma^3/12, 1e-8 of gamma^2 each.
+  CHECK(state.variables[0] == Approx(plastic).epsilon(1e-6));
+  CHECK(umat.stress(state)(shear_place) == Approx((yield + hardening * plastic) / std::sqrt(3.0)).epsilon(1e-6));
+  CHECK(state.variables[1] == steps);
+  auto const slope = modulus * hardening / (3.0 * modulus + hardening);
+  CHECK(umat.tangent(state)(shear_place, shear_place) == Approx(slope).epsilon(1e-6));
+}
+
+template <int Dim>
+void tangent_is_the_derivative() {
+  auto const umat = umats::hardening<Dim>();
+  auto const start = umat.initial_state({});
+  scarp::Tensor<Dim> strain = provider_laws::ordinary_increment<Dim>(0.01);
+  strain = (strain + strain.transpose()).eval() / 2.0;
+  auto trial = start;
+  REQUIRE(umat.respond(start, strain, trial).verdict.acceptable());
+  REQUIRE(trial.variables[0] > 1e-3);
+  auto const tangent = umat.tangent(trial);
+  double const step = 1e-6;
+  for (int k = 0; k < scarp::voigt_size<Dim>; ++k) {
+    auto more = start, less = start;
+    auto const up = umat.respond(start, strain + step * scarp::unit_strain<Dim>(k), more).stress;
+    auto const down = umat.respond(start, strain - step * scarp::unit_strain<Dim>(k), less).stress;
+    // E = 2 (U - I)(U + I)^-1 has a derivative of 1 - eps: a hundredth of the stiffness.
+    CHECK(((up - down) / (2.0 * step) - tangent.col(k)).norm() <= 0.015 * tangent.norm());
+  }
+}
+
+scarp::UmatProvider<2> odd(double wish) {
+  return {.umat = umats::odd, .name = "CLAY", .properties = {wish}, .variables = {3.0}};
+}
+
+template <class Provider>
+scarp::Response<2> response_of(Provider const& provider) {
+  auto const state = provider.initial_state({});
+  auto trial = state;
+  auto const response = provider.respond(state, shear<2>(1e-3), trial);
+  if (!response.verdict.acceptable()) {
+    CHECK(trial.stress == state.stress);
+    CHECK(trial.variables == state.variables);
+  }
+  return response;
+}
+
+}  // namespace
+
+TEST_CASE("a UMAT of linear elasticity gives the stresses of LinearElastic, rotations included") {
+  follows_linear_elastic<2>();
+  follows_linear_elastic<3>();
+}
+
+TEST_CASE("a UMAT of von Mises' plasticity hardens in pure shear by its closed form") {
+  hardens_in_shear<2>();
+  hardens_in_shear<3>();
+}
+
+TEST_CASE("the tangent of a UMAT is the derivative of its stress in the order of components of this library") {
+  tangent_is_the_derivative<2>();
+  tangent_is_the_derivative<3>();
+}
+
+TEST_CASE(
+    "a UMAT keeps no trial: from a committed state it responds with the same bits, and its calls are not counted up") {
+  auto const umat = umats::hardening<2>();
+  auto const state = umat.initial_state({});
+  auto first = state, second = state;
+  static_cast<void>(umat.respond(state, shear<2>(0.01), first));
+  static_cast<void>(umat.respond(state, shear<2>(0.03), second));
+  static_cast<void>(umat.respond(state, shear<2>(0.01), second));
+  CHECK(state.variables == std::vector{0.0, 0.0});
+  CHECK(second.variables == first.variables);
+  CHECK(second.variables[1] == 1.0);
+  CHECK(second.stress == first.stress);
+}
+
+TEST_CASE("points of a UMAT are saved and go on with the same bits") {
+  auto const umat = umats::hardening<3>();
+  std::vector<scarp::Site<3>> const sites(2);
+  scarp::SerialExecutor executor;
+  scarp::MaterialPoints<3> points(umat, sites), others(umat, sites);
+  auto const step = [&](scarp::MaterialPoints<3>& batch) {
+    for (int k = 0; k < batch.size(); ++k) batch.gradient(k) = shear<3>(0.01 * (k + 1));
+    REQUIRE(batch.respond(executor).verdict.acceptable());
+    batch.commit();
+  };
+  step(points);
+  others.unpack(0, points.pack(0));
+  others.unpack(1, points.pack(1));
+  step(points);
+  step(others);
+  CHECK(others.committed_stress(1) == points.committed_stress(1));
+  CHECK(others.committed_tangent(0) == points.committed_tangent(0));
+  CHECK(others.pack(1) == points.pack(1));
+  CHECK(points.state<scarp::UmatProvider<3>::State>(1).variables[1] == 2.0);
+}
+
+TEST_CASE("a UMAT that writes outside of its arrays is rejected with the name of the array") {
+  CHECK_REFUSED(response_of(odd(1.0)), "CLAY", "STATEV", "1 numbers");
+  CHECK_REFUSED(response_of(odd(2.0)), "CLAY", "STRESS", "4 numbers");
+  CHECK_REFUSED(response_of(odd(3.0)), "CLAY", "DDSDDE", "16 numbers");
+}
+
+TEST_CASE("a UMAT that requests a smaller step does not converge, one that gives NaN fails") {
+  CHECK(response_of(odd(4.0)).verdict == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::no_return});
+  CHECK(response_of(odd(5.0)).verdict == scarp::Verdict{scarp::Status::failed, scarp::Reason::not_finite});
+}
+
+TEST_CASE("a UMAT receives the name of its material and the increment by strain and by deformation") {
+  auto const received = response_of(odd(6.0)).stress;
+  CHECK(received(0) == 1.0);
+  CHECK(received(1) == Approx(5e-4).epsilon(1e-12));
+  CHECK(received(2) == Approx(1e-3).epsilon(1e-6));  // E differs by a quarter of the square
+}
+
+TEST_CASE("a UMAT receives the total strain in axes that have turned with the increment") {
+  auto const umat = odd(7.0);
+  auto const start = umat.initial_state({});
+  auto strained = start, turned = start;
+  static_cast<void>(umat.respond(start, shear<2>(1e-3), strained));
+  scarp::Tensor<2> const turn = scarp::rotation(0.5);
+  auto const received = umat.respond(strained, turn * 1.000001 - scarp::Tensor<2>::Identity(), turned).stress;
+  // Analytic: gamma turned by the angle a gives -gamma/2 sin 2a, gamma/2 sin 2a and gamma cos 2a, up to gamma squared.
+  CHECK(received(0) == Approx(-5e-4 * std::sin(1.0)).epsilon(2e-3));
+  CHECK(received(1) == Approx(5e-4 * std::sin(1.0)).epsilon(2e-3));
+  CHECK(received(2) == Approx(1e-3 * std::cos(1.0)).epsilon(2e-3));
+}
+
+TEST_CASE("a provider without a UMAT, with a name that CMNAME cannot hold, or without time, is rejected") {
+  CHECK_REFUSED(scarp::UmatProvider<2>{}.initial_state({}), "no UMAT");
+  CHECK_REFUSED((scarp::UmatProvider<2>{.umat = umats::odd, .name = std::string(81, 'a')}.initial_state({})),
+                "81 letters");
+  CHECK_REFUSED((scarp::UmatProvider<2>{.umat = umats::odd, .time_step = 0.0}.initial_state({})), "time step", "0");
+  scarp::UmatProvider<2> const undefined{
+      .umat = umats::von_mises, .properties = std::vector<double>(4, NAN), .variables = {0.0, 0.0}};
+  CHECK_REFUSED(undefined.initial_state({}), "zero increment", "UMAT");
+}
