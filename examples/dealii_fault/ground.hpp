@@ -38,7 +38,8 @@ class Ground {
  private:
   using Dof = dealii::types::global_dof_index;
   using Places = std::map<Dof, dealii::Point<2>>;
-  using Numbers = std::map<unsigned, std::vector<int>>;  ///< of points, by process
+  using Numbers = std::map<unsigned, std::vector<int>>;       ///< of points, by process
+  using Saved = std::pair<std::vector<double>, std::string>;  ///< numbers and the bits of states
   struct Cell {
     std::vector<Dof> dofs;
     Shapes at_rest, at_start, now;  ///< before all motion, at the start of the load step, at its end
@@ -72,8 +73,10 @@ class Ground {
   // ground_adaptation.cpp
   void adapt();
   bool mark();
-  void carry(Points const& from, Sites const& sites, std::vector<double> const& efforts);
+  void carry(Points const& from, Sites const& sites, std::vector<History> const& histories);
+  std::vector<double> identity() const;
   void save();
+  Saved saved(unsigned file) const;
   void resume();
   void report(bool complete);
   void draw() const;

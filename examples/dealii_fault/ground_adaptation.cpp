@@ -48,8 +48,7 @@ void Ground::adapt() {
   tell("before refinement");
   Points const points = std::move(points_);
   Sites const sites(sites_.begin(), sites_.begin() + static_cast<std::ptrdiff_t>(own()));
-  std::vector<double> efforts;
-  for (auto const& of : history_) efforts.push_back(of.effort);
+  auto const histories = history_;
   Vector const now = ghosted(moved_), rest = ghosted(rest_);
   Transfer transfer(dofs_);
   transfer.prepare_for_coarsening_and_refinement({&now, &rest});
@@ -60,7 +59,8 @@ void Ground::adapt() {
   for (auto* vector : vectors) hanging_.distribute(*vector);
   last_throw_ = 0.0;
   start_from(moved_);
-  carry(points, sites, efforts);
+  carry(points, sites, histories);
+  for (auto& of : history_) of.shear = 0.0;
   evaluate(zero(), false);
   tell("after refinement");
   auto const verdict = step(0.0);
@@ -69,13 +69,14 @@ void Ground::adapt() {
 }
 
 /// Gives every own point the state of the nearest of some points that are shared out otherwise; only states that leave a process are
-/// sent. sites: of these points that this process has; efforts: theirs
-void Ground::carry(Points const& from, Sites const& sites, std::vector<double> const& efforts) {
-  std::map<unsigned, std::vector<std::array<double, 4>>> offered;
+/// sent. sites, histories: of these points that this process has
+void Ground::carry(Points const& from, Sites const& sites, std::vector<History> const& histories) {
+  std::map<unsigned, std::vector<std::array<double, 5>>> offered;
   for (auto const& [rank, numbers] : reached(sites, 4.0 * options_.size)) {
     for (int const k : numbers) {
+      auto const& [shear, effort] = histories[static_cast<std::size_t>(k)];
       auto const& at = sites[static_cast<std::size_t>(k)].position;
-      offered[rank].push_back({1.0 * k, at.x(), at.y(), efforts[static_cast<std::size_t>(k)]});
+      offered[rank].push_back({1.0 * k, at.x(), at.y(), shear, effort});
     }
   }
   auto const offers = mpi::some_to_some(comm_, offered);
@@ -85,11 +86,11 @@ void Ground::carry(Points const& from, Sites const& sites, std::vector<double> c
     unsigned holder = 0;
     int number = -1;
     for (auto const& [rank, places] : offers) {
-      for (auto const& [there, x, y, effort] : places) {
+      for (auto const& [there, x, y, shear, effort] : places) {
         double const distance = (sites_[k].position - scarp::Vector<2>(x, y)).squaredNorm();
         if (distance >= nearest) continue;
         nearest = distance, holder = rank, number = static_cast<int>(there);
-        history_[k].effort = effort;
+        history_[k] = {shear, effort};
       }
     }
     takers[holder][number].push_back(static_cast<int>(k));
@@ -117,6 +118,13 @@ void Ground::carry(Points const& from, Sites const& sites, std::vector<double> c
   }
 }
 
+/// What a saved run must share with the one that takes it up.
+std::vector<double> Ground::identity() const {
+  return {1.0 * options_.degree, options_.size,   static_cast<double>(options_.soil),
+          1.0 * options_.grains, options_.length, options_.tip,
+          options_.dip};
+}
+
 /// Mesh, displacements and one file of states for each process, in a folder that is there whole or not at all.
 void Ground::save() {
   namespace fs = std::filesystem;
@@ -129,64 +137,79 @@ void Ground::save() {
   transfer.prepare_for_serialization({&now, &rest, &last});
   effort_of_cell_.assign(mesh_.n_active_cells(), 0.0);
   mesh_.save(next / "mesh");
-  std::vector<double> numbers{
-      1.0 * mpi::n_mpi_processes(comm_), throw_, increment_, last_throw_, reaction_at_rest_, work_, 1.0 * steps_};
+  auto numbers = identity();
+  for (double const value :
+       {1.0 * mpi::n_mpi_processes(comm_), throw_, increment_, last_throw_, reaction_at_rest_, work_, 1.0 * steps_})
+    numbers.push_back(value);
   std::vector<int> all;
   for (std::size_t k = 0; k < own(); ++k) {
-    auto const& site = sites_[k];
-    for (double const value :
-         {1.0 * site.index, site.position.x(), site.position.y(), site.depth, history_[k].effort, history_[k].shear})
+    auto const& [number, region, at, depth] = sites_[k];
+    for (double const value : {1.0 * number, at.x(), at.y(), depth, history_[k].effort, history_[k].shear})
       numbers.push_back(value);
     all.push_back(static_cast<int>(k));
   }
-  auto const bytes = dealii::Utilities::pack(std::pair(numbers, points_.pack(all)), false);
-  std::ofstream(next / ("points." + std::to_string(me)), std::ios::binary)
-      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  MPI_Barrier(comm_);
+  auto const bytes = dealii::Utilities::pack(Saved(numbers, points_.pack(all)), false);
+  std::ofstream file(next / ("points." + std::to_string(me)), std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (mpi::max(int(!file), comm_))
+    scarp::reject("the run was not saved in '{}' (a file cannot be written): make room", next.string());
   if (me == 0) fs::remove_all(folder), fs::rename(next, folder);
   MPI_Barrier(comm_);
 }
 
-/// \throws scarp::InputError for a folder without a saved run
+/// \throws scarp::InputError for a file that is missing or damaged, and that of another run
+Ground::Saved Ground::saved(unsigned file) const {
+  auto const path = std::filesystem::path(options_.checkpoint) / ("points." + std::to_string(file));
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<char> const bytes{std::istreambuf_iterator<char>(stream), {}};
+  Saved part;
+  try {
+    part = dealii::Utilities::unpack<Saved>(bytes, false);
+  } catch (std::exception const&) {
+    scarp::reject("'{}' is not the file of a saved run (missing or damaged): save it again with --checkpoint",
+                  path.string());
+  }
+  auto const own = identity();
+  if (!std::equal(own.begin(), own.end(), part.first.begin()))
+    scarp::reject("'{}' was saved by another run (element, size, soil or length differ): resume with its options",
+                  path.string());
+  part.first.erase(part.first.begin(), part.first.begin() + std::ssize(own));
+  return part;
+}
+
+/// On any number of processes.
 void Ground::resume() {
-  std::filesystem::path const folder = options_.checkpoint;
-  if (!std::filesystem::exists(folder / "points.0"))
-    scarp::reject("there is no saved run in '{}' (it would hold points.0): run with --checkpoint first",
-                  folder.string());
   constexpr std::size_t header = 7, columns = 6;
+  auto const first = saved(0).first;
+  auto const files = static_cast<unsigned>(first[0]);
   build();  // makes the packings of the mesh that the run began with
   effort_of_cell_.assign(mesh_.n_active_cells(), 0.0);
-  mesh_.load(folder / "mesh");
+  mesh_.load(std::filesystem::path(options_.checkpoint) / "mesh");
   build();
   std::vector<Vector*> vectors{&moved_, &rest_, &last_};
   Transfer(dofs_).deserialize(vectors);
   start_from(moved_);
+  throw_ = first[1], increment_ = first[2], last_throw_ = first[3], reaction_at_rest_ = first[4], work_ = first[5];
+  steps_ = static_cast<int>(first[6]);
   Sites sites;
-  std::vector<double> efforts;
+  std::vector<History> histories;
   std::vector<std::pair<std::vector<int>, std::string>> parts;
-  unsigned const me = mpi::this_mpi_process(comm_), processes = mpi::n_mpi_processes(comm_);
-  double files = 1.0;
-  for (unsigned file = 0; file < files; ++file) {
-    if (file > 0 && file % processes != me) continue;
-    std::ifstream stream(folder / ("points." + std::to_string(file)), std::ios::binary);
-    std::vector<char> const bytes{std::istreambuf_iterator<char>(stream), {}};
-    auto const [numbers, bits] = dealii::Utilities::unpack<std::pair<std::vector<double>, std::string>>(bytes, false);
-    files = numbers[0], throw_ = numbers[1], increment_ = numbers[2], last_throw_ = numbers[3];
-    reaction_at_rest_ = numbers[4], work_ = numbers[5], steps_ = static_cast<int>(numbers[6]);
-    if (file % processes != me) continue;
+  unsigned const processes = mpi::n_mpi_processes(comm_);
+  for (unsigned file = mpi::this_mpi_process(comm_); file < files; file += processes) {
+    auto const [numbers, bits] = saved(file);
     parts.emplace_back(std::vector<int>{}, bits);
     for (std::size_t k = header; k < numbers.size(); k += columns) {
       parts.back().first.push_back(static_cast<int>(sites.size()));
-      sites.push_back({.index = static_cast<int>(numbers[k]),
-                       .position = {numbers[k + 1], numbers[k + 2]},
-                       .depth = numbers[k + 3]});
-      efforts.push_back(numbers[k + 4]);
+      auto const* const row = &numbers[k];
+      sites.push_back({.index = static_cast<int>(row[0]), .position = {row[1], row[2]}, .depth = row[3]});
+      histories.push_back({.shear = row[5], .effort = row[4]});
     }
   }
-  Points saved =
-      sites.empty() ? Points() : maker_(sites, std::vector<double>(sites.size(), 1.0), static_cast<int>(sites.size()));
-  for (auto const& [numbers, bits] : parts) saved.unpack(numbers, bits);
-  carry(saved, sites, efforts);
+  int const count = static_cast<int>(sites.size());
+  Points points = count == 0 ? Points() : maker_(sites, std::vector<double>(sites.size(), 1.0), count);
+  for (auto const& [numbers, bits] : parts) points.unpack(numbers, bits);
+  carry(points, sites, histories);
   evaluate(zero(), false);
   out_ << "resumed at " << throw_ << " m on " << processes << " processes, saved by " << files << ": reaction "
        << reaction() << " N, residual " << residual_ << "\n";

@@ -55,9 +55,8 @@ Verdict Ground::evaluate(Vector const& increment, bool responds) {
   for (std::size_t k = 0; k < seen.size(); ++k)
     points_.gradient(static_cast<int>(own() + k)) << seen[k][0], seen[k][1], seen[k][2], seen[k][3];
   if (responds) {
-    auto const answers = points_.respond(executor_);
-    inner_steps_ += answers.inner_steps;
-    verdict = answers.verdict;
+    verdict = points_.respond(executor_).verdict;
+    for (std::size_t k = 0; k < own(); ++k) inner_steps_ += points_.work(static_cast<int>(k));
   } else {
     points_.evaluate_committed(executor_);
   }
