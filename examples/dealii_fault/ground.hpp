@@ -100,7 +100,8 @@ class Ground {
   }
   Vector zero() const { return Vector(owned_, comm_); }
   std::size_t own() const { return cell_points * cells_.size(); }
-  double reaction() const { return internal_ * rates_ - reaction_at_rest_; }
+  /// Of the moving bedrock, less that at rest [N]; without the loads on its nodes, which change with the mesh.
+  double reaction() const { return support_ * rates_ - reaction_at_rest_; }
 
   Options options_;
   MPI_Comm comm_;
@@ -113,9 +114,10 @@ class Ground {
   dealii::PETScWrappers::MPI::SparseMatrix matrix_;
   dealii::SolverControl control_;
   std::unique_ptr<dealii::PETScWrappers::SparseDirectMUMPS> factors_;
-  Vector rates_, lift_;                 ///< motion of the bedrock and its force [N], for a throw of 1 m
-  Vector moved_, rest_, last_;          ///< displacements [m]: now, before the fault moved, of the last step
-  Vector internal_, unbalanced_;        ///< forces [N] of the last evaluation
+  Vector rates_, lift_;         ///< motion of the bedrock and its force [N], for a throw of 1 m
+  Vector moved_, rest_, last_;  ///< displacements [m]: now, before the fault moved, of the last step
+  Vector internal_, unbalanced_,
+      support_;                         ///< forces [N] of the last evaluation: of cells, of free nodes, less all loads
   std::vector<Cell> cells_;             ///< own ones
   Sites sites_;                         ///< own points, cell by cell, then those that means reach
   std::vector<History> history_;        ///< of own points

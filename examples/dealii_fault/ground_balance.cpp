@@ -85,9 +85,9 @@ void Ground::add_up() {
     held_.distribute_local_to_global(inner, cell.dofs, unbalanced_);
   }
   for (auto* vector : {&internal_, &unbalanced_, &loads}) vector->compress(dealii::VectorOperation::add);
-  double const scale = loads.l2_norm();
-  loads -= internal_;
-  residual_ = unbalanced_.l2_norm() / std::max(scale, loads.l2_norm());
+  support_ = internal_;
+  support_ -= loads;
+  residual_ = unbalanced_.l2_norm() / std::max(loads.l2_norm(), support_.l2_norm());
 }
 
 /// At the last evaluation. consistent: with the points' tangents instead of those that they began with
@@ -203,7 +203,7 @@ Verdict Ground::settle() {
   start_from(moved_);
   Verdict const verdict = step(0.0);
   rest_ = moved_;
-  reaction_at_rest_ = internal_ * rates_;
+  reaction_at_rest_ = support_ * rates_;
   work_ = 0.0;
   out_ << "ground at rest: " << name(verdict.reason) << ", residual " << residual_ << ", " << iterations_
        << " iterations\n";

@@ -57,7 +57,7 @@ void Ground::build() {
   dealii::DoFTools::make_sparsity_pattern(dofs_, pattern, held_, false);
   dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned_, comm_, relevant_);
   matrix_.reinit(owned_, owned_, pattern, comm_);
-  for (auto* vector : {&rates_, &lift_, &moved_, &rest_, &last_, &internal_, &unbalanced_}) *vector = zero();
+  for (auto* vector : {&rates_, &lift_, &moved_, &rest_, &last_, &internal_, &unbalanced_, &support_}) *vector = zero();
   held_.distribute(rates_);
   collect_cells();
   make_points();
