@@ -54,8 +54,11 @@ class MaterialPoints : public PointStates<Dim> {
     set_gradients(own_, executor);
     if (!is_planned_) plan();
     ResponseReport report = evaluate(executor);
-    for (int k = 0; k < max_refinements && report.verdict.status == Status::not_converged; ++k)
+    for (int k = 0; k < max_refinements && report.verdict.status == Status::not_converged; ++k) {
+      long const before = report.inner_steps;
       report = refine(executor);
+      report.inner_steps += before;
+    }
     return report;
   }
 

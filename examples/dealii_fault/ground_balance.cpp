@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <iostream>
+
+#include "ground.hpp"
+#include "scarp/fault/rupture_measures.hpp"
+
+namespace dealii_fault {
+
+using scarp::Reason;
+using scarp::Status;
+using scarp::Verdict;
+
+Rows Ground::nodal(Cell const& cell, Vector const& values) const {
+  std::vector<double> entries(cell.dofs.size());
+  values.extract_subvector_to(cell.dofs.begin(), cell.dofs.end(), entries.begin());
+  Rows rows(static_cast<Eigen::Index>(cell.dofs.size() / 2), 2);
+  for (unsigned i = 0; i < entries.size(); ++i) {
+    auto const [axis, node] = element_.system_to_component_index(i);
+    rows(node, axis) = entries[i];
+  }
+  return rows;
+}
+
+/// Of all processes.
+Verdict Ground::worst(Verdict verdict) const {
+  int const code = mpi::max(100 * static_cast<int>(verdict.status) + static_cast<int>(verdict.reason), comm_);
+  return {static_cast<Status>(code / 100), static_cast<Reason>(code % 100)};
+}
+
+void Ground::start_from(Vector const& moves) {
+  Vector const all = ghosted(moves);
+  for (auto& cell : cells_) cell.at_start = cell.now = moved(cell.at_rest, nodal(cell, all));
+}
+
+/// Points respond to an increment [m] from the start of the step, or show their committed stresses; then forces are added up.
+Verdict Ground::evaluate(Vector const& increment, bool responds) {
+  Vector const moves = ghosted(increment);
+  Verdict verdict;
+  for (auto& cell : cells_) {
+    Rows const move = nodal(cell, moves);
+    cell.now = moved(cell.at_start, move);
+    cell.gradients = gradients(cell.at_start, move);
+    for (auto const& shape : cell.now) {
+      if (!(shape.volume > 0.0)) verdict = {Status::failed, Reason::element_inverted};
+    }
+  }
+  if (verdict = worst(verdict); !verdict.acceptable()) return verdict;
+  in_points_.start();
+  auto const gradient = [&](std::size_t k) { return cells_[k / cell_points].gradients[k % cell_points]; };
+  auto const seen = from_others<std::array<double, 4>>(halo_, [&](std::size_t k) {
+    auto const g = gradient(k);
+    return std::array{g(0, 0), g(0, 1), g(1, 0), g(1, 1)};
+  });
+  for (std::size_t k = 0; k < own(); ++k) points_.gradient(static_cast<int>(k)) = gradient(k);
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    points_.gradient(static_cast<int>(own() + k)) << seen[k][0], seen[k][1], seen[k][2], seen[k][3];
+  if (responds) {
+    verdict = points_.respond(executor_).verdict;
+    for (std::size_t k = 0; k < own(); ++k) inner_steps_ += points_.work(static_cast<int>(k));
+  } else {
+    points_.evaluate_committed(executor_);
+  }
+  in_points_.stop();
+  add_up();
+  return worst(verdict);
+}
+
+void Ground::add_up() {
+  internal_ = 0.0, unbalanced_ = 0.0;
+  Vector loads = zero();
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    auto const& cell = cells_[c];
+    Stresses stresses;
+    for (std::size_t p = 0; p < cell_points; ++p) stresses[p] = points_.stress(static_cast<int>(cell_points * c + p));
+    Rows const force = forces(cell.now, stresses);
+    dealii::Vector<double> inner(element_.n_dofs_per_cell()), outer(inner.size());
+    for (unsigned i = 0; i < inner.size(); ++i) {
+      auto const [axis, node] = element_.system_to_component_index(i);
+      inner[i] = force(node, axis);
+      outer[i] = cell.loads(node, axis);
+    }
+    internal_.add(cell.dofs, inner);
+    loads.add(cell.dofs, outer);
+    inner -= outer;
+    held_.distribute_local_to_global(inner, cell.dofs, unbalanced_);
+  }
+  for (auto* vector : {&internal_, &unbalanced_, &loads}) vector->compress(dealii::VectorOperation::add);
+  support_ = internal_;
+  support_ -= loads;
+  residual_ = unbalanced_.l2_norm() / std::max(loads.l2_norm(), support_.l2_norm());
+}
+
+/// At the last evaluation. consistent: with the points' tangents instead of those that they began with
+void Ground::factorise(bool consistent) {
+  constexpr double floor = 1e-4;  // of the first tangent, as scarp's own scene has it
+  in_solver_.start();
+  matrix_ = 0.0, lift_ = 0.0;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    Stresses stresses;
+    Tangents tangents;
+    for (std::size_t p = 0; p < cell_points; ++p) {
+      int const k = static_cast<int>(cell_points * c + p);
+      stresses[p] = points_.stress(k);
+      tangents[p] = points_.initial_tangent(k);
+      if (consistent) tangents[p] = (1.0 - floor) * points_.tangent(k) + floor * tangents[p];
+    }
+    auto const local = stiffness(cells_[c].now, stresses, tangents);
+    unsigned const size = element_.n_dofs_per_cell();
+    dealii::FullMatrix<double> entries(size, size);
+    for (unsigned i = 0; i < size; ++i) {
+      auto const [a, n] = element_.system_to_component_index(i);
+      for (unsigned j = 0; j < size; ++j) {
+        auto const [b, m] = element_.system_to_component_index(j);
+        entries(i, j) = local(2 * n + a, 2 * m + b);
+      }
+    }
+    held_.distribute_local_to_global(entries, dealii::Vector<double>(size), cells_[c].dofs, matrix_, lift_, true);
+  }
+  matrix_.compress(dealii::VectorOperation::add);
+  lift_.compress(dealii::VectorOperation::add);
+  factors_ = std::make_unique<dealii::PETScWrappers::SparseDirectMUMPS>(control_, comm_);
+  in_solver_.stop();
+}
+
+Vector Ground::solved(Vector const& force) {
+  in_solver_.start();
+  Vector solution = zero();
+  factors_->solve(matrix_, solution, force);
+  in_solver_.stop();
+  return solution;
+}
+
+/// Motion [m] for so much more throw: that of the last step, or after a rejected one linear.
+/// more [m]: is cut where a point would be strained too much
+Vector Ground::predicted(double& more) {
+  if (more == 0.0) return zero();
+  if (last_throw_ == 0.0) {
+    last_ = solved(lift_);
+    held_.distribute(last_);
+    last_throw_ = 1.0;
+  }
+  Vector increment = last_;
+  Vector const moves = ghosted(increment);
+  double largest = 0.0;
+  for (auto const& cell : cells_) {
+    for (auto const& gradient : gradients(cell.at_start, nodal(cell, moves)))
+      largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
+  }
+  more = std::min(more, last_throw_ * *options_.max_displacement_gradient / mpi::max(largest, comm_));
+  increment *= more / last_throw_;
+  return increment;
+}
+
+/// One load step of so much throw [m], perhaps less; balanced and committed, or rolled back.
+Verdict Ground::step(double more) {
+  bool const newton = options_.newton && more > 0.0;
+  points_.discard();
+  evaluate(zero(), false);
+  Vector const before = internal_;
+  if (!newton || last_throw_ == 0.0) factorise(false);
+  Vector increment = predicted(more);
+  if (more > 0.0) increment_ = more;
+  mixing_.forget();
+  for (int iteration = 1;; ++iteration) {
+    Verdict const verdict = evaluate(increment, true);
+    ++iterations_;
+    if (verdict.status == Status::failed) return verdict;
+    if (residual_ <= options_.residual && verdict.acceptable()) break;
+    if (iteration == options_.max_iterations || !(residual_ < 10.0))
+      return verdict.acceptable() ? Verdict{Status::not_converged, Reason::iterations_spent} : verdict;
+    if (newton) factorise(true);
+    Vector correction = solved(unbalanced_);
+    correction *= -1.0;
+    hanging_.distribute(correction);
+    if (newton) {
+      increment += correction;
+    } else {
+      increment = mixing_.next(increment, correction);
+    }
+  }
+  commit(increment, before, more);
+  return {};
+}
+
+void Ground::commit(Vector const& increment, Vector const& before, double more) {
+  for (std::size_t k = 0; k < own(); ++k) {
+    auto const& g = points_.own_gradients()[k];
+    history_[k].shear += std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0));
+    history_[k].effort = (history_[k].effort + static_cast<double>(points_.work(static_cast<int>(k)))) / 2.0;
+  }
+  points_.commit();
+  work_ += (before * increment + internal_ * increment) / 2.0;
+  moved_ += increment;
+  for (auto& cell : cells_) cell.at_start = cell.now;
+  throw_ += more;
+  ++steps_;
+  if (more > 0.0) last_ = increment, last_throw_ = more;
+}
+
+/// The ground as prepared is brought into equilibrium.
+Verdict Ground::settle() {
+  build();
+  start_from(moved_);
+  Verdict const verdict = step(0.0);
+  rest_ = moved_;
+  reaction_at_rest_ = support_ * rates_;
+  work_ = 0.0;
+  out_ << "ground at rest: " << name(verdict.reason) << ", residual " << residual_ << ", " << iterations_
+       << " iterations\n";
+  return verdict;
+}
+
+/// Elastic ground of depth H settles by \f$ \gamma H^2 / 2M \f$ under its weight, M = E (1 - nu) / ((1 + nu) (1 - 2 nu)).
+bool Ground::check_block() const {
+  constexpr double agreed = 1e-5;  // strains are of the order 1e-6
+  double const modulus = options_.young_modulus * 0.75 / (1.25 * 0.5);
+  double const exact = 1e-4 * fault_rupture::unit_weight * ground_depth * ground_depth / (2.0 * modulus);
+  double const settled = moved_.linfty_norm();
+  out_ << "settlement " << settled << " m, closed form " << exact << " m, differ by " << settled / exact - 1.0 << "\n";
+  return std::abs(settled / exact - 1.0) < agreed;
+}
+
+bool Ground::run() {
+  constexpr double smallest = 1e-6;  // [m]
+  if (options_.resume) {
+    resume();
+  } else if (!settle().acceptable()) {
+    return false;
+  }
+  if (options_.block) return check_block();
+  double const end = options_.stop_at > 0.0 ? options_.stop_at : options_.throw_over_depth * ground_depth;
+  while (end - throw_ > smallest && increment_ > smallest) {
+    int const before = iterations_;
+    Verdict const verdict = step(std::min(increment_, end - throw_));
+    int const took = iterations_ - before;
+    if (!verdict.acceptable()) {
+      ++cuts_;
+      last_throw_ = 0.0;
+      out_ << "cut at " << throw_ << " m: " << name(verdict.reason) << " in " << took << " iterations, step "
+           << increment_ << " m, residual " << residual_ << "\n";
+      increment_ /= 2.0;
+      continue;
+    }
+    if (took <= (options_.newton ? 6 : 12)) increment_ *= 1.4;
+    if (took > (options_.newton ? 10 : 20)) increment_ *= 0.75;
+    if (options_.levels > 0 && steps_ % options_.refine_every == 0) adapt();
+  }
+  bool const complete = end - throw_ <= smallest;
+  if (!options_.checkpoint.empty()) save();
+  report(complete);
+  if (!options_.output.empty()) draw();
+  return complete;
+}
+
+int run_with_mpi(Options const& options, int argc, char** argv) {
+  mpi::MPI_InitFinalize const session(argc, argv, 1);
+  try {
+    return Ground(options, MPI_COMM_WORLD).run() ? 0 : 3;
+  } catch (std::exception const& problem) {
+    std::cerr << "dealii_fault: " << problem.what() << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+  return 1;
+}
+
+}  // namespace dealii_fault
