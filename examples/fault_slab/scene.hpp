@@ -57,7 +57,7 @@ inline Sand make_sand(Choice const& choice, Scene const& scene) {
   ground.surcharge = scene.surcharge;
   auto const own = ground.make<Grains>(law, scene.soil_depths());
   auto image = own;
-  for (auto& packing : image.packings) packing = scarp::mirrored(std::move(packing), 1);
+  for (auto& packing : image.packings) packing = scarp::mirrored(std::move(packing), scarp::Vector<3>::UnitY());
   Sand sand;
   sand.provider.law = law;
   sand.provider.source = {own, image, choice.strike / (2.0 * choice.across)};

@@ -18,7 +18,7 @@ struct Loosening {
   static constexpr int dim = 2;
   using Plan = int;
   struct State {
-    scarp::EngineeringStrain<2> strain = scarp::EngineeringStrain<2>::Zero();
+    scarp::Tensor<2> strain = scarp::Tensor<2>::Zero();
     double path = 0.0;
     double unbalanced_ratio = 0.0;
     double kinetic_share = 0.0;
@@ -31,9 +31,11 @@ struct Loosening {
   scarp::IsotropicElasticity elasticity{6e6, 4e6};
   int refinement = 2;  ///< of a plan, as a factor
 
-  State initial_state(scarp::Site<2> const&) const { return {.strain = {-1e-3, -1e-3, 0.0}}; }
+  State initial_state(scarp::Site<2> const&) const { return {.strain = -1e-3 * scarp::Tensor<2>::Identity()}; }
   scarp::VoigtTangent<2> tangent(State const& state) const { return (1.0 + state.path) * elasticity.stiffness<2>(); }
-  scarp::VoigtStress<2> stress(State const& state) const { return tangent(state) * state.strain; }
+  scarp::VoigtStress<2> stress(State const& state) const {
+    return tangent(state) * scarp::to_engineering_strain<2, double>(state.strain);
+  }
   Plan plan(State const& committed, scarp::Gradient<2> const& increment) const {
     return 3 + static_cast<int>(1e4 * (increment.norm() + committed.path));
   }
@@ -43,9 +45,9 @@ struct Loosening {
   }
   scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial,
                              Plan plan) const {
-    trial.strain = committed.strain + scarp::to_engineering_strain<2, double>(increment);
+    trial.strain = committed.strain + (increment + increment.transpose()) / 2.0;
     trial.path = committed.path + increment.norm() * (1.0 + 1.0 / plan);
-    bool const wider = trial.strain(0) + trial.strain(1) > 0.0;
+    bool const wider = trial.strain.trace() > 0.0;
     trial.unbalanced_ratio = 1e-3;
     trial.kinetic_share = 1e-4;
     trial.inertial_number = increment.norm() / plan;

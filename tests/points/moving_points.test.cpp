@@ -38,11 +38,21 @@ Gradient<2> increment(double size) {
   return gradient;
 }
 
-Gradient<2> turned_round(Gradient<2> gradient) {
-  gradient(0, 1) *= -1.0;
-  gradient(1, 0) *= -1.0;
-  return gradient;
-}
+/// Linear elastic soil that stores its strain in Voigt's notation.
+struct StoresVoigtStrain {
+  static constexpr int dim = 2;
+  struct State {
+    scarp::EngineeringStrain<2> strain{-1e-3, -2e-3, 1e-3};
+    SCARP_MEMBERS(strain)
+  };
+  State initial_state(scarp::Site<2> const&) const { return {}; }
+  scarp::VoigtStress<2> stress(State const& state) const { return tangent(state) * state.strain; }
+  scarp::VoigtTangent<2> tangent(State const&) const { return scarp::IsotropicElasticity{6e6, 4e6}.stiffness<2>(); }
+  scarp::Response<2> respond(State const& committed, Gradient<2> const& increment, State& trial) const {
+    trial.strain = committed.strain + scarp::to_engineering_strain<2, double>(increment);
+    return {stress(trial), {}};
+  }
+};
 
 /// One load step of all points.
 void strain(Points& points, auto const& gradient_of) {
@@ -67,7 +77,9 @@ void for_each_provider(auto const& visit) {
 
 }  // namespace
 
-TEST_CASE("a copied point answers as the first one, a mirrored one answers mirrored strain with mirrored stress") {
+TEST_CASE(
+    "a copied point responds as the first one; a mirrored one keeps the stress and responds to mirrored strain by "
+    "mirrored stress") {
   for_each_provider([](std::string const& name, auto const& provider) {
     CAPTURE(name);
     auto const sites = in_a_row(1);
@@ -78,28 +90,37 @@ TEST_CASE("a copied point answers as the first one, a mirrored one answers mirro
     copy.copy(0, first, 0);
     image.copy(0, first, 0, true);
     CHECK(copy.pack(0) == first.pack(0));
-    double const size = first.committed_stress(0).norm();
-    REQUIRE(size > 0.0);
+    auto const start = first.committed_stress(0);
+    REQUIRE(start.norm() > 0.0);
+    CHECK((image.committed_stress(0) - start).norm() < 1e-9 * start.norm());
+    auto const normal = scarp::principal_direction<2>(start);
+    scarp::Tensor<2> const mirror = scarp::reflection<2>(normal);
     for (int step = 1; step <= 3; ++step) {
-      CHECK(image.committed_stress(0)(2) == -first.committed_stress(0)(2));
-      CHECK((image.committed_stress(0) - scarp::mirrored_stress<2>(first.committed_stress(0))).norm() < 1e-9 * size);
-      CHECK(copy.committed_stress(0) == first.committed_stress(0));
       strain(first, [&](int) { return increment(1e-5 * step); });
       strain(copy, [&](int) { return increment(1e-5 * step); });
-      strain(image, [&](int) { return turned_round(increment(1e-5 * step)); });
+      strain(image, [&](int) { return Gradient<2>(mirror * increment(1e-5 * step) * mirror); });
+      CHECK(copy.committed_stress(0) == first.committed_stress(0));
+      auto const expected = scarp::mirrored_stress<2>(first.committed_stress(0), normal);
+      // Local damping of packings acts on components along fixed axes.
+      double const tolerance = name.ends_with("packing") ? 2e-3 : 1e-9;
+      CHECK((image.committed_stress(0) - expected).norm() < tolerance * (expected - start).norm());
     }
   });
 }
 
 TEST_CASE("a mirrored tangent is that of the mirrored strain") {
   scarp::VoigtTangent<2> const tangent{{5.0, 2.0, 0.3}, {1.8, 4.0, 0.7}, {0.2, 0.6, 1.5}};
+  scarp::Vector<2> const normal(std::cos(0.7), std::sin(0.7));
+  scarp::Mirror<2> const mirror{normal};
   scarp::VoigtTangent<2> image = tangent;
-  scarp::Mirror<2>{}("tangent", image);
-  scarp::EngineeringStrain<2> const strain(1e-3, -2e-3, 5e-4);
-  scarp::VoigtStress<2> const expected = scarp::mirrored_stress<2>(tangent * strain);
-  CHECK((image * scarp::mirrored_stress<2>(strain) - expected).norm() < 1e-18);
+  mirror("tangent", image);
+  Gradient<2> const strain = increment(1e-3);
+  scarp::Tensor<2> const reflection = scarp::reflection<2>(normal);
+  Gradient<2> const reflected = reflection * strain * reflection;
+  auto const expected = scarp::mirrored_stress<2>(tangent * scarp::to_engineering_strain<2, double>(strain), normal);
+  CHECK((image * scarp::to_engineering_strain<2, double>(reflected) - expected).norm() < 1e-17);
   std::string words;
-  CHECK_REFUSED(scarp::Mirror<2>{}("words", words), "cannot be mirrored", "words");
+  CHECK_REFUSED(mirror("words", words), "cannot be mirrored", "words");
 }
 
 TEST_CASE("points that are sent together hold what they share once, and share it where they arrive") {
@@ -196,6 +217,8 @@ TEST_CASE("a batch refuses numbers, sizes and orders of calls that do not fit") 
   CHECK_REFUSED(shared.pack(1), "point 1", "another process owns it");
   CHECK_REFUSED(points.copy(0, shared, 2), "point 2", "another process owns it");
   points.copy(0, shared, 0);
+  Points voigt(StoresVoigtStrain{}, sites);
+  CHECK_REFUSED(voigt.copy(0, voigt, 1, true), "point 1 cannot be mirrored", "store tensors");
 
   Points const wide(scarp::Nonlocal{sand(), 0.15}, sites, std::vector<double>(3, 0.1));
   CHECK_REFUSED(points.copy(0, wide, 0), "points with means and points without");
@@ -220,7 +243,10 @@ TEST_CASE("the stress that holds what means do not contain travels with a point"
   CHECK(copied.stresses() == from.stresses());
   Points image(soil, sites, volumes);
   image.copy(3, from, 3, true);
-  CHECK(image.means()->committed_tau(3) == scarp::mirrored_stress<2>(from.means()->committed_tau(3)));
+  auto const total = [](Points const& points) {
+    return scarp::VoigtStress<2>(points.committed_stress(3) + points.means()->committed_tau(3));
+  };
+  CHECK((total(image) - total(from)).norm() < 1e-12 * total(from).norm());
 }
 
 TEST_CASE("two processes that exchange the gradients of points near their border see the same means as one") {

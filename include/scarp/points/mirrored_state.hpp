@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <string_view>
 #include <type_traits>
@@ -8,32 +9,50 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/tensor/principal.hpp"
 #include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 
-/// Stress [Pa] in the mirror that turns the first axis round, x -> -x: shear stresses on it change sign.
+/// Direction, of length 1, of the larger (more tensile) principal stress; one of them where all are equal.
 template <int Dim>
-VoigtStress<Dim> mirrored_stress(VoigtStress<Dim> stress) {
-  Tensor<Dim> mirror = Tensor<Dim>::Identity();
-  mirror(0, 0) = -1.0;
+Vector<Dim> principal_direction(VoigtStress<Dim> const& stress) {
+  if constexpr (Dim == 2) {
+    double const angle = std::atan2(2.0 * stress(2), stress(0) - stress(1)) / 2.0;
+    return {std::cos(angle), std::sin(angle)};
+  } else {
+    return principal(from_voigt_stress<3, double>(stress)).directions.col(0);
+  }
+}
+
+/// Stress [Pa] in the mirror across a plane with a normal of length 1.
+template <int Dim>
+VoigtStress<Dim> mirrored_stress(VoigtStress<Dim> const& stress, Vector<Dim> const& normal) {
+  Tensor<Dim> const mirror = reflection<Dim>(normal);
   return to_voigt_stress<Dim, double>(mirror * from_voigt_stress<Dim, double>(stress) * mirror);
 }
 
-/// Turns the members of a state round, x -> -x: stresses, tangents and packings (see `mirrored`); other numbers stay.
+/// Mirrors the members of a state: stresses, tangents, tensors and packings (see `mirrored`); other numbers stay.
 template <int Dim>
 struct Mirror {
+  Vector<Dim> normal;  ///< of the plane, of length 1
+
   template <class T>
   void operator()(std::string_view name, T& value) const {
-    if constexpr (requires { mirrored(value); }) {
-      value = mirrored(std::move(value));
+    if constexpr (requires { mirrored(value, normal); }) {
+      value = mirrored(std::move(value), normal);
     } else if constexpr (std::same_as<T, VoigtStress<Dim>>) {
-      value = mirrored_stress<Dim>(value);
+      value = mirrored_stress<Dim>(value, normal);
     } else if constexpr (std::same_as<T, VoigtStress<3>>) {
-      value = mirrored_stress<3>(value);
+      Vector<3> in_space = Vector<3>::Zero();
+      in_space.head<Dim>() = normal;
+      value = mirrored_stress<3>(value, in_space);
+    } else if constexpr (std::same_as<T, Tensor<Dim>>) {
+      value = (reflection<Dim>(normal) * value * reflection<Dim>(normal)).eval();
     } else if constexpr (std::same_as<T, VoigtTangent<Dim>>) {
-      for (int k = 0; k < value.cols(); ++k) value.col(k) = mirrored_stress<Dim>(value.col(k));
-      for (int k = 0; k < value.rows(); ++k) value.row(k) = mirrored_stress<Dim>(value.row(k).transpose()).transpose();
+      for (int k = 0; k < value.cols(); ++k) value.col(k) = mirrored_stress<Dim>(value.col(k), normal);
+      for (int k = 0; k < value.rows(); ++k)
+        value.row(k) = mirrored_stress<Dim>(value.row(k).transpose(), normal).transpose();
     } else if constexpr (Described<T>) {
       T::members(value, *this);
     } else if constexpr (!std::is_arithmetic_v<T> && !std::is_enum_v<T>) {

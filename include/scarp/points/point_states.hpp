@@ -156,15 +156,16 @@ class PointStates {
   }
   void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }
   /// Gives a point the committed state of another one, as for the children of a refined element; between load steps. In the mirror
-  /// x -> -x if wanted, so that one packing's accidents are not repeated.
+  /// of its principal stresses if wanted: the stress stays, and one packing's accidents are not repeated.
   /// \throws InputError for a point of another type of provider, for one with means and one without, and for states that cannot be mirrored
   void copy(int to, PointStates const& from, int point, bool is_mirrored = false) {
     if (means_.has_value() != from.means_.has_value())
       reject("point {} is to be copied between points with means and points without: take the same material for both",
              point);
     VoigtStress<Dim> tau = from.means_ ? from.means_->committed_tau(point) : VoigtStress<Dim>::Zero();
-    if (is_mirrored) tau = mirrored_stress<Dim>(tau);
-    put(to, batch(to).state_from(from.batch(point), from.local(point), is_mirrored), tau);
+    Mirror<Dim> mirror{principal_direction<Dim>(from.committed_stress(point) + tau)};
+    if (is_mirrored) tau = mirrored_stress<Dim>(tau, mirror.normal);
+    put(to, batch(to).state_from(from.batch(point), from.local(point), is_mirrored ? &mirror : nullptr), tau);
   }
   /// The point alone, with the state of these bits and without neighbours.
   PointStates extract(int point, std::string_view bits) const {

@@ -69,4 +69,10 @@ Tensor<2, Scalar> rotation(Scalar angle) {
   return turn;
 }
 
+/// \f$ I - 2 n \otimes n \f$: the mirror across a plane with the normal n, of length 1.
+template <int Dim>
+Tensor<Dim> reflection(Vector<Dim> const& normal) {
+  return Tensor<Dim>::Identity() - 2.0 * normal * normal.transpose();
+}
+
 }  // namespace scarp

@@ -53,8 +53,8 @@ class PointBatch {
   /// A state of the point, for `put`.
   virtual std::any read(int k, StateReader& reader) const = 0;
   virtual void put(int k, std::any state) = 0;
-  /// A state of a point of another batch, for `put`. \throws InputError unless it has the same type of provider
-  virtual std::any state_from(PointBatch const& other, int k, bool is_mirrored) const = 0;
+  /// A state of a point of another batch, for `put`; mirrored unless `mirror` is null. \throws InputError unless it has the same type of provider
+  virtual std::any state_from(PointBatch const& other, int k, Mirror<Dim> const* mirror) const = 0;
   virtual void write_all(StateWriter& writer) const = 0;
   virtual void read_all(StateReader& reader) = 0;
 
@@ -118,7 +118,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
       responses[number] = respond_as_planned(*provider_, committed_[k], increments[number], trial_[k], plans_[k]);
     }
   }
-  VoigtStress<dim> stress(int k) const override { return provider_->stress(committed_[index(k)]); }
+  VoigtStress<dim> stress(int k) const override { return provider_->stress(present(k)); }
   VoigtTangent<dim> tangent(int k) const override { return provider_->tangent(committed_[index(k)]); }
   VoigtTangent<dim> trial_tangent(int k) const override { return provider_->tangent(trial_[index(k)]); }
   VoigtTangent<dim> initial_tangent(int k) const override {
@@ -136,11 +136,21 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     trial_[index(k)] = committed_[index(k)] = std::any_cast<State&&>(std::move(state));
     here_[index(k)] = true;
   }
-  std::any state_from(PointBatch<dim> const& other, int k, bool is_mirrored) const override {
+  std::any state_from(PointBatch<dim> const& other, int k, Mirror<dim> const* mirror) const override {
     auto const* const same = dynamic_cast<PointBatchOf const*>(&other);
     if (!same) reject("a point is to be copied from one of another type of provider: copy points of one provider");
     State state = same->present(k);
-    if (is_mirrored) described(Mirror<dim>{}, state);
+    if (!mirror) return state;
+    described(*mirror, state);
+    // A strain in Voigt's notation, for example, has the type of a stress and another mirror image.
+    VoigtStress<dim> const expected = mirrored_stress<dim>(same->stress(k), mirror->normal);
+    constexpr double round_off = 1e-6;
+    if (!((provider_->stress(state) - expected).norm() <= round_off * expected.norm()))
+      reject(
+          "the state of point {} cannot be mirrored (the stress of its image is not the image of its stress): copy it "
+          "as it "
+          "is, or store tensors in it",
+          same->numbers_[index(k)]);
     return state;
   }
   void write_all(StateWriter& writer) const override { described(writer, std::span(committed_), "states"); }
