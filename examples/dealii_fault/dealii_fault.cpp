@@ -33,7 +33,6 @@ void declare(CLI::App& app, Options& options, std::string& own) {
   app.add_option("--levels", options.levels, "of refinement, 0 for none")->check(CLI::Range(0, 8));
   app.add_option("--refine-at", options.refine_at, "shear strain since the last refinement")
       ->check(number_from(0.0, false, 1.0));
-  app.add_flag("--mirror-children", options.mirrors, "every second child of a cell takes its state in the mirror");
   app.add_option("--threads", options.threads, "of each process")->check(CLI::Range(1, 1024));
   app.add_flag("--block", options.block, "elastic ground under its own weight, compared with the closed form");
   app.add_option("--own", own, "summary.json of fault_rupture on the same mesh, to be compared with")

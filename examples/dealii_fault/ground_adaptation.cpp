@@ -112,8 +112,7 @@ void Ground::carry(Points const& from, Sites const& sites, std::vector<History> 
   }
   for (auto const& [rank, numbers] : takers) {
     for (auto const& [number, points] : numbers) {
-      for (std::size_t k = 1; k < points.size(); ++k)
-        points_.copy(points[k], points_, points.front(), options_.mirrors && k % 2 == 1);
+      for (std::size_t k = 1; k < points.size(); ++k) points_.copy(points[k], points_, points.front(), k % 2 == 1);
     }
   }
 }

@@ -17,7 +17,6 @@ struct Options : fault_rupture::Choice {
   int levels = 0;           ///< of refinement
   double refine_at = 0.02;  ///< shear strain since the last refinement that refines a cell; a tenth of it coarsens none
   int refine_every = 5;     ///< load steps
-  bool mirrors = false;     ///< whether every second child takes its state in the mirror
   double stop_at = 0.0;     ///< throw [m] at which the run is saved and ends; 0 for none
   std::string output{};     ///< folder of the fields; empty for none
   std::optional<double> own_x50{}, own_mean{};  ///< [m], of scarp's own elements

@@ -62,7 +62,7 @@ with tempfile.TemporaryDirectory() as scratch:
     stopped = run(scratch, "--length", "4", "--checkpoint", "saved", "--checkpoint-every", "0", "--time-limit", "1")
     resumed = subprocess.run([program.resolve(), "--soil", "mohr_coulomb", "--frames", "1", "--output", "out", "--length", "4", "--checkpoint", "saved",
                               "--resume"], cwd=scratch, capture_output=True, text=True)
-    expect(resumed.returncode == 0 and ("going on" in resumed.stderr or stopped.returncode == 0), f"it goes on: {resumed.stderr[-500:]}")
+    expect(resumed.returncode == 0 and ("resuming" in resumed.stderr or stopped.returncode == 0), f"it goes on: {resumed.stderr[-500:]}")
     expect(pathlib.Path(scratch, "out", "surface.csv").read_text() == surface, f"and has the same surface as in one go ({whole['surface_x50']})")
 
     done = run(scratch, "--length", "0.1")

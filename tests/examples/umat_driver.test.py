@@ -25,7 +25,7 @@ for words in ("STATEV has 3 numbers", "NTENS is 6", "PNEWDT is null", "nowhere.t
     expect("umat: " in done.stderr and words in done.stderr, f"the error stream lacks '{words}'")
 done = subprocess.run([FOLDER / "points_library"], capture_output=True, text=True, timeout=100)
 expect(done.returncode == 0 and done.stdout.count("stress xx") == 2, f"points_library: {done.stdout}{done.stderr}")
-symbols = subprocess.run(["nm", "-D", "--defined-only", FOLDER / "libscarp_points.so"], capture_output=True, text=True).stdout
+symbols = subprocess.run(["nm", "-D", "--defined-only", FOLDER.parent / "lib/libscarp_points.so"], capture_output=True, text=True).stdout
 names = {line.split()[-1] for line in symbols.splitlines()}
 expect(names and all(re.match(r"scarp_|umat_?$", name) for name in names), f"libscarp_points.so shows {sorted(names)[:5]}")
 finish()
