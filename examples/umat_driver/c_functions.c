@@ -69,6 +69,10 @@ static void states_come_back(void) {
   good &=
       scarp_points_save(first, "points.scarp") == SCARP_DONE && scarp_points_load(third, "points.scarp") == SCARP_DONE;
   good &= scarp_points_unpack(second, 0, bytes, length / 2) == SCARP_WRONG_INPUT && reports("save it again");
+  scarp_points* two = points_of(DISCS, 2);
+  good &= scarp_points_load(two, "points.scarp") == SCARP_WRONG_INPUT && reports("1 points in 2 dimensions (there are 2");
+  good &= scarp_points_save(two, NULL) == SCARP_WRONG_INPUT && scarp_points_load(two, NULL) == SCARP_WRONG_INPUT;
+  good &= scarp_points_save(two, "no/folder") == SCARP_FILE_ERROR && scarp_points_free(two) == SCARP_DONE;
   scarp_points* const all[3] = {first, second, third};
   double worst = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -77,7 +81,7 @@ static void states_come_back(void) {
     good &= scarp_points_stresses(all[k], k == 0 ? stress : other, 3) == SCARP_DONE;
     if (k > 0) worst = fmax(worst, apart(stress, other, 3));
   }
-  check("a packing packed, and saved in a file, goes on with the same bits", worst, good && worst == 0.0);
+  check("a packing packed, and saved in a file, resumes with the same bits", worst, good && worst == 0.0);
   double ratio = 0.0;
   long long steps = 0;
   good = scarp_points_quantity(first, 0, "void_ratio", &ratio) == SCARP_DONE && ratio > 0.1 && ratio < 0.4;
