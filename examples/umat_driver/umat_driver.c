@@ -65,6 +65,7 @@ int main(void) {
   check_c_functions();
   check_wrong_input();
   check_sequences();
+  check_first_steps();
   check_cut_back();
   check_deformation();
   check_rotation();
