@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""What does FEMxDEM's finite element host, escript, take when scarp's packings respond? A biaxial test of 8 quadratic elements."""
+"""What does FEMxDEM's finite element host, escript, cost when scarp's packings respond? A biaxial test of 8 quadratic elements."""
 import argparse
 import os
 import pathlib

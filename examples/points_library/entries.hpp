@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -45,7 +46,7 @@ class Entries {
     std::string const& text = found.mapped();
     auto const [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(static_cast<double>(value)))
-      scarp::reject("'{}' is '{}' (a number is expected): correct it", key, text);
+      scarp::reject("'{}' is '{}' ({} is expected): correct it", key, text, expected<Number>());
   }
 
   /// \throws InputError for keys that nobody took
@@ -57,6 +58,13 @@ class Entries {
 
  private:
   static constexpr std::string_view blanks = " \t\r";
+
+  template <class Number>
+  static std::string expected() {
+    if constexpr (std::floating_point<Number>) return "a finite number";
+    return fmt::format("a whole number from {} to {}", std::numeric_limits<Number>::lowest(),
+                       std::numeric_limits<Number>::max());
+  }
 
   static std::string_view trimmed(std::string_view text) {
     auto const first = text.find_first_not_of(blanks);

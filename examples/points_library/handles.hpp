@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <map>
@@ -17,7 +18,13 @@
 
 namespace points_library {
 
-/// Objects behind opaque pointers, which are numbers that no object has had before: one that was freed is found out.
+/// A number that no object of any kind has had before.
+inline std::uintptr_t new_number() {
+  static std::atomic<std::uintptr_t> last = 0;
+  return last += 16;
+}
+
+/// Objects behind opaque pointers, which are numbers: one that was freed, or is of another kind, is rejected.
 template <class Object>
 class Handles {
  public:
@@ -25,9 +32,9 @@ class Handles {
 
   void* add(std::shared_ptr<Object> object) {
     std::lock_guard const lock(mutex_);
-    next_ += 16;
-    objects_.emplace(next_, std::move(object));
-    return reinterpret_cast<void*>(next_);  // NOLINT: never followed
+    auto const number = new_number();
+    objects_.emplace(number, std::move(object));
+    return reinterpret_cast<void*>(number);  // NOLINT: never followed
   }
 
   /// \throws InputError for a handle that is null, was freed or never made
@@ -52,7 +59,6 @@ class Handles {
   std::string_view kind_;
   mutable std::mutex mutex_;
   std::map<std::uintptr_t, std::shared_ptr<Object>> objects_;
-  std::uintptr_t next_ = 0;
 };
 
 /// What scarp_last_error returns on this thread.

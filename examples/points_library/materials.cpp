@@ -42,11 +42,13 @@ scarp::IsotropicElasticity elasticity(Entries& entries) {
 scarp::Strength strength(Entries& entries) {
   scarp::Strength strength;
   entries.take("cohesion", strength.cohesion);
-  entries.take("friction", strength.friction);
-  entries.take("dilation", strength.dilation);
   entries.take("tension", strength.tension);
-  strength.friction *= std::numbers::pi / 180.0;
-  strength.dilation *= std::numbers::pi / 180.0;
+  auto const take_angle = [&](char const* key, double& angle) {
+    entries.take(key, angle);
+    angle = std::numbers::pi / 180.0 * scarp::require_between(fmt::format("{} [degrees]", key), angle, 0.0, 89.0);
+  };
+  take_angle("friction", strength.friction);
+  take_angle("dilation", strength.dilation);
   return strength;
 }
 
@@ -67,15 +69,16 @@ scarp::AnyProvider<Dim> continuum(std::string const& kind, Entries& entries) {
   return tried(scarp::MohrCoulomb<Dim, scarp::GeostaticStress<Dim>>{elastic, {.strength = bounds}, initial});
 }
 
+template <class Shape>
 Preparation preparation(Entries& entries) {
   Preparation choice;
   entries.take("smallest", choice.smallest);
   entries.take("largest", choice.largest);
-  entries.take("aspect", choice.aspect);
+  if constexpr (std::is_same_v<Shape, scarp::Ellipse>) entries.take("aspect", choice.aspect);
   entries.take("grains", choice.grains);
   entries.take("seed", choice.seed);
   entries.take("density", choice.density);
-  entries.take("thickness", choice.thickness);
+  if constexpr (Shape::dim == 2) entries.take("thickness", choice.thickness);
   entries.take("pressure", choice.pressure);
   entries.take("preparation-friction", choice.friction);
   return choice;
@@ -109,7 +112,7 @@ scarp::AnyProvider<Shape::dim> packing(Entries& entries, rve_lab::Material const
   entries.take("strain-per-step", rve.strain_per_step);
   entries.take("unbalanced-tolerance", rve.unbalanced_tolerance);
   if (file.empty()) {
-    Preparation const choice = preparation(entries);
+    Preparation const choice = preparation<Shape>(entries);
     entries.require_all_taken("packing");
     rve.source.packing = prepared<Packing>(choice, rve.law, grading_of(choice));
   } else {
@@ -126,13 +129,15 @@ Material packing(Entries& entries, int dimension, std::filesystem::path const& f
   entries.take("file", name);
   std::filesystem::path file;
   if (!name.empty()) file = folder / name;
+  auto const built = rve_lab::parameters_of("linear");
   rve_lab::for_each_parameter(parameters, [&](char const* key, auto& value, char const*) {
+    if (std::ranges::find(built, key) == built.end()) return;
     given[key] = entries.has(key);
     entries.take(key, value);
   });
   if (!file.empty())
     rve_lab::read_material(
-        file, [&](std::string const& key) { return given[key]; }, parameters);
+        file, [&](std::string const& key) { return given[key]; }, parameters, "");
   if (parameters.law != "linear")
     scarp::reject("the law of the contacts is '{}' (linear is built): use law linear", parameters.law);
   if (dimension == 3 && parameters.shape == "sphere")

@@ -2,15 +2,12 @@
 // The C functions of scarp_points.h.
 #include "handles.hpp"
 #include "materials.hpp"
-#include "scarp/io/framed_file.hpp"
-#include "scarp/io/read_file.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/points/point_file.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace points_library {
 namespace {
-
-constexpr scarp::FileFormat points_format{"SCARPPTS", 1, "file of points", "scarp_points_save"};
 
 /// A batch and what a C program may do next with it.
 struct Points {
@@ -226,31 +223,12 @@ int scarp_points_unpack(scarp_points* points, int point, void const* bytes, size
   });
 }
 int scarp_points_save(scarp_points const* points, char const* path) {
-  return with_points(points, [&]<int dim>(Points&, scarp::MaterialPoints<dim>& batch) {
-    std::string const bytes = scarp::detail::framed(points_format, [&](scarp::StateWriter& file) {
-      file("dimension", dim);
-      file("count", batch.size());
-      file("points", batch);
-    });
-    scarp::write_file(given(path, "the name of the file"), bytes);
-  });
+  return with_points(points,
+                     [&](Points&, auto& batch) { scarp::save_points(given(path, "the name of the file"), batch); });
 }
 int scarp_points_load(scarp_points* points, char const* path) {
-  return with_points(points, [&]<int dim>(Points& own, scarp::MaterialPoints<dim>& batch) {
-    std::string const file = scarp::read_file(given(path, "the name of the file"));
-    scarp::MaterialPoints<dim> loaded = batch;  // a file that is wrong in its middle leaves the batch as it is
-    scarp::with_context(fmt::format("cannot load '{}'", path), [&] {
-      scarp::StateReader reader(scarp::detail::payload_of(points_format, file));
-      int saved_dimension = 0, count = 0;
-      reader("dimension", saved_dimension);
-      reader("count", count);
-      if (saved_dimension != dim || count != batch.size())
-        scarp::reject("it has {} points in dimension {} ({} in {} are expected): load it into such points", count,
-                      saved_dimension, batch.size(), dim);
-      reader("points", loaded);
-      if (!reader.at_end()) scarp::reject("it holds more than its points: load it as the material that was saved");
-    });
-    batch = std::move(loaded);
+  return with_points(points, [&](Points& own, auto& batch) {
+    scarp::load_points(given(path, "the name of the file"), batch);
     own.forget();
   });
 }

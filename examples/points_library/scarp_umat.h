@@ -5,7 +5,7 @@
    PROPS, all optional: 1 number of the material (0: by CMNAME), 2 order of components (0 Abaqus, 1 Kratos), 3 source of the
    increment (0 DSTRAN and DROT, 1 STRAN + DSTRAN as total strain, 2 DFGRD0 and DFGRD1), 4 height of the ground surface [m].
    STATEV is zero at first. Wrong input, and a response that is not acceptable where PNEWDT is null, fill STRESS and DDSDDE
-   with NaN, so that no host goes on in silence; the reason stands in scarp_last_error() and on the error stream. */
+   with NaN, so that no host continues in silence; the reason is in scarp_last_error() and on the error stream. */
 #ifndef SCARP_UMAT_H
 #define SCARP_UMAT_H
 

@@ -10,12 +10,15 @@
 #include <mutex>
 #include <optional>
 #include <random>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "scarp/core/status.hpp"
 #include "scarp/io/framed_file.hpp"
 #include "scarp/io/read_file.hpp"
+#include "scarp/run/resources.hpp"
 #include "umat_components.hpp"
 
 namespace points_library {
@@ -36,20 +39,31 @@ using State = std::shared_ptr<Snapshot const>;
 
 /// The latest snapshots of each point, for hosts whose STATEV is too short for a state. A point is named by a key, a snapshot by
 /// its generation. The state that a step starts from is in use, so it is never the oldest.
+/// Each trial of a first step has a key of its own, which is read once the trial is committed. Of keys that were never read the
+/// oldest are dropped.
 class Arena {
  public:
   static constexpr std::size_t kept = 4;
 
+  /// most: bytes of snapshots whose keys were never read
+  explicit Arena(double most) : most_(most) {}
+
   std::uint64_t new_key() { return ++last_key_; }
 
+  /// \throws InputError for a snapshot that is not kept
   State find(std::uint64_t key, std::uint64_t generation) {
-    auto& point = points_[key];
-    auto const found = std::ranges::find(point, generation, &std::pair<std::uint64_t, State>::first);
-    if (found != point.end()) return std::rotate(found, found + 1, point.end()), point.back().second;
+    if (auto const point = points_.find(key); point != points_.end()) {
+      auto& snapshots = point->second;
+      auto const found = std::ranges::find(snapshots, generation, &std::pair<std::uint64_t, State>::first);
+      if (found != snapshots.end()) {
+        if (unread_.erase(key) > 0) unread_bytes_ -= size(*found->second);
+        return std::rotate(found, found + 1, snapshots.end()), snapshots.back().second;
+      }
+    }
     scarp::reject(
-        "STATEV names snapshot {} of point {} (only the {} that were used last are kept): give STATEV room "
-        "for whole states",
-        generation, key, kept);
+        "STATEV names snapshot {} of point {} (the {} that were used last are kept, of first steps as many as fit into "
+        "{:.0f} MB): give STATEV room for whole states",
+        generation, key, kept, most_ / 1e6);
   }
 
   /// \return the generation
@@ -60,11 +74,30 @@ class Arena {
     }
     if (point.size() == kept) point.erase(point.begin());
     point.emplace_back(++last_generation_, state);
+    if (point.size() == 1) add_unread(key, *state);
     return last_generation_;
   }
 
  private:
+  static double size(Snapshot const& state) {
+    constexpr double containers = 256.0;  // entries that name it, rounded up
+    return containers + static_cast<double>(sizeof(Snapshot) + state.bits.size());
+  }
+
+  void add_unread(std::uint64_t key, Snapshot const& state) {
+    unread_.insert(key);
+    for (unread_bytes_ += size(state); unread_bytes_ > most_ && unread_.size() > 1;) {
+      auto const oldest = points_.find(*unread_.begin());
+      unread_bytes_ -= size(*oldest->second.front().second);
+      points_.erase(oldest);
+      unread_.erase(unread_.begin());
+    }
+  }
+
   std::map<std::uint64_t, std::vector<std::pair<std::uint64_t, State>>> points_;
+  std::set<std::uint64_t> unread_;  ///< keys, which have one snapshot each
+  double unread_bytes_ = 0.0;
+  double most_;
   std::uint64_t last_key_ = 0;
   std::uint64_t last_generation_ = 0;
 };
@@ -172,7 +205,7 @@ class StateVariables {
   }
 
   std::mutex mutex_;
-  Arena arena_;
+  Arena arena_{scarp::free_memory().bytes / 4.0};
   std::uint64_t session_ = (std::uint64_t{std::random_device{}()} << 16 | std::random_device{}() % 0xffff) & mask;
 };
 

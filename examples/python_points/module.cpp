@@ -62,10 +62,11 @@ py::tuple respond(Points<Dim>& points, py::object const& given, int threads, int
         for (int j = 0; j < Dim; ++j) all.gradient(k)(i, j) = rows(k, i, j);
       }
     }
-    points.report = all.respond(executor, refinements);
+    auto const report = all.respond(executor, refinements);
     stresses = all.stresses();
     if (tangents) moduli = all.tangents(executor);
     for (auto const& response : all.responses()) verdicts.push_back(response.verdict);
+    return report;
   });
   constexpr py::ssize_t size = scarp::voigt_size<Dim>;
   return py::make_tuple(
@@ -176,7 +177,7 @@ void bind(py::module_& module, char const* material_name, char const* points_nam
       .def(
           "report",
           [](All& self) {
-            auto const& [verdict, worst, steps, survey] = self.report;
+            auto const& [verdict, worst, steps, survey] = self.report();
             return py::dict(py::arg("status") = scarp::name(verdict.status),
                             py::arg("reason") = scarp::name(verdict.reason), py::arg("worst_point") = worst,
                             py::arg("inner_steps") = steps);

@@ -16,7 +16,7 @@
 
 namespace python_points {
 
-inline constexpr scarp::FileFormat points_format{"SCARPPTS", 1, "material points", "MaterialPoints.save"};
+inline constexpr scarp::FileFormat points_format{"SCARPPYP", 1, "file of points of Python", "MaterialPoints.save"};
 
 /// Where points are and what they weigh.
 template <int Dim>
@@ -49,7 +49,8 @@ class Points {
     return points_;
   }
 
-  /// Calls work(points, executor) on this thread, with the executor's threads. \throws std::runtime_error like now()
+  /// Calls work(points, executor), which returns the report of a response, on this thread, with the executor's threads.
+  /// \throws std::runtime_error like now()
   template <class Work>
   void at_work(int threads, Work const& work) {
     if (busy_.exchange(true)) throw std::runtime_error(in_use);
@@ -59,17 +60,18 @@ class Points {
     } const done{busy_};
     if (!team_ || threads_ != threads) team_ = std::make_unique<scarp::ThreadExecutor>(threads);
     threads_ = threads;
-    work(points_, *team_);
+    report_ = work(points_, *team_);
   }
 
   /// \throws InputError for states that must not be kept
   void commit() {
-    auto const& last = report.verdict;
+    auto& points = now();
+    auto const& last = report_.verdict;
     if (!last.acceptable()) {
       scarp::reject("point {} is {} ({}; a commit would keep it): respond to a smaller increment, or discard",
-                    report.worst_point, scarp::name(last.status), scarp::name(last.reason));
+                    report_.worst_point, scarp::name(last.status), scarp::name(last.reason));
     }
-    now().commit();
+    points.commit();
   }
 
   std::string bytes() {
@@ -97,7 +99,11 @@ class Points {
 
   Material<Dim> const& material() const { return material_; }
 
-  scarp::ResponseReport report{};  ///< of the last response
+  /// Of the last response. \throws std::runtime_error like now()
+  scarp::ResponseReport const& report() {
+    static_cast<void>(now());
+    return report_;
+  }
 
  private:
   static constexpr char const* in_use =
@@ -106,6 +112,7 @@ class Points {
   Material<Dim> material_;
   Places<Dim> places_;
   scarp::MaterialPoints<Dim> points_;
+  scarp::ResponseReport report_{};
   std::atomic<bool> busy_ = false;
   std::unique_ptr<scarp::ThreadExecutor> team_;
   int threads_ = 0;

@@ -33,7 +33,7 @@ int main(int argc, char** argv) try {
       double const* const rows = &numbers[at + 1 + 4 * k];
       points->now().gradient(static_cast<int>(k)) = scarp::Gradient<2>{{rows[0], rows[1]}, {rows[2], rows[3]}};
     }
-    points->at_work(std::stoi(argv[4]), [&](auto& all, auto& executor) { points->report = all.respond(executor); });
+    points->at_work(std::stoi(argv[4]), [&](auto& all, auto& executor) { return all.respond(executor); });
     for (auto const& stress : points->now().stresses())
       stresses.append(reinterpret_cast<char const*>(stress.data()), sizeof(stress));
     if (numbers[at] == 1.0) points->commit();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "choices.hpp"
@@ -51,17 +52,18 @@ inline std::vector<std::string> parameters_of(std::string const& law) {
   return names;
 }
 
-/// Reads the packing's material file (.json), except values that are `is_given` on the command line, which may be all of it.
+/// Reads the packing's material file (.json), except values that are `is_given`, which may be all of it.
+/// prefix: of the names by which values are given
 /// \throws InputError naming the file and the key for values that cannot be, and for a material that is not known
 inline void read_material(std::filesystem::path const& packing, std::function<bool(std::string const&)> const& is_given,
-                          Material& material) {
+                          Material& material, std::string_view prefix = "--") {
   if (!std::filesystem::exists(packing))
     scarp::reject("cannot read '{}' (there is no such file): check its name and folder", packing.string());
   auto const path = material_path(packing);
   if (!std::filesystem::is_regular_file(path)) {
     std::string missing;
     for (auto const& name : parameters_of(material.law)) {
-      if (!is_given(name)) missing += (missing.empty() ? "--" : ", --") + name;
+      if (!is_given(name)) missing += fmt::format("{}{}{}", missing.empty() ? "" : ", ", prefix, name);
     }
     if (missing.empty()) return;
     scarp::reject("the material of '{}' is not known (there is no '{}' beside it): bring that file back, or give {}",

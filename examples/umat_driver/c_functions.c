@@ -69,6 +69,11 @@ static void states_come_back(void) {
   good &=
       scarp_points_save(first, "points.scarp") == SCARP_DONE && scarp_points_load(third, "points.scarp") == SCARP_DONE;
   good &= scarp_points_unpack(second, 0, bytes, length / 2) == SCARP_WRONG_INPUT && reports("save it again");
+  scarp_points* two = points_of(DISCS, 2);
+  good &=
+      scarp_points_load(two, "points.scarp") == SCARP_WRONG_INPUT && reports("1 points in 2 dimensions (there are 2");
+  good &= scarp_points_save(two, NULL) == SCARP_WRONG_INPUT && scarp_points_load(two, NULL) == SCARP_WRONG_INPUT;
+  good &= scarp_points_save(two, "no/folder") == SCARP_FILE_ERROR && scarp_points_free(two) == SCARP_DONE;
   scarp_points* const all[3] = {first, second, third};
   double worst = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -77,7 +82,7 @@ static void states_come_back(void) {
     good &= scarp_points_stresses(all[k], k == 0 ? stress : other, 3) == SCARP_DONE;
     if (k > 0) worst = fmax(worst, apart(stress, other, 3));
   }
-  check("a packing packed, and saved in a file, goes on with the same bits", worst, good && worst == 0.0);
+  check("a packing packed, and saved in a file, resumes with the same bits", worst, good && worst == 0.0);
   double ratio = 0.0;
   long long steps = 0;
   good = scarp_points_quantity(first, 0, "void_ratio", &ratio) == SCARP_DONE && ratio > 0.1 && ratio < 0.4;
@@ -107,7 +112,14 @@ void check_wrong_input(void) {
   good &= rejected(scarp_material_parse("kind elastic\nyoung ten\n", &material), "'ten'") && material == NULL;
   good &= rejected(scarp_material_parse(NULL, &material), "null") && rejected(scarp_material_parse("", NULL), "null");
   good &= rejected(scarp_material_read("nowhere.txt", &material), "no such file");
-  check("wrong materials are rejected with a reason", 6, good);
+  good &=
+      rejected(scarp_material_parse("kind packing\nfile material_1.txt\n", &material), "or give shape, law, friction");
+  good &= rejected(scarp_material_parse("kind packing\nsmallest 2\nlargest 1\n", &material), "largest size");
+  good &= rejected(scarp_material_parse("kind packing\naspect 0.5\n", &material), "'aspect'");
+  good &= rejected(scarp_material_parse("kind packing\nrolling-friction 0.5\n", &material), "'rolling-friction'");
+  good &= rejected(scarp_material_parse("kind packing\nseed -1\n", &material), "whole number from 0");
+  good &= rejected(scarp_material_parse("kind mohr-coulomb\nyoung 1e7\nfriction 120\n", &material), "is 120");
+  check("wrong materials are rejected with a reason", 12, good);
 
   good = rejected(scarp_points_set_gradients(points, few, 4), "2 points have 8");
   good &= rejected(scarp_points_set_gradients(points, NULL, 8), "null");
@@ -133,5 +145,11 @@ void check_wrong_input(void) {
   good = scarp_points_free(points) == SCARP_DONE && rejected(scarp_points_free(freed), "not alive");
   good &= rejected(scarp_points_commit(freed), "not alive") && rejected(scarp_points_commit(NULL), "null");
   good &= rejected(scarp_points_commit((scarp_points*)(void*)numbers), "not alive");
-  check("handles that are freed, null or made up are rejected with a reason", 4, good);
+  int count = 0;
+  good &= scarp_material_parse(texts[ELASTIC], &material) == SCARP_DONE;
+  points =
+      points_of(ELASTIC, 1); /* alive with the number that the material would have if each kind were counted alone */
+  good &= rejected(scarp_points_count((scarp_points*)(void*)material, &count), "not alive");
+  good &= scarp_points_free(points) == SCARP_DONE && scarp_material_free(material) == SCARP_DONE;
+  check("handles that are freed, null, made up or of another kind are rejected with a reason", 5, good);
 }

@@ -69,6 +69,7 @@ extern char const* const texts[MATERIALS + 1];
 void check_c_functions(void);
 void check_wrong_input(void);
 void check_sequences(void);
+void check_first_steps(void);
 void check_cut_back(void);
 void check_deformation(void);
 void check_rotation(void);

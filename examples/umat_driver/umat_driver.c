@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSL-1.0 */
-/* Do C++, C and a UMAT give the same bits? Sequences of calls of Abaqus and of Kratos, two materials, two threads, wrong input. */
+/* Do C++, C and a UMAT give the same bits? Sequences of calls of Abaqus and of Kratos, two materials, three threads, wrong input. */
 #define _POSIX_C_SOURCE 200809L
 #include <ctype.h>
 #include <math.h>
@@ -65,6 +65,7 @@ int main(void) {
   check_c_functions();
   check_wrong_input();
   check_sequences();
+  check_first_steps();
   check_cut_back();
   check_deformation();
   check_rotation();

@@ -8,6 +8,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/solver/thread_executor.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 
@@ -135,7 +136,7 @@ TEST_CASE(
   CHECK(second.stress == first.stress);
 }
 
-TEST_CASE("points of a UMAT are saved and go on with the same bits") {
+TEST_CASE("points of a UMAT are saved and resume with the same bits") {
   auto const umat = umats::hardening<3>();
   std::vector<scarp::Site<3>> const sites(2);
   scarp::SerialExecutor executor;
@@ -154,6 +155,35 @@ TEST_CASE("points of a UMAT are saved and go on with the same bits") {
   CHECK(others.committed_tangent(0) == points.committed_tangent(0));
   CHECK(others.pack(1) == points.pack(1));
   CHECK(points.state<scarp::UmatProvider<3>::State>(1).variables[1] == 2.0);
+}
+
+TEST_CASE("points of a UMAT without SAVE respond with the same bits on several threads") {
+  std::vector<scarp::Site<2>> const sites(1000);
+  scarp::SerialExecutor serial;
+  scarp::ThreadExecutor threads(4);
+  scarp::MaterialPoints<2> points(umats::hardening<2>(), sites), others(umats::hardening<2>(), sites);
+  for (int k = 0; k < points.size(); ++k) points.gradient(k) = others.gradient(k) = shear<2>(3e-5 * k);
+  CHECK(points.respond(serial).verdict.acceptable());
+  CHECK(others.respond(threads).verdict.acceptable());
+  CHECK(others.stresses() == points.stresses());
+  points.commit();
+  others.commit();
+  CHECK(others.pack(999) == points.pack(999));
+  CHECK(points.state<scarp::UmatProvider<2>::State>(999).variables[0] > 1e-2);
+}
+
+TEST_CASE("a point of a UMAT is copied, but not mirrored: nothing is known of its state variables") {
+  std::vector<scarp::Site<2>> const sites(2);
+  scarp::SerialExecutor executor;
+  scarp::MaterialPoints<2> points(umats::hardening<2>(), sites);
+  points.gradient(0) = shear<2>(0.01);
+  points.gradient(1).setZero();
+  REQUIRE(points.respond(executor).verdict.acceptable());
+  points.commit();
+  CHECK_REFUSED(points.copy(1, points, 0, true), "cannot be mirrored", "'variables'");
+  CHECK(points.committed_stress(1).isZero(0.0));
+  points.copy(1, points, 0);
+  CHECK(points.pack(1) == points.pack(0));
 }
 
 TEST_CASE("a UMAT that writes outside of its arrays is rejected with the name of the array") {

@@ -16,7 +16,7 @@ def _maker(kind, spaces):
 
     known = (_points.defaults if 2 in spaces else _points.defaults_in_space)(kind)
     make.__name__ = make.__qualname__ = kind
-    make.__doc__ = "Keywords and their defaults: " + ", ".join(f"{name}={value!r}" for name, value in known.items())
+    make.__doc__ = "SI units, angles in radians. Keywords and their defaults: " + ", ".join(f"{name}={value!r}" for name, value in known.items())
     return make
 
 

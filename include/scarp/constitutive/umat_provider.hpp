@@ -61,7 +61,7 @@ class FencedNumbers {
 /// A user's UMAT as provider: in the plane by four components (11, 22, 33, 12), in space by six (11, 22, 33, 12, 13, 23). Stress, total
 /// strain and state variables are parts of the state, so that a trial never changes what is committed. The increment is passed
 /// both as strain with rotation (DSTRAN, DROT; stress and strain are turned before) and as DFGRD0 and DFGRD1. State variables that are
-/// tensors are turned by the UMAT, as for Abaqus.
+/// tensors are turned by the UMAT, as for Abaqus; a mirrored copy of a state is rejected.
 /// A UMAT that keeps something between calls (SAVE, COMMON) must not be called by several threads, and is no function of its state.
 template <int Dim, class InitialStress = StressFree<Dim>>
   requires InitialStressField<InitialStress, Dim>
