@@ -95,10 +95,9 @@ void Ground::add_up() {
   residual_ = unbalanced_.l2_norm() / std::max(loads.l2_norm(), support_.l2_norm());
 }
 
-/// At the last evaluation. consistent: with the points' tangents instead of those that they began with
-void Ground::factorise(bool consistent) {
+/// Stiffness at the last evaluation. consistent: with the points' tangents instead of those that they began with
+void Ground::assemble(bool consistent) {
   constexpr double floor = 1e-4;  // of the first tangent, as scarp's own scene has it
-  in_solver_.start();
   matrix_ = 0.0, lift_ = 0.0;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     Stresses stresses;
@@ -117,9 +116,9 @@ void Ground::factorise(bool consistent) {
   matrix_.compress(dealii::VectorOperation::add);
   lift_.compress(dealii::VectorOperation::add);
   factors_ = std::make_unique<dealii::PETScWrappers::SparseDirectMUMPS>(control_, comm_);
-  in_solver_.stop();
 }
 
+/// The first one after new entries of the matrix factorises it.
 Vector Ground::solved(Vector const& force) {
   in_solver_.start();
   Vector solution = zero();
@@ -155,7 +154,7 @@ Verdict Ground::step(double more) {
   points_.discard();
   evaluate(zero(), false);
   Vector const before = internal_;
-  if (!newton || last_throw_ == 0.0) factorise(false);
+  if (!newton || last_throw_ == 0.0) assemble(false);
   Vector increment = predicted(more);
   if (more > 0.0) increment_ = more;
   mixing_.forget();
@@ -166,7 +165,7 @@ Verdict Ground::step(double more) {
     if (residual_ <= options_.residual && verdict.acceptable()) break;
     if (iteration == options_.max_iterations || !(residual_ < 10.0))
       return verdict.acceptable() ? Verdict{Status::not_converged, Reason::iterations_spent} : verdict;
-    if (newton) factorise(true);
+    if (newton) assemble(true);
     Vector correction = solved(unbalanced_);
     correction *= -1.0;
     hanging_.distribute(correction);

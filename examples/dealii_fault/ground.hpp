@@ -84,7 +84,7 @@ class Ground {
   scarp::Verdict evaluate(Vector const& increment, bool responds);
   scarp::Verdict worst(scarp::Verdict verdict) const;
   void add_up();
-  void factorise(bool consistent);
+  void assemble(bool consistent);
   Vector solved(Vector const& force);
   Vector predicted(double& more);
   void commit(Vector const& increment, Vector const& before, double more);
