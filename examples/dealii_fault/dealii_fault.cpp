@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 // How does a program of deal.II take packings as its material? The study's fault on a distributed, adaptive mesh.
-#include <mpi.h>
-
-#include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
-#include "options.hpp"
+#include "ground.hpp"
 
 namespace {
 
@@ -19,19 +17,16 @@ void declare(CLI::App& app, Options& options, std::string& own) {
   using examples::number_from;
   examples::add_named<Soil>(app, "--soil", options.soil, "dem (a packing in every point), mohr_coulomb or elastic",
                             {{"dem", Soil::dem}, {"mohr_coulomb", Soil::mohr_coulomb}, {"elastic", Soil::elastic}});
-  app.add_option("--degree", options.degree, "of the elements: 1 (mean dilatation) or 2 (reduced integration)")
-      ->check(CLI::Range(1, 2));
   app.add_option("--size", options.size, "width of a cell in the band before refinement [m]")
       ->check(number_from(0.0, false, 25.0));
   app.add_option("--length", options.length, "intrinsic length [m], 0 for none")->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", options.grains, "of a packing")->check(CLI::Range(1, 100'000));
   app.add_option("--throw-over-depth", options.throw_over_depth, "at the end")->check(number_from(0.0, false, 1.0));
-  app.add_option("--residual", options.residual, "of a load step; elastic and --newton 1e-8, packings 1e-3, else 1e-5")
-      ->check(number_from(0.0, false, 1.0));
   app.add_flag("--newton", options.newton,
                "the points' tangents instead of initial stiffness with Anderson's acceleration");
   app.add_option("--levels", options.levels, "of refinement, 0 for none")->check(CLI::Range(0, 8));
-  app.add_option("--refine-at", options.refine_at, "shear strain since the last refinement")
+  app.add_option("--refine-at", options.refine_at,
+                 "shear strain since the mesh last changed; a tenth of it joins cells")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--threads", options.threads, "of each process")->check(CLI::Range(1, 1024));
   app.add_flag("--block", options.block, "elastic ground under its own weight, compared with the closed form");
@@ -43,10 +38,10 @@ void declare(CLI::App& app, Options& options, std::string& own) {
   app.add_option("--stop-at", options.stop_at, "throw at which to end [m]")->check(number_from(0.0, false, 25.0));
 }
 
-void complete(CLI::App const& app, Options& options, std::string const& own) {
+void complete(Options& options, std::string const& own) {
   bool const packings = options.soil == Soil::dem && !options.block;
   options.newton = options.newton || options.block || options.soil == Soil::elastic;
-  if (app.count("--residual") == 0) options.residual = options.newton ? 1e-8 : packings ? 1e-3 : 1e-5;
+  options.residual = options.newton ? 1e-8 : packings ? 1e-3 : 1e-5;
   options.max_displacement_gradient = packings ? 0.005 : 0.02;
   options.max_iterations = options.newton ? 30 : 60;
   if (own.empty()) return;
@@ -67,12 +62,13 @@ int main(int argc, char** argv) {
   declare(app, options, own);
   examples::declare_version(app);
   if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
-  int code = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize const session(argc, argv, 1);
   try {
-    complete(app, options, own);
-    code = dealii_fault::run_with_mpi(options, argc, argv);
+    complete(options, own);
+    return dealii_fault::Ground(options, MPI_COMM_WORLD).run() ? 0 : 3;
   } catch (std::exception const& problem) {
-    std::fprintf(stderr, "dealii_fault: %s\n", problem.what());
+    std::cerr << "dealii_fault: " << problem.what() << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, 1);
   }
-  return code;
+  return 1;
 }

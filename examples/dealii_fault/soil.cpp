@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "soil.hpp"
 
-#include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "../shared/study/soils.hpp"
 #include "scarp/element/quad4.hpp"
@@ -19,11 +20,6 @@ PointMaker points_of(Provider provider, double length) {
   };
 }
 
-template PointMaker points_of(scarp::LinearElastic<2>, double);
-template PointMaker points_of(fault_rupture::ElasticSoil, double);
-template PointMaker points_of(fault_rupture::FrictionalSoil, double);
-template PointMaker points_of(fault_rupture::Sand, double);
-
 PointMaker soil_of(fault_rupture::Choice const& choice, Sites const& sites) {
   using fault_rupture::Soil;
   if (choice.soil == Soil::elastic) return points_of(fault_rupture::make_elastic_soil(choice), choice.length);
@@ -37,15 +33,12 @@ PointMaker stress_free_soil() {
 }
 
 std::array<std::vector<double>, 2> cell_lines(double size) {
-  auto const mesh = scarp::FaultMesh{.size = size}.generate<scarp::Quad4>();
-  std::array<std::vector<double>, 2> lines;
-  for (int axis = 0; axis < 2; ++axis) {
-    auto& line = lines[static_cast<std::size_t>(axis)];
-    for (auto const& node : mesh.nodes) line.push_back(node(axis));
-    std::ranges::sort(line);
-    line.erase(std::ranges::unique(line, [](double a, double b) { return b - a < 1e-9; }).begin(), line.end());
+  std::array<std::set<double>, 2> lines;
+  for (auto const& node : scarp::FaultMesh{.size = size}.generate<scarp::Quad4>().nodes) {
+    for (int axis = 0; axis < 2; ++axis)
+      lines[static_cast<std::size_t>(axis)].insert(std::round(1e9 * node(axis)) / 1e9);
   }
-  return lines;
+  return {std::vector(lines[0].begin(), lines[0].end()), std::vector(lines[1].begin(), lines[1].end())};
 }
 
 }  // namespace dealii_fault

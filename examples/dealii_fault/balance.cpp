@@ -2,24 +2,33 @@
 #include <iostream>
 
 #include "ground.hpp"
-#include "scarp/fault/rupture_measures.hpp"
 
 namespace dealii_fault {
 
+using scarp::BBar;
 using scarp::Reason;
 using scarp::Status;
 using scarp::Verdict;
+using Motion = scarp::UpdatedLagrangian;
+using Corners = scarp::Corners<scarp::Quad4, 2>;
+using Stresses = std::array<scarp::VoigtStress<2>, cell_points>;
+using Tangents = std::array<scarp::VoigtTangent<2>, cell_points>;
 
-Rows Ground::nodal(Cell const& cell, Vector const& values) const {
-  std::vector<double> entries(cell.dofs.size());
-  values.extract_subvector_to(cell.dofs.begin(), cell.dofs.end(), entries.begin());
-  Rows rows(static_cast<Eigen::Index>(cell.dofs.size() / 2), 2);
-  for (unsigned i = 0; i < entries.size(); ++i) {
-    auto const [axis, node] = element_.system_to_component_index(i);
-    rows(node, axis) = entries[i];
+namespace {
+
+/// After displacements [m] of the nodes; volumes that are not positive belong to a cell turned inside out.
+auto moved(scarp::ElementShapes<scarp::Quad4, cell_points> shapes, Nodal const& displacements) {
+  for (auto& [gradients, volume] : shapes) {
+    scarp::Tensor<2> const stretch = scarp::Tensor<2>::Identity() + displacements.transpose() * gradients;
+    gradients = (gradients * stretch.inverse()).eval();
+    volume *= stretch.determinant();
   }
-  return rows;
+  return shapes;
 }
+
+dealii::Vector<double> entries(Nodal const& rows) { return {rows.data(), rows.data() + rows.size()}; }
+
+}  // namespace
 
 /// Of all processes.
 Verdict Ground::worst(Verdict verdict) const {
@@ -27,36 +36,39 @@ Verdict Ground::worst(Verdict verdict) const {
   return {static_cast<Status>(code / 100), static_cast<Reason>(code % 100)};
 }
 
-void Ground::start_from(Vector const& moves) {
-  Vector const all = ghosted(moves);
+void Ground::start_from_moved() {
+  Vector const& all = ghosted(moved_);
   for (auto& cell : cells_) cell.at_start = cell.now = moved(cell.at_rest, nodal(cell, all));
 }
 
 /// Points respond to an increment [m] from the start of the step, or show their committed stresses; then forces are added up.
 Verdict Ground::evaluate(Vector const& increment, bool responds) {
-  Vector const moves = ghosted(increment);
+  Vector const& moves = ghosted(increment);
   Verdict verdict;
+  unsigned entry = 0;
   for (auto& cell : cells_) {
-    Rows const move = nodal(cell, moves);
+    Nodal const move = nodal(cell, moves);
     cell.now = moved(cell.at_start, move);
-    cell.gradients = gradients(cell.at_start, move);
+    cell.gradients = BBar::gradients<Motion>(cell.at_start, Corners(move));
     for (auto const& shape : cell.now) {
       if (!(shape.volume > 0.0)) verdict = {Status::failed, Reason::element_inverted};
     }
+    for (auto const& gradient : cell.gradients) {
+      for (auto const value : gradient.reshaped()) halo_.local_element(entry++) = value;
+    }
   }
   if (verdict = worst(verdict); !verdict.acceptable()) return verdict;
+  halo_.update_ghost_values();
+  ++evaluations_;
   in_points_.start();
-  auto const gradient = [&](std::size_t k) { return cells_[k / cell_points].gradients[k % cell_points]; };
-  auto const seen = from_others<std::array<double, 4>>(halo_, [&](std::size_t k) {
-    auto const g = gradient(k);
-    return std::array{g(0, 0), g(0, 1), g(1, 0), g(1, 1)};
-  });
-  for (std::size_t k = 0; k < own(); ++k) points_.gradient(static_cast<int>(k)) = gradient(k);
-  for (std::size_t k = 0; k < seen.size(); ++k)
-    points_.gradient(static_cast<int>(own() + k)) << seen[k][0], seen[k][1], seen[k][2], seen[k][3];
+  for (int k = 0; k < points_.size(); ++k) {
+    auto const first = 4 * static_cast<dealii::types::global_dof_index>(sites_[static_cast<std::size_t>(k)].index);
+    for (unsigned c = 0; c < 4; ++c) points_.gradient(k).reshaped()(c) = halo_(first + c);
+  }
   if (responds) {
-    verdict = points_.respond(executor_).verdict;
-    for (std::size_t k = 0; k < own(); ++k) inner_steps_ += points_.work(static_cast<int>(k));
+    auto const report = points_.respond(executor_);
+    verdict = report.verdict;
+    dem_steps_ += report.inner_steps;
   } else {
     points_.evaluate_committed(executor_);
   }
@@ -71,18 +83,11 @@ void Ground::add_up() {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     auto const& cell = cells_[c];
     Stresses stresses;
-    for (std::size_t p = 0; p < cell_points; ++p) stresses[p] = points_.stress(static_cast<int>(cell_points * c + p));
-    Rows const force = forces(cell.now, stresses);
-    dealii::Vector<double> inner(element_.n_dofs_per_cell()), outer(inner.size());
-    for (unsigned i = 0; i < inner.size(); ++i) {
-      auto const [axis, node] = element_.system_to_component_index(i);
-      inner[i] = force(node, axis);
-      outer[i] = cell.loads(node, axis);
-    }
-    internal_.add(cell.dofs, inner);
-    loads.add(cell.dofs, outer);
-    inner -= outer;
-    held_.distribute_local_to_global(inner, cell.dofs, unbalanced_);
+    for (unsigned p = 0; p < cell_points; ++p) stresses[p] = points_.stress(static_cast<int>(cell_points * c + p));
+    Nodal const force = BBar::forces(cell.now, std::span(std::as_const(stresses)));
+    internal_.add(cell.dofs, entries(force));
+    loads.add(cell.dofs, entries(cell.loads));
+    held_.distribute_local_to_global(entries(force - cell.loads), cell.dofs, unbalanced_);
   }
   for (auto* vector : {&internal_, &unbalanced_, &loads}) vector->compress(dealii::VectorOperation::add);
   support_ = internal_;
@@ -90,38 +95,30 @@ void Ground::add_up() {
   residual_ = unbalanced_.l2_norm() / std::max(loads.l2_norm(), support_.l2_norm());
 }
 
-/// At the last evaluation. consistent: with the points' tangents instead of those that they began with
-void Ground::factorise(bool consistent) {
+/// Stiffness at the last evaluation. consistent: with the points' tangents instead of those that they began with
+void Ground::assemble(bool consistent) {
   constexpr double floor = 1e-4;  // of the first tangent, as scarp's own scene has it
-  in_solver_.start();
   matrix_ = 0.0, lift_ = 0.0;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     Stresses stresses;
     Tangents tangents;
-    for (std::size_t p = 0; p < cell_points; ++p) {
+    for (unsigned p = 0; p < cell_points; ++p) {
       int const k = static_cast<int>(cell_points * c + p);
       stresses[p] = points_.stress(k);
       tangents[p] = points_.initial_tangent(k);
       if (consistent) tangents[p] = (1.0 - floor) * points_.tangent(k) + floor * tangents[p];
     }
-    auto const local = stiffness(cells_[c].now, stresses, tangents);
-    unsigned const size = element_.n_dofs_per_cell();
-    dealii::FullMatrix<double> entries(size, size);
-    for (unsigned i = 0; i < size; ++i) {
-      auto const [a, n] = element_.system_to_component_index(i);
-      for (unsigned j = 0; j < size; ++j) {
-        auto const [b, m] = element_.system_to_component_index(j);
-        entries(i, j) = local(2 * n + a, 2 * m + b);
-      }
-    }
-    held_.distribute_local_to_global(entries, dealii::Vector<double>(size), cells_[c].dofs, matrix_, lift_, true);
+    Eigen::Matrix<double, 8, 8, Eigen::RowMajor> const local =
+        BBar::stiffness<Motion>(cells_[c].now, std::span(std::as_const(stresses)), std::span(std::as_const(tangents)));
+    held_.distribute_local_to_global(dealii::FullMatrix<double>(8, 8, local.data()), dealii::Vector<double>(8),
+                                     cells_[c].dofs, matrix_, lift_, true);
   }
   matrix_.compress(dealii::VectorOperation::add);
   lift_.compress(dealii::VectorOperation::add);
   factors_ = std::make_unique<dealii::PETScWrappers::SparseDirectMUMPS>(control_, comm_);
-  in_solver_.stop();
 }
 
+/// The first one after new entries of the matrix factorises it.
 Vector Ground::solved(Vector const& force) {
   in_solver_.start();
   Vector solution = zero();
@@ -139,14 +136,14 @@ Vector Ground::predicted(double& more) {
     held_.distribute(last_);
     last_throw_ = 1.0;
   }
-  Vector increment = last_;
-  Vector const moves = ghosted(increment);
+  Vector const& moves = ghosted(last_);
   double largest = 0.0;
   for (auto const& cell : cells_) {
-    for (auto const& gradient : gradients(cell.at_start, nodal(cell, moves)))
+    for (auto const& gradient : BBar::gradients<Motion>(cell.at_start, Corners(nodal(cell, moves))))
       largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
   }
   more = std::min(more, last_throw_ * *options_.max_displacement_gradient / mpi::max(largest, comm_));
+  Vector increment = last_;
   increment *= more / last_throw_;
   return increment;
 }
@@ -157,7 +154,7 @@ Verdict Ground::step(double more) {
   points_.discard();
   evaluate(zero(), false);
   Vector const before = internal_;
-  if (!newton || last_throw_ == 0.0) factorise(false);
+  if (!newton || last_throw_ == 0.0) assemble(false);
   Vector increment = predicted(more);
   if (more > 0.0) increment_ = more;
   mixing_.forget();
@@ -168,22 +165,19 @@ Verdict Ground::step(double more) {
     if (residual_ <= options_.residual && verdict.acceptable()) break;
     if (iteration == options_.max_iterations || !(residual_ < 10.0))
       return verdict.acceptable() ? Verdict{Status::not_converged, Reason::iterations_spent} : verdict;
-    if (newton) factorise(true);
+    if (newton) assemble(true);
     Vector correction = solved(unbalanced_);
     correction *= -1.0;
     hanging_.distribute(correction);
-    if (newton) {
-      increment += correction;
-    } else {
-      increment = mixing_.next(increment, correction);
-    }
+    if (newton) increment += correction;
+    if (!newton) increment = mixing_.next(increment, correction);
   }
   commit(increment, before, more);
   return {};
 }
 
 void Ground::commit(Vector const& increment, Vector const& before, double more) {
-  for (std::size_t k = 0; k < own(); ++k) {
+  for (std::size_t k = 0; k < history_.size(); ++k) {
     auto const& g = points_.own_gradients()[k];
     history_[k].shear += std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0));
     history_[k].effort = (history_[k].effort + static_cast<double>(points_.work(static_cast<int>(k)))) / 2.0;
@@ -200,7 +194,7 @@ void Ground::commit(Vector const& increment, Vector const& before, double more) 
 /// The ground as prepared is brought into equilibrium.
 Verdict Ground::settle() {
   build();
-  start_from(moved_);
+  start_from_moved();
   Verdict const verdict = step(0.0);
   rest_ = moved_;
   reaction_at_rest_ = support_ * rates_;
@@ -222,6 +216,7 @@ bool Ground::check_block() const {
 
 bool Ground::run() {
   constexpr double smallest = 1e-6;  // [m]
+  constexpr int adapted_every = 5;   // load steps
   if (options_.resume) {
     resume();
   } else if (!settle().acceptable()) {
@@ -243,24 +238,12 @@ bool Ground::run() {
     }
     if (took <= (options_.newton ? 6 : 12)) increment_ *= 1.4;
     if (took > (options_.newton ? 10 : 20)) increment_ *= 0.75;
-    if (options_.levels > 0 && steps_ % options_.refine_every == 0) adapt();
+    if (options_.levels > 0 && steps_ % adapted_every == 0) adapt();
   }
   bool const complete = end - throw_ <= smallest;
   if (!options_.checkpoint.empty()) save();
   report(complete);
-  if (!options_.output.empty()) draw();
   return complete;
-}
-
-int run_with_mpi(Options const& options, int argc, char** argv) {
-  mpi::MPI_InitFinalize const session(argc, argv, 1);
-  try {
-    return Ground(options, MPI_COMM_WORLD).run() ? 0 : 3;
-  } catch (std::exception const& problem) {
-    std::cerr << "dealii_fault: " << problem.what() << std::endl;
-    MPI_Abort(MPI_COMM_WORLD, 1);
-  }
-  return 1;
 }
 
 }  // namespace dealii_fault
