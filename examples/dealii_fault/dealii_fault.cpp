@@ -32,8 +32,9 @@ void declare(CLI::App& app, Options& options, std::string& own) {
   app.add_flag("--block", options.block, "elastic ground under its own weight, compared with the closed form");
   app.add_option("--own", own, "summary.json of fault_rupture on the same mesh, to be compared with")
       ->check(CLI::ExistingFile);
-  app.add_option("--output", options.output, "folder of the fields");
-  auto* const folder = app.add_option("--checkpoint", options.checkpoint, "folder where the run is saved at its end");
+  app.add_option("--output", options.output, "folder of the fields")->check(examples::folder_problem);
+  auto* const folder = app.add_option("--checkpoint", options.checkpoint, "folder where the run is saved at its end")
+                           ->check(examples::folder_problem);
   app.add_flag("--resume", options.resume, "from there, on any number of processes")->needs(folder);
   app.add_option("--stop-at", options.stop_at, "throw at which to end [m]")->check(number_from(0.0, false, 25.0));
 }
