@@ -61,7 +61,8 @@ void Ground::build() {
   dealii::DoFTools::make_sparsity_pattern(dofs_, pattern, held_, false);
   dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned_, comm_, relevant_);
   matrix_.reinit(owned_, owned_, pattern, comm_);
-  for (auto* vector : {&rates_, &lift_, &moved_, &rest_, &last_, &internal_, &unbalanced_, &support_}) *vector = zero();
+  for (auto* vector : {&rates_, &lift_, &moved_, &rest_, &last_, &internal_, &unbalanced_, &support_})
+    vector->reinit(owned_, comm_);
   seen_.reinit(owned_, relevant_, comm_);
   held_.distribute(rates_);
   collect_cells();
