@@ -28,11 +28,11 @@ using StudyPacking = scarp::Packing<Shape, scarp::LinearFrictional>;
 
 inline constexpr double pressure = 2e5;
 
-/// The study's springs; in space such that two grains overlap by the same share of their radius.
+/// The reference study's springs; in space such that two grains overlap by the same share of their radius.
 template <class Shape>
 inline constexpr double stiffness_of_study = Shape::dim == 2 ? 6e6 : 3e5;
 
-/// The study's material in terms of another law, which keeps the springs as far as it has them.
+/// The reference study's material in terms of another law, which keeps the springs as far as it has them.
 template <class Shape, class Law>
 struct MaterialOfStudy;
 template <class Shape>

@@ -17,7 +17,7 @@ using HertzGrains = scarp::Packing<scarp::Ellipse, scarp::HertzMindlin<>>;
 
 constexpr double confinement = 2e5;  ///< [Pa]
 
-/// The study's grains at 200 kPa at rest; made once for every number of grains and seed.
+/// The reference study's grains at 200 kPa at rest; made once for every number of grains and seed.
 /// \throws PreparationError
 inline Grains const& consolidated(int grains, int seed) {
   static std::map<std::pair<int, int>, Grains> made;

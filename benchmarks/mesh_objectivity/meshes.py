@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Meshes of the study's layer with about as many points for a length, in every direction that a user may choose."""
+"""Meshes of the reference study's layer with about as many points for a length, in every direction that a user may choose."""
 import dataclasses
 import math
 import pathlib

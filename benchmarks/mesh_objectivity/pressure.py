@@ -8,7 +8,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "examples" / "shared"))
 import scarp_figures
 
-SURCHARGE, UNIT_WEIGHT, DEPTH = 4e3, 15.68e3, 25.0  # [Pa], [N/m3], [m] of the study
+SURCHARGE, UNIT_WEIGHT, DEPTH = 4e3, 15.68e3, 25.0  # [Pa], [N/m3], [m] of the reference study
 LEAST_DEPTH = 3.0  # [m], below which a packing without pressure is no matter of the surface
 STARVED = 0.1  # of the pressure at rest
 IN_BAND = 0.1  # deviatoric strain

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which preparation of the study's packing gives both its void ratio and its earth pressure at rest?
+// Which preparation of the reference study's packing gives both its void ratio and its earth pressure at rest?
 #include <fmt/format.h>
 
 #include <exception>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Figures 3 to 5 of the study by our runs."""
+"""Figures 3 to 5 of the reference study by our runs."""
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import PowerNorm
@@ -8,7 +8,7 @@ from scarp_figures import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, plt
 
 COLOURS = {"free": BLUE, "light": GREEN, "heavy": VERMILION}
 DEPTH = 25.0           # [m]
-FOOTING_THROW = 1.99 / DEPTH  # of the study's fig. 4
+FOOTING_THROW = 1.99 / DEPTH  # of the reference study's fig. 4
 THROWS = [0.028, 0.057, 0.085]
 SHOWN = "2 m"          # length of the runs in the figures
 OTHERS = {"1 m": "-.", "4 m": ":", "8 m": "--"}  # beside it in the free field
@@ -52,7 +52,7 @@ def mark(axes, points, level):
 
 
 def free_field(sets, level):
-    """After the study's fig. 3."""
+    """After the reference study's fig. 3."""
     one = sets[SHOWN]
     frames = one.runs["free"].frames
     drawn, (top, low) = plt.subplots(2, 1, figsize=(7.6, 6.2), height_ratios=[1.0, 1.1])
@@ -65,7 +65,7 @@ def free_field(sets, level):
     for name, style in OTHERS.items():
         if "free" in sets[name].runs:
             low.plot(*surface(sets[name].runs["free"].frames, THROWS[-1]), style, color=BLACK, linewidth=1.0, label=f"{name}, h/H = 0.085")
-    low.axvline(-12.5, color=GREEN, linewidth=0.8, label="the study's outcrop, -12.5 m")
+    low.axvline(-12.5, color=GREEN, linewidth=0.8, label="the reference study's outcrop, -12.5 m")
     low.invert_yaxis()
     low.set(xlabel="x [m]", ylabel="settlement of the surface over the throw")
     low.legend()
@@ -73,7 +73,7 @@ def free_field(sets, level):
 
 
 def footings(sets, level):
-    """After the study's fig. 4."""
+    """After the reference study's fig. 4."""
     one = sets[SHOWN]
     cases = [case for case in ("heavy", "light") if case in one.runs]
     drawn, rows = plt.subplots(len(cases), 1, figsize=(7.6, 3.0 * len(cases)), squeeze=False)

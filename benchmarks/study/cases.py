@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""cases.py: the three cases beside the study, from the runs in output/study_*: docs/data/study_cases.csv, study_runs.csv and three figures.
+"""cases.py: the three cases beside the reference study, from the runs in output/study_*: docs/data/study_cases.csv, study_runs.csv and three figures.
 Run by `benchmarks/study/run cases`; where a run is missing the data file keeps its value."""
 import dataclasses
 import json
@@ -103,7 +103,7 @@ def degrees(name):
 
 
 def rows():
-    """(what, the study's number, digits, of a set)"""
+    """(what, the reference study's number, digits, of a set)"""
     for case in ("free", "heavy", "light"):
         for share in ("05", "50", "95"):
             said = {"free": {"05": "-12.5: \"starts to deflect\""}}.get(case, {}).get(share, "")
@@ -166,7 +166,7 @@ SEED_SETS = [f"seed {seed}" for seed in SEEDS]
 
 
 def numbers(sets):
-    """Lines of the comparison with the study."""
+    """Lines of the comparison with the reference study."""
     columns = {**{name: [name] for name in ("1 m", "2 m", "4 m", "8 m")}, "8 m, 1904 triangles: three seeds": SEED_SETS,
                "5.66 m, 1904 triangles": ["5.66 m"]}
     return [{"measure": what, "study": said, **{title: column(sets, names, measure, digits) for title, names in columns.items()}}

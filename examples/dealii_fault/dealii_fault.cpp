@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How does a program of deal.II take packings as its material? The study's fault on a distributed, adaptive mesh.
+// How does a program of deal.II take packings as its material? The reference study's fault on a distributed, adaptive mesh.
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   options.grains = 100;
   options.soil = Soil::mohr_coulomb;
   std::string own;
-  CLI::App app("The study's fault as a program of deal.II whose material is scarp's.");
+  CLI::App app("The reference study's fault as a program of deal.II whose material is scarp's.");
   declare(app, options, own);
   examples::declare_version(app);
   if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;

@@ -27,7 +27,7 @@ using Vector = dealii::PETScWrappers::MPI::Vector;
 using Nodal = Eigen::Matrix<double, 4, 2, Eigen::RowMajor>;  ///< of a cell, in the order of its degrees of freedom
 constexpr unsigned cell_points = 4;
 
-/// The study's free field, and what is this program's own.
+/// The reference study's free field, and what is this program's own.
 struct Options : fault_rupture::Choice {
   bool block = false;      ///< elastic ground settles under its weight instead of the fault
   bool newton = false;     ///< the points' tangents instead of initial stiffness with Anderson's acceleration
@@ -46,7 +46,7 @@ struct OfPetsc {
   long* dots;
 };
 
-/// The study's ground over a normal fault in cells of deal.II, which its forest shares out among processes, with points of scarp.
+/// The reference study's ground over a normal fault in cells of deal.II, which its forest shares out among processes, with points of scarp.
 class Ground {
  public:
   Ground(Options const& options, MPI_Comm comm);

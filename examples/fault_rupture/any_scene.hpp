@@ -10,7 +10,7 @@
 
 namespace fault_rupture {
 
-/// A scene of the study, compiled once for all soils.
+/// A scene of the reference study, compiled once for all soils.
 template <class Structure>
 struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structure, AnySolver, ChosenGround<Element>,
                                  ChosenFault> {

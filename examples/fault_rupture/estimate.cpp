@@ -198,7 +198,7 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
   Choice const usual;
   if (choice.soil == Soil::dem &&
       (choice.grain_aspect != usual.grain_aspect || choice.grain_friction != usual.grain_friction))
-    text += "warning: no other grains than the study's were measured\n";
+    text += "warning: no other grains than the reference study's were measured\n";
   if (choice.soil == Soil::elastic) text += "warning: no elastic ground was measured\n";
   if (choice.sensitivity_runs) text += "sensitivity runs come on top: about one and a half to three times more\n";
   return text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where does a normal fault reach the surface of sand, and what does a footing do to it? The study's scenes.
+// Where does a normal fault reach the surface of sand, and what does a footing do to it? The reference study's scenes.
 #include <algorithm>
 #include <map>
 
@@ -21,7 +21,7 @@ using fault_rupture::Choice;
 constexpr double short_length = 2.83;  ///< [m], where the mesh is made for it
 constexpr double long_length = 8.0;    ///< [m], of coarser meshes
 
-/// Beside the study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
+/// Beside the reference study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
 /// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and half of the DEM steps, which give the
 /// same places (docs/notes/profile.md).
 void make_objective(Choice& choice) {
@@ -33,7 +33,7 @@ void make_objective(Choice& choice) {
   choice.unbalanced_tolerance = 0.1;
 }
 
-/// No length and copies of one packing, as the study has it.
+/// No length and copies of one packing, as the reference study has it.
 void make_local(Choice& choice) {
   choice.length = 0.0;
   choice.overconsolidation_ratio = 1.0;
@@ -52,7 +52,7 @@ void make_quick(Choice& choice) {
   choice.quick = true;
 }
 
-/// About as many triangles as the study has, most of them around the rupture.
+/// About as many triangles as the reference study has, most of them around the rupture.
 void make_study(Choice& choice) { choice.length = 1.0; }
 
 void declare_materials(CLI::App& app, Choice& choice) {
@@ -104,15 +104,16 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->configurable(false)
       ->disable_flag_override();
   app.add_flag("--local")
-      ->description("no length and copies of one packing, as in the study; other options still apply")
+      ->description("no length and copies of one packing, as in the reference study; other options still apply")
       ->configurable(false)
       ->disable_flag_override();
-  auto* const study = app.add_flag("--study")
-                          ->description(
-                              "a length of 1 m: about as many triangles as the study's 7563, most of them around the "
-                              "rupture; other options still apply")
-                          ->configurable(false)
-                          ->disable_flag_override();
+  auto* const study =
+      app.add_flag("--study")
+          ->description(
+              "a length of 1 m: about as many triangles as the reference study's 7563, most of them around the "
+              "rupture; other options still apply")
+          ->configurable(false)
+          ->disable_flag_override();
   app.add_option("--size", choice.size,
                  "width of a mesh cell in the band [m]; with --strip-width size of the elements in the strip")
       ->check(number_from(0.0, false, 25.0));
@@ -146,7 +147,8 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
     file->excludes(app.get_option(made_mesh));
   file->excludes(study);
   app.add_option("--length", choice.length,
-                 "intrinsic length [m]: radius of the means that points see; 0 for none, as in the study; where it is "
+                 "intrinsic length [m]: radius of the means that points see; 0 for none, as in the reference study; "
+                 "where it is "
                  "not given 1 with --study, 8 with --quick, --size, --elements, --mesh or --strip-width 0")
       ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));

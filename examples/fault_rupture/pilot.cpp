@@ -26,7 +26,7 @@ void run_pilot(Choice& choice) {
   pilot.length = pilot_length;
   pilot.tolerance = 1e-3;
   pilot.max_displacement_gradient.reset();
-  // Its rupture comes out where that of the study's sand does with a length of 2 m, within 1 m.
+  // Its rupture comes out where that of the reference study's sand does with a length of 2 m, within 1 m.
   pilot.peak_friction_angle = 35.0;
   pilot.peak_dilation_angle = 9.0;
   pilot.residual_friction_angle.reset();

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""plot.py OUTPUT_DIR: the figures of a fault rupture, in the manner of the study's figs. 1a, 3, 5 and 6."""
+"""plot.py OUTPUT_DIR: the figures of a fault rupture, in the manner of the reference study's figs. 1a, 3, 5 and 6."""
 
 import pathlib
 import sys
@@ -19,8 +19,8 @@ from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.patheffects import withStroke
 from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
 
-STUDY_OUTCROP = -12.5       # [m], where the study's surface starts to deflect, sec. 4.1
-CENTRIFUGE_OUTCROP = -9.8   # [m], the experiment as the study states it, sec. 4.1
+STUDY_OUTCROP = -12.5       # [m], where the reference study's surface starts to deflect, sec. 4.1
+CENTRIFUGE_OUTCROP = -9.8   # [m], the experiment as the reference study states it, sec. 4.1
 PROBES = {"A": BLUE, "B": VERMILION}
 
 
@@ -163,7 +163,7 @@ def outcrop_marks(axes, summary):
              *((figures.finite(summary.get(f"surface_x{share}")), BLUE, line, f"{int(share)} % of the throw has passed here")
                for share, line in (("05", ":"), ("50", "-"), ("95", ":"))),
              (STUDY_OUTCROP, BLACK, "--", "study's text, surface starts to deflect"),
-             (CENTRIFUGE_OUTCROP, GREY, ":", "centrifuge, as the study states it")]
+             (CENTRIFUGE_OUTCROP, GREY, ":", "centrifuge, as the reference study states it")]
     return [axes.axvline(x, color=colour, linestyle=line, linewidth=1.1, label=f"{text}: {x:.1f} m")
             for x, colour, line, text in marks if x is not None]
 

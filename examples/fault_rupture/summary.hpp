@@ -204,7 +204,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   return json;
 }
 
-/// The run beside the study's numbers, as text.
+/// The run beside the reference study's numbers, as text.
 inline std::string table(nlohmann::ordered_json const& json) {
   auto const number = [&](char const* key) {
     return json.contains(key) && json[key].is_number() ? json[key].get<double>() : std::nan("");

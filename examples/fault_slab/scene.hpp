@@ -24,7 +24,7 @@
 
 namespace fault_slab {
 
-/// The study's free field as a slab in space, for any soil.
+/// The reference study's free field as a slab in space, for any soil.
 struct Scene : scarp::FreeFieldFault<scarp::Nonlocal<scarp::AnyProvider<3>>, scarp::QuasiNewton<>,
                                      scarp::StructuredGround<scarp::Hex8>, scarp::TaperedSlip<scarp::NormalFault>> {};
 

@@ -18,7 +18,7 @@ struct FaultChoice {
 
 /// Mohr-Coulomb soil: prints a row for each length and mesh.
 void print_fault(FaultChoice const& choice);
-/// The study's sand, a packing of so many grains in each triangle.
+/// The reference study's sand, a packing of so many grains in each triangle.
 void print_sand(FaultChoice const& choice, int grains, std::uint64_t seed);
 
 }  // namespace nonlocal_band

@@ -14,7 +14,7 @@ namespace {
 
 using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 
-/// The study's ellipses under the overburden of every depth. Where they lose all contacts a small stiffness keeps the
+/// The reference study's ellipses under the overburden of every depth. Where they lose all contacts a small stiffness keeps the
 /// nodes in place.
 struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>> {};
 

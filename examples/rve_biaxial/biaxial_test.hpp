@@ -16,10 +16,10 @@ namespace rve_biaxial {
 
 using Packing = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 
-/// What the user may choose; the rest is the study's material.
+/// What the user may choose; the rest is the reference study's material.
 struct Choice {
   int grains = 400;
-  double preparation_friction = 0.12;  ///< puts the void ratio in the study's range
+  double preparation_friction = 0.12;  ///< puts the void ratio in the reference study's range
   double pressure = 2e5;               ///< [Pa]
   double strain = 0.2;                 ///< axial logarithmic strain at the end
   double strain_per_step = 2e-6;       ///< axial, of one DEM step

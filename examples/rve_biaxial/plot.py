@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""plot.py OUTPUT_DIR: the packing and the drained biaxial test, in the manner of the study's fig. 1; with several
+"""plot.py OUTPUT_DIR: the packing and the drained biaxial test, in the manner of the reference study's fig. 1; with several
 packings strength, dilation and fabric over their void ratio."""
 
 import itertools
@@ -14,7 +14,7 @@ import scarp_figures as figures
 import void_ratio_figures
 from scarp_figures import plt
 
-STUDY_FRICTION_ANGLE = 30.8  # [deg], read off the study's fig. 1b by its authors, sec. 3.1
+STUDY_FRICTION_ANGLE = 30.8  # [deg], read off the reference study's fig. 1b by its authors, sec. 3.1
 
 
 def packing(folder):
@@ -22,7 +22,7 @@ def packing(folder):
 
 
 def stress_ratio_at(friction_angle):
-    """Major over minor principal stress at the friction angle [deg]: the study's eq. 8 solved for the ratio."""
+    """Major over minor principal stress at the friction angle [deg]: the reference study's eq. 8 solved for the ratio."""
     sine = np.sin(np.radians(friction_angle))
     return (1.0 + sine) / (1.0 - sine)
 

@@ -41,10 +41,12 @@ inline nlohmann::json definitions() {
   return {
       {"view", "compression positive, logarithmic strains, stresses in Pa"},
       {"phi_max",
-       "degrees; eq. 8 of the study, sin phi = (s1/s3 - 1)/(s1/s3 + 1), with s1/s3 the mean axial over the mean "
+       "degrees; eq. 8 of the reference study, sin phi = (s1/s3 - 1)/(s1/s3 + 1), with s1/s3 the mean axial over the "
+       "mean "
        "lateral stress within a window of axial strain; largest over all windows inside the test"},
       {"psi_max",
-       "degrees; eq. 9 of the study, sin psi = (de1/de3 + 1)/(1 - de1/de3), with the strain increments from end "
+       "degrees; eq. 9 of the reference study, sin psi = (de1/de3 + 1)/(1 - de1/de3), with the strain increments from "
+       "end "
        "to end of the window; largest over all windows inside the test"},
       {"psi_secant", "degrees; eq. 9 with the increments from the largest contraction to the end of the test"},
       {"stress_scatter",
@@ -53,11 +55,12 @@ inline nlohmann::json definitions() {
       {"window", "width in axial strain; `smoothing` is the one that the table shows"},
       {"void_ratio", "area of voids over area of grains after consolidation, overlaps not subtracted"},
       {"fabric",
-       "anisotropy of contact normals and of major axes, text after eq. 7 of the study; of the states at the start "
+       "anisotropy of contact normals and of major axes, text after eq. 7 of the reference study; of the states at the "
+       "start "
        "and the end, and at the peak: the middle of the window of 0.5 % with the largest stress ratio"},
       {"over_void_ratio",
        "least-squares lines angle = at_zero + slope * void_ratio over all packings, and the void ratio at which "
-       "they meet the study's angle; null where that is outside the packings'"},
+       "they meet the reference study's angle; null where that is outside the packings'"},
       {"standard_deviation", "of the sample over the seeds"}};
 }
 

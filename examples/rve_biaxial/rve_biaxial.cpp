@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How strong and how dilatant is the study's sand? Consolidates 400 ellipses and compresses them in a drained biaxial test.
+// How strong and how dilatant is the reference study's sand? Consolidates 400 ellipses and compresses them in a drained biaxial test.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -124,7 +124,7 @@ void require_success(std::vector<rve_biaxial::Result> const& results, Options co
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Drained biaxial compression of the study's RVE");
+  CLI::App app("Drained biaxial compression of the reference study's RVE");
   examples::declare_version(app);
   Options options;
   try {

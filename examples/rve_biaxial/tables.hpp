@@ -57,7 +57,8 @@ inline void print_lines(std::vector<Result> const& results, std::vector<double> 
     auto const line = fit(results, angle);
     if (!line) continue;
     auto const place = line->meets(angle.study());
-    examples::print(stdout, "{:<10} {:<6} {:7.2f} {:+8.1f} e, packings +- {:.2f} degrees; meets the study's {} {}\n",
+    examples::print(stdout,
+                    "{:<10} {:<6} {:7.2f} {:+8.1f} e, packings +- {:.2f} degrees; meets the reference study's {} {}\n",
                     angle.name(), angle.window > 0.0 ? fmt::format("{}", angle.window) : "", line->at_zero, line->slope,
                     line->residual, angle.study(),
                     place ? fmt::format("at e {:.4f}", *place)

@@ -6,7 +6,7 @@ import scarp_figures as figures
 from scarp_figures import plt
 
 STUDY_VOID_RATIOS = (0.160, 0.179)
-# {void ratio: angle [deg]} of SudoDEM's packings A and G, and their fabrics in the study's definition (peak: mean of 0.5 %).
+# {void ratio: angle [deg]} of SudoDEM's packings A and G, and their fabrics in the reference study's definition (peak: mean of 0.5 %).
 SUDODEM_ANGLES = {("phi_max", 0.005): {0.153: 36.6, 0.173: 33.8}, ("psi_max", 0.05): {0.153: 17.2, 0.173: 14.9},
                   ("psi_secant", None): {0.153: 8.3, 0.173: 6.3}}
 SUDODEM_FABRICS = {"contact_fabric": {"start": {0.153: 0.035, 0.173: 0.024}, "peak": {0.153: 0.198, 0.173: 0.209},
@@ -55,7 +55,7 @@ def draw_series(axes, packings, values, colour, label):
 
 
 def draw_line(axes, summary, name, window, colour):
-    """The least-squares line, and a star where it meets the study's angle."""
+    """The least-squares line, and a star where it meets the reference study's angle."""
     for line in summary.get("over_void_ratio", []):
         if line["angle"] != name or line.get("window") != window:
             continue
@@ -95,7 +95,7 @@ def strength(folder):
             draw_series(axes, packings, [angle_of(packing, name, window) for packing in packings], colour, label)
             draw_line(axes, summary, name, window, colour)
             draw_sudodem(axes, SUDODEM_ANGLES.get((name, window), {}), colour)
-    panels[0].plot([], [], "*", color=figures.GREY, markersize=11, label="line meets the study")
+    panels[0].plot([], [], "*", color=figures.GREY, markersize=11, label="line meets the reference study")
     for axes, value in zip(panels, (30.8, 6.6)):
         draw_study(axes, value)
     panels[0].set(ylabel="peak friction angle $\\phi_{max}$ [°]", title="Strength and dilation over the void ratio")

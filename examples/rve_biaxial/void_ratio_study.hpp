@@ -118,7 +118,7 @@ inline std::optional<Line> fit(std::span<Result const> results, Angle const& ang
   return line;
 }
 
-/// The lines of all angles, and where they meet the study's.
+/// The lines of all angles, and where they meet the reference study's.
 inline nlohmann::json lines_over_void_ratio(std::span<Result const> results, std::vector<double> const& windows) {
   nlohmann::json lines = nlohmann::json::array();
   for (auto const& angle : all_angles(windows)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The study's ellipses, a hundred steps of one loose packing: no finite elements.
+// The reference study's ellipses, a hundred steps of one loose packing: no finite elements.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The study's scene with all that may be part of it: a footing that may slide and lift, a nonlocal length, observers,
+// The reference study's scene with all that may be part of it: a footing that may slide and lift, a nonlocal length, observers,
 // checkpoints, and ranks where there is an MPI.
 #include <filesystem>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The free field with a packing of the study's ellipses in every element.
+// The free field with a packing of the reference study's ellipses in every element.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/fault/free_field_fault.hpp"

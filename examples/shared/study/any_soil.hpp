@@ -17,7 +17,7 @@ using AnySolver = scarp::OneOf<scarp::QuasiNewton<>, scarp::QuasiNewton<scarp::C
 /// Writes one of the soil's packings into a folder.
 using PackingWriter = std::function<void(std::filesystem::path const&)>;
 
-/// A soil of the study and how its scenes are solved.
+/// A soil of the reference study and how its scenes are solved.
 struct AnySoil {
   scarp::AnyProvider<2> provider;
   AnySolver solver;

@@ -10,7 +10,7 @@
 
 namespace fault_rupture {
 
-// Of the study's ground.
+// Of the reference study's ground.
 inline constexpr double unit_weight = 15.68e3;  ///< [N/m3]
 inline constexpr double surcharge = 4e3;        ///< [Pa]
 
@@ -19,7 +19,7 @@ enum class Soil { dem, mohr_coulomb, elastic };
 enum class Base { tied, frictional };
 enum class MeshPattern { crossed, left, right, quads, jittered };
 
-/// What a user may choose; the study's free field on a mesh for a ten-minute run.
+/// What a user may choose; the reference study's free field on a mesh for a ten-minute run.
 struct Choice {
   Case scene = Case::free;
   Soil soil = Soil::dem;

@@ -16,7 +16,7 @@ namespace fault_rupture {
 
 namespace {
 
-/// Level ground, by default at the study's K0 of about 0.4.
+/// Level ground, by default at the reference study's K0 of about 0.4.
 scarp::GeostaticStress<2> ground_at_rest(Choice const& choice) {
   return {.surcharge = surcharge, .unit_weight = unit_weight, .k0 = choice.k0};
 }

@@ -32,7 +32,7 @@ struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, Columns>> {
   static double max_displacement_gradient(bool quick) { return quick ? 0.02 : 0.005; }
 };
 
-/// Mohr-Coulomb, by default with the study's angles at the peak, 30.8 and 6.6 degrees, and Bolton's angle at constant volume, phi - 0.8 psi
+/// Mohr-Coulomb, by default with the reference study's angles at the peak, 30.8 and 6.6 degrees, and Bolton's angle at constant volume, phi - 0.8 psi
 /// (Geotechnique 36, 1986), after 15 % of plastic shear; cohesion of 1 kPa; stiffness near that of the packings.
 struct FrictionalSoil : scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength> {
   using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;

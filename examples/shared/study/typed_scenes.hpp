@@ -4,7 +4,7 @@
 #include "scenes.hpp"
 #include "soils.hpp"
 
-/// The study's scenes whose soil has its type, for programs that exchange its parts.
+/// The reference study's scenes whose soil has its type, for programs that exchange its parts.
 namespace fault_rupture {
 
 template <class SoilType, class Structure>
