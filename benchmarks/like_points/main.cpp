@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "../../examples/shared/study/typed_scenes.hpp"
 #include "../shared/data_file.hpp"
+#include "../shared/nonlocal_fault.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -82,27 +82,10 @@ std::vector<int> equal_states(Points const& points) {
 }
 
 void run(int packings, bool quick, scarp::CsvTable& table) {
-  fault_rupture::Choice choice;
-  choice.length = 8.0;
-  choice.packings = packings;
-  choice.mirrored_packings = packings > 1;
-  choice.strain_per_step = 2e-5;
-  choice.unbalanced_tolerance = 0.1;
-  if (quick) {
-    choice.elements = 220;
-    choice.grains = 60;
-    choice.throw_over_depth = 0.002;
-  }
+  auto const choice = benchmarks::nonlocal_fault(packings, quick);
   auto const study = fault_rupture::make<fault_rupture::SandFreeField>(choice);
-  Scene scene;
+  auto scene = benchmarks::without_provider<Scene>(choice, study);
   scene.soil.provider = study.soil;
-  scene.soil.length = choice.length;
-  scene.ground.layer = study.ground.layer;
-  scene.fault = study.fault;
-  scene.throw_to = study.throw_to;
-  scene.stepping = study.stepping;
-  scene.solver.tolerance = 1e-3;
-  scene.solver.max_iterations = choice.max_iterations;
   scarp::ThreadExecutor executor;
   auto problem = scene.problem(executor);
   LikePoints like;

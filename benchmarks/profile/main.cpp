@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "../../examples/shared/study/typed_scenes.hpp"
 #include "../shared/data_file.hpp"
+#include "../shared/nonlocal_fault.hpp"
 #include "profiled.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
@@ -107,30 +107,13 @@ void add_tallies(Tallies const& tallies, double all, Table& table) {
 }
 
 void profile_scene(bool quick) {
-  fault_rupture::Choice choice;
-  choice.length = 8.0;
-  choice.packings = quick ? 2 : 16;
-  choice.mirrored_packings = true;
-  choice.strain_per_step = 2e-5;
-  choice.unbalanced_tolerance = 0.1;
-  if (quick) {
-    choice.elements = 220;
-    choice.grains = 60;
-    choice.throw_over_depth = 0.002;
-  }
+  auto const choice = benchmarks::nonlocal_fault(quick ? 2 : 16, quick);
   scarp::CpuTime const preparing;
   auto const study = fault_rupture::make<fault_rupture::SandFreeField>(choice);
   double const preparation = preparing.seconds();
-  Scene scene;
+  auto scene = benchmarks::without_provider<Scene>(choice, study);
   auto& sand = scene.soil.provider;
   sand.provider.provider = study.soil.provider;
-  scene.soil.length = choice.length;
-  scene.ground.layer = study.ground.layer;
-  scene.fault = study.fault;
-  scene.throw_to = study.throw_to;
-  scene.stepping = study.stepping;
-  scene.solver.tolerance = 1e-3;
-  scene.solver.max_iterations = choice.max_iterations;
   auto const tallies = sand.provider.tallies;
   tallies->depth = study.ground.layer.depth;
 

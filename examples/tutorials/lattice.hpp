@@ -35,6 +35,16 @@ PackingType lattice(scarp::SizeOf<typename PackingType::Shape> const& size,
   return packing;
 }
 
+/// One-dimensional modulus C11 [Pa] of a soil in the plane, by a compression of 1e-4 along x; NaN for a response that is not acceptable.
+template <class Soil>
+double modulus(Soil const& soil) {
+  constexpr double strain = 1e-4;
+  auto const start = soil.initial_state({});
+  auto trial = start;
+  auto const response = soil.respond(start, scarp::Gradient<2>{{-strain, 0.0}, {0.0, 0.0}}, trial);
+  return response.verdict.acceptable() ? (start.stress(0) - response.stress(0)) / strain : std::nan("");
+}
+
 /// Prints a result and its known value. \return whether they agree to a relative tolerance
 inline bool agree(char const* what, double found, double known, double tolerance) {
   bool const good = std::abs(found - known) <= tolerance * std::abs(known);

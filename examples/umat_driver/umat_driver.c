@@ -55,12 +55,15 @@ static void remove_files(char const* folder) {
     remove(path);
   }
   remove("points.scarp");
-  rmdir(folder);
+  if (chdir("..") == 0) rmdir(folder);
 }
 
 int main(void) {
-  char folder[] = "/tmp/umat_driver_XXXXXX";
-  if (!mkdtemp(folder) || chdir(folder) != 0) return 2;
+  char folder[] = "umat_driver_XXXXXX";
+  if (!mkdtemp(folder) || chdir(folder) != 0) {
+    perror("umat_driver: no folder for materials in the current one (start it where files can be written)");
+    return 2;
+  }
   write_materials();
   check_c_functions();
   check_wrong_input();

@@ -27,6 +27,15 @@ struct Sample<scarp::LinearElastic<Dim>> {
   static bool same(State const& a, State const& b) { return a.stress == b.stress; }
 };
 
+/// A state of a provider that stores the stress in space.
+template <int Dim>
+auto stressed_in_space(auto const& provider) {
+  auto state = provider.initial_state({});
+  state.stress = VoigtStress<3>::LinSpaced(-5e5, 1e5);
+  if (Dim == 2) state.stress.template segment<2>(3).setZero();  // nothing shears out of the plane
+  return state;
+}
+
 /// Cohesion keeps all increments of the laws well inside the surface, where the answer is smooth.
 template <int Dim>
 struct Sample<scarp::MohrCoulomb<Dim>> : Sample<scarp::LinearElastic<Dim>> {
@@ -36,12 +45,7 @@ struct Sample<scarp::MohrCoulomb<Dim>> : Sample<scarp::LinearElastic<Dim>> {
   static Provider provider() {
     return {scarp::IsotropicElasticity::from_lame(3e6, 2e6), {{.cohesion = 1e6, .friction = 0.5}}, {}};
   }
-  static State state(Provider const& provider) {
-    State state = provider.initial_state({});
-    state.stress = VoigtStress<3>::LinSpaced(-5e5, 1e5);
-    if (Dim == 2) state.stress.template segment<2>(3).setZero();  // nothing shears out of the plane
-    return state;
-  }
+  static State state(Provider const& provider) { return stressed_in_space<Dim>(provider); }
   static bool same(State const& a, State const& b) {
     return a.stress == b.stress && a.plastic_shear == b.plastic_shear && a.tangent == b.tangent;
   }
@@ -53,12 +57,7 @@ struct Sample<scarp::UmatProvider<Dim>> : Sample<scarp::LinearElastic<Dim>> {
   using State = typename Provider::State;
 
   static Provider provider() { return umats::elastic<Dim>(); }
-  static State state(Provider const& provider) {
-    State state = provider.initial_state({});
-    state.stress = VoigtStress<3>::LinSpaced(-5e5, 1e5);
-    if (Dim == 2) state.stress.template segment<2>(3).setZero();  // nothing shears out of the plane
-    return state;
-  }
+  static State state(Provider const& provider) { return stressed_in_space<Dim>(provider); }
   static bool same(State const& a, State const& b) {
     return a.stress == b.stress && a.strain == b.strain && a.variables == b.variables && a.tangent == b.tangent;
   }

@@ -38,9 +38,7 @@ struct MohrCoulomb {
   State initial_state(Site<Dim> const& site) const {
     validate();
     VoigtStress<Dim> const start = initial_stress<Dim>(initial, site);
-    Tensor<3> stress = Tensor<3>::Zero();
-    stress.template topLeftCorner<Dim, Dim>() = from_voigt_stress<Dim, double>(start);
-    if (Dim == 2) stress(2, 2) = start(0);
+    Tensor<3> const stress = in_space<Dim>(from_voigt_stress<Dim, double>(start), start(0));
     require_within_strength(principal(stress).values, site);
     return {to_voigt_stress<3, double>(stress), 0.0, elasticity.template stiffness<Dim>()};
   }
@@ -57,10 +55,7 @@ struct MohrCoulomb {
     }
   }
 
-  VoigtStress<Dim> stress(State const& state) const {
-    Tensor<Dim> const part = from_voigt_stress<3, double>(state.stress).template topLeftCorner<Dim, Dim>();
-    return to_voigt_stress<Dim, double>(part);
-  }
+  VoigtStress<Dim> stress(State const& state) const { return part_of_stress<Dim>(state.stress); }
 
   /// Derivative of the last stress update with respect to its strain; before any, the elastic stiffness.
   VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
@@ -71,10 +66,7 @@ struct MohrCoulomb {
     trial = committed;
     RotatedIncrement<Dim> const moved(increment);
     if (!moved.verdict.acceptable()) return {stress(committed), moved.verdict};
-    Tensor<3> strain = Tensor<3>::Zero();
-    Tensor<3> turn = Tensor<3>::Identity();
-    strain.template topLeftCorner<Dim, Dim>() = moved.strain;
-    turn.template topLeftCorner<Dim, Dim>() = moved.turn;
+    Tensor<3> const strain = in_space<Dim>(moved.strain, 0.0), turn = in_space<Dim>(moved.turn, 1.0);
     Tensor<3> const predicted = from_voigt_stress<3, double>(committed.stress) + elasticity.stress<3>(strain);
     if (!predicted.allFinite()) return {stress(committed), {Status::failed, Reason::not_finite}};
     Principal const outer = principal(predicted);

@@ -98,9 +98,7 @@ struct UmatProvider {
              name_length);
     require_positive("time step of a UMAT", time_step);
     VoigtStress<Dim> const start = initial_stress<Dim>(initial, site);
-    Tensor<3> stress = Tensor<3>::Zero();
-    stress.template topLeftCorner<Dim, Dim>() = from_voigt_stress<Dim, double>(start);
-    if (Dim == 2) stress(2, 2) = start(0);
+    Tensor<3> const stress = in_space<Dim>(from_voigt_stress<Dim, double>(start), start(0));
     State state;
     state.stress = to_voigt_stress<3, double>(stress);
     state.variables = variables;
@@ -116,10 +114,7 @@ struct UmatProvider {
     return state;
   }
 
-  VoigtStress<Dim> stress(State const& state) const {
-    Tensor<Dim> const part = from_voigt_stress<3, double>(state.stress).template topLeftCorner<Dim, Dim>();
-    return to_voigt_stress<Dim, double>(part);
-  }
+  VoigtStress<Dim> stress(State const& state) const { return part_of_stress<Dim>(state.stress); }
 
   VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
 
@@ -130,10 +125,8 @@ struct UmatProvider {
     trial = committed;
     RotatedIncrement<Dim> const moved(increment);
     if (!moved.verdict.acceptable()) return {stress(committed), moved.verdict};
-    Tensor<3> deformation = Tensor<3>::Identity(), turn = Tensor<3>::Identity(), strain = Tensor<3>::Zero();
-    deformation.template topLeftCorner<Dim, Dim>() += increment;
-    turn.template topLeftCorner<Dim, Dim>() = moved.turn;
-    strain.template topLeftCorner<Dim, Dim>() = moved.strain;
+    Tensor<3> const deformation = Tensor<3>::Identity() + in_space<Dim>(increment, 0.0);
+    Tensor<3> const strain = in_space<Dim>(moved.strain, 0.0), turn = in_space<Dim>(moved.turn, 1.0);
     State next = committed;
     next.deformation = deformation * committed.deformation;
     Verdict const verdict = call(next, committed.deformation, turn, turn * strain * turn.transpose());

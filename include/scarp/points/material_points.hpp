@@ -42,8 +42,8 @@ class MaterialPoints : public PointStates<Dim> {
   /// Displacement gradient of a point since the last commit, for `respond`; to be set anew after each commit.
   Gradient<Dim>& gradient(int point) { return own_[detail::index(existing(point))]; }
 
-  /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit, and points that do not converge take
-  /// more, up to so many times and until the next commit.
+  /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit; points that do not converge
+  /// take more, at most max_refinements times, and keep them until the next commit.
   /// \throws InputError for gradients that are not finite
   template <ExecutesTasks Executor>
   ResponseReport respond(Executor& executor, int max_refinements = 4) {

@@ -163,9 +163,12 @@ class PointStates {
       reject("point {} is to be copied between points with means and points without: take the same material for both",
              point);
     VoigtStress<Dim> tau = from.means_ ? from.means_->committed_tau(point) : VoigtStress<Dim>::Zero();
-    Mirror<Dim> mirror{principal_direction<Dim>(from.committed_stress(point) + tau)};
-    if (is_mirrored) tau = mirrored_stress<Dim>(tau, mirror.normal);
-    put(to, batch(to).state_from(from.batch(point), from.local(point), is_mirrored ? &mirror : nullptr), tau);
+    std::optional<Mirror<Dim>> mirror;
+    if (is_mirrored) {
+      mirror = {principal_direction<Dim>(from.committed_stress(point) + tau)};
+      tau = mirrored_stress<Dim>(tau, mirror->normal);
+    }
+    put(to, batch(to).state_from(from.batch(point), from.local(point), mirror), tau);
   }
   /// The point alone, with the state of these bits and without neighbours.
   PointStates extract(int point, std::string_view bits) const {

@@ -59,6 +59,22 @@ Tensor<Dim, Scalar> from_voigt_stress(VoigtStress<Dim, Scalar> const& voigt) {
   return stress;
 }
 
+/// A tensor in space with the components of one in the plane, and one on the diagonal out of the plane; in space itself.
+template <int Dim>
+Tensor<3> in_space(Tensor<Dim> const& tensor, double out_of_plane) {
+  Tensor<3> whole = Tensor<3>::Zero();
+  whole.template topLeftCorner<Dim, Dim>() = tensor;
+  if constexpr (Dim == 2) whole(2, 2) = out_of_plane;
+  return whole;
+}
+
+/// Components in the plane of a stress in space; in space all of them.
+template <int Dim>
+VoigtStress<Dim> part_of_stress(VoigtStress<3> const& stress) {
+  Tensor<Dim> const part = from_voigt_stress<3, double>(stress).template topLeftCorner<Dim, Dim>();
+  return to_voigt_stress<Dim, double>(part);
+}
+
 /// The strain tensor of one unit component in Voigt order, the others zero.
 template <int Dim>
 Tensor<Dim> unit_strain(int component) {

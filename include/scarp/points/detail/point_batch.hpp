@@ -3,6 +3,7 @@
 
 #include <any>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -53,8 +54,8 @@ class PointBatch {
   /// A state of the point, for `put`.
   virtual std::any read(int k, StateReader& reader) const = 0;
   virtual void put(int k, std::any state) = 0;
-  /// A state of a point of another batch, for `put`; mirrored unless `mirror` is null. \throws InputError unless it has the same type of provider
-  virtual std::any state_from(PointBatch const& other, int k, Mirror<Dim> const* mirror) const = 0;
+  /// A state of a point of another batch, for `put`; mirrored where there is a mirror. \throws InputError unless it has the same type of provider
+  virtual std::any state_from(PointBatch const& other, int k, std::optional<Mirror<Dim>> const& mirror) const = 0;
   virtual void write_all(StateWriter& writer) const = 0;
   virtual void read_all(StateReader& reader) = 0;
 
@@ -136,7 +137,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     trial_[index(k)] = committed_[index(k)] = std::any_cast<State&&>(std::move(state));
     here_[index(k)] = true;
   }
-  std::any state_from(PointBatch<dim> const& other, int k, Mirror<dim> const* mirror) const override {
+  std::any state_from(PointBatch<dim> const& other, int k, std::optional<Mirror<dim>> const& mirror) const override {
     auto const* const same = dynamic_cast<PointBatchOf const*>(&other);
     if (!same) reject("a point is to be copied from one of another type of provider: copy points of one provider");
     State state = same->present(k);
@@ -148,8 +149,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     if (!((provider_->stress(state) - expected).norm() <= round_off * expected.norm()))
       reject(
           "the state of point {} cannot be mirrored (the stress of its image is not the image of its stress): copy it "
-          "as it "
-          "is, or store tensors in it",
+          "as it is, or store tensors in it",
           same->numbers_[index(k)]);
     return state;
   }
