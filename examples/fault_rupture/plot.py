@@ -162,7 +162,7 @@ def outcrop_marks(axes, summary):
              (figures.finite(summary.get("surface_mean")), GREEN, "-", "mean of the profile, last throw"),
              *((figures.finite(summary.get(f"surface_x{share}")), BLUE, line, f"{int(share)} % of the throw has passed here")
                for share, line in (("05", ":"), ("50", "-"), ("95", ":"))),
-             (STUDY_OUTCROP, BLACK, "--", "study's text, surface starts to deflect"),
+             (STUDY_OUTCROP, BLACK, "--", "reference study: surface starts to deflect"),
              (CENTRIFUGE_OUTCROP, GREY, ":", "centrifuge, as the reference study states it")]
     return [axes.axvline(x, color=colour, linestyle=line, linewidth=1.1, label=f"{text}: {x:.1f} m")
             for x, colour, line, text in marks if x is not None]
