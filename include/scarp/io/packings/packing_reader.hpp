@@ -57,6 +57,7 @@ struct GrainColumns<Clump<Template>> {
   static constexpr std::string_view angle = "angle";
 };
 
+/// A shape whose sizes, and angle if it turns, have names of columns.
 template <class Shape>
 concept HasGrainColumns = requires {
   requires GrainColumns<Shape>::size.size() == static_cast<std::size_t>(Shape::size_count);
