@@ -25,6 +25,7 @@ struct Response {
   Verdict verdict;
 };
 
+/// A provider names its state, a copyable type.
 template <class Model>
 concept HasState = std::copyable<typename Model::State>;
 
