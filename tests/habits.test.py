@@ -43,7 +43,7 @@ for path in sorted((ROOT / "include" / "scarp").rglob("*.hpp")):
     for number, line in enumerate(lines):
         if namespace := re.match(r"(\}  // )?namespace .*\bdetail\b", line):
             private = namespace[1] is None
-        kind = re.match(r"(?:template <.*> )?(?:class|struct|enum class|concept) (\w+)\b(?!.*;$)(?!\s*<)", line)
+        kind = re.match(r"(?:template <.*> )?(?:concept|(?:class|struct|enum class)(?!.*;$)) (\w+)\b(?!\s*<)", line)
         if kind and not private:
             declared += 1
             first = number
