@@ -6,6 +6,8 @@ import pathlib
 import sys
 import urllib.parse
 
+BYTES = 15_000_000  # of a site
+LISTED = 40  # faults of one kind are often in every page
 LOADED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src")}
 
 
@@ -57,5 +59,8 @@ if __name__ == "__main__":
     size = sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
     if pages == 0:
         problems.append(f"{site} has no page: build the site first")
+    if size > BYTES:
+        problems.append(f"the site has {size} bytes, more than {BYTES}: leave something out")
     print(f"{pages} pages, {links} links, {size / 1e6:.1f} MB, {len(problems)} faults")
-    sys.exit("\n".join(problems) or None)
+    more = [f"and {len(problems) - LISTED} more"] if len(problems) > LISTED else []
+    sys.exit("\n".join(problems[:LISTED] + more) or None)

@@ -54,9 +54,15 @@ def with_links(text, source, page, api):
         if not fenced:
             line = re.sub(r"\[([^\]]*)\]\(([^)\s#]+)(#[^)\s]*)?\)", moved, line)
             if not line.startswith("#"):
+                line = with_whole_options(line)
                 line = re.sub(r"(?<!\[)`([^`]+)`(?!\])", named, line)
         lines.append(line)
     return "\n".join(lines) + "\n"
+
+
+def with_whole_options(text):
+    """Text whose options get a class of their own, so that no line ends within one."""
+    return re.sub(r"`(--[\w-]+)`(?!\{)", r"`\1`{.option}", text)
 
 
 def api_addresses(tags):
@@ -82,7 +88,7 @@ def main(folder, tags):
         (folder / page).write_text(with_links((ROOT / source).read_text(), source, page, api))
     for page, text in reference.pages(tags, api).items():
         (folder / page).parent.mkdir(parents=True, exist_ok=True)
-        (folder / page).write_text(text)
+        (folder / page).write_text(with_whole_options(text))
     shutil.copytree(ROOT / "docs" / "figures", folder / "figures")
     shutil.copytree(ROOT / "docs" / "data", folder / "data")
     shutil.copy(ROOT / "docs" / "CITATION.cff", folder)

@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -32,7 +33,8 @@ def arguments(script):
             given = {word.arg: ast.unparse(word.value) for word in node.keywords}
             default = f"default `{given['default']}`" if "default" in given else ""
             about = plain(ast.literal_eval(given.get("help", "''")))
-            found.append(f"`{ast.literal_eval(node.args[0])}`\n:   {about}{f' ({default})' if default and about else default or '&nbsp;' * (not about)}\n")
+            described = f"{about} ({default})" if about and default else about or default or "&nbsp;"
+            found.append(f"`{ast.literal_eval(node.args[0])}`\n:   {described}\n")
     return found
 
 
@@ -58,13 +60,17 @@ def option(head, description):
     kind, *conditions = re.split(r" ?(?=Excludes: |Needs: )", kind)
     kind, _, default = kind.rpartition("=") if "=" in kind else (kind, "", "")
     first, _, bounds = kind.partition(":")
-    details = [f"{bounds or first}".strip(), f"default `{default}`" if default else "",
+    details = [(bounds or first).strip(), f"default `{default}`" if default else "",
                *(re.sub(r"(-[\w-]+)", r"`\1`", condition[:1].lower() + condition[1:]) for condition in conditions)]
     details = "; ".join(detail for detail in details if detail)
     return f"`{name.replace(',', '`, `')}`\n:   {plain(description)}{f' ({details})' if details else ''}\n"
 
 
 def options(printed):
+    """Entries of all options but --help and --version.
+    Ends the program for a help text in another form than CLI11's."""
+    if len(entries(printed)) < 2:
+        sys.exit(f"no options were found in a help text (that of CLI11 is expected): {printed[:200]}")
     return [option(*entry) for entry in entries(printed) if not entry[0].startswith(("-h,--help", "--version"))]
 
 
@@ -90,7 +96,7 @@ def command_line():
         if printed is None:
             text += [f"The program was not built with this site: `./examples/run {name} --help` prints its options.", ""]
             continue
-        commands, _, rest = printed.partition("\nSubcommands:\n")[::-1] if "\nSubcommands:\n" in printed else ("", "", printed)
+        rest, _, commands = printed.partition("\nSubcommands:\n")
         text += options(rest)
         for command, about in entries(commands):
             text += ["", f"### {name} {command}", "", sentence(about), ""]
@@ -103,7 +109,10 @@ def enumerators(kind):
     """Name and meaning of the values of an enumeration of core/status.hpp."""
     header = (ROOT / "include" / "scarp" / "core" / "status.hpp").read_text()
     body = re.search(rf"enum class {kind} [^{{]*\{{(.*?)\}};", header, re.S)[1]
-    return re.findall(r"^ *(\w+)(?: = \d+)?,? *(?:///< (.*))?$", body, re.M)
+    found = re.findall(r"^ *(\w+)(?: = \d+)?,? *(?:///< (.*))?$", body, re.M)
+    if unexplained := [name for name, meaning in found if not meaning]:
+        sys.exit(f"values of {kind} without a meaning: {', '.join(unexplained)}: write it in core/status.hpp")
+    return found
 
 
 def users(reason):
@@ -140,6 +149,8 @@ def headers(tags, api):
             path = header_path(compound)
             declared = [entry.text.removeprefix("scarp::") for entry in [*compound.findall("class"), *compound.findall("concept")]]
             files[path] = sorted({name for name in declared if name in api and "::" not in name})
+    if missing := sorted({path.rpartition("/")[0] for path in files} - {room for _, room, _ in rooms}):
+        sys.exit(f"rooms without a group (each needs one): {', '.join(missing)}: add them to docs/site/rooms.dox")
     for group, room, about in rooms:
         text += [f"## {room}", "", f"[{about}](../api/group__{group.replace('_', '__')}.html)", ""]
         for path in sorted(path for path in files if path.rpartition("/")[0] == room):
