@@ -159,6 +159,7 @@ struct TrackedPoint {
   SCARP_MEMBERS(point, bits, apart, farthest, square_sum)
 };
 
+/// Points whose whole history is repeated with steps twice as fine, and the sums of their differences.
 struct TrackedPoints {
   std::vector<TrackedPoint> points{};
   int steps = 0;

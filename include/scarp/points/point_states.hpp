@@ -203,6 +203,7 @@ class PointStates {
   void after_loading() { is_planned_ = has_trial_ = false; }
 
  protected:
+  /// Batch of a point and its number within.
   struct Place {
     int batch;
     int local;
