@@ -36,7 +36,7 @@ struct Laboratory {
   double strain_step = 5e-6;
   double tolerance = 1e-4;
   double window = 5e-3;
-  double void_ratio = 0.0;
+  std::optional<double> void_ratio{};
   int threads = 2;
   std::vector<std::string> overlays{};
   examples::Output output{"output/rve_lab"};

@@ -57,21 +57,21 @@ class LaboratoryRun {
     path_.emplace(points_, conditions_of<Dim>(choice), settings());
   }
 
+  /// targets: of --path table, or null
   /// \return why the test ended early, else ok
-  scarp::Verdict run() {
+  scarp::Verdict run(TargetTable<Dim> const* targets) {
     if (choice_.consolidation && !consolidate()) return verdict_;
     for (int k = 0; k < points_.size(); ++k) {
-      double initial = choice_.void_ratio;
+      double initial = choice_.void_ratio.value_or(std::nan(""));
       for (auto const& [name, value] : points_.quantities(k)) {
         if (name == "void_ratio") initial = value;
       }
       void_ratios_.push_back(initial);
     }
     record();
-    if (choice_.path == "table") {
-      TargetTable<Dim> const table(choice_.table);
-      for (std::size_t row = 0; row < table.table.rows(); ++row) {
-        path_->load(table.row(row));
+    if (targets != nullptr) {
+      for (std::size_t row = 0; row < targets->table.rows(); ++row) {
+        path_->load(targets->row(row));
         if (!go(1.0, 0.1)) break;
       }
       return verdict_;
@@ -226,9 +226,11 @@ nlohmann::json read_mohr_coulomb(scarp::LaboratoryResults<Dim> const& results) t
 template <int Dim>
 bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& material, int count, scarp::RunFolder& own,
                    nlohmann::json const& described) {
+  std::optional<TargetTable<Dim>> targets;
+  if (choice.path == "table") targets.emplace(choice.table);
   own.begin();
   LaboratoryRun<Dim> run(choice, material, count, own.path() / "test.csv");
-  scarp::Verdict const verdict = run.run();
+  scarp::Verdict const verdict = run.run(targets ? &*targets : nullptr);
   auto const& total = run.total();
   nlohmann::json summary{{"path", choice.path},
                          {"material", described},

@@ -31,14 +31,15 @@ struct TargetTable {
         scarp::reject("'{}' has a column '{}' (targets are {}): rename it or leave it out", file, name,
                       scarp::listed(known));
     }
-    if (std::ssize(conditions) < Dim)
-      scarp::reject("'{}' has {} targets in a row (a path needs {}): add columns of {}", file, conditions.size(), Dim,
-                    scarp::listed(known));
     for (auto const& [name, condition] : all()) {
       if (!name.starts_with('g') || table.has(name) || table.has("s" + name.substr(1))) continue;
       columns.emplace_back(table.rows(), 0.0);
       conditions.push_back(condition);
     }
+    if (std::ssize(conditions) != scarp::voigt_size<Dim>)
+      scarp::reject(
+          "'{}' gives {} conditions, shear angles of zero included (a path in {} dimensions needs {}): choose among {}",
+          file, conditions.size(), Dim, scarp::voigt_size<Dim>, scarp::listed(known));
   }
 
   scarp::PathConditions<Dim> row(std::size_t number) const {

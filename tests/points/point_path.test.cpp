@@ -56,10 +56,11 @@ auto elastic(scarp::PathConditions<Dim> conditions) {
 }
 
 template <int Dim>
-auto frictional(scarp::PathConditions<Dim> conditions, double stiffness = young, double dilation = 10.0 * degree) {
+auto frictional(scarp::PathConditions<Dim> conditions, double stiffness = young, double dilation = 10.0 * degree,
+                double cohesion = 0.0) {
   using Provider = scarp::MohrCoulomb<Dim, scarp::GeostaticStress<Dim>>;
   return Tested<Dim, Provider>({scarp::IsotropicElasticity::from_young_poisson(stiffness, poisson),
-                                {{.friction = 30.0 * degree, .dilation = dilation}},
+                                {{.cohesion = cohesion, .friction = 30.0 * degree, .dilation = dilation}},
                                 confined<Dim>()},
                                std::move(conditions));
 }
@@ -153,6 +154,9 @@ TEST_CASE("Mohr-Coulomb points, drained: ratio of principal stresses and dilatio
   check(frictional<2>(scarp::drained_path<2>()), -1.0, 1.0 / passive);
   check(frictional<3>(scarp::drained_path<3>()), 1.0, passive);
   check(frictional<3>(scarp::drained_path<3>()), -1.0, 1.0 / passive);
+  // sigma_1 = N sigma_3 + 2 c sqrt N.
+  check(frictional<3>(scarp::drained_path<3>(), young, 10.0 * degree, 2e3), 1.0,
+        passive + 2.0 * 2e3 * std::sqrt(passive) / pressure);
   check(frictional<2>(scarp::constant_mean_stress_path<2>()), 1.0, passive);
   check(frictional<3>(scarp::constant_mean_stress_path<3>()), 1.0, passive);
 }

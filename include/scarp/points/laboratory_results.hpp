@@ -47,14 +47,16 @@ struct LaboratoryRow {
 };
 
 /// Dilation angle [rad] of a change of strain, \f$ \sin\psi = -d\varepsilon_v / \sum_i |d\varepsilon_i| \f$ over the principal strains: what
-/// Mohr-Coulomb flow with this angle has in the plane, in triaxial compression and in extension. NaN without a change.
+/// Mohr-Coulomb flow with this angle has in the plane, in triaxial compression and in extension. NaN
+/// where no shear strain changes, as in oedometers: all principal strains have one sign.
 template <int Dim>
 double dilation(LaboratoryRow<Dim> const& from, LaboratoryRow<Dim> const& to) {
   EngineeringStrain<Dim> change = to.strain - from.strain;
   change.template tail<voigt_size<Dim> - Dim>() /= 2.0;
   Eigen::SelfAdjointEigenSolver<Tensor<Dim>> const solver(from_voigt_stress<Dim, double>(change),
                                                           Eigen::EigenvaluesOnly);
-  return std::asin(std::clamp(solver.eigenvalues().sum() / solver.eigenvalues().cwiseAbs().sum(), -1.0, 1.0));
+  double const sine = solver.eigenvalues().sum() / solver.eigenvalues().cwiseAbs().sum();
+  return std::abs(sine) < 1.0 - 1e-9 ? std::asin(sine) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Results of a test by the names that practitioners use. NaN where the test does not have them.

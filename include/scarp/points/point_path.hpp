@@ -61,7 +61,7 @@ struct PathReport {
 /// Drives material points along a path of mixed strain and stress control, as tests in the laboratory are:
 /// \code
 /// MaterialPoints<2> points(sand, sites);
-/// PointPath<2> test(points, drained_compression<2>());
+/// PointPath<2> test(points, drained_path<2>());
 /// while (test.length() < 0.1 && test.advance(1e-3, executor).verdict.acceptable()) print(points.committed_stress(0));
 /// \endcode
 /// The strain is the sum of the increments' logarithms, which are upper triangular: the plane across the last axis never tilts.
@@ -108,7 +108,7 @@ class PointPath {
   }
 
   /// Continues by a length, negative for the way back, in one increment or, where it does not converge, in several; each is committed.
-  /// \return iterations_spent, unreachable (a strain beyond a tenth would be needed) or the reason of a point's response, with what was committed before
+  /// \return iterations_spent, unreachable (for a strain beyond a tenth) or the reason of a point's response, with what was committed before
   template <ExecutesTasks Executor>
   PathReport advance(double length, Executor& executor) {
     require_finite("length of a path", length);
@@ -225,9 +225,8 @@ class PointPath {
 
   template <class Executor>
   Verdict increment(double length, PathReport& report, Executor& executor) {
-    std::vector<VoigtTangent<Dim>> const before = tangents();
-    auto const fail = [&](Verdict const& verdict) {
-      for (std::size_t k = 0; k < courses_.size(); ++k) courses_[k].tangent = before[k];
+    auto const fail = [&](Verdict const& verdict) {  // whatever was learned was of no use
+      for (int k = 0; k < points_.size(); ++k) courses_[detail::index(k)].tangent = points_.committed_tangent(k);
       return verdict;
     };
     for (auto& course : courses_) {
@@ -266,12 +265,6 @@ class PointPath {
       }
     }
     return fail({Status::not_converged, Reason::iterations_spent});
-  }
-
-  std::vector<VoigtTangent<Dim>> tangents() const {
-    std::vector<VoigtTangent<Dim>> all;
-    for (auto const& course : courses_) all.push_back(course.tangent);
-    return all;
   }
 
   /// \f$ e^{E} - I \f$: the series for a part of the step, which is then squared; to round-off for steps below 0.1.
