@@ -99,7 +99,8 @@ inline void declare_laboratory(CLI::App& app, Laboratory& test) {
   path("--k0", test.k0, "lateral over axial stress of that")->check(positive(10.0));
   auto const how = in("Accuracy");
   how("--increment", test.increment,
-      "of the path, one row each; a table's rows are reached in increments of this strain")
+      "of the path, one row each; of cycles at most a tenth of the amplitude, of a table a tenth of the way to its "
+      "next row")
       ->check(examples::number_from(1e-9, true, 0.05));
   how("--strain-step", test.strain_step, "largest strain of one DEM step")
       ->check(examples::number_from(1e-12, true, 1e-3));

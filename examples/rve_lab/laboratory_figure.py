@@ -26,8 +26,15 @@ def read_curves(path):
     if not any(np.isfinite(values).any() for values in curve.values()):
         known = ", ".join(name for names in NAMES.values() for name in names)
         raise figures.InputError(f"'{path}' has no column of a test (it has: {', '.join(table)}): name some of {known}")
+    if is_cyclic(curve) and "shear_stress" in table:  # a deviator that changes sign with the direction
+        axial, shear = table["axial_stress"] - table["lateral_stress"], 2.0 * table["shear_stress"]
+        curve["q"] = 1e-3 * (axial if np.ptp(axial) > np.ptp(shear) else shear)
     points = table.get("point", np.zeros(count))
     return [{name: values[points == point] for name, values in curve.items()} for point in np.unique(points)]
+
+
+def is_cyclic(curve):
+    return np.nanmin(curve["strain"]) < 0.0 < np.nanmax(curve["strain"])
 
 
 def mean_of(curves):
@@ -46,7 +53,8 @@ def laboratory(folder, overlays=()):
         runs.append((name, read_curves(path), colour, "--"))
     compresses = summary.get("path") in ("oedometer", "isotropic")
     fig, panels = plt.subplots(2, 2, figsize=(8.0, 6.2))
-    shown = [("strain", "q", "strain [%]", "q [kPa]"), ("p", "q", "p [kPa]", "q [kPa]"),
+    q = "q [kPa], negative in extension or backward shear" if is_cyclic(own[0]) else "q [kPa]"
+    shown = [("strain", "q", "strain [%]", q), ("p", "q", "p [kPa]", q),
              ("strain", "volume", "strain [%]", "volumetric strain [%]\n(contraction positive)"),
              ("axial" if compresses else "p", "void_ratio", f"{'axial stress' if compresses else 'p'} [kPa]", "void ratio")]
     for axes, (x, y, x_label, y_label) in zip(panels.flat, shown):

@@ -84,7 +84,9 @@ class LaboratoryRun {
     }
     for (int leg = 0; leg <= 2 * choice_.cycles; ++leg) {
       bool const outer = leg == 0 || leg == 2 * choice_.cycles;
-      if (!go((leg % 2 == 0 ? sign : -sign) * (outer ? 1.0 : 2.0) * choice_.amplitude, choice_.increment)) break;
+      if (!go((leg % 2 == 0 ? sign : -sign) * (outer ? 1.0 : 2.0) * choice_.amplitude,
+              std::min(choice_.increment, choice_.amplitude / 10.0)))
+        break;
     }
     return verdict_;
   }
@@ -120,7 +122,12 @@ class LaboratoryRun {
     scarp::PointPath<Dim> path(points_, consolidation_of<Dim>(*choice_.consolidation, choice_.k0), settings());
     for (int k = 0; k < 20; ++k) {
       verdict_ = path.advance(0.05, executor_).verdict;
-      if (!verdict_.acceptable()) return false;
+      if (verdict_.acceptable()) continue;
+      examples::print(stderr,
+                      "rve_lab: the consolidation to {:.6g} Pa with K0 {} ended after {:.0f} % of the way: choose "
+                      "stresses that the material bears\n",
+                      *choice_.consolidation, choice_.k0, 100.0 * path.length());
+      return false;
     }
     path_.emplace(points_, conditions_of<Dim>(choice_), settings());
     return true;

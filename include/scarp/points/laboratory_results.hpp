@@ -70,8 +70,8 @@ struct LaboratoryResults {
   std::optional<Row>
       phase_transformation{};    ///< from contraction to dilation; at constant volume from falling to rising p
   double peak_dilation = none;   ///< largest over a window [rad]
-  double shear_modulus = none;   ///< G0 [Pa], over the first row
-  double secant_modulus = none;  ///< E50 [Pa], to half of the largest change of q over axial strain
+  double shear_modulus = none;   ///< G0 [Pa], over the first row; not of nearly isotropic paths
+  double secant_modulus = none;  ///< E50 [Pa], to half of the largest change of q, where the length is the axial strain
   double secant_poisson = none;  ///< lateral extension over axial compression there, in the plane \f$ \nu/(1-\nu) \f$
   double k0 = none;              ///< lateral over axial stress at the end
 
@@ -119,7 +119,7 @@ void read_moduli(std::span<LaboratoryRow<Dim> const> rows, LaboratoryResults<Dim
   auto const& start = rows.front();
   EngineeringStrain<Dim> first = rows[1].strain - start.strain;
   first.template tail<voigt_size<Dim> - Dim>() /= 2.0;
-  if (double const shear = deviator(first); shear > 1e-9 * first.norm())
+  if (double const shear = deviator(first); shear > 0.05 * first.norm())
     results.shear_modulus = deviator(rows[1].stress - start.stress) / (2.0 * shear);
   auto const top = std::ranges::max_element(rows, {}, &LaboratoryRow<Dim>::q);
   double const half = (start.q() + top->q()) / 2.0;
@@ -128,7 +128,8 @@ void read_moduli(std::span<LaboratoryRow<Dim> const> rows, LaboratoryResults<Dim
   auto const& below = *(above - 1);
   double const share = (half - below.q()) / (above->q() - below.q());
   EngineeringStrain<Dim> const strain = below.strain + share * (above->strain - below.strain) - start.strain;
-  if (strain(Dim - 1) == 0.0) return;
+  double const length = below.length + share * (above->length - below.length) - start.length;
+  if (!(std::abs(strain(Dim - 1) + length) < 1e-6 * std::abs(length))) return;
   results.secant_modulus = (half - start.q()) / std::abs(strain(Dim - 1));
   results.secant_poisson = -strain.template head<Dim - 1>().mean() / strain(Dim - 1);
 }
