@@ -275,7 +275,7 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
   examples::write_json(own.path() / "summary.json", summary);
   own.end(verdict.acceptable() ? "finished" : std::string(scarp::name(verdict.reason)));
   if (!verdict.acceptable())
-    examples::print(stderr, "rve_lab: the test ended at {:.6g} of its path ({}, {}): the rows so far are in '{}'\n",
+    examples::print(stderr, "rve_lab: the test ended at the length {:.6g} ({}, {}): the rows so far are in '{}'\n",
                     run.length(), scarp::name(verdict.status), scarp::name(verdict.reason),
                     (own.path() / "test.csv").string());
   return verdict.acceptable();
