@@ -53,7 +53,7 @@ def laboratory(folder, overlays=()):
         runs.append((name, read_curves(path), colour, "--"))
     compresses = summary.get("path") in ("oedometer", "isotropic")
     fig, panels = plt.subplots(2, 2, figsize=(8.0, 6.2))
-    q = "q [kPa], negative in extension or backward shear" if is_cyclic(own[0]) else "q [kPa]"
+    q = "signed q [kPa]" if is_cyclic(own[0]) else "q [kPa]"
     shown = [("strain", "q", "strain [%]", q), ("p", "q", "p [kPa]", q),
              ("strain", "volume", "strain [%]", "volumetric strain [%]\n(contraction positive)"),
              ("axial" if compresses else "p", "void_ratio", f"{'axial stress' if compresses else 'p'} [kPa]", "void ratio")]

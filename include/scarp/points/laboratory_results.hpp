@@ -69,7 +69,7 @@ struct LaboratoryResults {
   Row residual{};  ///< over the last window
   std::optional<Row>
       phase_transformation{};    ///< from contraction to dilation; at constant volume from falling to rising p
-  double peak_dilation = none;   ///< largest over a window [rad]
+  double peak_dilation = none;   ///< largest where nine tenths of the peak friction are mobilised [rad]
   double shear_modulus = none;   ///< G0 [Pa], over the first row; not of nearly isotropic paths
   double secant_modulus = none;  ///< E50 [Pa], to half of the largest change of q, where the length is the axial strain
   double secant_poisson = none;  ///< lateral extension over axial compression there, in the plane \f$ \nu/(1-\nu) \f$
@@ -148,6 +148,7 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
   if (rows.size() < 2) reject("a test has {} rows (results are differences): give two at least", rows.size());
   LaboratoryResults<Dim> results;
   std::vector<Row> means;
+  std::vector<double> angles;
   std::size_t last = 0;
   for (std::size_t first = 0; first < rows.size(); ++first) {
     auto const length = [&](std::size_t row) { return std::abs(rows[row].length - rows[first].length); };
@@ -155,14 +156,16 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
     while (last + 1 < rows.size() && (last < first || length(last) < window * (1.0 - slight))) ++last;
     if (length(last) < window * (1.0 - slight)) break;
     means.push_back(detail::mean<Dim>(rows.subspan(first, last + 1 - first)));
-    auto const& next = rows[std::min(std::max(last, first + 1), rows.size() - 1)];
-    if (double const angle = dilation(rows[first], next);
-        angle > results.peak_dilation || std::isnan(results.peak_dilation))
-      results.peak_dilation = angle;
+    angles.push_back(dilation(rows[first], rows[std::min(std::max(last, first + 1), rows.size() - 1)]));
   }
   if (means.empty()) reject("the test is shorter than the window {} of its results: take a smaller one", window);
   auto const friction = [](Row const& row) { return row.p() > 0.0 ? row.friction() : 0.0; };
   results.peak = *std::ranges::max_element(means, {}, friction);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    constexpr double nearly = 0.9;  // of the peak: before, elastic changes of volume count
+    if (friction(means[k]) < nearly * friction(results.peak) || angles[k] <= results.peak_dilation) continue;
+    if (!std::isnan(angles[k])) results.peak_dilation = angles[k];
+  }
   results.residual = means.back();
   bool const undrained =
       std::ranges::all_of(rows, [](Row const& row) { return std::abs(row.volumetric_strain()) < 1e-9; });
