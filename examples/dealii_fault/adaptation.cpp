@@ -43,25 +43,29 @@ bool Ground::mark() {
   return mpi::sum(marked, comm_) > 0;
 }
 
+/// Divides and joins cells, and shares points out anew where these change or processes have unequal DEM steps.
 /// Point p of a cell and child p of it lie in one corner: a child's points begin as copies of the one, and this as the child's outermost.
 void Ground::adapt() {
-  if (!mark()) return;
+  double effort = 0.0;
+  for (auto const& of : history_) effort += of.effort;
+  auto const efforts = mpi::min_max_avg(effort, comm_);
+  bool const changes = mark();
+  if (!changes && efforts.max <= options_.imbalance * efforts.avg) return;
   auto const print = [&](char const* when) {
     out_ << when << " refinement: " << mesh_.n_global_active_cells() << " cells, reaction " << reaction()
          << " N, internal work " << work_ << " J, residual " << residual_ << "\n";
   };
-  evaluate(zero(), false);
-  print("before");
-  Vector const now(ghosted(moved_)), rest(ghosted(rest_));
+  if (changes) evaluate(zero(), false), print("before");
+  Vector const now(ghosted(moved_)), rest(ghosted(rest_)), last(ghosted(last_));
   Transfer transfer(dofs_);
-  transfer.prepare_for_coarsening_and_refinement({&now, &rest});
+  transfer.prepare_for_coarsening_and_refinement({&now, &rest, &last});
   using Origins = std::array<Origin, cell_points>;
   auto const handle = mesh_.register_data_attach(
       [&](Mesh::cell_iterator const& cell, auto const status) {
         Origins from;
         for (unsigned p = 0; p < cell_points; ++p) {
           auto const k = first_point(status == Mesh::CELL_COARSEN ? cell->child(p) : cell) + p;
-          from[p] = {mpi::this_mpi_process(comm_), static_cast<int>(k), history_[k].effort};
+          from[p] = {mpi::this_mpi_process(comm_), static_cast<int>(k), history_[k]};
         }
         return pack(from, false);
       },
@@ -69,7 +73,7 @@ void Ground::adapt() {
   Points const points = std::move(points_);
   mesh_.execute_coarsening_and_refinement();
   build();
-  std::vector<Vector*> vectors{&moved_, &rest_};
+  std::vector<Vector*> vectors{&moved_, &rest_, &last_};
   transfer.interpolate(vectors);
   for (auto* vector : vectors) hanging_.distribute(*vector);
   std::vector<Origin> origins(history_.size());
@@ -82,9 +86,11 @@ void Ground::adapt() {
     }
   });
   ++adaptations_;
-  last_throw_ = 0.0;
   start_from_moved();
   carry(points, origins);
+  if (!changes) return;
+  last_throw_ = 0.0;
+  for (auto& of : history_) of.shear = 0.0;
   evaluate(zero(), false);
   print("after");
   auto const verdict = step(0.0);
@@ -96,7 +102,7 @@ void Ground::adapt() {
 void Ground::carry(Points const& from, std::vector<Origin> const& origins) {
   std::map<unsigned, std::map<int, std::vector<int>>> takers;  // own points, by process and number there
   for (std::size_t k = 0; k < origins.size(); ++k) {
-    history_[k].effort = origins[k].effort;
+    history_[k] = origins[k].history;
     takers[origins[k].process][origins[k].point].push_back(static_cast<int>(k));
   }
   std::map<unsigned, std::vector<int>> wanted, firsts;

@@ -28,6 +28,9 @@ void declare(CLI::App& app, Options& options, std::string& own) {
   app.add_option("--refine-at", options.refine_at,
                  "shear strain since the mesh last changed; a tenth of it joins cells")
       ->check(number_from(0.0, false, 1.0));
+  app.add_option("--imbalance", options.imbalance,
+                 "DEM steps of the busiest process over their mean, above which points are shared out anew")
+      ->check(number_from(1.0, true, 1e9));
   app.add_option("--threads", options.threads, "of each process")->check(CLI::Range(1, 1024));
   app.add_flag("--block", options.block, "elastic ground under its own weight, compared with the closed form");
   app.add_option("--own", own, "summary.json of fault_rupture on the same mesh, to be compared with")

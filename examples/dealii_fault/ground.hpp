@@ -35,6 +35,7 @@ struct Options : fault_rupture::Choice {
   int levels = 0;          ///< of refinement
   double refine_at =
       0.02;  ///< shear strain since the mesh last changed that divides a cell; below a tenth cells are joined
+  double imbalance = 1.2;  ///< DEM steps of the busiest process over their mean, above which points are shared out anew
   double stop_at = 0.0;                         ///< throw [m] at which the run is saved and ends; 0 for none
   std::string output{};                         ///< folder of the fields; empty for none
   std::optional<double> own_x50{}, own_mean{};  ///< [m], of scarp's own elements
@@ -70,7 +71,7 @@ class Ground {
   struct Origin {
     unsigned process;
     int point;
-    double effort;
+    History history;
   };
 
   // setup.cpp
