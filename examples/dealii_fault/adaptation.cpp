@@ -5,8 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <sstream>
 
 #include "ground.hpp"
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/io/framed_file.hpp"
+#include "scarp/io/read_file.hpp"
 
 namespace dealii_fault {
 
@@ -21,6 +25,18 @@ std::array<int, cell_points> points_from(std::size_t first) {
   std::array<int, cell_points> numbers;
   std::iota(numbers.begin(), numbers.end(), static_cast<int>(first));
   return numbers;
+}
+
+/// Of the text and of the forest's files.
+std::uint64_t fingerprint(fs::path const& folder, std::string text) {
+  std::map<std::string, fs::path> files;
+  for (auto const& entry : fs::directory_iterator(folder)) files[entry.path().filename().string()] = entry.path();
+  files.erase("run");
+  for (auto const& [name, path] : files) {
+    auto const bytes = scarp::read_file(path);
+    text += fmt::format("{} {} {}\n", name, bytes.size(), scarp::detail::hash_of(bytes));
+  }
+  return scarp::detail::hash_of(text);
 }
 
 }  // namespace
@@ -137,7 +153,7 @@ std::string Ground::identity() const {
                      static_cast<int>(options_.soil), options_.grains, options_.length, options_.tip, options_.dip);
 }
 
-/// Mesh, displacements and states in the files of the forest, with a file of numbers; a folder that is there whole or not at all.
+/// Mesh, displacements and states in the files of the forest, with a file of numbers, written last. The run saved before goes when this one is whole.
 void Ground::save() {
   fs::path const folder = options_.checkpoint, next = options_.checkpoint + ".new";
   bool const is_root = mpi::this_mpi_process(comm_) == 0;
@@ -157,29 +173,35 @@ void Ground::save() {
       true);
   mesh_.save(next / "mesh");
   if (is_root) {
-    std::ofstream file(next / "run");
-    file << identity() << "\n"
-         << fmt::format("{} {} {} {} {} {} {}\n", mpi::n_mpi_processes(comm_), throw_, increment_, last_throw_,
-                        reaction_at_rest_, work_, steps_);
-    file.close();
-    if (!file) scarp::reject("the run was not saved in '{}' (a file cannot be written): make room", next.string());
+    auto const text = fmt::format("{}\n{} {} {} {} {} {} {}\n", identity(), mpi::n_mpi_processes(comm_), throw_,
+                                  increment_, last_throw_, reaction_at_rest_, work_, steps_);
+    scarp::write_file(next / "run", text + fmt::format("{}\n", fingerprint(next, text)));
     fs::remove_all(folder), fs::rename(next, folder);
   }
   MPI_Barrier(comm_);
+  saved_at_ = mpi::max(total_.wall_time(), comm_);
 }
 
 /// On any number of processes.
-/// \throws scarp::InputError for a folder without a saved run, and that of another run
+/// \throws scarp::InputError for a folder without a saved run, one with changed files, and that of another run
 void Ground::resume() {
-  fs::path const folder = options_.checkpoint;
+  fs::path const folder = options_.checkpoint, next = options_.checkpoint + ".new";
+  bool const is_root = mpi::this_mpi_process(comm_) == 0;
+  if (is_root && !fs::exists(folder) && fs::exists(next / "run")) fs::rename(next, folder);  // save() was killed before
+  MPI_Barrier(comm_);
   std::ifstream file(folder / "run");
-  std::string found;
-  std::getline(file, found);
+  std::string found, numbers;
+  std::getline(file, found), std::getline(file, numbers);
   unsigned writers = 0;
-  file >> writers >> throw_ >> increment_ >> last_throw_ >> reaction_at_rest_ >> work_ >> steps_;
-  if (!file)
+  std::uint64_t print = 0;
+  std::istringstream(numbers) >> writers >> throw_ >> increment_ >> last_throw_ >> reaction_at_rest_ >> work_ >> steps_;
+  if (!(file >> print))
     scarp::reject("'{}' is not the folder of a saved run (missing or damaged): save it again with --checkpoint",
                   folder.string());
+  if (print != fingerprint(folder, found + "\n" + numbers + "\n"))
+    scarp::reject("the run saved in '{}' is damaged (its files are not those that were written): use a copy of it",
+                  folder.string());
+  MPI_Barrier(comm_);  // all have read before any begins
   if (found != identity())
     scarp::reject("'{}' was saved by another run ({}): resume with its options", folder.string(), found);
   build();  // makes the packings of the mesh that the run began with
