@@ -49,6 +49,7 @@ struct PathSettings {
   }
 };
 
+/// What an `advance` along a path came to.
 struct PathReport {
   Verdict verdict{};     ///< why the path ended early
   double done = 0.0;     ///< share of the requested length that is committed
