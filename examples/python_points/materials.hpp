@@ -88,9 +88,10 @@ struct SandOptions {
   int min_steps = 20;
   int max_steps = 20'000;
   std::string file{};  ///< of save_packing, instead of a preparation
-  SCARP_MEMBERS(grains, seed, smallest, largest, density, normal_stiffness, tangential_stiffness, friction, pressure,
-                preparation_friction, void_ratio, vertical_pressure, overconsolidation_ratio, packings, strain_per_step,
-                unbalanced_tolerance, min_steps, max_steps, file)  // the others with the shapes that have them
+  SCARP_MEMBERS_EXCEPT((aspect, thickness), grains, seed, smallest, largest, density, normal_stiffness,
+                       tangential_stiffness, friction, pressure, preparation_friction, void_ratio, vertical_pressure,
+                       overconsolidation_ratio, packings, strain_per_step, unbalanced_tolerance, min_steps, max_steps,
+                       file)  // the others with the shapes that have them
 };
 
 template <class Shape>
