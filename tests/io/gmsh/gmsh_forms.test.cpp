@@ -158,6 +158,12 @@ TEST_CASE("elements that run clockwise are turned and told") {
   CHECK(mesh.elements[0] == std::array<int, 3>{0, 1, 4});
   CHECK(notes(turned) == Notes{"'m.msh': 2 elements run clockwise: they are turned"});
   CHECK(read(turned).boundaries == read(strip).boundaries);
+  // Far from the origin, where products of coordinates have no digits left for an area.
+  auto const far = with(strip, nodes,
+                        "$Nodes\n6\n1 1e9 1e9 0\n2 1000000001 1e9 0\n3 1000000002 1e9 0\n4 1e9 1000000001 0\n"
+                        "5 1000000001 1000000001 0\n6 1000000002 1000000001 0\n$EndNodes\n");
+  CHECK(notes(far).empty());
+  CHECK(samples::volume(read(far)) == samples::Approx(2.0));
 }
 
 TEST_CASE("nodes that no element here has are left out, on request all but corners") {
@@ -170,7 +176,7 @@ TEST_CASE("nodes that no element here has are left out, on request all but corne
   CHECK(eight.nodes.size() == 8);
   CHECK(samples::volume(eight) == samples::Approx(2.0 + 2.0 * 2.0 / 3.0 * 2.0 * 0.1));  // analytic: two parabolas
   CHECK(eight.boundaries.at("physical_4").size() == 1);
-  CHECK(notes(nine) == Notes{"'m.msh': a 9-node quadrangle is read as a 8-node quadrangle, without its other nodes"});
+  CHECK(notes(nine) == Notes{"'m.msh': each 9-node quadrangle is read as 8-node quadrangle, without its other nodes"});
   auto const four = read<scarp::Quad4>(nine, {.highest_order = 1});
   CHECK(four.nodes.size() == 4);
   CHECK(samples::volume(four) == samples::Approx(2.0));
