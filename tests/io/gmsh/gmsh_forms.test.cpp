@@ -94,11 +94,14 @@ TEST_CASE("a partitioned file reads as the whole") {
   // Gmsh keeps the entities and adds theirs that are shared out, with parents, partitions and the parents' groups.
   auto const shared =
       with(strip_41("1 1", "1 2"), "$Nodes",
-           "$PartitionedEntities\n2\n1\n7 2\n1 1 2 0\n5 0 1 1 1 0 0 0 0\n8 1 1 2 1 2 0 0 0 2 0 0 1 4 2 5 -5\n"
-           "8 2 1 1 1 0 0 0 1 1 0 1 1 0\n9 2 2 1 2 1 0 0 2 1 0 1 2 0\n$EndPartitionedEntities\n$Nodes");
-  check_same(read(with(with(with(shared, "2 1 2 2\n7", "2 8 2 2\n7"), "2 2 2 2\n9", "2 9 2 2\n9"), "1 1 1 2\n11",
-                       "1 8 1 2\n11")),
-             whole);
+           "$PartitionedEntities\n2\n1\n7 2\n1 2 2 0\n5 0 1 1 1 0 0 0 0\n8 1 1 2 1 2 0 0 0 2 0 0 1 4 2 5 -5\n"
+           "12 2 1 2 1 2 1 0 0 1 1 0 1 1 0\n8 2 1 1 1 0 0 0 1 1 0 1 1 0\n9 2 2 1 2 1 0 0 2 1 0 1 2 "
+           "0\n$EndPartitionedEntities\n$Nodes");
+  auto const parts =
+      with(with(with(shared, "2 1 2 2\n7", "2 8 2 2\n7"), "2 2 2 2\n9", "2 9 2 2\n9"), "1 1 1 2\n11", "1 8 1 2\n11");
+  check_same(read(parts), whole);
+  // The line between the partitions has the group of the surface that it divides, which is no group of sides.
+  check_same(read(with(with(parts, "3 6 7 12", "4 7 7 13"), "12 2 3\n", "12 2 3\n1 12 1 1\n13 2 5\n")), whole);
 }
 
 TEST_CASE("of several groups of an element the smallest counts") {
