@@ -5,6 +5,7 @@ repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 jobs="${SCARP_JOBS:-$(nproc)}"
 build_packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libnanoflann-dev libfmt-dev doctest-dev
                 libcli11-dev nlohmann-json3-dev libbenchmark-dev)
+site_packages=(doxygen mkdocs mkdocs-material libjs-katex python3)
 
 # A compiler cache accepts precompiled headers only when told that their time stamps do not matter.
 export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros,include_file_mtime,include_file_ctime}"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """No tolerance of doctest's own Approx, which is absolute for numbers below one; no rejection that is tested by its type alone; no
-everyday word in a comment of include/scarp where the field has a term."""
+everyday word in a comment of include/scarp where the field has a term; a docstring for every public class, enumeration and concept there."""
 import pathlib
 import re
 import sys
@@ -36,6 +36,21 @@ for path in sorted((ROOT / "include" / "scarp").rglob("*.[ch]pp")):
         for word, term in TERMS.items():
             if comment and (match := re.search(rf"\b({word})\b", comment[0], re.IGNORECASE)):
                 faults.append(f"{path.relative_to(ROOT)}:{number}: '{match[0]}' in a comment: write {term}")
-if files < 100 or comments < 1000:
-    faults.append(f"only {files} files found: this test looks in the wrong place")
+declared = 0
+for path in sorted((ROOT / "include" / "scarp").rglob("*.hpp")):
+    private = "detail" in path.parts
+    lines = path.read_text().splitlines()
+    for number, line in enumerate(lines):
+        if namespace := re.match(r"(\}  // )?namespace .*\bdetail\b", line):
+            private = namespace[1] is None
+        kind = re.match(r"(?:template <.*> )?(?:concept|(?:class|struct|enum class)(?!.*;$)) (\w+)\b(?!\s*<)", line)
+        if kind and not private:
+            declared += 1
+            first = number
+            while re.match(r"template|requires|  ", lines[first - 1]):
+                first -= 1
+            if not lines[first - 1].startswith("///"):
+                faults.append(f"{path.relative_to(ROOT)}:{number + 1}: {kind[1]} has no docstring (one sentence is expected): write what it is")
+if files < 100 or comments < 1000 or declared < 300:
+    faults.append(f"only {files} files, {comments} comments and {declared} declarations found: this test looks in the wrong place")
 sys.exit("\n".join(faults) or None)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """The pages point to what exists: links, pictures, paths, commands, options and names of the code in README.md and docs stand; every figure and
-table of docs is named by a page; no page holds generated sections; all pages together are short enough to be read."""
+table of docs is named by a page; every page is in a menu of the site; no page holds generated sections; all pages together are short enough to be read."""
 import pathlib
 import re
 import sys
@@ -109,6 +109,11 @@ for page in pages:
 for page in sorted(set(re.findall(r"docs/[\w/-]+\.md", code))):
     if not (ROOT / page).exists():
         faults.append(f"a source names {page}, which is not there")
+menu = set(re.findall(r"- (\S+\.md)$", (ROOT / "docs" / "site" / "mkdocs.yml").read_text(), re.MULTILINE))
+for page in sorted((ROOT / "docs").rglob("*.md")):
+    path = page.relative_to(ROOT / "docs").as_posix()
+    if path not in menu and path != "README.md":
+        faults.append(f"docs/{path} is in no menu of the site: add it to docs/site/mkdocs.yml")
 if words > WORDS:
     faults.append(f"the pages have {words} words, more than {WORDS}")
 size = sum(path.stat().st_size for path in (ROOT / "docs").rglob("*") if path.is_file())

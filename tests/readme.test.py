@@ -27,7 +27,7 @@ else:
     linked = ["-pthread"]
 blocks = [(text[: match.start()].count("\n") + 2, match[1]) for match in re.finditer(r"^```cpp\n(.*?)^```$", text, re.M | re.S)]
 expect(any("int main" in block for _, block in blocks), "README.md has no block that is a program")
-expect(any("ConstitutiveProvider" in block for _, block in blocks), "README.md has no block with a provider")
+expect(any("DemRve" in block for _, block in blocks), "README.md has no block with a packing")
 with tempfile.TemporaryDirectory() as scratch:
     for line, block in blocks:
         source = pathlib.Path(scratch) / f"readme_{line}.cpp"

@@ -176,7 +176,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_flag("--reverse", choice.reverse, "the hanging wall is pushed up the fault plane");
   app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--tolerance", choice.tolerance,
-                 "force residual over reactions; packings 1e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10")
+                 "force residual over reactions; packings 3e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--max-displacement-gradient", choice.max_displacement_gradient,
                  "displacement gradient that limits a load step; 0.005 with packings, else 0.02")

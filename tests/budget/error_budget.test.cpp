@@ -108,8 +108,8 @@ TEST_CASE("the budget finds the known error of a law's steps in single increment
     scarp::ErrorBudget budget(points, {}, {.share = 1.0, .points_per_tracked = 100, .tracked = {7}});
     constexpr int increments = 10;
     for (int k = 0; k < increments; ++k) points.strain(increment, budget);
-    REQUIRE(budget.samples().differences.size() >= 20);
-    CHECK(budget.samples().differences[0] ==
+    REQUIRE(budget.samples().count() >= 20);
+    CHECK(budget.samples().strained.differences[0] ==
           samples::Approx(1.0 - relaxed(8, increment) / relaxed(4, increment)).epsilon(1e-10));
     // The second answers begin after the first increment, with the first one's state.
     double const start = 1.0 - relaxed(4, increment);
@@ -134,7 +134,8 @@ TEST_CASE("points that have lost most of their stress are compared with what the
   double const once = std::pow(1.0 - large / 4.0, 4);
   double const twice = std::pow(1.0 - large / 8.0, 8);
   double const before_last = (start - 1.0) * std::pow(once, increments - 1);
-  CHECK(budget.samples().differences.back() == samples::Approx(before_last * (twice - once) / start).epsilon(1e-10));
+  CHECK(budget.samples().spread.differences.back() ==
+        samples::Approx(before_last * (twice - once) / start).epsilon(1e-10));
   double const tracked = (start - 1.0) * once * (std::pow(twice, increments - 1) - std::pow(once, increments - 1));
   CHECK(budget.tracked().points[0].apart == samples::Approx(tracked / start).epsilon(1e-10));
 }
@@ -157,7 +158,7 @@ TEST_CASE("an elastic law has no error of its steps beyond the third order of th
   scarp::ErrorBudget budget(points, {}, {});
   for (int k = 0; k < 5; ++k) points.strain(1e-4, budget);
   CHECK(budget.tracked().points.size() == 10);
-  REQUIRE(!budget.samples().differences.empty());
+  REQUIRE(budget.samples().count() > 0);
   // Of increments of 1e-4: halves differ by the square of the strain over 16, and the sum of strains is no smaller.
   CHECK(part(budget.parts(), "doubling_largest") < 1e-9);
   CHECK(part(budget.parts(), "accumulated") < 1e-9);
@@ -184,10 +185,14 @@ TEST_CASE("a run outside its budget says by which part, with NaN counted as outs
 
 TEST_CASE("a quantile is not exceeded by its share of the samples, however few they are") {
   auto const first = [](int count) {
-    scarp::DoubledSamples samples;
-    for (int k = count; k > 0; --k) samples.differences.push_back(k);
+    scarp::SampledDifferences samples;
+    for (int k = count; k > 0; --k) {
+      samples.differences.push_back(k);
+      samples.carried.push_back(1.0);
+    }
     return samples;
   };
+  CHECK(scarp::SampledDifferences{}.quantile(0.95) == 0.0);
   CHECK(first(1).quantile(0.95) == 1.0);
   CHECK(first(2).quantile(0.95) == 2.0);
   CHECK(first(2).quantile(0.5) == 1.0);
@@ -196,16 +201,24 @@ TEST_CASE("a quantile is not exceeded by its share of the samples, however few t
   CHECK(first(3).quantile(0.0) == 1.0);
 }
 
+TEST_CASE("a sample counts by the stress that it carries") {
+  scarp::SampledDifferences const samples{.differences = {0.3, 0.1, 0.2}, .carried = {1.0, 60.0, 39.0}};
+  CHECK(samples.quantile(0.5) == 0.1);
+  CHECK(samples.quantile(0.95) == 0.2);
+  CHECK(samples.quantile(1.0) == 0.3);
+}
+
 TEST_CASE("a step has as many samples as it may, none twice, and the most strained point in every other one") {
   Points points(Relaxing{}, 50);
   scarp::ErrorBudget budget(points, {}, {.share = 10.0, .max_samples = 5});
   points.strain(increment, budget);
   points.strain(increment, budget);
-  CHECK(budget.samples().differences.size() == 10);
+  CHECK(budget.samples().count() == 10);
+  CHECK(budget.samples().strained.differences.size() == 2);
   Points few(Relaxing{}, 3);
   scarp::ErrorBudget small(few, {}, {.share = 10.0, .max_samples = 5});
   few.strain(increment, small);
-  CHECK(small.samples().differences.size() == 3);
+  CHECK(small.samples().count() == 3);
 }
 
 TEST_CASE("a number that is none puts a run outside its budget for good") {

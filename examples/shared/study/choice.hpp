@@ -53,7 +53,7 @@ struct Choice {
   bool reverse = false;  ///< the hanging wall goes up
   double tip = 0.0;      ///< [m]
   std::optional<double>
-      tolerance;  ///< of the force residual; packings 1e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10
+      tolerance;  ///< of the force residual; packings 3e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10
   std::optional<double> max_displacement_gradient;  ///< of a load step; 0.005 with packings, else 0.02
   int max_iterations = 30;
   double strain_per_step = 1e-5;

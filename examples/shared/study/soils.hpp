@@ -27,7 +27,7 @@ struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, Columns>> {
   using Solver = scarp::QuasiNewton<>;
   static double tolerance(Choice const& choice) {
     if (choice.scene != Case::free) return 5e-3;  // of the footing's weight too, which is to be carried to 1e-2
-    return choice.quick ? 1e-2 : 1e-3;
+    return choice.quick ? 1e-2 : 3e-3;
   }
   static double max_displacement_gradient(bool quick) { return quick ? 0.02 : 0.005; }
 };

@@ -111,11 +111,16 @@ class ErrorBudget : public NeverStops {
       add("kinetic_share", packings_.kinetic_share, bounds_.kinetic_share, "of moving grains in the pressure, largest");
       add("inertial_number", packings_.inertial_number, bounds_.inertial_number, "largest of a response");
     }
-    if (!samples_.differences.empty()) {
-      add("doubling_median", samples_.quantile(0.5), bounds_.doubling_median,
+    if (!samples_.spread.differences.empty()) {
+      add("doubling_median", samples_.spread.quantile(0.5), bounds_.doubling_median,
           "change of a point's stress when one increment takes twice the work, relative");
-      add("doubling_95", samples_.quantile(0.95), bounds_.doubling_95, "of nineteen samples in twenty");
-      add("doubling_largest", samples_.quantile(1.0), none, "of one sample");
+      add("doubling_95", samples_.spread.quantile(0.95), bounds_.doubling_95, "for 19/20 of the stress of all points");
+    }
+    if (!samples_.strained.differences.empty()) {
+      add("doubling_strained", samples_.strained.quantile(0.95), bounds_.doubling_strained,
+          "of the most strained points");
+      add("doubling_largest", std::max(samples_.spread.quantile(1.0), samples_.strained.quantile(1.0)), none,
+          "of one sample");
     }
     if (tracked_.any()) {
       add("accumulated", tracked_.together(), bounds_.accumulated,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -45,55 +46,89 @@ struct PackingSurvey {
   SCARP_MEMBERS(looked_at, unbalanced_sum, unbalanced, kinetic_share, inertial_number)
 };
 
+/// Relative differences of stress at sampled points, in the order of the samples.
+struct SampledDifferences {
+  std::vector<double> differences{};
+  std::vector<double> carried{};  ///< [Pa], size of the stress that each is relative to
+
+  /// Smallest difference that is not exceeded where a share of all samples' stress is carried; 0 without any.
+  double quantile(double share) const {
+    std::vector<std::size_t> order(differences.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return differences[a] < differences[b]; });
+    double const wanted = share * std::accumulate(carried.begin(), carried.end(), 0.0);
+    double found = 0.0;
+    double sum = 0.0;
+    for (std::size_t const k : order) {
+      found = differences[k];
+      if ((sum += carried[k]) >= wanted) break;
+    }
+    return found;
+  }
+
+  SCARP_MEMBERS(differences, carried)
+};
+
 /// Step doubling at sampled points: an accepted increment is repeated with twice the DEM steps from the same state. Every other
 /// sample is the most strained point of its step, unless that was taken; the others are spread over all points.
 struct DoubledSamples {
-  std::vector<double> differences{};  ///< of the stress, relative, in the order of the samples
-  long work = 0;                      ///< that they cost
+  SampledDifferences spread{};    ///< over all points
+  SampledDifferences strained{};  ///< the most strained point of a step
+  long work = 0;                  ///< that they cost
+
+  std::size_t count() const { return spread.differences.size() + strained.differences.size(); }
 
   /// After an accepted step. at_rest [Pa]: sizes of all points' stresses when the run began; afforded: work that samples
   /// may have cost up to now
   template <class Problem>
   void sample(Problem const& problem, std::vector<int> const& points, std::vector<double> const& at_rest,
               ErrorSampling const& sampling, long afforded) {
+    constexpr int dim = Problem::dim;
     auto const chosen = choose(problem, points, sampling, afforded);
     std::vector<double> found(chosen.size());
     std::vector<long> works(chosen.size());
-    problem.executor().for_each(static_cast<int>(chosen.size()), [&](int task) {
+    problem.executor().for_each(detail::count(chosen), [&](int task) {
       auto const k = detail::index(task);
-      auto const doubled = problem.points().doubled_response(chosen[k]);
-      found[k] = stress_difference(problem.points().committed_stress(chosen[k]), doubled.response,
-                                   at_rest[detail::index(chosen[k])]);
+      int const point = chosen[k].point;
+      auto const doubled = problem.points().doubled_response(point);
+      found[k] =
+          stress_difference(problem.points().committed_stress(point), doubled.response, at_rest[detail::index(point)]);
       works[k] = doubled.work;
     });
-    differences.insert(differences.end(), found.begin(), found.end());
-    for (long const one : works) work += one;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      auto& samples = chosen[k].is_most_strained ? strained : spread;
+      auto const stress = problem.points().committed_stress(chosen[k].point);
+      samples.differences.push_back(found[k]);
+      samples.carried.push_back(std::max(stress_size<dim>(stress), at_rest[detail::index(chosen[k].point)]));
+      work += works[k];
+    }
   }
 
-  /// Smallest difference that is not exceeded by a share of the samples; 0 without any.
-  double quantile(double share) const {
-    if (differences.empty()) return 0.0;
-    std::vector<double> sorted = differences;
-    std::sort(sorted.begin(), sorted.end());
-    double const rank = std::ceil(share * static_cast<double>(sorted.size()));
-    return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-  }
-
-  SCARP_MEMBERS(differences, work)
+  SCARP_MEMBERS(spread, strained, work)
 
  private:
+  struct Chosen {
+    int point = -1;
+    bool is_most_strained = false;
+  };
+
   template <class Problem>
-  std::vector<int> choose(Problem const& problem, std::vector<int> const& points, ErrorSampling const& sampling,
-                          long afforded) const {
-    std::vector<int> chosen;
+  std::vector<Chosen> choose(Problem const& problem, std::vector<int> const& points, ErrorSampling const& sampling,
+                             long afforded) const {
+    std::vector<Chosen> chosen;
+    auto const is_taken = [&](int point) {
+      return std::any_of(chosen.begin(), chosen.end(), [&](Chosen const& one) { return one.point == point; });
+    };
     auto const room = std::min(detail::index(sampling.max_samples), points.size());
     for (long planned = work; chosen.size() < room;) {
-      std::size_t turn = differences.size() + chosen.size();
-      int point = turn % 2 == 0 ? max_strained(problem, points) : spread(points, turn);
-      while (std::find(chosen.begin(), chosen.end(), point) != chosen.end()) point = spread(points, ++turn);
-      planned += 2 * std::max(1L, problem.points().work(point));
+      std::size_t turn = count() + chosen.size();
+      Chosen next{max_strained(problem, points), true};
+      if (turn % 2 == 1 || is_taken(next.point)) next = {spread_point(points, turn), false};
+      while (is_taken(next.point)) next.point = spread_point(points, ++turn);
+      planned += 2 * std::max(1L, problem.points().work(next.point));
       if (planned > afforded) break;
-      chosen.push_back(point);
+      chosen.push_back(next);
     }
     return chosen;
   }
@@ -105,7 +140,7 @@ struct DoubledSamples {
   }
 
   /// Multiples of the golden section fill an interval evenly however many there are.
-  static int spread(std::vector<int> const& points, std::size_t number) {
+  static int spread_point(std::vector<int> const& points, std::size_t number) {
     constexpr double golden_section = 0.6180339887498949;
     double const turns = golden_section * static_cast<double>(number);
     return points[static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(points.size()))];
@@ -124,6 +159,7 @@ struct TrackedPoint {
   SCARP_MEMBERS(point, bits, apart, farthest, square_sum)
 };
 
+/// Points whose whole history is repeated with steps twice as fine, and the sums of their differences.
 struct TrackedPoints {
   std::vector<TrackedPoint> points{};
   int steps = 0;

@@ -33,6 +33,7 @@ concept Attachment = requires(Part& part, Part const& constant, std::vector<Vect
 /// Nothing: the elements alone.
 struct NoAttachment {};
 
+/// An attachment, or `NoAttachment`.
 template <class Part, int Dim>
 concept AttachmentOrNone = std::is_same_v<Part, NoAttachment> || Attachment<Part, Dim>;
 

@@ -56,6 +56,7 @@ concept GivesForces = PlacesPoints<Policy, Element> &&
 template <class Policy, class Element>
 concept Integration = GivesGradients<Policy, Element> && GivesForces<Policy, Element>;
 
+/// An element's full quadrature.
 struct FullRule {
   template <GivesQuadrature Element>
   static auto points() {
@@ -63,6 +64,7 @@ struct FullRule {
   }
 };
 
+/// An element's reduced quadrature, one order below the full one.
 struct ReducedRule {
   template <GivesReducedQuadrature Element>
   static auto points() {

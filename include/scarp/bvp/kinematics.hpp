@@ -30,6 +30,7 @@ concept GivesFluxChange = requires(Gradient<2> const& further, VoigtStress<2> co
   { Policy::template flux_change<2>(further, stress, tangent) } -> std::same_as<Tensor<2>>;
 };
 
+/// Strain of a load step from its displacement gradient, and the configuration that forces are summed in.
 template <class Policy>
 concept Kinematics = HasConfiguration<Policy> && FiltersGradient<Policy> && GivesFluxChange<Policy>;
 

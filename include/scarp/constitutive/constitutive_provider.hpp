@@ -25,14 +25,17 @@ struct Response {
   Verdict verdict;
 };
 
+/// A provider names its state, a copyable type.
 template <class Model>
 concept HasState = std::copyable<typename Model::State>;
 
+/// A provider names the dimension of its stresses, 2 or 3.
 template <class Model>
 concept HasDimension = requires {
   requires Model::dim == 2 || Model::dim == 3;
 };
 
+/// initial_state(site): the state of a point at rest at a site.
 template <class Model>
 concept MakesInitialState = HasState<Model> && HasDimension<Model> &&
     requires(Model const& model, Site<Model::dim> const& site) {

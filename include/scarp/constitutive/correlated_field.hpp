@@ -60,6 +60,7 @@ struct ExponentialCorrelation {
 template <int Dim, Autocorrelation Correlation = GaussianCorrelation>
 class CorrelatedField {
  public:
+  /// Parameters of a field.
   struct Choice {
     Vector<Dim> lengths = Vector<Dim>::Ones();  ///< of correlation along the axes [m]
     std::uint64_t seed = 1;

@@ -40,6 +40,7 @@ struct GeostaticStress {
   }
 };
 
+/// Initial stress zero at every depth.
 template <int Dim>
 struct StressFree {
   VoigtStress<Dim> at(double) const { return VoigtStress<Dim>::Zero(); }

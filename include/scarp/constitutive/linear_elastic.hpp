@@ -69,6 +69,7 @@ template <int Dim, class InitialStress = StressFree<Dim>>
 struct LinearElastic {
   static constexpr int dim = Dim;
 
+  /// Stress [Pa], tension positive.
   struct State {
     VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
 

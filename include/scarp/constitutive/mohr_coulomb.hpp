@@ -21,6 +21,7 @@ template <int Dim, class InitialStress = StressFree<Dim>, StrengthLaw StrengthTy
 struct MohrCoulomb {
   static constexpr int dim = Dim;
 
+  /// Stress, hardening variable and tangent of a point.
   struct State {
     VoigtStress<3> stress = VoigtStress<3>::Zero();  ///< of all three dimensions [Pa]
     double plastic_shear = 0.0;                      ///< accumulated difference of the outer principal plastic strains

@@ -17,6 +17,7 @@ struct StiffnessFloor {
   static constexpr int dim = Provider::dim;
   using Plan = PlanOf<Provider>;
 
+  /// State of the inner provider and stress of the elastic floor.
   struct State {
     typename Provider::State own;
     IsotropicElasticity elasticity{};

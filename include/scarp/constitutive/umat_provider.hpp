@@ -68,6 +68,7 @@ template <int Dim, class InitialStress = StressFree<Dim>>
 struct UmatProvider {
   static constexpr int dim = Dim;
 
+  /// What a UMAT reads and writes at a point.
   struct State {
     VoigtStress<3> stress = VoigtStress<3>::Zero();              ///< [Pa]
     EngineeringStrain<3> strain = EngineeringStrain<3>::Zero();  ///< STRAN

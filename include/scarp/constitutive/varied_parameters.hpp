@@ -31,6 +31,7 @@ struct VariedParameters {
     explicit operator long() const requires HasPlan<Provider> { return static_cast<long>(own); }
   };
 
+  /// Provider of a point and its state.
   struct State {
     std::shared_ptr<Provider const> provider;
     typename Provider::State own;

@@ -88,11 +88,13 @@ concept RespondsInPacks = requires(Law const& law, ContactKinematics<2, lanes::P
   { law.respond(approach, memory) } -> std::same_as<ContactForce<2, lanes::Pack<double>>>;
 };
 
+/// stiffness(overlap, reduced radius): tangent stiffness of a contact [N/m], for the time step and for tangents of packings.
 template <class Law>
 concept HasContactStiffness = requires(Law const& law) {
   { law.stiffness(0.0, 0.0) } -> std::same_as<ContactStiffness>;  // at an overlap and a reduced radius [m]
 };
 
+/// A law names the inputs that it needs, with at most `max_contact_scalars` stored numbers.
 template <class Law>
 concept NamesContactInputs = requires {
   { Law::inputs } -> std::convertible_to<ContactInputs>;
@@ -106,6 +108,7 @@ concept RemembersItsShear = !requires(Law & law) {
 }
 || Law::inputs.shear;
 
+/// Force of a contact as a function of its kinematics and memory: an aggregate of parameters with `inputs`, `respond` and `stiffness`.
 template <class Law>
 concept ContactLaw = std::is_aggregate_v<Law> && NamesContactInputs<Law> && RemembersItsShear<Law> &&
     RespondsToApproach<Law> && RespondsInPacks<Law> && HasContactStiffness<Law>;

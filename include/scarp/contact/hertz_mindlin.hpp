@@ -21,6 +21,7 @@ concept ContactDamping = requires(Damping const& damping, double& shear, Contact
   { damping.drag(shear, 1.0, 1.0, approach) } -> std::same_as<double>;
 };
 
+/// No viscous force at contacts; models ContactDamping.
 struct NoContactDamping {
   static constexpr bool needs_motion = false;
 

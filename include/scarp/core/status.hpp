@@ -19,8 +19,8 @@ enum class Status : std::uint8_t {
 
 /// Why a status is not `ok`. Checkpoints hold the numbers.
 enum class Reason : std::uint8_t {
-  none,
-  no_contacts,
+  none,                ///< the status is ok
+  no_contacts,         ///< no contact carries force
   unbalanced,          ///< the packing did not settle to the tolerance on the unbalanced ratio
   unreachable,         ///< a servo target was not reached within the allowed work
   not_finite,          ///< NaN or infinity in state or response
@@ -36,6 +36,7 @@ enum class Reason : std::uint8_t {
   interrupted          ///< stopped from outside
 };
 
+/// A status and its reason.
 struct Verdict {
   Status status = Status::ok;
   Reason reason = Reason::none;

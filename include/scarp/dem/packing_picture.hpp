@@ -20,12 +20,14 @@ concept HasPicture = PackingType::dim == 2 && detail::length_count<typename Pack
 
 /// A plane packing as a drawing needs it, whatever its grains and its contact law are.
 struct PackingPicture {
+  /// A grain as an ellipse.
   struct Grain {
     Vector<2> centre;        ///< [m], perhaps outside of the cell
     double a = 0.0;          ///< half axis along `axis` [m], the longer one
     double b = 0.0;          ///< half axis across [m]
     Vector<2> axis{1.0, 0};  ///< unit vector
   };
+  /// A contact and its normal force.
   struct Contact {
     Vector<2> from;             ///< centre of the first grain [m]
     Vector<2> branch;           ///< from there to the centre of the second one [m]

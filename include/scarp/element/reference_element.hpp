@@ -24,12 +24,14 @@ using ShapeValues = Eigen::Matrix<double, Element::nodes, 1>;
 template <class Element>
 using ShapeGradients = Eigen::Matrix<double, Element::nodes, Element::dim>;
 
+/// An element names its dimension, 1 to 3, and its number of nodes.
 template <class Element>
 concept HasNodes = requires {
   requires Element::dim >= 1 && Element::dim <= 3;
   requires Element::nodes > Element::dim;
 };
 
+/// shape(xi), shape_gradients(xi): values of the shape functions and their derivatives by the local coordinates.
 template <class Element>
 concept GivesShapes = HasNodes<Element> && requires(Vector<Element::dim> const& xi) {
   { Element::shape(xi) } -> std::same_as<ShapeValues<Element>>;
@@ -57,6 +59,7 @@ concept HasFacets = HasNodes<Element> && ReferenceCell<typename Element::Facet> 
   { Element::facets()[0] } -> std::convertible_to<std::array<int, Element::facet_nodes>>;
 };
 
+/// An element names its cell type in VTK files.
 template <class Element>
 concept HasVtkCellType = requires {
   { Element::vtk_cell_type } -> std::convertible_to<int>;

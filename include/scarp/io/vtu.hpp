@@ -67,6 +67,7 @@ struct VtuField {
   std::vector<std::string> component_names{};  ///< empty or one for each component, such as xx, yy, xy
 };
 
+/// Fields of a VTU file.
 struct VtuFields {
   std::vector<VtuField> at_nodes{};
   std::vector<VtuField> at_elements{};

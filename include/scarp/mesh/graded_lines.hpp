@@ -13,6 +13,7 @@ namespace scarp {
 /// The number of cells between two places is \f$ \int dx / s(x) \f$; lines are at equal steps of it.
 class Spacing {
  public:
+  /// Cell size at a position; linear between knots.
   struct Knot {
     double position = 0.0;  ///< [m]
     double size = 1.0;      ///< [m], above zero

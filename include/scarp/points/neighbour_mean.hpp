@@ -14,6 +14,7 @@ namespace scarp {
 /// Weighted means \f$ \bar x_i = \sum_j w_{ij} x_j \f$ over some points around each of many; points/nonlocal.hpp finds neighbours and weights.
 class NeighbourMean {
  public:
+  /// A neighbour and its weight.
   struct Share {
     int point;
     double weight;

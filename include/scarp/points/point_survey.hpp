@@ -12,6 +12,7 @@ namespace scarp {
 
 /// Statistics of a response of all points: how many have which status, and which require most inner steps.
 struct PointSurvey {
+  /// DEM steps of a point.
   struct Work {
     int point = -1;
     long inner_steps = 0;  ///< DEM steps of one response

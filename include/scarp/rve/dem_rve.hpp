@@ -50,6 +50,7 @@ struct DemRve {
   using Law = typename PackingType::Law;
   using Plan = int;  ///< DEM time steps of one response
 
+  /// Packing of a point and what its last response had.
   struct State {
     PackingType packing;
     VoigtStress<dim> stress = VoigtStress<dim>::Zero();  ///< [Pa], tension positive

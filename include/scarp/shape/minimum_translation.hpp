@@ -13,10 +13,12 @@
 
 namespace scarp {
 
+/// support(pose, normal): farthest point of a grain along a unit normal, for each grain alone.
 template <class Shape>
 concept HasSupportOfOne = requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
   { Shape::support(pose, normal) } -> std::convertible_to<Support<double>>;
 };
+/// supports(first, second, normal): support of both grains of a pair at once.
 template <class Shape>
 concept HasSupportOfPair = requires(PoseOf<Shape> const& pose, Point<2, double> const& normal) {
   { Shape::supports(pose, pose, normal)[0] } -> std::convertible_to<Support<double>>;

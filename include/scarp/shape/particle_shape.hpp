@@ -88,6 +88,7 @@ auto part_pose(Size const& size, Orientation const& orientation, int part) {
   }
 }
 
+/// A shape makes poses from sizes and orientation, and has a contact radius.
 template <class Shape>
 concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size,
                            std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation,

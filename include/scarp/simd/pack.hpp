@@ -23,6 +23,7 @@ template <class T>
 struct ScalarOf {
   using type = T;
 };
+/// Number type of a lane of a pack.
 template <class T>
   requires requires { typename T::value_type; }
 struct ScalarOf<T> {

@@ -74,6 +74,7 @@ class SoaArray {
   std::size_t stride_ = 0;
 };
 
+/// Rows without columns.
 template <class Scalar>
 class SoaArray<Scalar, 0> {
  public:

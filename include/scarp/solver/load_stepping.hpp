@@ -43,6 +43,7 @@ struct MissingOfObserver {
 template <class Observer, class Problem>
 concept CheckedObserver = ObservesSteps<Observer, Problem> || detail::MissingOfObserver<Observer, Problem>::nothing;
 
+/// An observer that records nothing and never stops a run.
 struct NoObserver {
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}

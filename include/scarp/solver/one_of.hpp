@@ -18,6 +18,7 @@ template <class... Solvers>
 struct OneOf {
   std::variant<Solvers...> chosen{};
 
+  /// Session of the solver that was chosen.
   template <class Problem>
   class Session {
    public:

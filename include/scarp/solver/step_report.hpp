@@ -25,6 +25,7 @@ struct Evaluation : ResponseReport {
   std::vector<PartResidual> parts{};  ///< see EquilibriumProblem::residuals; empty where the whole is the only one
 };
 
+/// One iteration of a load step.
 struct IterationRecord {
   double residual = 0.0;
   double linear_residual = 0.0;   ///< |K x - b| / |b| of the linear system that led here

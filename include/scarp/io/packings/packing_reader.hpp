@@ -29,34 +29,40 @@ struct Superellipse;
 template <class Template>
 struct Clump;
 
+/// Columns of a disc.
 template <>
 struct GrainColumns<Disc> {
   static constexpr std::array<std::string_view, 1> size{"r"};
 };
 
+/// Columns of a sphere.
 template <>
 struct GrainColumns<Sphere> {
   static constexpr std::array<std::string_view, 1> size{"r"};
 };
 
+/// Columns of an ellipse.
 template <>
 struct GrainColumns<Ellipse> {
   static constexpr std::array<std::string_view, 2> size{"a", "b"};
   static constexpr std::string_view angle = "angle";
 };
 
+/// Columns of a superellipse.
 template <>
 struct GrainColumns<Superellipse> {
   static constexpr std::array<std::string_view, 3> size{"a", "b", "eps"};
   static constexpr std::string_view angle = "angle";
 };
 
+/// Columns of a clump.
 template <class Template>
 struct GrainColumns<Clump<Template>> {
   static constexpr std::array<std::string_view, 1> size{"scale"};
   static constexpr std::string_view angle = "angle";
 };
 
+/// A shape whose sizes, and angle if it turns, have names of columns.
 template <class Shape>
 concept HasGrainColumns = requires {
   requires GrainColumns<Shape>::size.size() == static_cast<std::size_t>(Shape::size_count);
