@@ -54,6 +54,7 @@ struct Test {
   Preparation preparation;
   Path path;
   std::string packing{};
+  std::string format{};  ///< of another code, in which a prepared packing is written too
   examples::Output output{"output/rve_lab"};
 };
 

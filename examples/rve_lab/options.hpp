@@ -88,11 +88,16 @@ inline void declare_test(CLI::App& app, Test& test) {
 }
 
 inline void declare_replay(CLI::App& app, Replay& replay) {
-  app.add_option("--particles", replay.particles, "CSV: id, x, y and r, or a, b, angle (and eps)")->required();
+  app.add_option("--particles", replay.particles,
+                 "CSV: id, x, y and r, or a, b, angle (and eps); discs also as text of Yade, data or dump of LAMMPS, "
+                 "restart of "
+                 "MercuryDPM")
+      ->required();
   app.add_option(
       "--contacts", replay.contacts,
       "CSV: id1, id2, cell_i, cell_j; ftx, fty give shear forces, kn, ks, tan_phi the law, branches the cell");
-  app.add_option("--cell", replay.cell, "a1x,a1y,a2x,a2y: base vectors [m]; otherwise from the contacts");
+  app.add_option("--cell", replay.cell,
+                 "a1x,a1y,a2x,a2y: base vectors [m]; otherwise from the contacts, or the particles' file");
   declare_path(app, replay.path);
   app.get_option("--path")->required();
   app.get_option("--strain")->required();

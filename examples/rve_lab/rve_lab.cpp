@@ -40,6 +40,9 @@ void write_packing(Test const& choice, scarp::RunFolder& own, PackingType const&
   scarp::save_packing(file, packing);
   examples::write_json(material_path(file), document);
   write_state(folder, "packing", packing, law);
+  if constexpr (requires { write_for_code(choice.format, folder, packing); }) {
+    if (!choice.format.empty()) write_for_code(choice.format, folder / "packing", packing);
+  }
   auto const state = scarp::balance(packing, law);
   examples::print(
       stdout, "{}: void ratio {:.6f}, {} contacts, coordination {:.3f}, stress [Pa] xx {:.1f}, xy {:.1f}, yy {:.1f}\n",
@@ -58,6 +61,7 @@ scarp::RunFolder folder_of(examples::Output const& output, CLI::App const& app, 
 
 void prepare(Test& choice, CLI::App const& app) {
   require_used(app, choice.material);
+  if (choice.material.shape != "disc") reject_unused(app, "format", "other codes have discs only");
   auto own = folder_of(choice.output, app, {"packing.packing"});
   with_material(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     write_packing(choice, own, prepare_packing<PackingType>(choice.preparation, law), law);
@@ -100,6 +104,10 @@ int main(int argc, char** argv) {
   try {
     declare_material(*prepare_app, prepared.material);
     declare_preparation(*prepare_app, prepared.preparation);
+    prepare_app
+        ->add_option("--format", prepared.format,
+                     "writes discs for another code too: yade (packing.txt) or lammps (packing.data)")
+        ->check(CLI::IsMember({"yade", "lammps"}));
     examples::declare_output(*prepare_app, prepared.output, "folder for packing.packing, packing.json and tables",
                              "--output,-o");
     declare_test(*shear_app, sheared);
