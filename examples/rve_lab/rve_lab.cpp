@@ -5,9 +5,10 @@
 
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/sand/built.hpp"
+#include "../shared/sand/preparation.hpp"
 #include "../shared/version_option.hpp"
 #include "options.hpp"
-#include "preparation.hpp"
 #include "replay.hpp"
 #include "shear.hpp"
 
@@ -15,35 +16,39 @@ namespace {
 
 using namespace rve_lab;
 
-/// Writes NAME.packing with NAME.json and its tables into the folder.
+using Grains = examples::Built<examples::Linear<scarp::Disc>, scarp::Packing<scarp::Disc, scarp::HertzMindlin<>>,
+                               scarp::Packing<scarp::Disc, examples::Rolling>, examples::Linear<scarp::Ellipse>,
+                               examples::Linear<scarp::Superellipse>>;
+
+/// Writes packing.packing with packing.sand and its tables into the folder.
 template <class PackingType>
-void write_packing(Test const& choice, scarp::RunFolder& own, PackingType const& packing,
+void write_packing(Sand const& sand, scarp::RunFolder& own, PackingType const& packing,
                    typename PackingType::Law const& law) {
   own.begin();
   std::filesystem::path const& folder = own.path();
   auto const file = folder / "packing.packing";
-  auto const& preparation = choice.preparation;
-  nlohmann::json const document{{"material", to_json(choice.material)},
-                                {"preparation",
-                                 {{"smallest", preparation.smallest},
-                                  {"largest", preparation.largest},
-                                  {"aspect", preparation.aspect},
-                                  {"exponent", preparation.exponent},
-                                  {"grains", preparation.grains},
-                                  {"seed", preparation.seed},
-                                  {"density", preparation.density},
-                                  {"thickness", preparation.thickness},
-                                  {"pressure", preparation.pressure},
-                                  {"preparation_friction", preparation.friction}}},
-                                {"void_ratio", packing.void_ratio()}};
   scarp::save_packing(file, packing);
-  examples::write_json(material_path(file), document);
+  scarp::write_file(examples::sand_path(file), examples::text_of(sand));
   write_state(folder, "packing", packing, law);
   auto const state = scarp::balance(packing, law);
   examples::print(
       stdout, "{}: void ratio {:.6f}, {} contacts, coordination {:.3f}, stress [Pa] xx {:.1f}, xy {:.1f}, yy {:.1f}\n",
       file.string(), packing.void_ratio(), state.contacts, scarp::coordination(packing, law).all, state.stress(0, 0),
       state.stress(0, 1), state.stress(1, 1));
+}
+
+/// \throws InputError, PreparationError
+template <class PackingType>
+PackingType prepared(Sand const& sand, typename PackingType::Law const& law) {
+  return examples::prepared<PackingType>(sand, law, sand.seed,
+                                         [](std::string const& text) { examples::print(stdout, "{}\n", text); });
+}
+
+/// The values of the file, but options that are given.
+void read_sand_file(Test& choice, CLI::App const& app) {
+  if (!choice.sand_file.empty())
+    choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
+  examples::require_used(app, choice.sand);
 }
 
 /// Each command has a record of its own, so that a packing is prepared and sheared in one folder.
@@ -56,10 +61,10 @@ scarp::RunFolder folder_of(Test const& choice, CLI::App const& app, std::vector<
 }
 
 void prepare(Test& choice, CLI::App const& app) {
-  require_used(app, choice.material);
+  read_sand_file(choice, app);
   auto own = folder_of(choice, app, {"packing.packing"});
-  with_material(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    write_packing(choice, own, prepare_packing<PackingType>(choice.preparation, law), law);
+  with_packing(Grains{}, choice.sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
+    write_packing(choice.sand, own, prepared<PackingType>(choice.sand, law), law);
   });
   own.end("finished");
 }
@@ -67,15 +72,13 @@ void prepare(Test& choice, CLI::App const& app) {
 void shear(Test& choice, CLI::App const& app) {
   require_used(app, choice.path);
   auto own = folder_of(choice, app, {"path.csv", "summary.json"});
-  if (!choice.packing.empty()) {
-    read_material(
-        choice.packing, [&](std::string const& name) { return is_given(app, name); }, choice.material);
-  }
-  require_used(app, choice.material);
-  with_material(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    auto packing = choice.packing.empty() ? prepare_packing<PackingType>(choice.preparation, law)
+  if (!choice.packing.empty())
+    choice.sand = examples::sand_of_packing(choice.packing, choice.sand, examples::given_in(app));
+  read_sand_file(choice, app);
+  with_packing(Grains{}, choice.sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
+    auto packing = choice.packing.empty() ? prepared<PackingType>(choice.sand, law)
                                           : scarp::load_packing<PackingType>(choice.packing);
-    run_path(std::move(packing), law, choice.path, own, to_json(choice.material));
+    run_path(std::move(packing), law, choice.path, own, choice.sand);
   });
 }
 
@@ -94,9 +97,9 @@ int main(int argc, char** argv) {
   Test sheared;
   Replay replayed;
   try {
-    declare_material(*prepare_app, prepared.material);
-    declare_preparation(*prepare_app, prepared.preparation);
-    examples::declare_output(*prepare_app, prepared.output, "folder for packing.packing, packing.json and tables",
+    examples::declare_sand_file(*prepare_app, prepared.sand_file);
+    examples::declare_sand(*prepare_app, prepared.sand);
+    examples::declare_output(*prepare_app, prepared.output, "folder for packing.packing, packing.sand and tables",
                              "--output,-o");
     declare_test(*shear_app, sheared);
     declare_replay(*replay_app, replayed);
@@ -109,9 +112,10 @@ int main(int argc, char** argv) {
     if (shear_app->parsed()) shear(sheared, *shear_app);
     if (replay_app->parsed()) {
       require_used(*replay_app, replayed.path);
-      replay(replayed, {.normal_stiffness = is_given(*replay_app, "normal-stiffness"),
-                        .tangential_stiffness = is_given(*replay_app, "tangential-stiffness"),
-                        .friction = is_given(*replay_app, "friction")});
+      auto const given = examples::given_in(*replay_app);
+      replay(replayed, {.normal_stiffness = given("normal-stiffness"),
+                        .tangential_stiffness = given("tangential-stiffness"),
+                        .friction = given("friction")});
     }
   } catch (std::exception const& problem) {
     CLI::App const& command = *app.get_subcommands().front();
