@@ -120,8 +120,8 @@ inline void replay(Replay choice, GivenLaw const& given) {
   if (input.contacts) take_law_from(*input.contacts, given, choice.sand);
   choice.sand.shape = examples::shape_of(input.particles);
   using examples::Linear;
-  using Grains = examples::Built<Linear<scarp::Disc>, Linear<scarp::Ellipse>, Linear<scarp::Superellipse>>;
-  examples::with_packing(Grains{}, choice.sand,
+  using LinearGrains = examples::Built<Linear<scarp::Disc>, Linear<scarp::Ellipse>, Linear<scarp::Superellipse>>;
+  examples::with_packing(LinearGrains{}, choice.sand,
                          [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
                            run_replay<PackingType>(choice, input.particles, input.contacts, input.cell, law);
                          });

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
-// A laboratory for packings: prepares them, shears them along any path, and replays those of other codes.
+// A laboratory for packings: prepares them, shears them along any path, calibrates them, and replays those of other codes.
 #include <exception>
 #include <iostream>
 
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/sand/built.hpp"
-#include "../shared/sand/preparation.hpp"
+
 #include "../shared/version_option.hpp"
+#include "calibrate.hpp"
 #include "options.hpp"
+#include "packings.hpp"
 #include "replay.hpp"
 #include "shear.hpp"
 
 namespace {
 
 using namespace rve_lab;
-
-using Grains = examples::Built<examples::Linear<scarp::Disc>, scarp::Packing<scarp::Disc, scarp::HertzMindlin<>>,
-                               scarp::Packing<scarp::Disc, examples::Rolling>, examples::Linear<scarp::Ellipse>,
-                               examples::Linear<scarp::Superellipse>>;
 
 /// Writes packing.packing with packing.sand and its tables into the folder.
 template <class PackingType>
@@ -40,8 +37,8 @@ void write_packing(Sand const& sand, scarp::RunFolder& own, PackingType const& p
 /// \throws InputError, PreparationError
 template <class PackingType>
 PackingType prepared(Sand const& sand, typename PackingType::Law const& law) {
-  return examples::prepared<PackingType>(sand, law, sand.seed,
-                                         [](std::string const& text) { examples::print(stdout, "{}\n", text); });
+  auto const tell = [](std::string const& text) { examples::print(stdout, "{}\n", text); };
+  return examples::prepared<PackingType>(sand, law, sand.seed, tell, sand.void_ratio_tolerance);
 }
 
 /// The values of the file, but options that are given.
@@ -92,9 +89,11 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   auto* const prepare_app = app.add_subcommand("prepare", "makes a packing under isotropic pressure");
   auto* const shear_app = app.add_subcommand("shear", "sends a packing along a path");
+  auto* const calibrate_app = app.add_subcommand("calibrate", "finds parameters of a sand by data of the laboratory");
   auto* const replay_app = app.add_subcommand("replay", "sends another code's packing along a path");
   Test prepared;
   Test sheared;
+  CalibrateChoice calibrated;
   Replay replayed;
   try {
     examples::declare_sand_file(*prepare_app, prepared.sand_file);
@@ -102,6 +101,7 @@ int main(int argc, char** argv) {
     examples::declare_output(*prepare_app, prepared.output, "folder for packing.packing, packing.sand and tables",
                              "--output,-o");
     declare_test(*shear_app, sheared);
+    declare_calibrate(*calibrate_app, calibrated);
     declare_replay(*replay_app, replayed);
     examples::parse(app, argc, argv);
   } catch (CLI::ParseError const& problem) {
@@ -110,6 +110,7 @@ int main(int argc, char** argv) {
   try {
     if (prepare_app->parsed()) prepare(prepared, *prepare_app);
     if (shear_app->parsed()) shear(sheared, *shear_app);
+    if (calibrate_app->parsed()) calibrate(calibrated, *calibrate_app);
     if (replay_app->parsed()) {
       require_used(*replay_app, replayed.path);
       auto const given = examples::given_in(*replay_app);

@@ -62,12 +62,14 @@ struct Consolidation {
 };
 
 /// Bisection on the preparation friction between none (densest) and the contacts' own (loosest).
-/// \throws InputError for a void ratio outside what these give, or one that the bisection jumps over by more than the tolerance
+/// allowed: how far the nearest void ratio found may be from the one that is wanted
+/// \throws InputError for a void ratio outside what these give, or one that the bisection jumps over
 template <class PackingType>
 typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingType> const& consolidation,
-                                                        Sand const& sand, double tolerance) {
+                                                        Sand const& sand, double allowed) {
   using Made = typename Consolidation<PackingType>::Made;
   constexpr int max_halvings = 16;
+  double const tolerance = sand.void_ratio_tolerance;
   auto law = consolidation.law;
   double low = 0.0;
   double high = law.friction_coefficient();
@@ -88,7 +90,7 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
     (middle.void_ratio < target ? low : high) = middle.friction;
     if (missing(middle) < missing(nearest)) nearest = std::move(middle);
   }
-  if (missing(nearest) > tolerance)
+  if (missing(nearest) > allowed)
     scarp::reject(
         "void ratio {:.6g} is not reached (frictions from 0 to {} give {:.6f} to {:.6f}, the nearest found is {:.6f} "
         "at {}): choose one in between, another seed or a wider tolerance",
@@ -96,11 +98,12 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
   return nearest;
 }
 
+/// 	hrows InputError as reach_density, PreparationError
 template <class PackingType>
 typename Consolidation<PackingType>::Made consolidated(Consolidation<PackingType> const& consolidation,
-                                                       Sand const& sand, double tolerance) {
+                                                       Sand const& sand, double allowed) {
   bool const by_friction = sand.void_ratio == 0.0 && sand.relative_density == 0.0;
-  return by_friction ? consolidation.at(sand.preparation_friction) : reach_density(consolidation, sand, tolerance);
+  return by_friction ? consolidation.at(sand.preparation_friction) : reach_density(consolidation, sand, allowed);
 }
 
 /// Horizontal over vertical stress, without shear strain. vertical [Pa]
@@ -117,16 +120,15 @@ PackingType brought_to_k0(PackingType packing, typename PackingType::Law const& 
   return settled<PackingType>({std::move(packing), verdict}, fmt::format("brought to k0 {}", k0));
 }
 
-/// A packing of a sand, with a seed of its own.
+/// A packing of a sand, with a seed of its own. off: how far its void ratio may be off the one that is wanted
 /// \throws InputError, PreparationError, and what tell throws
 template <class PackingType>
-PackingType prepared(Sand const& sand, typename PackingType::Law const& law, std::uint64_t seed,
-                     Tell const& tell = {}) {
+PackingType prepared(Sand const& sand, typename PackingType::Law const& law, std::uint64_t seed, Tell const& tell,
+                     double off) {
   auto const cloud = cloud_of<typename PackingType::Shape>(sand, seed);
-  auto packing =
-      consolidated<PackingType>({cloud.template make<PackingType>(), law, sand.pressure, sand.pressure, tell}, sand,
-                                sand.void_ratio_tolerance)
-          .packing;
+  Consolidation<PackingType> const consolidation{cloud.template make<PackingType>(), law, sand.pressure, sand.pressure,
+                                                 tell};
+  auto packing = consolidated(consolidation, sand, off).packing;
   if (sand.vertical_pressure > 0.0) {
     if (tell) tell("compressed without lateral strain");
     std::vector<double> path{sand.overconsolidation_ratio * sand.vertical_pressure};

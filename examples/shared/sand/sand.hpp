@@ -82,7 +82,7 @@ void for_each_option(AnySand& sand, Visit&& visit) {
   visit("density", sand.density, Range{.inclusive = false, .most = 1e9}, "of the grains [kg/m3]");
   visit("thickness", sand.thickness, Range{.inclusive = false, .most = 1e3}, "out of plane [m]");
   visit("grains", sand.grains, Range{1.0, true, 1e5}, "number");
-  visit("seed", sand.seed, Range{}, "of the random cloud");
+  visit("seed", sand.seed, Range{.most = 2e19}, "of the random cloud");
   visit("pressure", sand.pressure, Range{.inclusive = false, .most = 1e12}, "of the consolidation, isotropic [Pa]");
   visit("preparation-friction", sand.preparation_friction, Range{.most = 10.0},
         "during consolidation, sets the density");
