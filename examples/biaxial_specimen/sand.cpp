@@ -34,6 +34,7 @@ Rve<Shape> rve(Grains const& grains, double pressure, scarp::LinearFrictional co
 }
 
 scarp::AnyProvider<2> prepared(Grains const& grains, double pressure, int points, scarp::ThreadExecutor& executor) {
+  constexpr double off = 0.01;  // over such void ratios packings of few grains jump
   Sand sand = grains.sand;
   sand.pressure = pressure;
   scarp::AnyProvider<2> made;
@@ -41,8 +42,7 @@ scarp::AnyProvider<2> prepared(Grains const& grains, double pressure, int points
   with_packing(examples::Built<Linear<scarp::Disc>, Linear<scarp::Ellipse>>{}, sand,
                [&]<class Packing>(std::type_identity<Packing>, auto const& law) {
                  auto const recipe = [&](std::uint64_t seed) {
-                   return scarp::Prepared<Packing>{
-                       examples::prepared<Packing>(sand, law, seed, {}, sand.void_ratio_tolerance), {}};
+                   return scarp::Prepared<Packing>{examples::prepared<Packing>(sand, law, seed, {}, off), {}};
                  };
                  int const most = std::min(grains.pool, points);
                  made = rve<typename Packing::Shape>(grains, pressure, law,

@@ -11,7 +11,7 @@
 namespace examples {
 
 /// Level ground of a sand, one packing for each depth [m]. Void ratio and relative density are those that the packing has when it is
-/// compressed isotropically to the sand's pressure instead; it may be off by 0.003, since each column has grains of its own.
+/// compressed isotropically to the sand's pressure instead; it may be off by 0.01, over which packings of few grains jump.
 /// unit_weight [N/m3], surcharge [Pa]
 /// \throws InputError, PreparationError
 template <class PackingType>
@@ -19,7 +19,8 @@ scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename Pack
                                                  std::uint64_t seed, double unit_weight, double surcharge,
                                                  std::vector<double> depths) {
   using Shape = typename PackingType::Shape;
-  constexpr double off = 3e-3;
+  constexpr double off = 0.01;
+  constexpr double least_friction = 0.005;  // without any, few grains at a low pressure may not come to rest
   if (sand.k0 > 0.0)
     scarp::reject(
         "the sand's k0 is {} (level ground comes to its own when it is compressed): give "
@@ -32,8 +33,8 @@ scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename Pack
   double& friction = ground.preparation.preparation_friction;
   friction = sand.preparation_friction;
   if (sand.void_ratio > 0.0 || sand.relative_density > 0.0) {
-    Consolidation<PackingType> const consolidation{ground.cloud.template make<PackingType>(), law, sand.pressure,
-                                                   ground.preparation.pressure};
+    Consolidation<PackingType> const consolidation{
+        ground.cloud.template make<PackingType>(), law, sand.pressure, ground.preparation.pressure, {}, least_friction};
     friction = reach_density(consolidation, sand, off).friction;
   }
   return ground.template make<PackingType>(law, std::move(depths));

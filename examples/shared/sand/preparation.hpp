@@ -33,6 +33,7 @@ struct Consolidation {
   double pressure = 0.0;  ///< at which the void ratio is wanted [Pa]
   double begin = 0.0;     ///< of the consolidation by friction [Pa]; below `pressure` it is compressed from there
   Tell tell{};
+  double least_friction = 0.0;  ///< of the densest packing
 
   struct Made {
     PackingType packing;  ///< at the pressure `begin`
@@ -71,7 +72,7 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
   constexpr int max_halvings = 16;
   double const tolerance = sand.void_ratio_tolerance;
   auto law = consolidation.law;
-  double low = 0.0;
+  double low = consolidation.least_friction;
   double high = law.friction_coefficient();
   Made nearest = consolidation.at(low);
   double const densest = nearest.void_ratio;
@@ -92,9 +93,10 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
   }
   if (missing(nearest) > allowed)
     scarp::reject(
-        "void ratio {:.6g} is not reached (frictions from 0 to {} give {:.6f} to {:.6f}, the nearest found is {:.6f} "
+        "void ratio {:.6g} is not reached (frictions from {} to {} give {:.6f} to {:.6f}, the nearest found is {:.6f} "
         "at {}): choose one in between, another seed or a wider tolerance",
-        target, law.friction_coefficient(), densest, loosest, nearest.void_ratio, nearest.friction);
+        target, consolidation.least_friction, law.friction_coefficient(), densest, loosest, nearest.void_ratio,
+        nearest.friction);
   return nearest;
 }
 
