@@ -51,7 +51,8 @@ bool Ground::mark() {
     for (int const p : points_from(first_point(cell)))
       shear = std::max(shear, history_[static_cast<std::size_t>(p)].shear);
     if (shear > options_.refine_at && cell->level() < options_.levels) cell->set_refine_flag();
-    if (shear < options_.refine_at / 10.0 && cell->level() > 0) cell->set_coarsen_flag();
+    bool const is_kept = is_at_tip(cell->vertex(0)) || is_at_tip(cell->vertex(1));
+    if (shear < options_.refine_at / 10.0 && cell->level() > 0 && !is_kept) cell->set_coarsen_flag();
   }
   mesh_.prepare_coarsening_and_refinement();
   for (auto const& cell : mesh_.active_cell_iterators())
@@ -149,8 +150,9 @@ void Ground::carry(Points const& from, std::vector<Origin> const& origins) {
 
 /// What a saved run must share with the one that takes it up.
 std::string Ground::identity() const {
-  return fmt::format("size {}, soil {}, grains {}, length {}, tip {}, dip {}", options_.size,
-                     static_cast<int>(options_.soil), options_.grains, options_.length, options_.tip, options_.dip);
+  return fmt::format("size {}, levels {}, soil {}, grains {}, length {}, tip {}, dip {}", options_.size,
+                     options_.levels, static_cast<int>(options_.soil), options_.grains, options_.length, options_.tip,
+                     options_.dip);
 }
 
 /// Mesh, displacements and states in the files of the forest, with a file of numbers, written last. The run saved before goes when this one is whole.
@@ -204,7 +206,14 @@ void Ground::resume() {
   MPI_Barrier(comm_);  // all have read before any begins
   if (found != identity())
     scarp::reject("'{}' was saved by another run ({}): resume with its options", folder.string(), found);
+  divide_tip();
   build();  // makes the packings of the mesh that the run began with
+  history_.clear();
+  while (mesh_.n_global_levels() > 1) {
+    for (auto const& cell : mesh_.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->level() > 0) cell->set_coarsen_flag();
+    mesh_.execute_coarsening_and_refinement();
+  }
   mesh_.load(folder / "mesh");
   build();
   std::vector<Vector*> vectors{&moved_, &rest_, &last_};

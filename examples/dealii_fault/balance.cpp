@@ -193,6 +193,7 @@ void Ground::commit(Vector const& increment, Vector const& before, double more) 
 
 /// The ground as prepared is brought into equilibrium.
 Verdict Ground::settle() {
+  divide_tip();
   build();
   start_from_moved();
   Verdict const verdict = step(0.0);

@@ -34,7 +34,7 @@ struct Options : fault_rupture::Choice {
   double residual = 1e-4;  ///< of a balanced step
   int levels = 0;          ///< of refinement
   double refine_at =
-      0.02;  ///< shear strain since the mesh last changed that divides a cell; below a tenth cells are joined
+      0.002;  ///< shear strain since the mesh last changed that divides a cell; below a tenth cells are joined
   double imbalance = 1.2;  ///< DEM steps of the busiest process over their mean, above which points are shared out anew
   double stop_at = 0.0;    ///< throw [m] at which the run is saved and ends; 0 for none
   std::string output{};    ///< folder of the fields; empty for none
@@ -75,6 +75,8 @@ class Ground {
   };
 
   // setup.cpp
+  bool is_at_tip(dealii::Point<2> const& place) const;
+  void divide_tip();
   void build();
   void prescribe();
   void collect_cells();

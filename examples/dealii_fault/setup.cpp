@@ -32,6 +32,7 @@ Ground::Ground(Options const& options, MPI_Comm comm)
   dealii::Point<2> const first(lines[0].front(), 0.0), last(lines[0].back(), ground_depth);
   dealii::GridGenerator::subdivided_hyper_rectangle(mesh_, widths, first, last);
   mesh_.signals.weight.connect([this](Mesh::cell_iterator const& cell, auto) {
+    if (history_.empty()) return 1u;
     double sum = 1.0;
     auto const add = [&](auto const& part, double share) {
       for (unsigned p = 0; p < cell_points; ++p) sum += share * history_[first_point(part) + p].effort;
@@ -42,6 +43,22 @@ Ground::Ground(Options const& options, MPI_Comm comm)
     }
     return static_cast<unsigned>(sum);
   });
+}
+
+bool Ground::is_at_tip(dealii::Point<2> const& place) const {
+  constexpr double near = 1e-9;  // [m]
+  return place[1] == 0.0 && std::abs(place[0] - options_.tip) < near;
+}
+
+/// Cells at the tip have the last level from the beginning: later the step of the bedrock would stay as wide as a coarse cell.
+void Ground::divide_tip() {
+  for (int level = 0; level < options_.levels; ++level) {
+    for (auto const& cell : mesh_.active_cell_iterators()) {
+      if (cell->is_locally_owned() && (is_at_tip(cell->vertex(0)) || is_at_tip(cell->vertex(1))))
+        cell->set_refine_flag();
+    }
+    mesh_.execute_coarsening_and_refinement();
+  }
 }
 
 /// Everything that belongs to the mesh as it is now; points begin as level ground.
@@ -73,11 +90,10 @@ void Ground::build() {
 void Ground::prescribe() {
   constexpr double near = 1e-9;  // [m]
   double left = 1e300, right = 1e300;
-  auto const at_tip = [&](auto const& vertex) { return vertex[1] == 0.0 && std::abs(vertex[0] - options_.tip) < near; };
   for (auto const& cell : mesh_.active_cell_iterators()) {
     if (cell->is_artificial()) continue;
-    if (at_tip(cell->vertex(1))) left = cell->extent_in_direction(0);
-    if (at_tip(cell->vertex(0))) right = cell->extent_in_direction(0);
+    if (is_at_tip(cell->vertex(1))) left = cell->extent_in_direction(0);
+    if (is_at_tip(cell->vertex(0))) right = cell->extent_in_direction(0);
   }
   auto const lines = cell_lines(options_.size);
   double const slip[2] = {1.0 / std::tan(options_.dip * std::numbers::pi / 180.0), -1.0};
@@ -86,7 +102,7 @@ void Ground::prescribe() {
     for (unsigned const vertex : cell->vertex_indices()) {
       auto const at = cell->vertex(vertex);
       bool const on_side = at[0] < lines[0].front() + near || at[0] > lines[0].back() - near;
-      double const share = at_tip(at) ? right / (left + right) : at[0] > options_.tip ? 1.0 : 0.0;
+      double const share = is_at_tip(at) ? right / (left + right) : at[0] > options_.tip ? 1.0 : 0.0;
       for (unsigned axis = 0; axis < 2; ++axis) {
         auto const dof = cell->vertex_dof_index(vertex, axis);
         bool const is_held = at[1] == 0.0 || (on_side && (axis == 0 || !options_.block));

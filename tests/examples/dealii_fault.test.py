@@ -101,6 +101,10 @@ with tempfile.TemporaryDirectory() as scratch:
             told = run(*shared, "--checkpoint", "killed", "--resume", code=1)
             expect("damaged" in told and "'killed'" in told, f"{file.name} with {len(damaged)} of {len(whole)} bytes: {told[-300:]}")
         file.write_bytes(whole)
+    long = ("--length", "2", "--throw-over-depth", "0.02")
+    adapted, uniform = run("--size", "2.5", "--levels", "2", *long), run("--size", "0.625", *long)
+    apart = abs(found(adapted, "x50")[-1] - found(uniform, "x50")[-1])
+    expect(apart < 0.3, f"x50 of a mesh that adapts and of one that is fine from the start: {apart} m apart")  # measured: docs/dealii.md
     adaptive = ("--size", "5", "--levels", "1")
     fine = run(*adaptive, "--throw-over-depth", "0.03", "--refine-at", "0.005", "--checkpoint", "joined1")
     shutil.copytree(pathlib.Path(scratch, "joined1"), pathlib.Path(scratch, "joined2"))
