@@ -82,9 +82,10 @@ class CalibrationReport {
   std::string text() const {
     Sand sand = calibration_.sand_at(best_.shares);
     std::string on, off;
-    for_each_target([&](Observation const& one, double value, double scatter, double, double) {
+    for_each_target([&](Observation const& one, double value, double scatter, double other, double other_scatter) {
       on += fmt::format("{}{} {:.6g}", on.empty() ? "" : ", ", one.name, one.wanted);
-      off += fmt::format(", {} {:.4g} +- {:.2g}", one.name, value, scatter);
+      off += fmt::format(", {} {:.4g} +- {:.2g} ({:.4g} +- {:.2g} on other seeds)", one.name, value, scatter, other,
+                         other_scatter);
     });
     if (calibration_.observations.back().strain > 0.0)
       on += on.empty() ? "a laboratory table" : " and a laboratory table";

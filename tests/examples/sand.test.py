@@ -36,7 +36,8 @@ def check_file(folder):
     expect(prepared(folder, "file", "--sand", "own.sand", "--relative-density", "0.5") == by_options, "file and options give two packings")
     expect(prepared(folder, "written", "--sand", folder / "options/packing.sand") == by_options, "a sand that was written is another one")
     for sand in sorted(SANDS.glob("*.sand")):
-        prepared(folder, sand.stem, "--sand", sand, "--grains", "60", "--void-ratio-tolerance", "0.02")
+        jumps = ["--void-ratio-tolerance", "0.02"] if "relative-density" in sand.read_text() else []  # as few grains do
+        prepared(folder, sand.stem, "--sand", sand, "--grains", "60", *jumps)
     sieved = prepared(folder, "sieved", "--sieve", "0.006 0, 0.010 30, 0.016 100", "--grains", "60")
     expect(sieved is not None, "no packing by a sieve curve")
     with open(folder / "sieved/packing_particles.csv", newline="") as file:

@@ -50,6 +50,18 @@ struct Consolidation {
     return {std::move(packing), void_ratio, friction};
   }
 
+  /// Without friction few grains may find no rest: then with as little as they need.
+  Made densest() const {
+    constexpr double slight = 0.005, most = 0.04;
+    for (double friction = least_friction;; friction = std::max(slight, 2.0 * friction)) {
+      try {
+        return at(friction);
+      } catch (scarp::PreparationError const&) {
+        if (friction >= most) throw;
+      }
+    }
+  }
+
  private:
   PackingType compressed(PackingType packing) const {
     constexpr int dim = PackingType::dim;
@@ -72,9 +84,10 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
   constexpr int max_halvings = 16;
   double const tolerance = sand.void_ratio_tolerance;
   auto law = consolidation.law;
-  double low = consolidation.least_friction;
   double high = law.friction_coefficient();
-  Made nearest = consolidation.at(low);
+  Made nearest = consolidation.densest();
+  double low = nearest.friction;
+  double const first = low;
   double const densest = nearest.void_ratio;
   double target = sand.void_ratio;
   auto const missing = [&](Made const& made) { return std::abs(made.void_ratio - target); };
@@ -95,12 +108,11 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
     scarp::reject(
         "void ratio {:.6g} is not reached (frictions from {} to {} give {:.6f} to {:.6f}, the nearest found is {:.6f} "
         "at {}): choose one in between, another seed or a wider tolerance",
-        target, consolidation.least_friction, law.friction_coefficient(), densest, loosest, nearest.void_ratio,
-        nearest.friction);
+        target, first, law.friction_coefficient(), densest, loosest, nearest.void_ratio, nearest.friction);
   return nearest;
 }
 
-/// 	hrows InputError as reach_density, PreparationError
+/// \throws InputError as reach_density, PreparationError
 template <class PackingType>
 typename Consolidation<PackingType>::Made consolidated(Consolidation<PackingType> const& consolidation,
                                                        Sand const& sand, double allowed) {
