@@ -18,11 +18,9 @@ REFERENCES = {"benchmarks/README.md", "docs/user_defined_parts.md", "docs/error-
 # Pages that do not follow the rules yet. The list only shrinks: a page without faults must leave it.
 TO_DO = {"CHANGELOG.md", "README.md", "docs/biaxial_specimen.md", "docs/checkpoints.md", "docs/compile.md", "docs/dealii.md", "docs/design.md",
          "docs/error-against-time.md", "docs/error-budget.md", "docs/evidence.md", "docs/exact_solutions.md", "docs/fault_rupture.md",
-         "docs/footing.md", "docs/grounds.md", "docs/lab.md", "docs/length.md", "docs/nonlocal.md", "docs/notes/beyond.md",
-         "docs/notes/objectivity.md", "docs/notes/performance.md", "docs/notes/preparations.md", "docs/notes/study_size.md", "docs/notes/tangents.md",
-         "docs/observers.md", "docs/packages.md", "docs/parallel.md", "docs/peers.md", "docs/providers.md", "docs/python.md",
-         "docs/retaining_wall.md", "docs/rve.md", "docs/scaling.md", "docs/study.md", "docs/user_defined_parts.md", "tests/README.md",
-         "tests/reference/README.md"}
+         "docs/grounds.md", "docs/lab.md", "docs/length.md", "docs/notes/objectivity.md", "docs/notes/tangents.md", "docs/observers.md",
+         "docs/packages.md", "docs/parallel.md", "docs/peers.md", "docs/providers.md", "docs/python.md", "docs/retaining_wall.md", "docs/rve.md",
+         "docs/scaling.md", "docs/user_defined_parts.md", "tests/README.md", "tests/reference/README.md"}
 TERMS = terms.TERMS | {
     r"(?<!reference )\bthe study('s)?": "the reference study or (Author, year)", "main job": "default case", "in the place of": "instead of",
     "(by|until) now|since then": "what holds in this version", "likewise|the former|the latter": "the thing, since nothing may depend on its place"}
