@@ -24,6 +24,10 @@ void declare_specimen(CLI::App& app, Choice& choice) {
       app.add_option("--mesh", choice.mesh,
                      "upright rectangle, a file of Gmsh: triangles or quadrilaterals, linear or quadratic")
           ->check(CLI::ExistingFile);
+  app.add_option("--mesh-order", choice.mesh_order, "highest order of its elements: 1 leaves out all but corners")
+      ->check(CLI::Range(1, 2))
+      ->needs(mesh)
+      ->capture_default_str();
   for (auto* const own :
        {app.add_option("--width", choice.width, "of a specimen without --mesh [m]")->check(positive),
         app.add_option("--height", choice.height, "[m]")->check(positive),
@@ -101,7 +105,7 @@ void declare_results(CLI::App& app, Choice& choice, examples::Output& output) {
 int run_mesh(Choice choice) {
   examples::reject_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
   if (choice.mesh.empty()) return run<scarp::Tri3>(choice);
-  scarp::GmshFile const file(choice.mesh);
+  scarp::GmshFile const file(choice.mesh, {.highest_order = choice.mesh_order});
   examples::print_notes(file.notes());
   choice.mesh_file = &file;
   switch (file.element_type()) {

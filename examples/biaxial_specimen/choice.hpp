@@ -33,6 +33,7 @@ struct Grains {
 
 struct Choice {
   std::string mesh{};                          ///< a file of Gmsh; empty: crossed triangles of an own rectangle
+  int mesh_order = 2;                          ///< highest order of its elements
   scarp::GmshFile const* mesh_file = nullptr;  ///< its content
   double width = 0.05;
   double height = 0.1;

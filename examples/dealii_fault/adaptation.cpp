@@ -5,8 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <sstream>
 
 #include "ground.hpp"
+#include "scarp/io/atomic_file.hpp"
+#include "scarp/io/framed_file.hpp"
+#include "scarp/io/read_file.hpp"
 
 namespace dealii_fault {
 
@@ -21,6 +25,18 @@ std::array<int, cell_points> points_from(std::size_t first) {
   std::array<int, cell_points> numbers;
   std::iota(numbers.begin(), numbers.end(), static_cast<int>(first));
   return numbers;
+}
+
+/// Of the text and of the forest's files.
+std::uint64_t fingerprint(fs::path const& folder, std::string text) {
+  std::map<std::string, fs::path> files;
+  for (auto const& entry : fs::directory_iterator(folder)) files[entry.path().filename().string()] = entry.path();
+  files.erase("run");
+  for (auto const& [name, path] : files) {
+    auto const bytes = scarp::read_file(path);
+    text += fmt::format("{} {} {}\n", name, bytes.size(), scarp::detail::hash_of(bytes));
+  }
+  return scarp::detail::hash_of(text);
 }
 
 }  // namespace
@@ -43,25 +59,29 @@ bool Ground::mark() {
   return mpi::sum(marked, comm_) > 0;
 }
 
+/// Divides and joins cells, and shares points out anew where these change or processes have unequal DEM steps.
 /// Point p of a cell and child p of it lie in one corner: a child's points begin as copies of the one, and this as the child's outermost.
 void Ground::adapt() {
-  if (!mark()) return;
+  double effort = 0.0;
+  for (auto const& of : history_) effort += of.effort;
+  auto const efforts = mpi::min_max_avg(effort, comm_);
+  bool const changes = mark();
+  if (!changes && efforts.max <= options_.imbalance * efforts.avg) return;
   auto const print = [&](char const* when) {
     out_ << when << " refinement: " << mesh_.n_global_active_cells() << " cells, reaction " << reaction()
          << " N, internal work " << work_ << " J, residual " << residual_ << "\n";
   };
-  evaluate(zero(), false);
-  print("before");
-  Vector const now(ghosted(moved_)), rest(ghosted(rest_));
+  if (changes) evaluate(zero(), false), print("before");
+  Vector const now(ghosted(moved_)), rest(ghosted(rest_)), last(ghosted(last_));
   Transfer transfer(dofs_);
-  transfer.prepare_for_coarsening_and_refinement({&now, &rest});
+  transfer.prepare_for_coarsening_and_refinement({&now, &rest, &last});
   using Origins = std::array<Origin, cell_points>;
   auto const handle = mesh_.register_data_attach(
       [&](Mesh::cell_iterator const& cell, auto const status) {
         Origins from;
         for (unsigned p = 0; p < cell_points; ++p) {
           auto const k = first_point(status == Mesh::CELL_COARSEN ? cell->child(p) : cell) + p;
-          from[p] = {mpi::this_mpi_process(comm_), static_cast<int>(k), history_[k].effort};
+          from[p] = {mpi::this_mpi_process(comm_), static_cast<int>(k), history_[k]};
         }
         return pack(from, false);
       },
@@ -69,7 +89,7 @@ void Ground::adapt() {
   Points const points = std::move(points_);
   mesh_.execute_coarsening_and_refinement();
   build();
-  std::vector<Vector*> vectors{&moved_, &rest_};
+  std::vector<Vector*> vectors{&moved_, &rest_, &last_};
   transfer.interpolate(vectors);
   for (auto* vector : vectors) hanging_.distribute(*vector);
   std::vector<Origin> origins(history_.size());
@@ -82,9 +102,11 @@ void Ground::adapt() {
     }
   });
   ++adaptations_;
-  last_throw_ = 0.0;
   start_from_moved();
   carry(points, origins);
+  if (!changes) return;
+  last_throw_ = 0.0;
+  for (auto& of : history_) of.shear = 0.0;
   evaluate(zero(), false);
   print("after");
   auto const verdict = step(0.0);
@@ -96,7 +118,7 @@ void Ground::adapt() {
 void Ground::carry(Points const& from, std::vector<Origin> const& origins) {
   std::map<unsigned, std::map<int, std::vector<int>>> takers;  // own points, by process and number there
   for (std::size_t k = 0; k < origins.size(); ++k) {
-    history_[k].effort = origins[k].effort;
+    history_[k] = origins[k].history;
     takers[origins[k].process][origins[k].point].push_back(static_cast<int>(k));
   }
   std::map<unsigned, std::vector<int>> wanted, firsts;
@@ -131,7 +153,7 @@ std::string Ground::identity() const {
                      static_cast<int>(options_.soil), options_.grains, options_.length, options_.tip, options_.dip);
 }
 
-/// Mesh, displacements and states in the files of the forest, with a file of numbers; a folder that is there whole or not at all.
+/// Mesh, displacements and states in the files of the forest, with a file of numbers, written last. The run saved before goes when this one is whole.
 void Ground::save() {
   fs::path const folder = options_.checkpoint, next = options_.checkpoint + ".new";
   bool const is_root = mpi::this_mpi_process(comm_) == 0;
@@ -151,29 +173,35 @@ void Ground::save() {
       true);
   mesh_.save(next / "mesh");
   if (is_root) {
-    std::ofstream file(next / "run");
-    file << identity() << "\n"
-         << fmt::format("{} {} {} {} {} {} {}\n", mpi::n_mpi_processes(comm_), throw_, increment_, last_throw_,
-                        reaction_at_rest_, work_, steps_);
-    file.close();
-    if (!file) scarp::reject("the run was not saved in '{}' (a file cannot be written): make room", next.string());
+    auto const text = fmt::format("{}\n{} {} {} {} {} {} {}\n", identity(), mpi::n_mpi_processes(comm_), throw_,
+                                  increment_, last_throw_, reaction_at_rest_, work_, steps_);
+    scarp::write_file(next / "run", text + fmt::format("{}\n", fingerprint(next, text)));
     fs::remove_all(folder), fs::rename(next, folder);
   }
   MPI_Barrier(comm_);
+  saved_at_ = mpi::max(total_.wall_time(), comm_);
 }
 
 /// On any number of processes.
-/// \throws scarp::InputError for a folder without a saved run, and that of another run
+/// \throws scarp::InputError for a folder without a saved run, one with changed files, and that of another run
 void Ground::resume() {
-  fs::path const folder = options_.checkpoint;
+  fs::path const folder = options_.checkpoint, next = options_.checkpoint + ".new";
+  bool const is_root = mpi::this_mpi_process(comm_) == 0;
+  if (is_root && !fs::exists(folder) && fs::exists(next / "run")) fs::rename(next, folder);  // save() was killed before
+  MPI_Barrier(comm_);
   std::ifstream file(folder / "run");
-  std::string found;
-  std::getline(file, found);
+  std::string found, numbers;
+  std::getline(file, found), std::getline(file, numbers);
   unsigned writers = 0;
-  file >> writers >> throw_ >> increment_ >> last_throw_ >> reaction_at_rest_ >> work_ >> steps_;
-  if (!file)
+  std::uint64_t print = 0;
+  std::istringstream(numbers) >> writers >> throw_ >> increment_ >> last_throw_ >> reaction_at_rest_ >> work_ >> steps_;
+  if (!(file >> print))
     scarp::reject("'{}' is not the folder of a saved run (missing or damaged): save it again with --checkpoint",
                   folder.string());
+  if (print != fingerprint(folder, found + "\n" + numbers + "\n"))
+    scarp::reject("the run saved in '{}' is damaged (its files are not those that were written): use a copy of it",
+                  folder.string());
+  MPI_Barrier(comm_);  // all have read before any begins
   if (found != identity())
     scarp::reject("'{}' was saved by another run ({}): resume with its options", folder.string(), found);
   build();  // makes the packings of the mesh that the run began with

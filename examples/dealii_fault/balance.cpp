@@ -238,7 +238,10 @@ bool Ground::run() {
     }
     if (took <= (options_.newton ? 6 : 12)) increment_ *= 1.4;
     if (took > (options_.newton ? 10 : 20)) increment_ *= 0.75;
-    if (options_.levels > 0 && steps_ % adapted_every == 0) adapt();
+    if (steps_ % adapted_every != 0) continue;
+    adapt();
+    if (!options_.checkpoint.empty() && mpi::max(total_.wall_time(), comm_) >= saved_at_ + options_.checkpoint_every)
+      save();
   }
   bool const complete = end - throw_ <= smallest;
   if (!options_.checkpoint.empty()) save();

@@ -28,13 +28,19 @@ void declare(CLI::App& app, Options& options, std::string& own) {
   app.add_option("--refine-at", options.refine_at,
                  "shear strain since the mesh last changed; a tenth of it joins cells")
       ->check(number_from(0.0, false, 1.0));
+  app.add_option("--imbalance", options.imbalance,
+                 "DEM steps of the busiest process over their mean, above which points are shared out anew")
+      ->check(number_from(1.0, true, 1e9));
   app.add_option("--threads", options.threads, "of each process")->check(CLI::Range(1, 1024));
   app.add_flag("--block", options.block, "elastic ground under its own weight, compared with the closed form");
   app.add_option("--own", own, "summary.json of fault_rupture on the same mesh, to be compared with")
       ->check(CLI::ExistingFile);
   app.add_option("--output", options.output, "folder of the fields")->check(examples::folder_problem);
-  auto* const folder = app.add_option("--checkpoint", options.checkpoint, "folder where the run is saved at its end")
-                           ->check(examples::folder_problem);
+  auto* const folder =
+      app.add_option("--checkpoint", options.checkpoint, "folder where the run is saved at its end and meanwhile")
+          ->check(examples::folder_problem);
+  app.add_option("--checkpoint-every", options.checkpoint_every, "wall time after which the run is saved again [s]")
+      ->check(number_from(0.0, true, 1e9));
   app.add_flag("--resume", options.resume, "from there, on any number of processes")->needs(folder);
   app.add_option("--stop-at", options.stop_at, "throw at which to end [m]")->check(number_from(0.0, false, 25.0));
 }

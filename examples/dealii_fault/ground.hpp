@@ -35,8 +35,9 @@ struct Options : fault_rupture::Choice {
   int levels = 0;          ///< of refinement
   double refine_at =
       0.02;  ///< shear strain since the mesh last changed that divides a cell; below a tenth cells are joined
-  double stop_at = 0.0;                         ///< throw [m] at which the run is saved and ends; 0 for none
-  std::string output{};                         ///< folder of the fields; empty for none
+  double imbalance = 1.2;  ///< DEM steps of the busiest process over their mean, above which points are shared out anew
+  double stop_at = 0.0;    ///< throw [m] at which the run is saved and ends; 0 for none
+  std::string output{};    ///< folder of the fields; empty for none
   std::optional<double> own_x50{}, own_mean{};  ///< [m], of scarp's own elements
 };
 
@@ -70,7 +71,7 @@ class Ground {
   struct Origin {
     unsigned process;
     int point;
-    double effort;
+    History history;
   };
 
   // setup.cpp
@@ -142,6 +143,7 @@ class Ground {
   long dots_ = 0, dem_steps_ = 0, moved_states_ = 0, moved_bytes_ = 0, state_messages_ = 0;
   scarp::AndersonMixing<Vector, OfPetsc> mixing_{8, OfPetsc{&dots_}};
   double residual_ = 0.0, throw_ = 0.0, increment_ = 1e-3, last_throw_ = 0.0, reaction_at_rest_ = 0.0, work_ = 0.0;
+  double saved_at_ = 0.0;  ///< wall time [s]
   int steps_ = 0, cuts_ = 0, iterations_ = 0, evaluations_ = 0, adaptations_ = 0;
   dealii::Timer total_, in_points_, in_solver_;
 };

@@ -73,7 +73,8 @@ void Ground::print_costs() {
        << "gradients for means, a process and evaluation: messages " << messages.avg << ", bytes " << bytes.avg
        << ", most " << bytes.max << "; displacements of neighbours: bytes " << ghosts.avg << "\n"
        << "states sent: " << mpi::sum(moved_states_, comm_) << " in messages " << mpi::sum(state_messages_, comm_)
-       << " of bytes " << mpi::sum(moved_bytes_, comm_) << " by " << adaptations_ << " refinements\n"
+       << " of bytes " << mpi::sum(moved_bytes_, comm_) << " in " << adaptations_
+       << " changes of the mesh or its shares\n"
        << "scalar products of the acceleration: " << dots_ << "\n";
 }
 

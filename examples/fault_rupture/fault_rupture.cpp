@@ -141,8 +141,12 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, false, 10.0));
   app.add_option("--mesh-seed", choice.mesh_seed, "of a jittered mesh")->check(examples::seed_number());
   auto* const file =
-      app.add_option("--mesh", choice.mesh, "Gmsh file: region soil; boundaries left, right, bottom, surface")
+      app.add_option("--mesh", choice.mesh,
+                     "Gmsh file: region soil; boundaries left, right, bottom, surface, by place where it has no groups")
           ->check(CLI::ExistingFile);
+  app.add_option("--mesh-order", choice.mesh_order, "highest order of elements of --mesh: 1 leaves out all but corners")
+      ->check(CLI::Range(1, 2))
+      ->needs(file);
   for (char const* made_mesh : {"--size", "--strip-width", "--elements", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
   file->excludes(study);

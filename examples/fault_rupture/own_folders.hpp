@@ -45,7 +45,10 @@ inline ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
   Choice::members(choice, lines);
   lines("element", element_name);
   // What a file holds and not where it lies.
-  if (!choice.mesh.empty()) lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
+  if (!choice.mesh.empty()) {
+    lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
+    lines("mesh-order", choice.mesh_order);
+  }
   return lines;
 }
 

@@ -29,6 +29,8 @@ SCARP_POINTS_API void umat(SCARP_UMAT_ARGUMENTS);
 
 /* Length of STATEV that holds a whole state of a material at its start; packings need up to a fifth more later. */
 SCARP_POINTS_API int scarp_umat_state_numbers(scarp_material const* material, int* numbers);
+/* DEM steps of all calls since the last clear. */
+SCARP_POINTS_API int scarp_umat_work(long long* steps);
 /* Forgets all materials, snapshots and outcomes, as at the end of an analysis. No call may be under way. */
 SCARP_POINTS_API void scarp_umat_clear(void);
 

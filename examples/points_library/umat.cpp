@@ -2,6 +2,7 @@
 // The functions of scarp_umat.h.
 #include "scarp_umat.h"
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 
@@ -20,6 +21,7 @@ struct Session {
   std::map<std::string, std::shared_ptr<Material const>> materials{};
   StateVariables states{};
   Memory memory{};
+  std::atomic<long long> work = 0;
 };
 
 std::unique_ptr<Session>& session() {
@@ -114,7 +116,9 @@ Outcome respond(scarp::AnyProvider<Dim> const& provider, State const& start, dou
   if (!gradient.isZero(0.0)) {
     point.gradient(0) = gradient;
     scarp::SerialExecutor serial;
-    outcome.verdict = point.respond(serial).verdict;
+    auto const report = point.respond(serial);
+    session()->work += report.inner_steps;
+    outcome.verdict = report.verdict;
     if (!outcome.verdict.acceptable()) return outcome;
     outcome = to_outcome<Dim>(point.stress(0), point.tangent(0));
     point.commit();
@@ -243,6 +247,10 @@ int scarp_umat_state_numbers(scarp_material const* material, int* numbers) {
     *given(numbers, "the address of the number") =
         static_cast<int>(StateVariables::numbers({bits, Tensor3(Tensor3::Zero())}));
   });
+}
+int scarp_umat_work(long long* steps) {
+  return points_library::guarded(
+      [&] { *points_library::given(steps, "the address of the number") = points_library::session()->work; });
 }
 void scarp_umat_clear(void) {
   points_library::guarded([] { points_library::session() = std::make_unique<points_library::Session>(); });

@@ -88,9 +88,9 @@ struct SandOptions {
   int min_steps = 20;
   int max_steps = 20'000;
   std::string file{};  ///< of save_packing, instead of a preparation
-  SCARP_MEMBERS(grains, seed, smallest, largest, aspect, density, thickness, normal_stiffness, tangential_stiffness,
-                friction, pressure, preparation_friction, void_ratio, vertical_pressure, overconsolidation_ratio,
-                packings, strain_per_step, unbalanced_tolerance, min_steps, max_steps, file)
+  SCARP_MEMBERS(grains, seed, smallest, largest, density, normal_stiffness, tangential_stiffness, friction, pressure,
+                preparation_friction, void_ratio, vertical_pressure, overconsolidation_ratio, packings, strain_per_step,
+                unbalanced_tolerance, min_steps, max_steps, file)  // the others with the shapes that have them
 };
 
 template <class Shape>
@@ -100,7 +100,14 @@ struct Sand {
 
   SandOptions options{};
   std::vector<Packing> packings{};
-  SCARP_MEMBERS(options, packings)
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("options", self.options);
+    if constexpr (std::is_same_v<Shape, scarp::Ellipse>) visit("aspect", self.options.aspect);
+    if constexpr (Shape::dim == 2) visit("thickness", self.options.thickness);
+    visit("packings", self.packings);
+  }
 
   Law law() const { return {options.normal_stiffness, options.tangential_stiffness, options.friction}; }
 

@@ -136,6 +136,16 @@ py::dict defaults(std::string const& kind) {
   return with_material<Dim>(kind, []<class Recipe>(std::type_identity<Recipe>) { return keywords_of(Recipe{}); });
 }
 
+/// Names of an enumeration, by number.
+template <auto last>
+py::tuple names_up_to() {
+  constexpr auto count = static_cast<std::size_t>(last) + 1;
+  static_assert(name(decltype(last)(count)) == "unknown", "there are more: name the last one");
+  py::tuple names(count);
+  for (std::size_t k = 0; k < count; ++k) names[k] = name(decltype(last)(k));
+  return names;
+}
+
 py::object load(std::string_view bytes) {
   scarp::StateReader reader(scarp::detail::payload_of(points_format, bytes));
   int dimensions = 0;
@@ -232,8 +242,8 @@ PYBIND11_MODULE(_points, module) {
     return scarp::with_context(fmt::format("cannot load '{}'", path), [&] { return load(file); });
   });
   module.def("loads", [](py::bytes const& bytes) { return load(std::string_view(bytes)); });
-  module.def("name_of_status", [](int status) { return scarp::name(scarp::Status(status)); });
-  module.def("name_of_reason", [](int reason) { return scarp::name(scarp::Reason(reason)); });
+  module.attr("statuses") = names_up_to<scarp::Status::failed>();
+  module.attr("reasons") = names_up_to<scarp::Reason::interrupted>();
   static_cast<py::class_<Points<2>>>(module.attr("Points"))
       .def("picture", &picture, py::arg("point"),
            "Of a packing: cell (columns are base vectors [m]), grains (x, y, half axes a and b, axis of a), contacts "

@@ -16,7 +16,7 @@
 
 namespace python_points {
 
-inline constexpr scarp::FileFormat points_format{"SCARPPYP", 1, "file of points of Python", "MaterialPoints.save"};
+inline constexpr scarp::FileFormat points_format{"SCARPPYP", 2, "file of points of Python", "MaterialPoints.save"};
 
 /// Where points are and what they weigh.
 template <int Dim>

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """plot.py OUTPUT_DIR: packings with force chains, roses of contact normals, stress, volume and energies of
-`rve_lab prepare` and `rve_lab shear`, as far as the folder holds them.
+`rve_lab prepare` and `rve_lab shear`, curves of `rve_lab test`, as far as the folder holds them.
+plot.py OUTPUT_DIR --overlay TABLE.csv...: with these test.csv of other runs, or tables of a laboratory, beside the test.
 plot.py TABLE.csv [--compare OTHER.csv] [--picture FILE.png]: stresses of `rve_lab replay`, with those of another
 code."""
 
@@ -13,6 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "shared"))
 import numpy as np
 import scarp_figures as figures
+from laboratory_figure import laboratory
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import Polygon
 from packing_figures import Rose, rose_legend
@@ -197,7 +199,7 @@ def replayed(table_path, other_path):
     return fig
 
 
-def folder_figures(folder):
+def folder_figures(folder, overlays):
     """{name: draw} of what the folder holds."""
     found = {}
     if (folder / "packing_particles.csv").is_file():
@@ -209,6 +211,8 @@ def folder_figures(folder):
         found["roses"] = lambda folder: roses(folder, stems)
     if (folder / "path.csv").is_file():
         found.update({"curve": curve, "energies": energies})
+    if (folder / "test.csv").is_file():
+        found["test"] = lambda folder: laboratory(folder, overlays)
     return found
 
 
@@ -226,9 +230,10 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("place", type=pathlib.Path, help="output folder, or the table of a replay")
     parser.add_argument("--compare", type=pathlib.Path, help="another code's table with the same columns")
+    parser.add_argument("--overlay", nargs="+", default=[], help="tables beside the test of a folder")
     parser.add_argument("--picture", type=pathlib.Path, help="of a replay (default: beside the table)")
     given = parser.parse_args()
     if given.place.is_dir():
         sys.argv = [sys.argv[0], str(given.place)]
-        figures.draw_all(folder_figures(given.place))
+        figures.draw_all(folder_figures(given.place, given.overlay))
     draw_replay(given)

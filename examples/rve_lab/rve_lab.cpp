@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
-// A laboratory for packings: prepares them, shears them along any path, and replays those of other codes.
+// A laboratory: prepares packings, shears them along any path, replays those of other codes, and tests any material.
 #include <exception>
 #include <iostream>
 
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
+#include "laboratory_material.hpp"
 #include "options.hpp"
 #include "preparation.hpp"
 #include "replay.hpp"
@@ -47,9 +48,9 @@ void write_packing(Test const& choice, scarp::RunFolder& own, PackingType const&
 }
 
 /// Each command has a record of its own, so that a packing is prepared and sheared in one folder.
-scarp::RunFolder folder_of(Test const& choice, CLI::App const& app, std::vector<std::string> results) {
-  return {{.folder = choice.output.folder,
-           .overwrite = choice.output.overwrite,
+scarp::RunFolder folder_of(examples::Output const& output, CLI::App const& app, std::vector<std::string> results) {
+  return {{.folder = output.folder,
+           .overwrite = output.overwrite,
            .record = "run_" + app.get_name() + ".json",
            .results = std::move(results)},
           examples::record_of("rve_lab " + app.get_name(), app)};
@@ -57,7 +58,7 @@ scarp::RunFolder folder_of(Test const& choice, CLI::App const& app, std::vector<
 
 void prepare(Test& choice, CLI::App const& app) {
   require_used(app, choice.material);
-  auto own = folder_of(choice, app, {"packing.packing"});
+  auto own = folder_of(choice.output, app, {"packing.packing"});
   with_material(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     write_packing(choice, own, prepare_packing<PackingType>(choice.preparation, law), law);
   });
@@ -66,7 +67,7 @@ void prepare(Test& choice, CLI::App const& app) {
 
 void shear(Test& choice, CLI::App const& app) {
   require_used(app, choice.path);
-  auto own = folder_of(choice, app, {"path.csv", "summary.json"});
+  auto own = folder_of(choice.output, app, {"path.csv", "summary.json"});
   if (!choice.packing.empty()) {
     read_material(
         choice.packing, [&](std::string const& name) { return is_given(app, name); }, choice.material);
@@ -82,16 +83,19 @@ void shear(Test& choice, CLI::App const& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("A laboratory for packings; SUBCOMMAND --help shows its options");
+  CLI::App app("A laboratory for packings and other materials; SUBCOMMAND --help shows its options");
   examples::declare_version(app);
   app.option_defaults()->always_capture_default();
   examples::declare_config(app, "file with sections like [shear] and lines `option = value`");
   app.require_subcommand(1);
   auto* const prepare_app = app.add_subcommand("prepare", "makes a packing under isotropic pressure");
   auto* const shear_app = app.add_subcommand("shear", "sends a packing along a path");
+  auto* const test_app =
+      app.add_subcommand("test", "tests packings, Mohr-Coulomb or elastic material as laboratories do");
   auto* const replay_app = app.add_subcommand("replay", "sends another code's packing along a path");
   Test prepared;
   Test sheared;
+  Laboratory tested;
   Replay replayed;
   try {
     declare_material(*prepare_app, prepared.material);
@@ -99,6 +103,7 @@ int main(int argc, char** argv) {
     examples::declare_output(*prepare_app, prepared.output, "folder for packing.packing, packing.json and tables",
                              "--output,-o");
     declare_test(*shear_app, sheared);
+    declare_laboratory(*test_app, tested);
     declare_replay(*replay_app, replayed);
     examples::parse(app, argc, argv);
   } catch (CLI::ParseError const& problem) {
@@ -107,6 +112,12 @@ int main(int argc, char** argv) {
   try {
     if (prepare_app->parsed()) prepare(prepared, *prepare_app);
     if (shear_app->parsed()) shear(sheared, *shear_app);
+    if (test_app->parsed()) {
+      require_used(*test_app, tested);
+      constexpr int stopped_early = 3;
+      if (!test(tested, *test_app, folder_of(tested.output, *test_app, {"test.csv", "summary.json"})))
+        return stopped_early;
+    }
     if (replay_app->parsed()) {
       require_used(*replay_app, replayed.path);
       replay(replayed, {.normal_stiffness = is_given(*replay_app, "normal-stiffness"),

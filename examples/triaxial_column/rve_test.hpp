@@ -3,48 +3,32 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 
+#include "scarp/points/laboratory_paths.hpp"
 #include "specimen.hpp"
 
 namespace triaxial_column {
 
-/// The path of a homogeneous column between smooth platens, for one packing: the axial plane stays horizontal, the sides
-/// carry the dead load of the confining pressure and no shear, the turn about the axis is held.
-/// \f$ F = \begin{pmatrix} a & b & c \\ 0 & d & e \\ 0 & 0 & f \end{pmatrix} \f$
-inline scarp::Loading<3> column_path(double rate, double pressure, scarp::Tensor<3> const& deformation) {
-  scarp::Loading<3> loading;
-  loading.gradient_per_step(2, 2) = -rate;
-  auto const hold = [&](int row, int column, double target) {
-    scarp::Tensor<3> direction = scarp::Tensor<3>::Zero();
-    direction(row, column) = 1.0;
-    loading.controls.push_back({direction, target});
-  };
-  hold(0, 0, -pressure / (deformation(1, 1) * deformation(2, 2)));  // over the area that the side has now
-  hold(1, 1, -pressure / (deformation(0, 0) * deformation(2, 2)));
-  for (auto const& [row, column] : {std::array{0, 1}, std::array{0, 2}, std::array{1, 2}}) hold(row, column, 0.0);
-  return loading;
-}
-
-/// One packing, a servo at its cell. Rows are means over some steps.
-inline std::vector<Row> rve_test(Packing packing, Choice const& choice) {
-  constexpr double rate = 1e-6;  // axial strain of one DEM step
-  constexpr long steps_per_row = 100;
-  auto const law = contact_law();
-  scarp::TimeStepper<Packing, decltype(Sand::damping)> stepper;
-  scarp::Tensor<3> deformation = scarp::Tensor<3>::Identity();
-  scarp::CellDriver<Packing> drive(packing, law, column_path(rate, choice.pressure, deformation));
+/// One packing on the path of a homogeneous column between smooth platens: the axial plane stays horizontal, the sides carry
+/// the dead load of the confining pressure, over the area that they have now, and no shear; the turn about the axis is held.
+inline std::vector<Row> rve_test(Packing const& packing, Choice const& choice) {
+  constexpr double increment = 1e-4;  // of the axial strain
+  Sand const sand{.law = contact_law(), .source = {packing}, .strain_per_step = 1e-6};
+  scarp::MaterialPoints<3> point(sand, std::array{scarp::Site<3>{}});
+  scarp::PointPath<3> path(point, scarp::drained_path<3>(), {.tolerance = 1e-4});
+  scarp::SerialExecutor serial;
   std::vector<Row> rows{{0.0, choice.pressure, 0.0, 0.0}};
-  Row sum;
-  for (long step = 1; - std::log(deformation(2, 2)) < -std::log(1.0 - choice.strain) + rate * steps_per_row; ++step) {
-    if (!drive.step(stepper).acceptable()) break;
-    deformation += drive.strain_step() * deformation;
-    sum.axial_strain -= std::log(deformation(2, 2)) / steps_per_row;
-    sum.axial_stress -= drive.seen().stress(2, 2) / steps_per_row;
-    sum.volumetric_strain -= std::log(deformation.determinant()) / steps_per_row;
-    if (step % steps_per_row != 0) continue;
-    rows.push_back(std::exchange(sum, {}));
-    drive.load(column_path(rate, choice.pressure, deformation));
+  while (rows.back().axial_strain < -std::log1p(-choice.strain)) {
+    auto const& moved = path.deformation(0);
+    scarp::PathConditions<3> conditions;
+    for (int k = 0; k < scarp::voigt_size<3>; ++k)
+      conditions.push_back({.of_stress = scarp::VoigtStress<3>::Unit(k), .target = 0.0});
+    conditions[0].target = -choice.pressure / (moved(1, 1) * moved(2, 2));
+    conditions[1].target = -choice.pressure / (moved(0, 0) * moved(2, 2));
+    conditions[2] = {.of_strain = scarp::EngineeringStrain<3>::Unit(2), .target = path.strain(0)(2) - increment};
+    path.load(conditions);
+    if (!path.advance(1.0, serial).verdict.acceptable()) break;
+    rows.push_back({-path.strain(0)(2), -path.stress(0)(2), -path.strain(0).head<3>().sum(), 0.0});
   }
   return rows;
 }

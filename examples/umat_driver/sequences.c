@@ -63,6 +63,32 @@ static double kratos_path(int material, int ntens, int nstatv, int source, int* 
   return worst;
 }
 
+static int work_is(long long expected) {
+  long long steps = -1;
+  return scarp_umat_work(&steps) == SCARP_DONE && steps == expected;
+}
+
+/* Neither increments of zero, of a new point and of a committed state, nor repeated requests take DEM steps. */
+static void check_work(void) {
+  scarp_umat_clear();
+  host_point point;
+  host_start(&point, DISCS, 4, whole_state(DISCS));
+  double strain[6], still[6] = {0.0};
+  strain_of_step(0, strain);
+  kratos_call(&point, still, 0);
+  int good = work_is(0);
+  long long steps = 0;
+  kratos_call(&point, strain, 0);
+  good &= scarp_umat_work(&steps) == SCARP_DONE && steps > 0;
+  kratos_call(&point, strain, 0);
+  good &= work_is(steps);
+  host_commit(&point, strain);
+  kratos_call(&point, still, 0);
+  good &= work_is(steps);
+  check("DEM steps of an increment; none of a repetition, none of zero", (double)steps, good);
+  host_end(&point);
+}
+
 typedef struct {
   int material, good;
   double worst;
@@ -100,6 +126,7 @@ void check_sequences(void) {
   same_bits("Kratos, packing, each response twice [Pa]", worst, &good);
   worst = kratos_path(DISCS, 4, room, 1, &good);
   same_bits("Kratos, packing, by total strain [Pa]", worst, &good);
+  check_work();
 
   task tasks[3] = {{.material = DISCS}, {.material = MOHR_COULOMB}, {.material = DISCS}};
   thrd_t threads[3];

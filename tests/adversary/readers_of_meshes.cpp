@@ -15,7 +15,7 @@ Game gmsh_reader() {
   std::vector<std::string> samples;
   ScratchFolder const folder;
   auto const mesh = samples::mesh_sample<Element>(samples::bent);
-  for (auto const version : {scarp::GmshVersion::v2_2, scarp::GmshVersion::v4_1}) {
+  for (auto const version : {scarp::GmshVersion::v2_2, scarp::GmshVersion::v4_0, scarp::GmshVersion::v4_1}) {
     for (auto const encoding : {scarp::GmshEncoding::text, scarp::GmshEncoding::binary}) {
       scarp::write_gmsh(folder / "m.msh", mesh, {version, encoding});
       samples.push_back(content(folder / "m.msh"));

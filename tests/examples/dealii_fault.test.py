@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: BSL-1.0
 """[nightly] dealii_fault: elastic ground settles as the closed form says; two processes find what one finds, with and without means; the
-sum of forces survives a refinement, and cells that are joined again; a saved run goes on with two processes; a folder without a run is refused.
+sum of forces survives a refinement, and cells that are joined again; points that are shared out anew find the same; a saved run goes on with
+two processes; a killed process loses nothing that was saved; a folder without a run and a damaged one are refused.
 Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without; it is not built where there is no deal.II)."""
 import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import example, expect, finish
@@ -19,10 +22,13 @@ environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
                    OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
 
 
+def command(*options, ranks):
+    return [*(["mpirun", "-np", str(ranks), "--bind-to", "none"] if ranks > 1 else []), program, *options]
+
+
 def run(*options, ranks=1, code=0):
     """-> what the program prints, of so many processes."""
-    launcher = ["mpirun", "-np", str(ranks), "--bind-to", "none"] if ranks > 1 else []
-    done = subprocess.run([*launcher, program, *options], cwd=scratch, capture_output=True, text=True, timeout=60, env=environment)
+    done = subprocess.run(command(*options, ranks=ranks), cwd=scratch, capture_output=True, text=True, timeout=60, env=environment)
     expect(done.returncode == code, f"{options} on {ranks}: ended with {done.returncode}: {done.stdout[-300:]} {done.stderr[-300:]}")
     return done.stdout + done.stderr
 
@@ -30,6 +36,24 @@ def run(*options, ranks=1, code=0):
 def found(text, what):
     """-> every number that follows these words."""
     return [float(value) for value in re.findall(f"{what} {NUMBER}", text)]
+
+
+def killed_after_save(*options):
+    """Kills one of two processes as soon as the run is saved for the first time."""
+    launcher = subprocess.Popen(command(*options, "--checkpoint", "killed", "--checkpoint-every", "0", ranks=2), cwd=scratch, env=environment,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    end = time.monotonic() + 60.0
+    while not pathlib.Path(scratch, "killed", "run").exists() and launcher.poll() is None and time.monotonic() < end:
+        time.sleep(0.02)
+    expect(launcher.poll() is None, "the run that is to be killed ended by itself")
+    processes = pathlib.Path(f"/proc/{launcher.pid}/task/{launcher.pid}/children").read_text().split()
+    os.kill(int(processes[-1]), signal.SIGKILL)
+    expect(launcher.wait(60) != 0, "a run with a killed process ended well")
+
+
+def imbalance(text):
+    """-> DEM steps of the busier of two processes over their mean."""
+    return found(text, r"least [\d.e+]+, most")[0] / found(text, "evaluations,")[0] * 2.0
 
 
 def expect_near(first, second, share, what):
@@ -58,6 +82,25 @@ with tempfile.TemporaryDirectory() as scratch:
         expect_near(found(two, what), found(one, what), 1e-2, f"{what} of a saved run that goes on with one and two processes")
     expect("saved by another run" in run(*sand, "--resume", "--grains", "90", code=1), "another run's states were taken")
     expect("is not the folder of a saved run" in run("--checkpoint", "nowhere", "--resume", code=1), "a folder without a run was taken")
+    shared = ("--soil", "dem", "--size", "8", "--throw-over-depth", "0.006")
+    kept, moved = run(*shared, "--imbalance", "1e9", ranks=2), run(*shared, "--imbalance", "1", ranks=2)
+    expect(found(kept, "states sent:") == [0.0] < found(moved, "states sent:"), "states are sent where they should not, or not where they should")
+    expect(imbalance(moved) < imbalance(kept), f"imbalance {imbalance(kept)} became {imbalance(moved)}")
+    for what in ("x50", "reaction"):
+        expect_near(found(moved, what), found(kept, what), 1e-2, f"{what} of points that are shared out anew and that are not")
+    killed_after_save(*shared)
+    folder = pathlib.Path(scratch, "killed")
+    folder.rename(f"{folder}.new")  # as if it had been killed between removing an older folder and renaming this
+    resumed = run(*shared, "--checkpoint", "killed", "--resume")
+    expect(found(resumed, "resumed at")[0] > 0.0, "a killed run begins anew")
+    expect_near(found(resumed, "x50"), found(kept, "x50"), 1e-2, "x50 of a run that was killed and of one that was not")
+    for file in sorted(folder.iterdir()):
+        whole = file.read_bytes()
+        for damaged in (whole[: len(whole) // 2], whole[: len(whole) // 2] + bytes([whole[len(whole) // 2] ^ 1]) + whole[len(whole) // 2 + 1:]):
+            file.write_bytes(damaged)
+            told = run(*shared, "--checkpoint", "killed", "--resume", code=1)
+            expect("damaged" in told and "'killed'" in told, f"{file.name} with {len(damaged)} of {len(whole)} bytes: {told[-300:]}")
+        file.write_bytes(whole)
     adaptive = ("--size", "5", "--levels", "1")
     fine = run(*adaptive, "--throw-over-depth", "0.03", "--refine-at", "0.005", "--checkpoint", "joined1")
     shutil.copytree(pathlib.Path(scratch, "joined1"), pathlib.Path(scratch, "joined2"))

@@ -58,6 +58,10 @@ refused(ValueError, "2 displacement gradients are given for 3 points", lambda: p
 refused(ValueError, "gradient of point 0 is not finite", lambda: points.respond(good * np.nan))
 refused(ValueError, "without a response", points.commit)
 refused(ValueError, "no keyword yung (there are young, poisson", lambda: scarp.linear_elastic(yung=1.0))
+for name in ("aspect", "thickness"):
+    refused(ValueError, f"no keyword {name} (there are", lambda: scarp.spheres(**{name: 0.5}))
+refused(ValueError, "no keyword aspect (there are", lambda: scarp.discs(aspect=0.5))
+expect(len(set(scarp.reasons)) == len(scarp.reasons) >= 16 and scarp.reasons[15] == "interrupted", f"reasons {scarp.reasons}")
 refused(ValueError, "grains is 4.5 (a value like 400", lambda: scarp.ellipses(grains=4.5))
 refused(ValueError, "void ratio 3", lambda: scarp.discs(grains=40, void_ratio=3.0))
 refused(RuntimeError, "could not be consolidated", lambda: scarp.discs(grains=40, pressure=1e12))

@@ -99,6 +99,41 @@ TEST_CASE_TEMPLATE("a file of the straight element serves for the quadratic one"
   CHECK(ground.given.nodes.size() == layer.generate<Element>().nodes.size());
 }
 
+TEST_CASE("a file of the quadratic element serves for the straight one on request") {
+  ScratchFolder const folder;
+  scarp::write_gmsh(folder / "ground.msh", layer.generate<scarp::Quad8>());
+  std::vector<std::string> notes;
+  auto const ground = scarp::ground_from_file<scarp::Quad4>(folder / "ground.msh", &notes, 1);
+  CHECK(ground.given.nodes.size() == sound().nodes.size());
+  CHECK(ground.given.boundaries.at("surface").size() == sound().boundaries.at("surface").size());
+  CHECK(notes.size() == 2);  // of elements and of sides
+  CHECK_REFUSED(scarp::ground_from_file<scarp::Quad4>(folder / "ground.msh"), "highest_order = 1 as Quad4");
+}
+
+TEST_CASE_TEMPLATE("a ground without groups is named by place", Element, scarp::Quad4, scarp::Hex8) {
+  ScratchFolder const folder;
+  auto const named = layer.generate<Element>();
+  auto bare = named;
+  bare.boundaries.clear();
+  scarp::write_gmsh(folder / "ground.msh", bare, {scarp::GmshVersion::v2_2, scarp::GmshEncoding::text});
+  std::string text = samples::content(folder / "ground.msh");
+  std::string const group = Element::dim == 2 ? " 3 2 1 1 " : " 5 2 1 1 ";
+  for (auto at = text.find(group); at != std::string::npos; at = text.find(group, at)) text[at + 5] = '0';
+  scarp::write_file(folder / "ground.msh", text);
+  std::vector<std::string> notes;
+  auto const ground = scarp::ground_from_file<Element>(folder / "ground.msh", &notes);
+  CHECK(ground.given.regions == named.regions);
+  for (auto const& [name, sides] : named.boundaries) CHECK(ground.given.boundaries.at(name).size() == sides.size());
+  CHECK(ground.given.boundaries.size() == named.boundaries.size());
+  REQUIRE(notes.size() == 4);  // an empty group, elements in none, and what they and the sides are called
+  CHECK(samples::contains(notes[2], "all are 'soil'"));
+  CHECK(samples::contains(notes[3], "named by their place"));
+  auto hole = named;
+  hole.boundaries.clear();
+  remove(hole, hole.elements.size() / 2);
+  CHECK(complaint(hole) == Naming{"bounds the soil but is in none of"});
+}
+
 TEST_CASE("a footing in the file is taken, with its block or without") {
   auto mesh = with_block();
   auto const ground = through_file(mesh);
@@ -161,8 +196,6 @@ TEST_CASE("a missing boundary is refused with those there are") {
   auto mesh = sound();
   mesh.boundaries.erase("left");
   CHECK(complaint(mesh) == Naming{"'left' (it has: bottom, right, surface)"});
-  mesh.boundaries.clear();
-  CHECK(complaint(mesh) == Naming{"(it has: none)"});
   auto space = layer.generate<scarp::Hex8>();
   space.boundaries.erase("front");
   CHECK(complaint(space) == Naming{"no side in a boundary 'front'"});

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -247,6 +248,22 @@ TEST_CASE("the stress that holds what means do not contain travels with a point"
     return scarp::VoigtStress<2>(points.committed_stress(3) + points.means()->committed_tau(3));
   };
   CHECK((total(image) - total(from)).norm() < 1e-12 * total(from).norm());
+}
+
+TEST_CASE("states go between points that see each other and points too far apart for their length") {
+  auto const sites = in_a_row(6);
+  scarp::Nonlocal const soil{nestings::Loosening{}, 0.25};
+  Points close(soil, sites, std::vector<double>(6, 0.1));
+  Points far(soil, std::array{sites[0], sites[3]}, std::vector<double>(2, 0.3));
+  REQUIRE(!far.means());
+  strain(far, [](int k) { return increment(1e-5 * (k + 1)); });
+  close.copy(2, far, 1);
+  close.unpack(4, far.pack(1));
+  for (int const point : {2, 4}) CHECK(close.committed_stress(point) == far.committed_stress(1));
+  far.copy(0, close, 2);
+  CHECK(far.committed_stress(0) == close.committed_stress(2));
+  far.unpack(1, close.pack(0));
+  CHECK(far.committed_stress(1) == close.committed_stress(0));
 }
 
 TEST_CASE("two processes that exchange the gradients of points near their border see the same means as one") {

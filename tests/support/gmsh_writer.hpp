@@ -17,7 +17,7 @@
 
 namespace scarp {
 
-enum class GmshVersion { v2_2, v4_1 };
+enum class GmshVersion { v2_2, v4_0, v4_1 };
 enum class GmshEncoding { text, binary };
 
 /// The form of a Gmsh file.
@@ -155,12 +155,15 @@ namespace scarp {
 
 namespace detail {
 
-inline void write_gmsh_run(GmshSink& sink, GmshRun const& run, bool is_41) {
+inline void write_gmsh_run(GmshSink& sink, GmshRun const& run, GmshVersion version) {
+  bool const is_41 = version == GmshVersion::v4_1;
   auto const each = index(run.nodes_each);
   for (std::size_t e = 0; e < run.size(); ++e) {
     auto const tag = run.tags[e];
     if (is_41) {
       sink.values(static_cast<std::uint64_t>(tag));
+    } else if (version == GmshVersion::v4_0) {
+      sink.values(tag);
     } else if (sink.binary()) {
       sink.values(tag, run.group.tag, run.group.tag);
     } else {
@@ -189,7 +192,7 @@ inline void write_gmsh_22(GmshSink& sink, std::vector<std::array<double, 3>> con
   sink.text(fmt::format("$Elements\n{}\n", elements));
   for (auto const& run : runs) {
     if (sink.binary()) sink.values(run.type, static_cast<std::int32_t>(run.size()), 2);
-    write_gmsh_run(sink, run, false);
+    write_gmsh_run(sink, run, GmshVersion::v2_2);
   }
   sink.end_section("Elements");
 }
@@ -222,20 +225,29 @@ inline void write_gmsh_entities(GmshSink& sink, std::vector<std::array<double, 3
   sink.end_section("Entities");
 }
 
-inline void write_gmsh_41(GmshSink& sink, std::vector<std::array<double, 3>> const& positions,
-                          std::vector<GmshRun> const& runs) {
+/// MSH 4.0 has no ranges of tags, the tag of an entity before its dimension, and each node's place behind its tag.
+inline void write_gmsh_4(GmshSink& sink, std::vector<std::array<double, 3>> const& positions,
+                         std::vector<GmshRun> const& runs, bool is_40) {
   write_gmsh_entities(sink, positions, runs);
   std::uint64_t const nodes = positions.size();
+  auto const totals = [&](std::uint64_t blocks, std::uint64_t entries) {
+    is_40 ? sink.values(blocks, entries) : sink.values(blocks, entries, std::uint64_t{1}, entries);
+    sink.end_line();
+  };
+  auto const block = [&](GmshGroup const& group, std::int32_t type, std::uint64_t entries) {
+    is_40 ? sink.values(group.tag, group.dim, type, entries) : sink.values(group.dim, group.tag, type, entries);
+    sink.end_line();
+  };
   sink.text("$Nodes\n");
-  sink.values(std::uint64_t{1}, nodes, std::uint64_t{1}, nodes);
-  sink.end_line();
-  sink.values(runs.front().group.dim, runs.front().group.tag, 0, nodes);
-  sink.end_line();
+  totals(1, nodes);
+  block(runs.front().group, 0, nodes);
   for (std::uint64_t n = 1; n <= nodes; ++n) {
-    sink.values(n);
+    auto const& [x, y, z] = positions[n - 1];
+    is_40 ? sink.values(static_cast<std::int32_t>(n), x, y, z) : sink.values(n);
     sink.end_line();
   }
   for (auto const& [x, y, z] : positions) {
+    if (is_40) break;
     sink.values(x, y, z);
     sink.end_line();
   }
@@ -243,12 +255,10 @@ inline void write_gmsh_41(GmshSink& sink, std::vector<std::array<double, 3>> con
   std::uint64_t elements = 0;
   for (auto const& run : runs) elements += run.size();
   sink.text("$Elements\n");
-  sink.values(static_cast<std::uint64_t>(runs.size()), elements, std::uint64_t{1}, elements);
-  sink.end_line();
+  totals(runs.size(), elements);
   for (auto const& run : runs) {
-    sink.values(run.group.dim, run.group.tag, run.type, static_cast<std::uint64_t>(run.size()));
-    sink.end_line();
-    write_gmsh_run(sink, run, true);
+    block(run.group, run.type, run.size());
+    write_gmsh_run(sink, run, is_40 ? GmshVersion::v4_0 : GmshVersion::v4_1);
   }
   sink.end_section("Elements");
 }
@@ -264,9 +274,10 @@ void write_gmsh(std::filesystem::path const& path, Mesh<Element> const& mesh, Gm
   validate(mesh);
   auto const groups = detail::gmsh_groups(mesh);
   auto const runs = detail::gmsh_runs(mesh);
-  bool const is_41 = format.version == GmshVersion::v4_1;
+  bool const is_22 = format.version == GmshVersion::v2_2;
+  bool const is_40 = format.version == GmshVersion::v4_0;
   detail::GmshSink sink(format.encoding == GmshEncoding::binary);
-  sink.text(fmt::format("$MeshFormat\n{} {:d} 8\n", is_41 ? "4.1" : "2.2", sink.binary()));
+  sink.text(fmt::format("$MeshFormat\n{} {:d} 8\n", is_22 ? "2.2" : is_40 ? "4" : "4.1", sink.binary()));
   if (sink.binary()) {
     sink.values(std::int32_t{1});
     sink.text("\n");
@@ -278,7 +289,7 @@ void write_gmsh(std::filesystem::path const& path, Mesh<Element> const& mesh, Gm
   for (std::size_t n = 0; n < positions.size(); ++n) {
     std::copy_n(mesh.nodes[n].begin(), Element::dim, positions[n].begin());
   }
-  is_41 ? detail::write_gmsh_41(sink, positions, runs) : detail::write_gmsh_22(sink, positions, runs);
+  is_22 ? detail::write_gmsh_22(sink, positions, runs) : detail::write_gmsh_4(sink, positions, runs, is_40);
   write_file(path, sink.content());
 }
 

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: BSL-1.0
 """Materials of scarp, packings of grains among them, as points that respond to NumPy arrays."""
 from . import _points
-from ._points import build, load
+from ._points import build, load, reasons, statuses
 from .micro_simulation import MicroSimulation
 
-statuses = tuple(_points.name_of_status(k) for k in range(4))
-reasons = tuple(_points.name_of_reason(k) for k in range(16))
 
 
 def _maker(kind, spaces):

@@ -32,6 +32,7 @@ struct Choice {
   double aspect = 1.0;                 ///< height of a cell over its width
   std::uint64_t mesh_seed = 1;         ///< of the jittered mesh
   std::string mesh;                    ///< Gmsh file in place of all these
+  int mesh_order = 2;                  ///< highest order of elements that are read from it
   double length = 0.0;                 ///< intrinsic [m]; 0 for none
   int grains = 400;
   int packings = 1;                ///< of which every point draws one

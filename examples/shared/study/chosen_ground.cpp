@@ -64,7 +64,7 @@ template <class E>
 ChosenGround<E> ground_of(Choice const& choice) {
   if (!choice.mesh.empty()) {
     std::vector<std::string> notes;
-    auto ground = scarp::ground_from_file<E>(choice.mesh, &notes);
+    auto ground = scarp::ground_from_file<E>(choice.mesh, &notes, choice.mesh_order);
     examples::print_notes(notes);
     return {.given = std::move(ground.given)};
   }

@@ -47,6 +47,33 @@ void require_ground_groups(Mesh<Element> const& mesh) {
   }
 }
 
+/// Names what a file leaves without any group: elements "soil", sides at the ends of the soil by their place.
+/// \return a sentence for each of the two
+template <class Element>
+std::vector<std::string> name_by_place(Mesh<Element>& mesh) {
+  std::vector<std::string> notes;
+  auto const in_no_group = [&](int region) { return mesh.regions[index(region)] == "mesh"; };
+  if (std::ranges::all_of(mesh.element_region, in_no_group)) {
+    mesh.regions = {"soil"};
+    std::ranges::fill(mesh.element_region, 0);
+    notes.emplace_back("no element is in a physical group: all are 'soil'");
+  }
+  auto const is_empty = [](auto const& boundary) { return boundary.second.empty(); };
+  bool const has_soil = std::find(mesh.regions.begin(), mesh.regions.end(), "soil") != mesh.regions.end();
+  if (!has_soil || !std::ranges::all_of(mesh.boundaries, is_empty)) return notes;
+  mesh.boundaries.clear();
+  SoilEnds<Element> const ends(mesh);
+  for (auto const& part : outline_parts(mesh)) {
+    for (auto const& side : outer_facets(mesh)) {
+      auto const at_end = [&](int node) { return ends.has(part, mesh.nodes[index(node)]); };
+      bool const of_soil = mesh.regions[index(mesh.element_region[index(side.element)])] == "soil";
+      if (of_soil && std::ranges::all_of(side.nodes, at_end)) mesh.boundaries[part.name].push_back(side.nodes);
+    }
+  }
+  notes.emplace_back("no side is in a physical group: those at the ends of the soil are named by their place");
+  return notes;
+}
+
 /// \throws InputError naming the fault and its place
 template <class Element>
 void require_ground(Mesh<Element> const& mesh) {
@@ -89,15 +116,16 @@ struct MeshFileGround {
 };
 
 /// Reads a ground from a file of Gmsh. A file of the straight element serves for the quadratic one: nodes are put in
-/// the middle of its sides.
+/// the middle of its sides. In a file without groups elements are soil and sides are named by their place.
 /// \throws InputError naming the file for what read_gmsh rejects, missing or further regions, missing boundaries, nodes
 /// at one place, hanging nodes, boundaries that are not straight at the soil's ends, and sides of the soil in no
 /// boundary or in two
-/// notes: gets what the file holds that the ground does not have, see GmshFile
+/// notes: gets what the ground has in another way than the file, see GmshFile
+/// highest_order: of the elements, see GmshOptions
 template <HasGmshType E>
-MeshFileGround<E> ground_from_file(std::filesystem::path const& path, std::vector<std::string>* notes = nullptr) {
-  GmshFile const file(path);
-  if (notes != nullptr) *notes = file.notes();
+MeshFileGround<E> ground_from_file(std::filesystem::path const& path, std::vector<std::string>* notes = nullptr,
+                                   int highest_order = 2) {
+  GmshFile const file(path, {.highest_order = highest_order, .regions = {"soil", "footing"}});
   auto const read = [&]() -> Mesh<E> {
     if constexpr (HasMidSides<E>) {
       if (file.element_type() == E::Linear::gmsh_type) {
@@ -107,6 +135,11 @@ MeshFileGround<E> ground_from_file(std::filesystem::path const& path, std::vecto
     return file.mesh<E>();
   };
   MeshFileGround<E> ground{read()};
+  auto const named = detail::name_by_place(ground.given);
+  if (notes != nullptr) {
+    *notes = file.notes();
+    for (auto const& note : named) notes->push_back(fmt::format("'{}': {}", path.string(), note));
+  }
   try {
     detail::require_ground(ground.given);
   } catch (InputError const& error) {

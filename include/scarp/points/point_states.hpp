@@ -131,7 +131,7 @@ class PointStates {
     StateWriter writer;
     for (int const point : points) {
       batch(point).write(local(point), writer);
-      if (means_) writer("tau", means_->committed_tau(point));
+      if (has_tau()) writer("tau", tau_of(point));
     }
     return std::move(writer.bits());
   }
@@ -148,7 +148,7 @@ class PointStates {
       reject("point {} is to be unpacked twice: name each point once", *twice);
     for (int const point : points) {
       states.emplace_back(batch(point).read(local(point), reader), VoigtStress<Dim>::Zero());
-      if (means_) reader("tau", states.back().second);
+      if (has_tau()) reader("tau", states.back().second);
     }
     if (!reader.at_end())
       reject("it holds more than the states of {} points: unpack what was packed of such points", points.size());
@@ -159,10 +159,10 @@ class PointStates {
   /// of its principal stresses if wanted: the stress stays, and one packing's accidents are not repeated.
   /// \throws InputError for a point of another type of provider, for one with means and one without, and for states that cannot be mirrored
   void copy(int to, PointStates const& from, int point, bool is_mirrored = false) {
-    if (means_.has_value() != from.means_.has_value())
+    if (has_tau() != from.has_tau())
       reject("point {} is to be copied between points with means and points without: take the same material for both",
              point);
-    VoigtStress<Dim> tau = from.means_ ? from.means_->committed_tau(point) : VoigtStress<Dim>::Zero();
+    VoigtStress<Dim> tau = from.tau_of(point);
     std::optional<Mirror<Dim>> mirror;
     if (is_mirrored) {
       mirror = {principal_direction<Dim>(from.committed_stress(point) + tau)};
@@ -177,7 +177,7 @@ class PointStates {
     one.add(0, batch(point).site(local(point)), false);
     StateReader reader(bits);
     auto state = one.batch(0).read(0, reader);
-    if (VoigtStress<Dim> tau; means_) reader("tau", tau);
+    if (VoigtStress<Dim> tau; has_tau()) reader("tau", tau);
     if (!reader.at_end())
       reject("it holds more than the state of point {}: extract what was packed of this point", point);
     one.put(0, std::move(state), VoigtStress<Dim>::Zero());
@@ -278,6 +278,12 @@ class PointStates {
     batch(point).put(local(point), std::move(state));
     if (means_) means_->set_committed_tau(point, tau);
     is_planned_ = has_trial_ = false;
+  }
+
+  /// Also of points that lie too far apart to see each other: states go between these and closer ones.
+  bool has_tau() const { return search_ || means_; }
+  VoigtStress<Dim> tau_of(int point) const {
+    return means_ ? means_->committed_tau(point) : VoigtStress<Dim>::Zero().eval();
   }
 
   void add(int batch, Site<Dim> const& site, bool here) {

@@ -27,7 +27,7 @@ std::vector<std::string> files() {
   mesh.boundaries = {{"ground", {{0, 1}}}, {"middle", {{2, 0}}}};
   ScratchFolder const folder;
   std::vector<std::string> contents;
-  for (auto const version : {GmshVersion::v2_2, GmshVersion::v4_1}) {
+  for (auto const version : {GmshVersion::v2_2, GmshVersion::v4_0, GmshVersion::v4_1}) {
     for (auto const encoding : {GmshEncoding::text, GmshEncoding::binary}) {
       scarp::write_gmsh(folder / "m.msh", mesh, {version, encoding});
       contents.push_back(content(folder / "m.msh"));

@@ -128,8 +128,7 @@ TEST_CASE("the sign of a region in version 4.1 turns its elements") {
   auto const turned =
       with(with(square_41, "0 1 5\n$EndE", "1 -5 0\n$EndE"), "7 12 40\n9 7 40 31", "7 40 12\n9 7 31 40");
   CHECK(read(turned).elements == read(square_41).elements);
-  CHECK(complaint(with(square_41, "0 1 5\n$EndE", "1 -5 0\n$EndE")) ==
-        Naming{"element 8 of 'm.msh' (its nodes there: 7, 12, 40)"});
+  CHECK(scarp::GmshFile(turned, "m.msh").notes().empty());
 }
 
 TEST_CASE("a cell that is turned round twice is the same") {
@@ -173,12 +172,11 @@ TEST_CASE("a mesh of other elements is refused and the right element named") {
         Naming{"'m.msh' is a 2D mesh with 2 x type 2 (3-node triangle) (Tet4 needs a 3D one): read it as Tri3"});
   CHECK(complaint<scarp::Quad4>(square_22) ==
         Naming{"'m.msh' holds 2 x type 2 (3-node triangle) (all elements of a mesh of Quad4 are of type 3): read it "
-               "as "
-               "Tri3"});
+               "as Tri3"});
   CHECK(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 3 2 2 1 7 12 40 31")) ==
         Naming{"'m.msh' holds 1 x type 2 (3-node triangle), 1 x type 3 (4-node quadrangle) (all elements "
-               "of a "
-               "mesh of Tri3 are of type 2): mesh with one kind"});
+               "of a mesh of Tri3 are of type 2): mesh with one kind of element: `gmsh FILE.geo -2 -setnumber "
+               "Mesh.SubdivisionAlgorithm 1` gives"});
   CHECK(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 4 2 2 1 7 12 40 31")) ==
         Naming{"'m.msh' is a 3D mesh with 1 x type 4 (4-node tetrahedron) (Tri3 needs a 2D one): read it as Tet4"});
   CHECK(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 6 2 2 1 7 12 40 31 7 12")) ==
@@ -223,23 +221,19 @@ TEST_CASE("a file tells the type of its elements before it is read as one") {
 }
 
 TEST_CASE("a bad mesh is refused with the element or node that is wrong") {
-  CHECK(complaint(with(square_22, "77 7 12 40", "77 7 40 12")) ==
-        Naming{"element 21 of 'm.msh' (its nodes there: 7, 40, 12) has the Jacobian -1 m^2 (flat, or its nodes run the "
-               "wrong "
-               "way "
-               "round)"});
+  CHECK(complaint(with(square_22, "40 1 1 0", "40 2 0 0")) ==
+        Naming{"element 21 of 'm.msh' (its nodes there: 7, 12, 40) has the Jacobian 0 m^2 (flat, or its nodes run the "
+               "wrong way round)"});
   CHECK(complaint(with(square_22, "77 7 12 40", "77 7 12 12")) == Naming{"element 21 of 'm.msh' names a node twice"});
   CHECK(complaint(with(square_22, "12 1 0 0", "7 1 0 0")) == Naming{"'m.msh' lists node 7 twice"});
   CHECK(complaint(with(square_22, "77 7 12 40", "77 7 12 41")) == Naming{"element 21 of 'm.msh' names node 41"});
   CHECK(complaint(with(square_22, "5 1 2 4 1 12 7", "5 1 2 4 1 12 31")) ==
         Naming{"element 5 of 'm.msh' in the physical group 'ground' lies on no side"});
   CHECK(complaint(with(square_22, "5 1 2 4 1 12 7", "5 1 2 4 1 12 8")) == Naming{"element 5 of 'm.msh'"});
-  CHECK(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 2 2 2 1 12 40 7")) ==
+  CHECK(complaint(with(square_22, "30 2 2 2 1 7 40 31", "30 2 2 1 1 12 40 7")) ==
         Naming{"elements 21 and 30 of 'm.msh' have the same nodes"});
   CHECK(complaint(with(square_22, "31 0 1 0", "31 0 1 0.01")) ==
         Naming{"node 31 of 'm.msh' is at z = 0.01, node 7 at z = 0"});
-  CHECK(complaint(with(square_41, "3 0 0 0 1 1 0 0 1 5", "3 0 0 0 1 1 0 2 6 7 1 5")) ==
-        Naming{"element 8 of 'm.msh' is in the physical groups 'physical_6' and 'physical_7'"});
   CHECK(complaint(with(square_41, "2 3 2 2\n", "2 4 2 2\n")) ==
         Naming{"line 26 of 'm.msh' names entity 4 of dimension 2"});
   CHECK(complaint(with(square_41, "2 3 2 2\n", "2 3 1 2\n")) ==
@@ -285,15 +279,15 @@ TEST_CASE("a damaged file is refused with the line") {
 }
 
 TEST_CASE("what is no mesh of a version that is read is refused") {
-  CHECK(complaint("") == Naming{"'m.msh' is no Gmsh mesh (it does not begin with $MeshFormat)"});
+  CHECK(complaint("") == Naming{"'m.msh' is no mesh of MSH 2 or 4 (it does not begin with $MeshFormat): save it by"});
   CHECK(complaint("solid cube\n") == Naming{"line 1 of 'm.msh' has 'solid' (a section such as $Nodes must begin)"});
-  CHECK(complaint("$NOD\n1\n1 0 0 0\n$ENDNOD\n") == Naming{"'m.msh' is a mesh of MSH 1 (2.2 and 4.1 are read)"});
-  for (auto const* version : {"1.0", "2.1", "3.0", "4.0"}) {
+  CHECK(complaint("$NOD\n1\n1 0 0 0\n$ENDNOD\n") == Naming{"'m.msh' is no mesh of MSH 2 or 4 (it does"});
+  for (auto const* version : {"1.0", "2.3", "3.0", "4.2"}) {
     CHECK(complaint(with(square_22, "2.2 0 8", fmt::format("{} 0 8", version))) ==
-          Naming{fmt::format("'m.msh' is a mesh of MSH {} (2.2 and 4.1 are read)", std::stod(version))});
+          Naming{fmt::format("'m.msh' is a mesh of MSH {} (2 to 2.2, 4.0 and 4.1 are read)", std::stod(version))});
   }
   CHECK(complaint(with(square_22, "2.2 0 8", "2.2 2 8")) == Naming{"has file type 2"});
-  CHECK(complaint(with(square_22, "2.2 0 8", "2.2 0 4")) == Naming{"numbers of 4 bytes"});
+  CHECK(complaint(with(square_22, "2.2 0 8", "2.2 1 4")) == Naming{"numbers of 4 bytes"});
   CHECK(complaint(with(square_22, "2.2 0 8", "2.2 1 8")) ==
         Naming{"byte 20 of 'm.msh' has 0x646e4524 where the number one"});
   CHECK_REFUSED(scarp::read_gmsh<scarp::Tri3>("nowhere.msh"), "nowhere.msh");
@@ -315,14 +309,6 @@ TEST_CASE("a side is in a boundary once, however often the file says so") {
   // Gmsh keeps the groups of `Physical Curve(4) = {5, -5}` with both signs.
   for (auto const* groups : {"2 -4 4 2 1 2", "2 4 4 2 1 2", "3 4 -4 -4 2 1 2"})
     CHECK(read(with(square_41, "1 -4 2 1 2", groups)).boundaries.at("physical_4") == once);
-}
-
-TEST_CASE("an element in one region by several tags has that region") {
-  auto const mesh = read(with(square_41, "0 1 5\n$EndE", "2 6 -6 1 5\n$EndE"));
-  CHECK(mesh.regions == std::vector<std::string>{"physical_6"});
-  auto const alike = with(with(square_41, "0 1 5\n$EndE", "2 6 7 1 5\n$EndE"), "$Entities",
-                          "$PhysicalNames\n2\n2 6 \"sand\"\n2 7 \"sand\"\n$EndPhysicalNames\n$Entities");
-  CHECK(read(alike).regions == std::vector<std::string>{"sand"});
 }
 
 TEST_CASE("what a file names or holds and its mesh has not is told") {
@@ -357,8 +343,4 @@ TEST_CASE("what is no mesh is called by its kind") {
   CHECK(complaint("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n") ==
         samples::Naming{"pointer of Git LFS"});
   CHECK(complaint("\x1f\x8b\x08 and so on") == samples::Naming{"compressed"});
-  CHECK(complaint("// by a script\n" + square_22) ==
-        samples::Naming{
-            "'//' (a section such as $Nodes must begin): give a mesh of Gmsh, which begins with $MeshFormat"});
-  CHECK(complaint(with(square_22, "$Nodes", "// nodes\n$Nodes")) == samples::Naming{"leave out comments"});
 }

@@ -20,6 +20,7 @@ using scarp::GmshVersion;
 
 constexpr std::array all_formats{
     GmshFormat{GmshVersion::v2_2, GmshEncoding::text}, GmshFormat{GmshVersion::v2_2, GmshEncoding::binary},
+    GmshFormat{GmshVersion::v4_0, GmshEncoding::text}, GmshFormat{GmshVersion::v4_0, GmshEncoding::binary},
     GmshFormat{GmshVersion::v4_1, GmshEncoding::text}, GmshFormat{GmshVersion::v4_1, GmshEncoding::binary}};
 
 template <class Element>
@@ -90,12 +91,15 @@ TEST_CASE("a text file is what Gmsh's manual describes") {
   CHECK(content(folder / "m.msh") == "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names +
                                          "$Nodes\n3\n1 0 0 0\n2 0.1 0 0\n3 0 1.5 0\n$EndNodes\n"
                                          "$Elements\n2\n1 2 2 1 1 1 2 3\n2 1 2 2 2 1 2\n$EndElements\n");
+  std::string const entities = "$Entities\n0 1 1 0\n2 0 0 0 0.1 1.5 0 1 2 0\n1 0 0 0 0.1 1.5 0 1 1 0\n$EndEntities\n";
+  scarp::write_gmsh(folder / "m.msh", mesh, {GmshVersion::v4_0, GmshEncoding::text});
+  CHECK(content(folder / "m.msh") == "$MeshFormat\n4 0 8\n$EndMeshFormat\n" + names + entities +
+                                         "$Nodes\n1 3\n1 2 0 3\n1 0 0 0\n2 0.1 0 0\n3 0 1.5 0\n$EndNodes\n"
+                                         "$Elements\n2 2\n1 2 2 1\n1 1 2 3\n2 1 1 1\n2 1 2\n$EndElements\n");
   scarp::write_gmsh(folder / "m.msh", mesh, {GmshVersion::v4_1, GmshEncoding::text});
-  CHECK(content(folder / "m.msh") ==
-        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + names +
-            "$Entities\n0 1 1 0\n2 0 0 0 0.1 1.5 0 1 2 0\n1 0 0 0 0.1 1.5 0 1 1 0\n$EndEntities\n"
-            "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n0.1 0 0\n0 1.5 0\n$EndNodes\n"
-            "$Elements\n2 2 1 2\n2 1 2 1\n1 1 2 3\n1 2 1 1\n2 1 2\n$EndElements\n");
+  CHECK(content(folder / "m.msh") == "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + names + entities +
+                                         "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n0.1 0 0\n0 1.5 0\n$EndNodes\n"
+                                         "$Elements\n2 2 1 2\n2 1 2 1\n1 1 2 3\n1 2 1 1\n2 1 2\n$EndElements\n");
 }
 
 TEST_CASE("what cannot be written is refused and an older file stays") {

@@ -49,20 +49,30 @@ std::array<Vector<Element::dim>, 2> extents_of(Mesh<Element> const& mesh, int re
   return ends;
 }
 
-/// Ends of the soil are sought to 1e-6 of its extent: files with seven digits pass.
+/// Where the soil ends, to 1e-6 of its extent: files with seven digits pass.
+template <class Element>
+struct SoilEnds {
+  std::array<Vector<Element::dim>, 2> ends;
+  double same = 1e-6 * (ends[1] - ends[0]).maxCoeff();
+
+  explicit SoilEnds(Mesh<Element> const& mesh) : ends(extents_of(mesh, region_number(mesh, "soil"))) {}
+  double level(OutlinePart const& part) const { return ends[part.upper ? 1 : 0](part.axis); }
+  bool has(OutlinePart const& part, Vector<Element::dim> const& place) const {
+    return std::abs(place(part.axis) - level(part)) <= same;
+  }
+};
+
 template <class Element>
 void require_straight_outline(Mesh<Element> const& mesh) {
-  auto const ends = extents_of(mesh, region_number(mesh, "soil"));
-  double const same = 1e-6 * (ends[1] - ends[0]).maxCoeff();
+  SoilEnds<Element> const ends(mesh);
   for (auto const& part : outline_parts(mesh)) {
-    double const end = ends[part.upper ? 1 : 0](part.axis);
     for (int const node : boundary_nodes(mesh, part.name)) {
       auto const& place = mesh.nodes[index(node)];
-      if (std::abs(place(part.axis) - end) <= same) continue;
+      if (ends.has(part, place)) continue;
       reject(
           "the boundary '{}' passes through ({}), but the soil {} at {} = {} m (it must be straight, level below and "
           "above, upright at the ends): mesh a layer with level surface and bottom and upright ends",
-          part.name, listed(place), part.upper ? "ends" : "begins", "xyz"[part.axis], end);
+          part.name, listed(place), part.upper ? "ends" : "begins", "xyz"[part.axis], ends.level(part));
     }
   }
 }

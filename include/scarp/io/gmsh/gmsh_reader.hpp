@@ -38,19 +38,23 @@ inline std::string shown_gmsh_kinds(std::map<int, std::size_t> const& kinds) {
 
 /// What to do about elements that are not of the type that is wanted.
 inline std::string other_kind_advice(std::map<int, std::size_t> const& kinds) {
-  if (kinds.size() > 1) return "mesh with one kind of element (in Gmsh recombine all surfaces or none)";
-  auto const element = find_gmsh_type(kinds.begin()->first)->element;
-  if (element.empty()) return "mesh with another kind (in Gmsh order 1 or 2, with Mesh.SecondOrderIncomplete = 1)";
-  return fmt::format("read it as {}", element);
+  if (kinds.size() > 1) {
+    return "mesh with one kind of element: `gmsh FILE.geo -2 -setnumber Mesh.SubdivisionAlgorithm 1` gives quadrangles "
+           "only, a .geo file without Recombine triangles only";
+  }
+  GmshType const& type = *find_gmsh_type(kinds.begin()->first);
+  auto const straight = without_gmsh_nodes(type, 1).element;
+  if (type.element.empty())
+    return straight.empty() ? "mesh with another kind of element"
+                            : fmt::format("give highest_order = 1 and read it as {}", straight);
+  return fmt::format("read it as {}{}", type.element,
+                     straight == type.element ? "" : fmt::format(", or with highest_order = 1 as {}", straight));
 }
 
 /// \throws InputError unless all elements of the file's highest dimension are of this type
 inline void require_gmsh_kind(GmshContent const& content, int wanted) {
   GmshType const& type = *find_gmsh_type(wanted);
-  int highest = 0;
-  for (auto const& block : content.blocks) {
-    if (!block.tags.empty()) highest = std::max(highest, block.type.dim);
-  }
+  int const highest = gmsh_dimension(content);
   auto const kinds = gmsh_kinds(content, highest);
   if (highest < 2) {
     reject(
@@ -92,18 +96,6 @@ void read_gmsh_positions(GmshContent const& content, GmshNumbering const& number
   }
 }
 
-/// The only physical group of an element, zero for none; of several with one name the first.
-inline int gmsh_region(GmshContent const& content, GmshPick const& pick, int dim) {
-  for (int const other : pick.groups) {
-    auto const first = gmsh_group_name(content, {dim, pick.groups[0]});
-    if (auto const name = gmsh_group_name(content, {dim, other}); name != first) {
-      reject("element {} of '{}' is in the physical groups '{}' and '{}' (it can have one material): keep one of them",
-             pick.tag, content.file, first, name);
-    }
-  }
-  return pick.groups.empty() ? 0 : pick.groups.front();
-}
-
 /// Names the regions in the order of their tags; elements without group form the region "mesh".
 template <class Element>
 void read_gmsh_regions(GmshContent const& content, std::vector<GmshPick> const& picks, Mesh<Element>& mesh) {
@@ -112,14 +104,15 @@ void read_gmsh_regions(GmshContent const& content, std::vector<GmshPick> const& 
   for (auto const& [group, name] : content.names) {
     if (group.first == dim) number[group.second] = -1;
   }
-  for (auto const& pick : picks) number[gmsh_region(content, pick, dim)] = -1;
+  auto const group_of = [](GmshPick const& pick) { return pick.groups.empty() ? 0 : pick.groups.front(); };
+  for (auto const& pick : picks) number[group_of(pick)] = -1;
   for (auto& [tag, region] : number) {
     auto const name = tag == 0 ? std::string("mesh") : gmsh_group_name(content, {dim, tag});
     auto const known = std::find(mesh.regions.begin(), mesh.regions.end(), name);
     region = static_cast<int>(known - mesh.regions.begin());
     if (known == mesh.regions.end()) mesh.regions.push_back(name);
   }
-  for (auto const& pick : picks) mesh.element_region.push_back(number[gmsh_region(content, pick, dim)]);
+  for (auto const& pick : picks) mesh.element_region.push_back(number[group_of(pick)]);
 }
 
 template <class Element>
@@ -139,10 +132,8 @@ void reject_repeated_elements(GmshContent const& content, std::vector<GmshPick> 
   std::sort(entries.begin(), entries.end());
   auto const twice = std::ranges::adjacent_find(entries, {}, &Entry::first);
   if (twice != entries.end()) {
-    reject(
-        "elements {} and {} of '{}' have the same nodes (MSH 2.2 repeats what is in two physical groups): give each "
-        "element one group of its dimension",
-        twice->second, std::next(twice)->second, content.file);
+    reject("elements {} and {} of '{}' have the same nodes (each place has one element): leave one out", twice->second,
+           std::next(twice)->second, content.file);
   }
 }
 
@@ -180,51 +171,21 @@ Mesh<Element> assemble_gmsh(GmshContent const& content) {
   return mesh;
 }
 
-/// What a file names or holds that its mesh does not have, a sentence each.
-inline std::vector<std::string> gmsh_notes(GmshContent const& content) {
-  int dim = 0;
-  bool has_regions = false;
-  std::size_t outside = 0;  // elements in no group
-  for (auto const& block : content.blocks) dim = std::max(dim, block.tags.empty() ? 0 : block.type.dim);
-  std::set<std::pair<int, std::string>> names;
-  for (auto const& block : content.blocks) {
-    if (block.tags.empty()) continue;
-    if (block.type.dim == dim && block.groups.empty()) outside += block.tags.size();
-    for (int const group : block.groups)
-      names.emplace(block.type.dim, gmsh_group_name(content, {block.type.dim, group}));
-  }
-  std::vector<std::string> notes;
-  for (auto const& [group, name] : content.names) {
-    has_regions = has_regions || group.first == dim;
-    if (group.first < dim - 1) {
-      notes.push_back(
-          fmt::format("'{}': the physical group '{}' of dimension {} is not read", content.file, name, group.first));
-    } else if (names.insert({group.first, name}).second) {
-      notes.push_back(fmt::format("'{}': the physical group '{}' is empty: no element of dimension {} is in it",
-                                  content.file, name, group.first));
-    }
-  }
-  if (outside > 0 && has_regions)
-    notes.push_back(
-        fmt::format("'{}': {} elements are in no physical group: they are the region 'mesh'", content.file, outside));
-  for (auto const& section : content.skipped) {
-    notes.push_back(fmt::format("'{}': the section ${} is not read{}", content.file, section,
-                                section == "Periodic" ? ": nothing ties the nodes of its sides" : ""));
-  }
-  return notes;
-}
-
 }  // namespace scarp::detail
 
 namespace scarp {
 
-/// A file of Gmsh, read once: MSH 2.2 or 4.1, text or binary, of any order of bytes.
+/// A file of Gmsh, read once: MSH 1, 2 to 2.2, 4.0 or 4.1, text or binary, of any order of bytes.
 class GmshFile {
  public:
   /// \throws InputError naming file and line or byte for what is no mesh of Gmsh or is damaged
-  explicit GmshFile(std::filesystem::path const& path) : GmshFile(read_file(path), path.string()) {}
+  explicit GmshFile(std::filesystem::path const& path, GmshOptions const& options = {})
+      : GmshFile(read_file(path), path.string(), options) {}
   /// bytes: of the file; name: in messages
-  GmshFile(std::string bytes, std::string const& name) : content_(detail::read_gmsh_content(std::move(bytes), name)) {}
+  GmshFile(std::string bytes, std::string const& name, GmshOptions const& options = {})
+      : content_(detail::read_gmsh_content(std::move(bytes), name)) {
+    detail::normalise_gmsh(content_, options);
+  }
 
   /// Gmsh's number of the type of the elements, to choose the one that mesh() reads them as (`Tri6::gmsh_type`); of several types
   /// in the highest dimension the lowest number, 0 without surfaces and volumes.
@@ -235,15 +196,17 @@ class GmshFile {
     return 0;
   }
 
-  /// What the file names or holds that mesh() does not have: empty physical groups, sections that are not read. A sentence each.
-  std::vector<std::string> notes() const { return detail::gmsh_notes(content_); }
+  /// What mesh() has in another way than the file, or not: turned elements, dropped nodes, empty physical groups, groups that hold
+  /// others, sections that are not read. A sentence each.
+  std::vector<std::string> notes() const { return content_.notes; }
 
   /// Physical groups of the elements' dimension become regions, those of one dimension less boundaries, with each side
-  /// once; without a name they are called "physical_<tag>". Elements in no group form the region "mesh". Nodes and
+  /// once; without a name they are called "physical_<tag>". Elements in no group form the region "mesh", those in
+  /// several the smallest of them. Nodes and
   /// elements are numbered in the order of their tags; nodes of no element, points and elements of lower dimension in
   /// no group are left out. Lengths in [m].
-  /// \throws InputError naming file and node or element for what is no mesh of such elements, is turned inside out, or
-  /// in 2D not flat in z
+  /// \throws InputError naming file and node or element for what is no mesh of such elements, is flat or turned inside
+  /// out, or in 2D not flat in z
   template <HasGmshType Element>
   Mesh<Element> mesh() const {
     return detail::assemble_gmsh<Element>(content_);
@@ -255,8 +218,8 @@ class GmshFile {
 
 /// The mesh of a file of Gmsh, see GmshFile. \throws InputError
 template <HasGmshType Element>
-Mesh<Element> read_gmsh(std::filesystem::path const& path) {
-  return GmshFile(path).mesh<Element>();
+Mesh<Element> read_gmsh(std::filesystem::path const& path, GmshOptions const& options = {}) {
+  return GmshFile(path, options).mesh<Element>();
 }
 
 }  // namespace scarp

@@ -10,7 +10,7 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/element/reference_element.hpp"
-#include "scarp/io/gmsh/detail/gmsh_content.hpp"
+#include "scarp/io/gmsh/detail/gmsh_forms.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp::detail {
@@ -124,12 +124,6 @@ class GmshNumbering {
  private:
   std::vector<GmshNode> nodes_;
 };
-
-/// The name of a physical group; files may leave it out.
-inline std::string gmsh_group_name(GmshContent const& content, DimTag group) {
-  auto const found = content.names.find(group);
-  return found != content.names.end() ? found->second : fmt::format("physical_{}", group.second);
-}
 
 /// All sides of all elements, to be found by their nodes in any order.
 template <class Element>

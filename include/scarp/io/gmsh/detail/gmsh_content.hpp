@@ -90,7 +90,10 @@ struct GmshContent {
   std::map<DimTag, std::string> names{};  ///< of physical groups
   std::vector<GmshNode> nodes{};
   std::vector<GmshBlock> blocks{};
-  std::vector<std::string> skipped{};  ///< names of sections that are not read
+  std::map<std::int64_t, int> group_data{};  ///< groups of elements by tag, as meshio keeps them beside the elements
+  bool lists_copies = false;                 ///< an element is listed once for each of its groups
+  std::vector<std::string> skipped{};        ///< what is not read, such as Periodic
+  std::vector<std::string> notes{};          ///< a sentence each
 };
 
 /// Zero stands for no group. A file may name a group several times, also with both signs.
@@ -131,6 +134,27 @@ inline void read_gmsh_names(GmshStream& stream, GmshContent& content) {
       reject("{} names group {} of dimension {} '{}' (it is '{}' already): give each group one name", stream.place(),
              tag, dim, name, other->second);
     }
+  }
+}
+
+/// $ElementData "gmsh:physical": the physical groups of elements. Gmsh 4.8 Reference Manual, section 9.1
+inline void read_gmsh_group_data(GmshStream& stream, GmshContent& content) {
+  for (auto names = stream.text_count("the number of names of data", 1); names > 0; --names)
+    stream.quoted("the name of data");
+  for (auto times = stream.text_count("the number of times of data", 1); times > 0; --times)
+    stream.text<double>("the time of data");
+  auto const sizes = stream.text_count("the number of sizes of data", 1);
+  std::size_t size = 0;  // step, components, elements, from 4 on the partition
+  std::size_t elements = 0;
+  for (std::size_t k = 0; k < sizes; ++k) {
+    size = stream.text_count("a size of data", 1);
+    if (k == 2) elements = size;
+  }
+  stream.to_next_line();
+  for (std::size_t e = 0; e < elements; ++e) {
+    auto const tag = stream.value<std::int32_t>("the tag of an element");
+    auto const group = stream.value<double>("the physical group of an element");
+    if (std::abs(group) <= std::numeric_limits<int>::max()) content.group_data[tag] = static_cast<int>(group);
   }
 }
 

@@ -43,13 +43,19 @@ class GmshStream {
   }
 
   /// Name of the section that begins here, without its '$'; empty at the end of the file.
+  /// Before the first section stands what scripts put there; later only comments, which begin with // or #.
   std::string next_section() {
     skip_blanks();
+    if (!at_section_) skip_preface();
+    while (content_.compare(at_, 2, "//") == 0 || content_.compare(at_, 1, "#") == 0) {
+      to_next_line();
+      skip_blanks();
+    }
     last_ = at_;
     if (at_ == content_.size()) return {};
     if (content_[at_] != '$') {
       reject("{} has '{}' (a section such as $Nodes must begin): {}", place(), shown(peek_word()),
-             at_section_ ? "check the counts of the section before it, and leave out comments"
+             at_section_ ? "check the counts of the section before it"
                          : "give a mesh of Gmsh, which begins with $MeshFormat");
     }
     at_section_ = true;
@@ -75,6 +81,12 @@ class GmshStream {
     at_ = found + end.size();
   }
 
+  /// Whether a text stands in the next lines.
+  bool mentions(std::string_view text) const {
+    constexpr std::size_t near = 100;
+    return std::string_view(content_).substr(at_, near).find(text) != std::string_view::npos;
+  }
+
   /// A number in whatever form the file has.
   template <class Number>
   Number value(std::string_view what) {
@@ -86,6 +98,9 @@ class GmshStream {
   Number text(std::string_view what) {
     auto const whole = next_word(what);
     auto word = whole;
+    std::string fortran;
+    if (auto const at = whole.find_first_of("Dd"); std::floating_point<Number> && at != std::string_view::npos)
+      word = (fortran = whole).replace(at, 1, "e");
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars accepts no plus
     Number number{};
     auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -144,6 +159,12 @@ class GmshStream {
       if (letter < ' ' || letter > '~') letter = '?';
     }
     return word.size() > longest ? text + "..." : text;
+  }
+
+  /// Goes to the line that names the format, if there is one.
+  void skip_preface() {
+    auto const found = content_.find("\n$MeshFormat", at_);
+    if (content_.compare(at_, 11, "$MeshFormat") != 0 && found != std::string::npos) at_ = found + 1;
   }
 
   void skip_blanks() { at_ = std::min(content_.find_first_not_of(blanks, at_), content_.size()); }

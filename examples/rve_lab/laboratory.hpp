@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+
+namespace rve_lab {
+
+/// A test of any material by a laboratory's name; pressures [Pa] are positive in compression, angles in degrees.
+struct Laboratory {
+  std::string provider = "packing";
+  Material grains;
+  Preparation preparation;
+  std::vector<std::string> packings{};
+  double young = 20e6;
+  double poisson = 0.3;
+  double friction = 30.0;
+  double dilation = 0.0;
+  double cohesion = 0.0;
+  int dimension = 2;
+
+  std::string path = "drained";
+  std::string table{};
+  double strain = 0.1;  ///< length of the path
+  bool extension = false;
+  double ratio = 0.0;
+  int cycles = 0;
+  double amplitude = 0.005;
+  std::optional<double> consolidation{};
+  double k0 = 1.0;
+
+  double increment = 5e-4;
+  double strain_step = 5e-6;
+  double tolerance = 1e-4;
+  double window = 5e-3;
+  std::optional<double> void_ratio{};
+  int threads = 2;
+  std::vector<std::string> overlays{};
+  examples::Output output{"output/rve_lab"};
+
+  bool is_packing() const { return provider == "packing"; }
+};
+
+inline std::vector<std::string> laboratory_paths() {
+  return {"isotropic",
+          "oedometer",
+          "drained",
+          "undrained",
+          "constant_mean_stress",
+          "simple_shear",
+          "simple_shear_at_stress",
+          "proportional_stress",
+          "proportional_strain",
+          "table"};
+}
+
+inline void declare_laboratory(CLI::App& app, Laboratory& test) {
+  app.add_option("--material", test.provider, "what is tested")
+      ->check(CLI::IsMember({"packing", "mohr-coulomb", "elastic"}));
+  declare_material(app, test.grains);
+  declare_preparation(app, test.preparation);
+  auto* const packings =
+      app.add_option("--packing", test.packings, "files of `prepare`, all tested alike; without, a packing is prepared")
+          ->delimiter(',');
+  for (auto* const option : app.get_options()) {
+    if (option->get_group() == "Preparation") option->excludes(packings);
+  }
+  auto const in = [&](char const* group) {
+    return [&app, group](char const* name, auto& member, char const* what) {
+      return app.add_option(name, member, what)->group(group);
+    };
+  };
+  auto const soil = in("Mohr-Coulomb and elastic material");
+  soil("--young", test.young, "Young's modulus [Pa]")->check(positive(1e15));
+  soil("--poissons-ratio", test.poisson, "Poisson's ratio")->check(not_negative(0.4999));
+  soil("--friction-angle", test.friction, "[degrees]")->check(not_negative(89.0));
+  soil("--dilation-angle", test.dilation, "[degrees]")->check(not_negative(89.0));
+  soil("--cohesion", test.cohesion, "[Pa]")->check(not_negative(1e12));
+  soil("--dimension", test.dimension, "2: plane strain, 3: space")->check(CLI::IsMember({2, 3}));
+  soil("--void-ratio", test.void_ratio, "at the start, for the table")->check(not_negative(100.0));
+  auto const path = in("Path");
+  path("--path", test.path, "of the test")->check(CLI::IsMember(laboratory_paths()));
+  path("--table", test.table,
+       "of --path table: CSV of targets, one row after the other; exx, eyy, ezz, ev: strains, sxx, syy, szz, p: "
+       "stresses "
+       "[Pa], all compression positive; gxy, gzx, gyz: shear angles")
+      ->check(CLI::ExistingFile);
+  path("--strain", test.strain, "axial, volumetric (isotropic) or angle of shear at the end")->check(positive(2.0));
+  app.add_flag("--extension", test.extension, "the axis lengthens, or shear to the other side")->group("Path");
+  path("--ratio", test.ratio, "of lateral to axial changes on proportional paths")->check(CLI::Range(-10.0, 10.0));
+  path("--cycles", test.cycles, "to and fro between +amplitude and -amplitude, instead of --strain")
+      ->check(CLI::Range(0, 100'000));
+  path("--amplitude", test.amplitude, "strain at which a cycle turns round")->check(positive(1.0));
+  path("--consolidation", test.consolidation, "axial stress to which the material is brought before the path [Pa]")
+      ->check(positive(1e12));
+  path("--k0", test.k0, "lateral over axial stress of that")->check(positive(10.0));
+  auto const how = in("Accuracy");
+  how("--increment", test.increment,
+      "of the path, one row each; of cycles at most a tenth of the amplitude, of a table a tenth of the way to its "
+      "next row")
+      ->check(examples::number_from(1e-9, true, 0.05));
+  how("--strain-step", test.strain_step, "largest strain of one DEM step")
+      ->check(examples::number_from(1e-12, true, 1e-3));
+  how("--tolerance", test.tolerance, "of held stresses, relative")->check(examples::number_from(1e-12, true, 0.1));
+  how("--window", test.window, "length over which peak and residual are means; 0 for single rows")
+      ->check(not_negative(1.0));
+  how("--threads", test.threads, "that test several packings")->check(CLI::Range(1, 1024));
+  app.add_option("--overlay", test.overlays,
+                 "tables drawn in the figures too: test.csv of other runs, or a laboratory's with columns as "
+                 "eps1_percent, epsv_percent, q_kPa, p_kPa, void_ratio")
+      ->delimiter(',')
+      ->check(CLI::ExistingFile);
+  examples::declare_output(app, test.output, "folder for test.csv and summary.json", "--output,-o");
+}
+
+/// \throws InputError for options that the material or the path has no use for
+inline void require_used(CLI::App const& app, Laboratory const& test) {
+  for (auto const* const option : app.get_options()) {
+    auto const& group = option->get_group();
+    bool const of_packing = group == "Preparation" || group == "Material" || option->get_name() == "--packing";
+    bool const of_soil = group == "Mohr-Coulomb and elastic material";
+    bool const of_both = option->get_name() == "--pressure";
+    if (!of_both && (test.is_packing() ? of_soil : of_packing))
+      reject_unused(app, option->get_single_name(), fmt::format("the material is '{}'", test.provider));
+  }
+  if (test.provider == "elastic") {
+    for (auto const* name : {"friction-angle", "dilation-angle", "cohesion"}) reject_unused(app, name, "it is elastic");
+  }
+  if (!test.path.starts_with("proportional")) reject_unused(app, "ratio", "the path is not proportional");
+  if (!test.consolidation) reject_unused(app, "k0", "without --consolidation");
+  if (test.path == "table") {
+    if (test.table.empty()) scarp::reject("--path table has no table (its targets are unknown): give --table FILE");
+    for (auto const* name : {"strain", "extension", "cycles", "amplitude"})
+      reject_unused(app, name, "the table has the targets");
+  } else {
+    reject_unused(app, "table", fmt::format("the path is '{}'", test.path));
+  }
+  if (test.cycles > 0) reject_unused(app, "strain", "--cycles go to --amplitude");
+  if (test.cycles == 0) reject_unused(app, "amplitude", "without --cycles");
+}
+
+}  // namespace rve_lab

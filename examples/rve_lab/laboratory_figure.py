@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The curves of `rve_lab test`, with those of other runs and of laboratory tables."""
+
+import pathlib
+
+import numpy as np
+import scarp_figures as figures
+from scarp_figures import BLACK, BLUE, GREEN, GREY, ORANGE, PALE, PURPLE, SKY, VERMILION, plt
+
+COLOURS = (VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
+# Quantities by the names of a laboratory's columns, their factor to per cent, kPa and one.
+NAMES = {"strain": {"length": 100.0, "eps1_percent": 1.0, "eps1": 100.0, "axial_strain": 100.0, "gamma_percent": 1.0},
+         "volume": {"volumetric_strain": 100.0, "epsv_percent": 1.0, "epsv": 100.0},
+         "q": {"q": 1e-3, "q_kPa": 1.0}, "p": {"p": 1e-3, "p_kPa": 1.0},
+         "axial": {"axial_stress": 1e-3, "sigma1_kPa": 1.0, "sig1_kPa": 1.0}, "void_ratio": {"void_ratio": 1.0, "e": 1.0}}
+
+
+def read_curves(path):
+    """Curves of a table, one for each point: {quantity: array}, NaN where the table does not have it."""
+    table = figures.read_csv(path, [])
+    count = len(next(iter(table.values())))
+    curve = {}
+    for quantity, names in NAMES.items():
+        name = next((name for name in names if name in table), None)
+        curve[quantity] = table[name] * names[name] if name else np.full(count, np.nan)
+    if not any(np.isfinite(values).any() for values in curve.values()):
+        known = ", ".join(name for names in NAMES.values() for name in names)
+        raise figures.InputError(f"'{path}' has no column of a test (it has: {', '.join(table)}): name some of {known}")
+    if is_cyclic(curve) and "shear_stress" in table:  # a deviator that changes sign with the direction
+        axial, shear = table["axial_stress"] - table["lateral_stress"], 2.0 * table["shear_stress"]
+        curve["q"] = 1e-3 * (axial if np.ptp(axial) > np.ptp(shear) else shear)
+    points = table.get("point", np.zeros(count))
+    return [{name: values[points == point] for name, values in curve.items()} for point in np.unique(points)]
+
+
+def is_cyclic(curve):
+    return np.nanmin(curve["strain"]) < 0.0 < np.nanmax(curve["strain"])
+
+
+def mean_of(curves):
+    count = min(len(curve["strain"]) for curve in curves)
+    return {name: np.mean([curve[name][:count] for curve in curves], axis=0) for name in curves[0]}
+
+
+def laboratory(folder, overlays=()):
+    summary = figures.read_summary(folder)
+    overlays = [*summary.get("overlay", []), *overlays]
+    own = read_curves(folder / "test.csv")
+    runs = [("this test", own, BLUE, "-")]
+    for path, colour in zip(overlays, COLOURS * len(overlays)):
+        path = pathlib.Path(path)
+        name = f"{path.resolve().parent.name}/{path.name}" if path.name == "test.csv" else path.stem
+        runs.append((name, read_curves(path), colour, "--"))
+    compresses = summary.get("path") in ("oedometer", "isotropic")
+    fig, panels = plt.subplots(2, 2, figsize=(8.0, 6.2))
+    q = "signed q [kPa]" if is_cyclic(own[0]) else "q [kPa]"
+    shown = [("strain", "q", "strain [%]", q), ("p", "q", "p [kPa]", q),
+             ("strain", "volume", "strain [%]", "volumetric strain [%]\n(contraction positive)"),
+             ("axial" if compresses else "p", "void_ratio", f"{'axial stress' if compresses else 'p'} [kPa]", "void ratio")]
+    for axes, (x, y, x_label, y_label) in zip(panels.flat, shown):
+        for name, curves, colour, dashes in runs:
+            if len(curves) > 1:
+                for curve in curves:
+                    axes.plot(curve[x], curve[y], color=PALE if colour == BLUE else colour, linewidth=0.7, alpha=0.7)
+            mean = mean_of(curves)
+            label = name if len(curves) == 1 else f"{name}, mean of {len(curves)}"
+            axes.plot(mean[x], mean[y], dashes, color=colour, label=label)
+        axes.set(xlabel=x_label, ylabel=y_label)
+        if y == "volume" and all(np.nanmax(np.abs(c["volume"]), initial=0.0) < 1e-6 for _, cs, _, _ in runs for c in cs):
+            axes.set_ylim(-0.1, 0.1)
+    if compresses:
+        panels[1][1].set_xscale("log")
+    mark_states(panels, summary, len(own))
+    panels[0][0].legend(loc="best")
+    fig.suptitle(f"{summary.get('path', 'test').replace('_', ' ').capitalize()} test", fontsize=10)
+    return fig
+
+
+def mark_states(panels, summary, count):
+    results = summary.get("mean") or {}
+    for name, marker in (("peak", "o"), ("phase_transformation", "^"), ("residual", "s")):
+        state = results.get(name)
+        if not state or summary.get("path") in ("oedometer", "isotropic"):
+            continue
+        label = name.replace("_", " ")
+        if state.get("friction_angle") is not None:
+            label += f", {state['friction_angle']:.1f}°"
+        style = {"color": BLACK if count == 1 else GREY, "markersize": 4, "zorder": 5, "linestyle": "none"}
+        panels[0][0].plot(100.0 * state["strain"], 1e-3 * state["q"], marker, label=label, **style)
+        panels[0][1].plot(1e-3 * state["p"], 1e-3 * state["q"], marker, **style)
+        panels[1][0].plot(100.0 * state["strain"], 100.0 * state["volumetric_strain"], marker, **style)

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scarp/core/error.hpp"
+#include "scarp/tensor/voigt.hpp"
+
+namespace scarp {
+
+/// State of a point on a laboratory path: length of the path, stress [Pa] and logarithmic strain with engineering shear, tension positive. What
+/// follows from them is positive in compression; p and q in the plane are those of the stresses in it.
+template <int Dim>
+struct LaboratoryRow {
+  double length = 0.0;
+  VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
+  EngineeringStrain<Dim> strain = EngineeringStrain<Dim>::Zero();
+
+  /// Principal stresses [Pa], largest first.
+  Vector<Dim> principal_stresses() const {
+    return -Eigen::SelfAdjointEigenSolver<Tensor<Dim>>(from_voigt_stress<Dim, double>(stress), Eigen::EigenvaluesOnly)
+                .eigenvalues();
+  }
+  /// Mean stress [Pa].
+  double p() const { return -stress.template head<Dim>().mean(); }
+  /// Difference of the outer principal stresses [Pa].
+  double q() const {
+    auto const values = principal_stresses();
+    return values(0) - values(Dim - 1);
+  }
+  /// Mobilised friction angle [rad], \f$ \sin\varphi = (\sigma_1 - \sigma_3)/(\sigma_1 + \sigma_3) \f$; NaN without pressure.
+  double friction() const {
+    auto const values = principal_stresses();
+    return std::asin((values(0) - values(Dim - 1)) / (values(0) + values(Dim - 1)));
+  }
+  double axial_strain() const { return 0.0 - strain(Dim - 1); }
+  double volumetric_strain() const { return 0.0 - strain.template head<Dim>().sum(); }
+  /// Void ratio of grains that do not change their volume. initial: where the path began
+  double void_ratio(double initial) const { return (1.0 + initial) * std::exp(-volumetric_strain()) - 1.0; }
+};
+
+/// Dilation angle [rad] of a change of strain, \f$ \sin\psi = -d\varepsilon_v / \sum_i |d\varepsilon_i| \f$ over the principal strains: what
+/// Mohr-Coulomb flow with this angle has in the plane, in triaxial compression and in extension. NaN
+/// where no shear strain changes, as in oedometers: all principal strains have one sign.
+template <int Dim>
+double dilation(LaboratoryRow<Dim> const& from, LaboratoryRow<Dim> const& to) {
+  EngineeringStrain<Dim> change = to.strain - from.strain;
+  change.template tail<voigt_size<Dim> - Dim>() /= 2.0;
+  Eigen::SelfAdjointEigenSolver<Tensor<Dim>> const solver(from_voigt_stress<Dim, double>(change),
+                                                          Eigen::EigenvaluesOnly);
+  double const sine = solver.eigenvalues().sum() / solver.eigenvalues().cwiseAbs().sum();
+  return std::abs(sine) < 1.0 - 1e-9 ? std::asin(sine) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Results of a test by the names that practitioners use. NaN where the test does not have them.
+template <int Dim>
+struct LaboratoryResults {
+  using Row = LaboratoryRow<Dim>;
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  Row peak{};      ///< where the mobilised friction is largest; mean over the window, as all rows here
+  Row residual{};  ///< over the last window
+  std::optional<Row>
+      phase_transformation{};    ///< from contraction to dilation; at constant volume from falling to rising p
+  double peak_dilation = none;   ///< largest where nine tenths of the peak friction are mobilised [rad]
+  double shear_modulus = none;   ///< G0 [Pa], over the first row; not of nearly isotropic paths
+  double secant_modulus = none;  ///< E50 [Pa], to half of the largest change of q, where the length is the axial strain
+  double secant_poisson = none;  ///< lateral extension over axial compression there, in the plane \f$ \nu/(1-\nu) \f$
+  double k0 = none;              ///< lateral over axial stress at the end
+
+  /// Poisson's ratio of the secant to E50.
+  double poisson() const { return Dim == 2 ? secant_poisson / (1.0 + secant_poisson) : secant_poisson; }
+};
+
+namespace detail {
+
+template <int Dim>
+LaboratoryRow<Dim> mean(std::span<LaboratoryRow<Dim> const> rows) {
+  LaboratoryRow<Dim> sum;
+  double const share = 1.0 / static_cast<double>(rows.size());
+  for (auto const& row : rows) {
+    sum.length += share * row.length;
+    sum.stress += share * row.stress;
+    sum.strain += share * row.strain;
+  }
+  return sum;
+}
+
+/// Rows up to the first turn of a cyclic path.
+template <int Dim>
+std::span<LaboratoryRow<Dim> const> monotonic(std::span<LaboratoryRow<Dim> const> rows) {
+  std::size_t count = std::min<std::size_t>(rows.size(), 2);
+  double const sign = count < 2 ? 1.0 : rows[1].length - rows[0].length;
+  while (count < rows.size() && sign * (rows[count].length - rows[count - 1].length) > 0.0) ++count;
+  return rows.first(count);
+}
+
+/// The row where a measure is largest; nothing at the ends.
+template <int Dim, class Measure>
+std::optional<LaboratoryRow<Dim>> inner_maximum(std::vector<LaboratoryRow<Dim>> const& rows, Measure const& measure) {
+  auto const most = std::ranges::max_element(rows, {}, measure);
+  if (most == rows.begin() || most == rows.end() || most + 1 == rows.end()) return std::nullopt;
+  return *most;
+}
+
+template <int Dim>
+void read_moduli(std::span<LaboratoryRow<Dim> const> rows, LaboratoryResults<Dim>& results) {
+  auto const deviator = [](VoigtStress<Dim> const& components) {
+    Tensor<Dim> const tensor = from_voigt_stress<Dim, double>(components);
+    return (tensor - tensor.trace() / Dim * Tensor<Dim>::Identity()).norm();
+  };
+  auto const& start = rows.front();
+  EngineeringStrain<Dim> first = rows[1].strain - start.strain;
+  first.template tail<voigt_size<Dim> - Dim>() /= 2.0;
+  if (double const shear = deviator(first); shear > 0.05 * first.norm())
+    results.shear_modulus = deviator(rows[1].stress - start.stress) / (2.0 * shear);
+  auto const top = std::ranges::max_element(rows, {}, &LaboratoryRow<Dim>::q);
+  double const half = (start.q() + top->q()) / 2.0;
+  auto const above = std::ranges::find_if(rows, [&](auto const& row) { return row.q() >= half; });
+  if (above == rows.begin() || above == rows.end()) return;
+  auto const& below = *(above - 1);
+  double const share = (half - below.q()) / (above->q() - below.q());
+  EngineeringStrain<Dim> const strain = below.strain + share * (above->strain - below.strain) - start.strain;
+  double const length = below.length + share * (above->length - below.length) - start.length;
+  if (!(std::abs(strain(Dim - 1) + length) < 1e-6 * std::abs(length))) return;
+  results.secant_modulus = (half - start.q()) / std::abs(strain(Dim - 1));
+  results.secant_poisson = -strain.template head<Dim - 1>().mean() / strain(Dim - 1);
+}
+
+}  // namespace detail
+
+/// Reads the results of a test from its rows, up to the first turn of a cyclic one.
+/// window: length of the path over which stresses are means and dilation angles differences, against the scatter of packings;
+/// 0 for single rows
+/// \throws InputError for less than two rows, and a path that is shorter than the window
+template <int Dim>
+LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const& all, double window = 0.0) {
+  using Row = LaboratoryRow<Dim>;
+  require_not_negative("window of a test's results", window);
+  auto const rows = detail::monotonic<Dim>(all);
+  if (rows.size() < 2) reject("a test has {} rows (results are differences): give two at least", rows.size());
+  LaboratoryResults<Dim> results;
+  std::vector<Row> means;
+  std::vector<double> angles;
+  std::size_t last = 0;
+  for (std::size_t first = 0; first < rows.size(); ++first) {
+    auto const length = [&](std::size_t row) { return std::abs(rows[row].length - rows[first].length); };
+    constexpr double slight = 1e-9;  // of the window, for sums of lengths
+    while (last + 1 < rows.size() && (last < first || length(last) < window * (1.0 - slight))) ++last;
+    if (length(last) < window * (1.0 - slight)) break;
+    means.push_back(detail::mean<Dim>(rows.subspan(first, last + 1 - first)));
+    angles.push_back(dilation(rows[first], rows[std::min(std::max(last, first + 1), rows.size() - 1)]));
+  }
+  if (means.empty()) reject("the test is shorter than the window {} of its results: take a smaller one", window);
+  auto const friction = [](Row const& row) { return row.p() > 0.0 ? row.friction() : 0.0; };
+  results.peak = *std::ranges::max_element(means, {}, friction);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    constexpr double nearly = 0.9;  // of the peak: before, elastic changes of volume count
+    if (friction(means[k]) < nearly * friction(results.peak) || angles[k] <= results.peak_dilation) continue;
+    if (!std::isnan(angles[k])) results.peak_dilation = angles[k];
+  }
+  results.residual = means.back();
+  bool const undrained =
+      std::ranges::all_of(rows, [](Row const& row) { return std::abs(row.volumetric_strain()) < 1e-9; });
+  results.phase_transformation =
+      undrained ? detail::inner_maximum(means, [](Row const& row) { return -row.p(); })
+                : detail::inner_maximum(means, [](Row const& row) { return row.volumetric_strain(); });
+  results.k0 = rows.back().stress(0) / rows.back().stress(Dim - 1);
+  detail::read_moduli<Dim>(rows, results);
+  return results;
+}
+
+}  // namespace scarp

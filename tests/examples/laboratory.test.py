@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSL-1.0
+"""`rve_lab test`: closed forms of Mohr-Coulomb and elastic material in plane and space, paths of a table, a packing whose Mohr-Coulomb reading
+has its peak, tests that end early, and options that are rejected. Environment: SCARP_EXAMPLES, the folder of the built programs."""
+import csv
+import json
+import math
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from expectations import example, expect, finish
+
+LAB = example("rve_lab")
+SINE = math.sin(math.radians(33.0))
+SOIL = ["--material", "mohr-coulomb", "--friction-angle", "33", "--dilation-angle", "7", "--pressure", "1e5", "--tolerance", "1e-9"]
+PACKING = ["--grains", "100", "--strain-step", "2e-5"]
+
+
+def run(folder, name, *arguments):
+    done = subprocess.run([LAB, "test", "--output", name, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
+                          timeout=250)
+    return done.returncode, done.stdout + done.stderr
+
+
+def tested(folder, name, *arguments):
+    code, said = run(folder, name, *arguments)
+    expect(code == 0, f"{name}: ended with {code}\n{said}")
+    with open(folder / name / "test.csv", newline="") as file:
+        rows = [{key: float(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
+    return said, rows, json.loads((folder / name / "summary.json").read_text())
+
+
+def near(what, value, expected, tolerance):
+    expect(abs(value - expected) <= tolerance * abs(expected), f"{what}: {value}, expected {expected}")
+
+
+def check_closed_forms(folder):
+    for dimension in (2, 3):
+        _, rows, summary = tested(folder, f"drained{dimension}", *SOIL, "--dimension", dimension)
+        near("peak friction", summary["mean"]["peak"]["friction_angle"], 33.0, 1e-6)
+        near("dilation", summary["mean"]["peak_dilation_angle"], 7.0, 1e-4)
+        near("read friction", summary["mohr_coulomb"]["friction_angle"], 33.0, 1e-6)
+        near("read dilation", summary["mohr_coulomb"]["dilation_angle"], 7.0, 1e-4)
+        near("read modulus", summary["mohr_coulomb"]["young"], 20e6, 1e-4)
+        near("read ratio", summary["mohr_coulomb"]["poissons_ratio"], 0.3, 1e-4)
+        near("G0", summary["mean"]["G0"], 20e6 / 2.6, 1e-4)
+        near("strain at the end", rows[-1]["axial_strain"], 0.1, 1e-9)
+    _, rows, _ = tested(folder, "undrained", *SOIL[:4], "--path", "undrained", *SOIL[6:])
+    near("undrained q in the plane", rows[-1]["q"], 2e5 * SINE, 1e-6)
+    _, rows, _ = tested(folder, "cyclic", *SOIL, "--path", "undrained", "--cycles", 2, "--amplitude", "0.001")
+    near("one end of a cycle", max(row["length"] for row in rows), 0.001, 1e-9)
+    near("the other one", min(row["length"] for row in rows), -0.001, 1e-9)
+    expect(abs(rows[-1]["length"]) < 1e-12, "cycles end where they began")
+    _, rows, summary = tested(folder, "oedometer", "--material", "elastic", "--dimension", 3, "--path", "oedometer", "--pressure", "1e4",
+                              "--void-ratio", "0.7", "--strain", "0.02")
+    near("K0 of added stress", (rows[-1]["lateral_stress"] - 1e4) / (rows[-1]["axial_stress"] - 1e4), 0.3 / 0.7, 1e-6)
+    near("void ratio", rows[-1]["void_ratio"], 1.7 * math.exp(-0.02) - 1.0, 1e-9)
+
+
+def check_table(folder):
+    (folder / "path.csv").write_text("sxx,eyy\n1.5e5,0.001\n1.2e5,0.002\n")
+    _, rows, _ = tested(folder, "table", "--material", "elastic", "--pressure", "1e5", "--path", "table", "--table", "path.csv")
+    near("lateral stress after a row", rows[10]["lateral_stress"], 1.5e5, 1e-4)
+    near("axial strain after a row", rows[10]["axial_strain"], 0.001, 1e-9)
+    near("lateral stress", rows[-1]["lateral_stress"], 1.2e5, 1e-4)
+    near("axial strain", rows[-1]["axial_strain"], 0.002, 1e-9)
+    (folder / "space.csv").write_text("exx,eyy,szz,gzx\n-0.001,-0.001,2e5,1e-3\n")
+    _, rows, _ = tested(folder, "space", "--material", "elastic", "--dimension", 3, "--pressure", "1e5", "--path", "table",
+                        "--table", "space.csv")
+    near("axial stress in space", rows[-1]["axial_stress"], 2e5, 1e-4)
+    near("shear stress in space", rows[-1]["shear_stress"], 1e-3 * 20e6 / 2.6, 1e-2)
+    for text, named in (("sxx,eyy,depth\n1,1,1\n", "column 'depth'"), ("eyy\n1e-3\n", "2 conditions"),
+                        ("eyy,ev,exx\n1e-3,0,0\n", "4 conditions")):
+        (folder / "wrong.csv").write_text(text)
+        code, said = run(folder, "wrong", "--material", "elastic", "--path", "table", "--table", "wrong.csv")
+        expect(code == 1 and named in said, f"{text!r}: ended with {code}, {said}")
+
+
+def check_packing(folder):
+    said, rows, summary = tested(folder, "packing", *PACKING, "--seed", 3, "--strain", "0.04")
+    for row in rows:
+        near("held stress", row["lateral_stress"], rows[0]["lateral_stress"], 1e-3)
+    peak = summary["mean"]["peak"]["friction_angle"]
+    expect(15.0 < peak < 60.0, f"peak friction {peak}")
+    options = shlex.split(re.search("as Mohr-Coulomb: (.*)", said)[1])
+    _, twin, _ = tested(folder, "twin", *options, "--pressure", rows[0]["lateral_stress"])
+    near("friction of the reading", max(row["friction_angle"] for row in twin), peak, 1e-3)
+    tested(folder, "consolidated", *PACKING, "--consolidation", "3e5", "--path", "undrained", "--strain", "0.01")
+    with open(folder / "consolidated" / "test.csv", newline="") as file:
+        near("consolidation", float(next(csv.DictReader(file))["axial_stress"]), 3e5, 1e-3)
+
+
+def check_ends(folder):
+    (folder / "beyond.csv").write_text("sxx,syy\n1e5,9e5\n")
+    code, said = run(folder, "beyond", *SOIL, "--path", "table", "--table", "beyond.csv")
+    expect(code == 3 and "not_converged" in said and "test.csv" in said, f"beyond the strength: ended with {code}, {said}")
+    reached = json.loads((folder / "beyond" / "summary.json").read_text())["length"]
+    near("share of the way", reached, (1e5 * (1.0 + SINE) / (1.0 - SINE) - 1e5) / 8e5, 1e-2)
+    for arguments, named in ((["--young", "1e6"], "--young is given but not used"), (["--ratio", "1"], "--ratio"),
+                             (["--material", "elastic", "--cohesion", "1"], "--cohesion"),
+                             (["--material", "elastic", "--grains", "9"], "--grains"),
+                             (["--path", "table"], "no table"), (["--k0", "0.5"], "--k0"),
+                             (["--material", "elastic", "--amplitude", "0.1"], "--amplitude")):
+        code, said = run(folder, "rejected", *arguments)
+        expect(code == 1 and named in said, f"{arguments}: ended with {code}, {said}")
+        expect(not (folder / "rejected" / "test.csv").exists(), f"{arguments}: wrote a table")
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    for check in (check_closed_forms, check_table, check_packing, check_ends):
+        check(pathlib.Path(scratch))
+finish()

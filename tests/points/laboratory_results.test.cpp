@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/points/laboratory_results.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+
+#include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/points/laboratory_paths.hpp"
+#include "scarp/points/mohr_coulomb_reading.hpp"
+#include "support/approx.hpp"
+#include "support/refusals.hpp"
+
+namespace {
+
+using samples::Approx;
+using Rows = std::vector<scarp::LaboratoryRow<2>>;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+template <int Dim, class Provider>
+auto rows_of(Provider const& provider, scarp::PathConditions<Dim> const& conditions, double length, int count) {
+  scarp::MaterialPoints<Dim> points(provider, std::array{scarp::Site<Dim>{}});
+  scarp::PointPath<Dim> path(points, conditions, {.tolerance = 1e-11});
+  scarp::SerialExecutor serial;
+  std::vector<scarp::LaboratoryRow<Dim>> rows{{0.0, path.stress(0), path.strain(0)}};
+  for (int k = 0; k < count; ++k) {
+    REQUIRE(path.advance(length / count, serial).verdict.acceptable());
+    rows.push_back({path.length(), path.stress(0), path.strain(0)});
+  }
+  return rows;
+}
+
+/// Drained compression at a lateral pressure of 1 with deviators and volumetric strains of functions of the axial strain.
+template <class Deviator, class Volume>
+Rows drawn(Deviator const& deviator, Volume const& volume, double end, int count) {
+  Rows rows;
+  for (int k = 0; k <= count; ++k) {
+    double const axial = end * k / count;
+    rows.push_back({axial, {-1.0, -1.0 - deviator(axial), 0.0}, {axial - volume(axial), -axial, 0.0}});
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("Mohr-Coulomb parameters are read from Mohr-Coulomb's own curve", Number,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+  constexpr int dim = Number::value;
+  scarp::MohrCoulomb<dim, scarp::GeostaticStress<dim>> const soil{
+      scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3),
+      {{.friction = 35.0 * degree, .dilation = 8.0 * degree}},
+      {.surcharge = 1e5}};
+  auto const rows = rows_of<dim>(soil, scarp::drained_path<dim>(), 0.04, 400);
+  auto const results = scarp::laboratory_results<dim>(rows);
+  // The elastic strain of an increment is its logarithm to 1e-9; the curve is straight to its corner, but for the row across it.
+  CHECK(results.peak.friction() == Approx(35.0 * degree).epsilon(1e-9));
+  CHECK(results.residual.friction() == Approx(35.0 * degree).epsilon(1e-9));
+  CHECK(results.peak_dilation == Approx(8.0 * degree).epsilon(1e-6));
+  CHECK(results.shear_modulus == Approx(20e6 / 2.6).epsilon(1e-8));
+  CHECK(results.k0 == Approx((1.0 - std::sin(35.0 * degree)) / (1.0 + std::sin(35.0 * degree))).epsilon(1e-9));
+  auto const read = scarp::mohr_coulomb_of(results);
+  CHECK(read.elasticity.shear_modulus == Approx(20e6 / 2.6).epsilon(1e-6));
+  CHECK(read.elasticity.lame_lambda == Approx(soil.elasticity.lame_lambda).epsilon(1e-6));
+  CHECK(read.strength.strength.friction == results.peak.friction());
+  // Contraction ends at the corner: the last elastic row.
+  REQUIRE(results.phase_transformation);
+  CHECK(results.phase_transformation->q() <= results.peak.q() * (1.0 + 1e-9));
+  CHECK(results.phase_transformation->q() > 0.9 * results.peak.q());
+}
+
+TEST_CASE("results of a synthetic drained test") {
+  constexpr double top = 3.0, at = 0.02, turn = 0.01, share = 0.4;
+  auto const deviator = [](double axial) {  // largest, `top`, at `at`
+    double const x = axial / at;
+    return top * 2.0 * x / (1.0 + x * x);
+  };
+  auto const volume = [](double axial) { return share * axial * (1.0 - axial / (2.0 * turn)); };  // largest at `turn`
+  constexpr int count = 1000;
+  constexpr double end = 0.1;
+  auto const rows = drawn(deviator, volume, end, count);
+  auto const results = scarp::laboratory_results<2>(rows);
+  CHECK(results.peak.length == Approx(at));
+  CHECK(results.peak.q() == Approx(top));
+  CHECK(results.peak.p() == Approx(1.0 + top / 2.0));
+  CHECK(std::sin(results.peak.friction()) == Approx(top / (2.0 + top)));
+  CHECK(results.residual.q() == Approx(deviator(end)));
+  REQUIRE(results.phase_transformation);
+  CHECK(results.phase_transformation->length == Approx(turn));
+  CHECK(results.phase_transformation->volumetric_strain() == Approx(volume(turn)));
+  CHECK(results.phase_transformation->void_ratio(0.6) == Approx(1.6 * std::exp(-volume(turn)) - 1.0));
+  // Dilation grows to the last row where nine tenths of the peak friction are mobilised: dv / da behind it.
+  double last = 0.0;
+  for (auto const& row : rows) {
+    double const sine = deviator(row.length) / (2.0 + deviator(row.length));
+    if (std::asin(sine) >= 0.9 * std::asin(top / (2.0 + top))) last = row.length;
+  }
+  double const rate = share * (1.0 - (last + end / count / 2.0) / turn);
+  CHECK(std::sin(results.peak_dilation) == Approx(-rate / (2.0 - rate)).epsilon(1e-10));
+  // q = top / 2 at x = 2 - sqrt 3; linear between rows of x = 5e-3.
+  double const half = (2.0 - std::sqrt(3.0)) * at;
+  CHECK(results.secant_modulus == Approx(top / 2.0 / half).epsilon(1e-4));
+  CHECK(results.secant_poisson == Approx(1.0 - volume(half) / half).epsilon(1e-4));
+  double const first = end / count;
+  CHECK(results.shear_modulus == Approx(deviator(first) / (2.0 * (2.0 * first - volume(first)))));
+}
+
+TEST_CASE("a window takes means of stresses, and only the way to the first turn counts") {
+  // Rows of 0.001 with one spike: a window of 0.004 has five rows.
+  auto const spike = [](double axial) { return std::abs(axial - 0.05) < 1e-9 ? 2.0 : 1.0; };
+  auto rows = drawn(
+      spike, [](double axial) { return -axial; }, 0.1, 100);
+  CHECK(scarp::laboratory_results<2>(rows).peak.q() == Approx(2.0));
+  auto const smooth = scarp::laboratory_results<2>(rows, 0.004);
+  CHECK(smooth.peak.q() == Approx((4.0 + 2.0) / 5.0));
+  CHECK(smooth.residual.length == Approx(0.098));
+  CHECK(std::sin(smooth.peak_dilation) == Approx(1.0 / 3.0).epsilon(1e-9));  // 1 / (2 + 1)
+  CHECK_FALSE(smooth.phase_transformation);
+  rows.push_back(rows[98]);
+  rows.back().stress(1) = -9.0;
+  CHECK(scarp::laboratory_results<2>(rows).peak.q() == Approx(2.0));
+}
+
+TEST_CASE("phase transformation of an undrained test is where the pressure is least") {
+  Rows rows;
+  for (int k = 0; k <= 50; ++k) {
+    double const axial = 1e-3 * k, mean = 1.0 + 400.0 * (axial - 0.02) * (axial - 0.02), shear = 0.5 * k / 50.0;
+    rows.push_back({axial, {-mean + shear, -mean - shear, 0.0}, {axial, -axial, 0.0}});
+  }
+  auto const results = scarp::laboratory_results<2>(rows);
+  REQUIRE(results.phase_transformation);
+  CHECK(results.phase_transformation->length == Approx(0.02));
+}
+
+TEST_CASE("what has no results is rejected, and what a test does not have is no number") {
+  Rows rows{{0.0, {-1.0, -1.0, 0.0}, {0.0, 0.0, 0.0}}};
+  CHECK_REFUSED(scarp::laboratory_results<2>(rows), "1 rows");
+  rows.push_back({0.01, {-2.0, -2.0, 0.0}, {-0.01, -0.01, 0.0}});
+  CHECK_REFUSED(scarp::laboratory_results<2>(rows, 0.02), "shorter than the window 0.02");
+  CHECK_REFUSED(scarp::laboratory_results<2>(rows, -1.0), "is -1");
+  auto const isotropic = scarp::laboratory_results<2>(rows);
+  CHECK(std::isnan(isotropic.shear_modulus));
+  CHECK(std::isnan(isotropic.secant_modulus));
+  CHECK_REFUSED(scarp::mohr_coulomb_of(isotropic), "Young's modulus is nan");
+}
