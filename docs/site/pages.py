@@ -96,7 +96,8 @@ def main(folder, tags):
     shutil.copytree(KATEX / "fonts", assets / "katex" / "fonts", ignore=shutil.ignore_patterns("*.ttf", "*.woff"))
     for file in (KATEX / "katex.min.css", KATEX / "katex.min.js", KATEX / "contrib" / "auto-render.js"):
         shutil.copy(file, assets / "katex" / file.name)
-    shutil.copy(ROOT / "docs" / "site" / "site.css", assets)
+    for file in ("site.css", "formulas.js"):
+        shutil.copy(ROOT / "docs" / "site" / file, assets)
 
 
 main(pathlib.Path(sys.argv[1]), sys.argv[2])

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "../shared/budget_report.hpp"
-#include "../shared/command_line.hpp"
 #include "../shared/packing_input.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/sand/options.hpp"
 #include "../shared/version_option.hpp"
 #include "run.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
@@ -51,16 +51,17 @@ void declare_grains(CLI::App& app, biaxial_specimen::Grains& grains) {
         app.add_option("--friction", grains.friction, "likewise, else 0.55")->check(not_negative)})
     of_files->needs(particles);
   for (auto* const of_prepared :
-       {app.add_option("--grains", grains.prepared, "in a packing that is prepared")->check(CLI::Range(20, 100'000)),
+       {examples::declare_sand_file(app, grains.sand_file),
+        app.add_option("--grains", grains.sand.grains, "in a packing that is prepared")->check(CLI::Range(20, 100'000)),
         app.add_option("--packings", grains.pool, "that are prepared; every point draws one")
             ->check(CLI::Range(1, 10'000)),
-        app.add_option("--preparation-friction", grains.preparation_friction, "sets their density")
+        app.add_option("--preparation-friction", grains.sand.preparation_friction, "sets their density")
             ->check(not_negative),
-        app.add_option("--seed", grains.seed, "of the packings and of who draws which")
+        app.add_option("--seed", grains.sand.seed, "of the packings and of who draws which")
             ->check(examples::seed_number())})
     of_prepared->excludes(particles)->capture_default_str();
-  app.add_option("--density", grains.density, "of the grains [kg/m3]")->check(positive)->capture_default_str();
-  app.add_option("--thickness", grains.thickness, "out of plane, of grains and specimen [m]")
+  app.add_option("--density", grains.sand.density, "of the grains [kg/m3]")->check(positive)->capture_default_str();
+  app.add_option("--thickness", grains.sand.thickness, "out of plane, of grains and specimen [m]")
       ->check(positive)
       ->capture_default_str();
   app.add_option("--strain-per-dem-step", grains.strain_per_dem_step)
@@ -124,6 +125,9 @@ int run_mesh(Choice choice) {
 }
 
 int run_test(Choice choice, examples::Output const& output, CLI::App const& app) {
+  auto& grains = choice.grains;
+  if (!grains.sand_file.empty())
+    grains.sand = examples::read_sand(grains.sand_file, grains.sand, examples::given_in(app));
   if (!choice.table.empty()) return run_mesh(choice);
   scarp::RunFolder own({.folder = output.folder, .overwrite = output.overwrite, .results = {"table.csv"}},
                        examples::record_of("biaxial_specimen", app));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "../shared/sand/sand.hpp"
 
 namespace scarp {
 class GmshFile;
@@ -22,12 +23,10 @@ struct Grains {
   std::optional<double> normal_stiffness{};      ///< [N/m]; that of the contacts, else 6e6
   std::optional<double> tangential_stiffness{};  ///< [N/m]; likewise
   std::optional<double> friction{};              ///< that of the contacts, else 0.55
-  double density = 2650.0;                       ///< [kg/m3]
-  double thickness = 0.2;                        ///< out of plane [m], also of the specimen
-  int prepared = 100;                            ///< grains of a packing that is prepared
-  int pool = 8;                                  ///< packings that are prepared; every point draws one
-  double preparation_friction = 0.0;             ///< 0: as dense as can be
-  std::uint64_t seed = 1;
+  std::string sand_file{};
+  examples::Sand sand{
+      .shape = "ellipse", .grains = 100, .preparation_friction = 0.0};  ///< that is prepared, as dense as can be
+  int pool = 8;  ///< packings that are prepared; every point draws one
   double strain_per_dem_step = 1e-5;
 };
 

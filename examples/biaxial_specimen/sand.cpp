@@ -6,15 +6,17 @@
 #include <utility>
 
 #include "../shared/packing_input.hpp"
-#include "../shared/study/study_sand.hpp"
+#include "../shared/sand/built.hpp"
+#include "../shared/sand/preparation.hpp"
 #include "scarp/io/packings/contact_reader.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/random_packings.hpp"
-#include "scarp/shape/disc.hpp"
 
 namespace biaxial_specimen {
 
 namespace {
+
+using examples::Sand;
 
 template <class Shape>
 using PackingOf = scarp::Packing<Shape, scarp::LinearFrictional>;
@@ -32,23 +34,29 @@ Rve<Shape> rve(Grains const& grains, double pressure, scarp::LinearFrictional co
 }
 
 scarp::AnyProvider<2> prepared(Grains const& grains, double pressure, int points, scarp::ThreadExecutor& executor) {
-  auto const law = examples::study_law();
-  auto cloud = examples::study_cloud(grains.prepared, grains.seed);
-  cloud.density = grains.density;
-  cloud.thickness = grains.thickness;
-  scarp::IsotropicRecipe<PackingOf<scarp::Ellipse>, scarp::EllipseGrading> const recipe{
-      .cloud = cloud,
-      .preparation = {.pressure = pressure, .preparation_friction = grains.preparation_friction},
-      .law = law};
-  int const most = std::min(grains.pool, points);
-  return rve<scarp::Ellipse>(grains, pressure, law, scarp::RandomPackings{recipe, grains.seed}.pool(most, executor));
+  constexpr double off = 0.01;  // over such void ratios packings of few grains jump
+  Sand sand = grains.sand;
+  sand.pressure = pressure;
+  scarp::AnyProvider<2> made;
+  using examples::Linear;
+  with_packing(examples::Built<Linear<scarp::Disc>, Linear<scarp::Ellipse>>{}, sand,
+               [&]<class Packing>(std::type_identity<Packing>, auto const& law) {
+                 auto const recipe = [&](std::uint64_t seed) {
+                   return scarp::Prepared<Packing>{examples::prepared<Packing>(sand, law, seed, {}, off), {}};
+                 };
+                 int const most = std::min(grains.pool, points);
+                 made = rve<typename Packing::Shape>(grains, pressure, law,
+                                                     scarp::RandomPackings{recipe, sand.seed}.pool(most, executor));
+               });
+  return made;
 }
 
 template <class Shape>
 Rve<Shape> read(Grains const& grains, double pressure, examples::PackingInput const& input,
                 scarp::LinearFrictional const& law) {
   constexpr double tolerance = 1e-6;  // of the file's overlaps against the packing's, over the smallest radius
-  auto named = scarp::read_packing<PackingOf<Shape>>(input.particles, input.cell, grains.density, grains.thickness);
+  auto named =
+      scarp::read_packing<PackingOf<Shape>>(input.particles, input.cell, grains.sand.density, grains.sand.thickness);
   if (input.contacts && input.contacts->has("ftx")) scarp::read_contacts(named, *input.contacts, law, tolerance);
   return rve<Shape>(grains, pressure, law, {{{std::move(named.packing)}}});
 }
@@ -61,7 +69,7 @@ scarp::AnyProvider<2> sand(Grains const& grains, double pressure, int points, sc
   auto const of_contacts = [&](std::string_view column, double otherwise) {
     return input.contacts ? examples::only_value(*input.contacts, column).value_or(otherwise) : otherwise;
   };
-  auto const usual = examples::study_law();
+  examples::Sand const usual;
   auto const given = [&](std::optional<double> value, std::string_view column, double otherwise) {
     return value ? *value : of_contacts(column, otherwise);
   };

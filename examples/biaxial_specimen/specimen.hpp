@@ -33,7 +33,8 @@ class Specimen {
 
   /// \throws InputError, PreparationError
   Specimen(Choice const& choice, scarp::Mesh<Element> mesh, scarp::ThreadExecutor& executor)
-      : sides_(find_sides(mesh)), problem_(make(choice, Grid(std::move(mesh), choice.grains.thickness), executor)) {}
+      : sides_(find_sides(mesh)),
+        problem_(make(choice, Grid(std::move(mesh), choice.grains.sand.thickness), executor)) {}
 
   Problem& problem() { return problem_; }
   Sides<Element> const& sides() const { return sides_; }
@@ -73,7 +74,7 @@ class Specimen {
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, sides_.top_level));
     scarp::MaterialPoints<2> points(sand(choice.grains, choice.confining, grid.point_count(), executor), sites);
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
-    Lateral lateral(sides_.lateral, choice.confining, choice.grains.thickness);
+    Lateral lateral(sides_.lateral, choice.confining, choice.grains.sand.thickness);
     return {std::move(grid), std::move(points), std::move(constraints), std::move(loads), executor, std::move(lateral)};
   }
 

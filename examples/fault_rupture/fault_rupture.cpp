@@ -6,6 +6,7 @@
 #include "../shared/command_line.hpp"
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/sand/options.hpp"
 #include "../shared/version_option.hpp"
 #include "ensemble_runs.hpp"
 #include "estimate.hpp"
@@ -57,6 +58,7 @@ void make_study(Choice& choice) { choice.length = 1.0; }
 
 void declare_materials(CLI::App& app, Choice& choice) {
   using examples::number_from;
+  examples::declare_sand_file(app, choice.sand_file);
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--overconsolidation-ratio", choice.overconsolidation_ratio,
@@ -80,6 +82,36 @@ void declare_materials(CLI::App& app, Choice& choice) {
       ->check(number_from(0.0, false, 1e12));
   app.add_option("--k0", choice.k0, "of ground without packings: horizontal over vertical stress before faulting")
       ->check(number_from(0.0, false, 10.0));
+}
+
+/// The sand of a file, but for what other options give. Its values are recorded as if they were the defaults.
+void read_sand(CLI::App& app, Choice& choice) {
+  if (choice.sand_file.empty()) return;
+  std::map<std::string, std::string> const options{{"aspect", "--grain-aspect"},
+                                                   {"friction", "--grain-friction"},
+                                                   {"grains", "--grains"},
+                                                   {"seed", "--seed"},
+                                                   {"preparation-friction", "--preparation-friction"},
+                                                   {"overconsolidation-ratio", "--overconsolidation-ratio"}};
+  auto const is_given = [&](std::string const& name) {
+    if (name == "grains" && app.count("--quick") > 0) return true;
+    if (name == "seed" && app.count("--seeds") > 0) return true;
+    auto const option = options.find(name);
+    return option != options.end() && app.count(option->second) > 0;
+  };
+  choice.sand = examples::read_sand(choice.sand_file, fault_rupture::sand_of(choice), is_given);
+  auto const& sand = choice.sand;
+  choice.grains = sand.grains;
+  choice.seed = sand.seed;
+  choice.preparation_friction = sand.preparation_friction;
+  choice.overconsolidation_ratio = sand.overconsolidation_ratio;
+  choice.grain_aspect = sand.aspect;
+  choice.grain_friction = sand.friction;
+  examples::for_each_option(sand, [&](std::string const& name, auto const& value, examples::Range, char const*) {
+    auto const option = options.find(name);
+    if (option != options.end()) app.get_option(option->second)->default_str(fmt::format("{}", value));
+  });
+  static_cast<void>(fault_rupture::sand_of(choice));  // other shapes and laws are rejected now
 }
 
 void declare_options(CLI::App& app, Choice& choice, examples::Output& output, std::string& element,
@@ -297,6 +329,7 @@ int main(int argc, char** argv) {
     fault_rupture::give_up(2);
   }
   try {
+    read_sand(app, choice);
     choose_length_and_sizes(app, choice);
     if (choice.strip_width > 0.0) fault_rupture::run_pilot(choice);
     if (app.count("--estimate") > 0) {

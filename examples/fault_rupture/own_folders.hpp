@@ -9,6 +9,7 @@
 
 #include "../shared/command_line.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/sand/sand_file.hpp"
 #include "../shared/study/chosen_ground.hpp"
 #include "scarp/io/checkpoint_files.hpp"
 #include "scarp/io/read_file.hpp"
@@ -45,6 +46,7 @@ inline ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
   Choice::members(choice, lines);
   lines("element", element_name);
   // What a file holds and not where it lies.
+  if (!choice.sand_file.empty()) lines("sand", std::hash<std::string>{}(examples::text_of(choice.sand)));
   if (!choice.mesh.empty()) {
     lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
     lines("mesh-order", choice.mesh_order);

@@ -10,16 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "../shared/sand/built.hpp"
+#include "../shared/sand/preparation.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/contact/linear_frictional.hpp"
-#include "scarp/dem/gradings.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/random_packings.hpp"
-#include "scarp/shape/disc.hpp"
-#include "scarp/shape/ellipse.hpp"
-#include "scarp/shape/sphere.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace python_points {
@@ -65,51 +62,27 @@ struct MohrCoulomb {
   }
 };
 
-/// Grains, preparation and responses of a packing.
+/// A sand and responses of its packings.
 struct SandOptions {
-  int grains = 400;
-  long seed = 1;
-  double smallest = 4e-3;  ///< radius or major half axis [m]
-  double largest = 6e-3;   ///< [m]
-  double aspect = 0.75;    ///< of ellipses
-  double density = 2650.0;
-  double thickness = 0.2;             ///< out of plane [m]
-  double normal_stiffness = 6e6;      ///< [N/m]
-  double tangential_stiffness = 6e6;  ///< [N/m]
-  double friction = 0.55;
-  double pressure = 2e5;  ///< isotropic [Pa]
-  double preparation_friction = 0.1;
-  double void_ratio = 0.0;  ///< at the isotropic pressure, by bisection of the preparation friction; 0: as that gives
-  double vertical_pressure = 0.0;        ///< [Pa], to which it is then compressed without lateral strain (K0); 0: not
-  double overconsolidation_ratio = 1.0;  ///< of the vertical pressure
-  int packings = 1;                      ///< of different seeds, of which every point draws one
+  examples::Sand sand{};
+  int packings = 1;  ///< of different seeds, of which every point draws one
   double strain_per_step = 1e-5;
   double unbalanced_tolerance = 0.05;
   int min_steps = 20;
   int max_steps = 20'000;
   std::string file{};  ///< of save_packing, instead of a preparation
-  SCARP_MEMBERS(grains, seed, smallest, largest, density, normal_stiffness, tangential_stiffness, friction, pressure,
-                preparation_friction, void_ratio, vertical_pressure, overconsolidation_ratio, packings, strain_per_step,
-                unbalanced_tolerance, min_steps, max_steps, file)  // the others with the shapes that have them
+  SCARP_MEMBERS(sand, packings, strain_per_step, unbalanced_tolerance, min_steps, max_steps, file)
 };
 
 template <class Shape>
 struct Sand {
-  using Law = scarp::LinearFrictional;
-  using Packing = scarp::Packing<Shape, Law>;
+  using Packing = examples::Linear<Shape>;
 
-  SandOptions options{};
+  SandOptions options{.sand = {.shape = examples::name_in_sand<Shape>}};
   std::vector<Packing> packings{};
+  SCARP_MEMBERS(options, packings)
 
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    visit("options", self.options);
-    if constexpr (std::is_same_v<Shape, scarp::Ellipse>) visit("aspect", self.options.aspect);
-    if constexpr (Shape::dim == 2) visit("thickness", self.options.thickness);
-    visit("packings", self.packings);
-  }
-
-  Law law() const { return {options.normal_stiffness, options.tangential_stiffness, options.friction}; }
+  auto law() const { return examples::law_of<typename Packing::Law>(options.sand); }
 
   /// \throws InputError, PreparationError
   void prepare(int threads, Progress const& progress) {
@@ -117,22 +90,24 @@ struct Sand {
       packings = {scarp::load_packing<Packing>(options.file)};
       return;
     }
+    auto const& sand = options.sand;
+    with_packing(examples::Built<Packing>{}, sand, [](auto, auto const&) {});
     scarp::require_between("number of packings", options.packings, 1, 100'000);
     packings.resize(static_cast<std::size_t>(options.packings));
     std::atomic<int> done = 0;
     scarp::ThreadExecutor(threads).for_each(options.packings, [&](int k) {
       auto const tell = [&](std::string const& text) { progress(done, options.packings, text); };
-      auto const seed = static_cast<std::uint64_t>(options.seed);
-      packings[static_cast<std::size_t>(k)] =
-          one(k == 0 ? seed : scarp::family_seed(seed, static_cast<std::uint64_t>(k)), tell);
+      auto const seed = k == 0 ? sand.seed : scarp::family_seed(sand.seed, static_cast<std::uint64_t>(k));
+      auto& own = packings[static_cast<std::size_t>(k)];
+      own = examples::prepared<Packing>(sand, law(), seed, tell, sand.void_ratio_tolerance);
       ++done;
-      tell(fmt::format("packing {} has void ratio {:.4f}", k, packings[static_cast<std::size_t>(k)].void_ratio()));
+      tell(fmt::format("packing {} has void ratio {:.4f}", k, own.void_ratio()));
     });
   }
 
   auto provider() const {
     using Same = scarp::SamePacking<Packing>;
-    scarp::RandomChoice<Same> pool{{}, static_cast<std::uint64_t>(options.seed)};
+    scarp::RandomChoice<Same> pool{{}, options.sand.seed};
     for (auto const& packing : packings) pool.sources.push_back({packing});
     return scarp::DemRve<Packing, scarp::RandomChoice<Same>>{.law = law(),
                                                              .source = std::move(pool),
@@ -140,71 +115,6 @@ struct Sand {
                                                              .min_steps = options.min_steps,
                                                              .max_steps = options.max_steps,
                                                              .unbalanced_tolerance = options.unbalanced_tolerance};
-  }
-
- private:
-  template <class Tell>
-  Packing one(std::uint64_t seed, Tell const& tell) const {
-    auto const cloud = [&] {
-      if constexpr (std::is_same_v<Shape, scarp::Ellipse>) {
-        return scarp::Cloud<scarp::EllipseGrading>{.grading = {options.smallest, options.largest, options.aspect}};
-      } else {
-        return scarp::Cloud<scarp::RadiusGrading<Shape>>{.grading = {options.smallest, options.largest}};
-      }
-    }();
-    auto own = cloud;
-    own.grains = options.grains, own.density = options.density, own.seed = seed;
-    if constexpr (Shape::dim == 2) own.thickness = options.thickness;
-    auto const loose = own.template make<Packing>();
-    Packing packing =
-        options.void_ratio > 0.0 ? by_void_ratio(loose, tell) : consolidated(loose, options.preparation_friction, tell);
-    if (options.vertical_pressure == 0.0) return packing;
-    tell("compressed without lateral strain");
-    std::vector<double> path{options.overconsolidation_ratio * options.vertical_pressure};
-    if (options.overconsolidation_ratio > 1.0) path.push_back(options.vertical_pressure);
-    auto column = scarp::OneDimensionalCompression{}.compress(std::move(packing), law(), path);
-    return settled(std::move(column.back()), "compressed one-dimensionally");
-  }
-
-  template <class Tell>
-  Packing consolidated(Packing const& loose, double friction, Tell const& tell) const {
-    tell(fmt::format("consolidated at friction {:.4f}", friction));
-    scarp::IsotropicPreparation const preparation{.pressure = options.pressure, .preparation_friction = friction};
-    return settled(preparation.prepare(loose, law()), "consolidated");
-  }
-
-  /// The more friction while it is consolidated, the looser.
-  template <class Tell>
-  Packing by_void_ratio(Packing const& loose, Tell const& tell) const {
-    constexpr double tolerance = 5e-4;
-    double const wanted = options.void_ratio;
-    double low = 0.0;
-    double high = options.friction;
-    Packing dense = consolidated(loose, low, tell);
-    Packing open = consolidated(loose, high, tell);
-    for (int halvings = 0; halvings < 16; ++halvings) {
-      if (std::abs(dense.void_ratio() - wanted) <= tolerance) return dense;
-      if (std::abs(open.void_ratio() - wanted) <= tolerance) return open;
-      if (!(dense.void_ratio() < wanted && wanted < open.void_ratio())) break;
-      double const middle = (low + high) / 2.0;
-      Packing between = consolidated(loose, middle, tell);
-      bool const is_dense = between.void_ratio() < wanted;
-      (is_dense ? low : high) = middle;
-      (is_dense ? dense : open) = std::move(between);
-    }
-    scarp::reject(
-        "void ratio {} is not reached (preparation frictions of {} and {} give {:.4f} and {:.4f}): choose another one, "
-        "or another seed",
-        wanted, low, high, dense.void_ratio(), open.void_ratio());
-  }
-
-  static Packing settled(scarp::Prepared<Packing> prepared, char const* what) {
-    if (!prepared.verdict.acceptable()) {
-      throw scarp::PreparationError(
-          fmt::format("a packing could not be {} ({}): try another seed, more grains or a higher pressure", what,
-                      scarp::name(prepared.verdict.reason)));
-    }
-    return std::move(prepared.packing);
   }
 };
 

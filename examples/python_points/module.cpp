@@ -3,6 +3,10 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <set>
+
+#include "../shared/sand/sand_file.hpp"
 #include "keywords.hpp"
 #include "points.hpp"
 #include "scarp/core/build_info.hpp"
@@ -131,6 +135,15 @@ Material<Dim> made(std::string const& kind, py::dict keywords) {
   });
 }
 
+/// The options of a sand's file as keywords. given: keywords that replace some
+py::dict sand_keywords(std::string const& file, std::set<std::string> const& given) {
+  auto const is_given = [&](std::string name) {
+    std::ranges::replace(name, '-', '_');
+    return given.contains(name);
+  };
+  return keywords_of(examples::read_sand(file, {}, is_given));
+}
+
 template <int Dim>
 py::dict defaults(std::string const& kind) {
   return with_material<Dim>(kind, []<class Recipe>(std::type_identity<Recipe>) { return keywords_of(Recipe{}); });
@@ -237,6 +250,7 @@ PYBIND11_MODULE(_points, module) {
   PYBIND11_NUMPY_DTYPE(scarp::Verdict, status, reason);
   bind<2>(module, "Material", "Points");
   bind<3>(module, "MaterialInSpace", "PointsInSpace");
+  module.def("sand_keywords", &sand_keywords);
   module.def("load", [](std::string const& path) {
     auto const file = scarp::read_file(path);
     return scarp::with_context(fmt::format("cannot load '{}'", path), [&] { return load(file); });

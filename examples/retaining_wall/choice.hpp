@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cstdint>
 #include <string>
+
+#include "../shared/sand/sand.hpp"
 
 namespace retaining_wall {
 
@@ -10,12 +11,12 @@ enum class Soil { sand, mohr_coulomb };
 
 struct Choice {
   Soil soil = Soil::sand;
-  int grains = 64;    ///< in each packing
-  double size = 1.0;  ///< of the square cells [m]; divides height and length of the ground
-  std::uint64_t seed = 1;
-  double preparation_friction = 0.09;  ///< sets the density, hence the strength
-  double strain = 0.03;                ///< wall displacement over the length of the ground, at the end
-  int threads = 0;                     ///< 0: all cores
+  std::string sand_file{};
+  examples::Sand sand{
+      .shape = "ellipse", .grains = 64, .preparation_friction = 0.09};  ///< of that file, but for options
+  double size = 1.0;     ///< of the square cells [m]; divides height and length of the ground
+  double strain = 0.03;  ///< wall displacement over the length of the ground, at the end
+  int threads = 0;       ///< 0: all cores
 };
 
 }  // namespace retaining_wall

@@ -104,9 +104,9 @@ inline void write_all(Choice const& choice, std::vector<Outcome> const& outcomes
   own.begin();
   nlohmann::ordered_json json{{"soil", choice.soil == Soil::sand ? "sand" : "mohr_coulomb"}, {"size", choice.size}};
   if (choice.soil == Soil::sand) {
-    json["grains"] = choice.grains;
-    json["seed"] = choice.seed;
-    json["preparation_friction"] = choice.preparation_friction;
+    json["grains"] = choice.sand.grains;
+    json["seed"] = choice.sand.seed;
+    json["preparation_friction"] = choice.sand.preparation_friction;
   }
   for (auto const& outcome : outcomes) {
     std::string const movement = name(outcome.movement);

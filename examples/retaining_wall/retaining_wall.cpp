@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "../shared/command_line.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/sand/options.hpp"
 #include "../shared/version_option.hpp"
 #include "report.hpp"
 
@@ -18,11 +18,12 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output) {
   using examples::number_from;
   examples::add_named<Soil>(app, "--soil", choice.soil, "sand (a packing of ellipses at every point) or mohr_coulomb",
                             {{"sand", Soil::sand}, {"mohr_coulomb", Soil::mohr_coulomb}});
-  app.add_option("--grains", choice.grains, "in each packing")->check(CLI::Range(20, 100'000));
+  examples::declare_sand_file(app, choice.sand_file);
+  app.add_option("--grains", choice.sand.grains, "in each packing")->check(CLI::Range(20, 100'000));
   app.add_option("--size", choice.size, "of the square cells [m]; divides 4 m and 10 m")
       ->check(number_from(0.0, false, 2.0));
-  app.add_option("--seed", choice.seed, "of the packing")->check(examples::seed_number());
-  app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
+  app.add_option("--seed", choice.sand.seed, "of the packing")->check(examples::seed_number());
+  app.add_option("--preparation-friction", choice.sand.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--strain", choice.strain, "wall displacement over the length of the ground, at the end")
       ->check(number_from(2.0 * retaining_wall::window, true, 0.3));
@@ -41,6 +42,8 @@ int main(int argc, char** argv) {
   declare_options(app, choice, output);
   if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
+    if (!choice.sand_file.empty())
+      choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
     scarp::RunFolder folder({.folder = output.folder, .overwrite = output.overwrite},
                             examples::record_of("retaining_wall", app));
     auto const outcomes = choice.soil == Soil::sand ? run_sand(choice) : run_mohr_coulomb(choice);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "../shared/study/study_sand.hpp"
+#include "../shared/sand/ground.hpp"
 #include "run.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/rve/dem_rve.hpp"
-#include "scarp/rve/level_ground.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "strength_test.hpp"
@@ -14,18 +13,17 @@ namespace {
 
 using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 
-/// The reference study's ellipses under the overburden of every depth. Where they lose all contacts a small stiffness keeps the
+/// Ellipses under the overburden of every depth. Where they lose all contacts a small stiffness keeps the
 /// nodes in place.
 struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>> {};
 
 Sand sand_of(Choice const& choice, Wall const& wall) {
-  scarp::LevelGround<scarp::EllipseGrading> ground{.cloud = examples::study_cloud(choice.grains, choice.seed),
-                                                   .unit_weight = wall.unit_weight,
-                                                   .surcharge = wall.surcharge};
-  ground.preparation.preparation_friction = choice.preparation_friction;
   Sand sand;
-  sand.provider.law = examples::study_law();
-  sand.provider.source = ground.make<Grains>(sand.provider.law, wall.depths());
+  with_packing(examples::Built<Grains>{}, choice.sand, [&](auto, Grains::Law const& law) {
+    sand.provider.law = law;
+    sand.provider.source = examples::level_ground<Grains>(choice.sand, law, choice.sand.seed, wall.unit_weight,
+                                                          wall.surcharge, wall.depths());
+  });
   sand.provider.pressure_floor = wall.surcharge / 2.0;
   return sand;
 }

@@ -9,11 +9,13 @@
 
 namespace rve_lab {
 
+inline CLI::Validator from_zero(double most) { return examples::number_from(0.0, true, most); }
+
 /// A test of any material by a laboratory's name; pressures [Pa] are positive in compression, angles in degrees.
 struct Laboratory {
   std::string provider = "packing";
-  Material grains;
-  Preparation preparation;
+  Sand sand;
+  std::string sand_file{};
   std::vector<std::string> packings{};
   double young = 20e6;
   double poisson = 0.3;
@@ -60,11 +62,12 @@ inline std::vector<std::string> laboratory_paths() {
 inline void declare_laboratory(CLI::App& app, Laboratory& test) {
   app.add_option("--material", test.provider, "what is tested")
       ->check(CLI::IsMember({"packing", "mohr-coulomb", "elastic"}));
-  declare_material(app, test.grains);
-  declare_preparation(app, test.preparation);
+  auto* const sand_file = examples::declare_sand_file(app, test.sand_file);
+  examples::declare_sand(app, test.sand);
   auto* const packings =
       app.add_option("--packing", test.packings, "files of `prepare`, all tested alike; without, a packing is prepared")
           ->delimiter(',');
+  sand_file->excludes(packings);
   for (auto* const option : app.get_options()) {
     if (option->get_group() == "Preparation") option->excludes(packings);
   }
@@ -75,12 +78,12 @@ inline void declare_laboratory(CLI::App& app, Laboratory& test) {
   };
   auto const soil = in("Mohr-Coulomb and elastic material");
   soil("--young", test.young, "Young's modulus [Pa]")->check(positive(1e15));
-  soil("--poissons-ratio", test.poisson, "Poisson's ratio")->check(not_negative(0.4999));
-  soil("--friction-angle", test.friction, "[degrees]")->check(not_negative(89.0));
-  soil("--dilation-angle", test.dilation, "[degrees]")->check(not_negative(89.0));
-  soil("--cohesion", test.cohesion, "[Pa]")->check(not_negative(1e12));
+  soil("--poissons-ratio", test.poisson, "Poisson's ratio")->check(from_zero(0.4999));
+  soil("--friction-angle", test.friction, "[degrees]")->check(from_zero(89.0));
+  soil("--dilation-angle", test.dilation, "[degrees]")->check(from_zero(89.0));
+  soil("--cohesion", test.cohesion, "[Pa]")->check(from_zero(1e12));
   soil("--dimension", test.dimension, "2: plane strain, 3: space")->check(CLI::IsMember({2, 3}));
-  soil("--void-ratio", test.void_ratio, "at the start, for the table")->check(not_negative(100.0));
+  soil("--initial-void-ratio", test.void_ratio, "at the start, for the table")->check(from_zero(100.0));
   auto const path = in("Path");
   path("--path", test.path, "of the test")->check(CLI::IsMember(laboratory_paths()));
   path("--table", test.table,
@@ -96,7 +99,7 @@ inline void declare_laboratory(CLI::App& app, Laboratory& test) {
   path("--amplitude", test.amplitude, "strain at which a cycle turns round")->check(positive(1.0));
   path("--consolidation", test.consolidation, "axial stress to which the material is brought before the path [Pa]")
       ->check(positive(1e12));
-  path("--k0", test.k0, "lateral over axial stress of that")->check(positive(10.0));
+  path("--consolidation-k0", test.k0, "lateral over axial stress of that")->check(positive(10.0));
   auto const how = in("Accuracy");
   how("--increment", test.increment,
       "of the path, one row each; of cycles at most a tenth of the amplitude, of a table a tenth of the way to its "
@@ -106,7 +109,7 @@ inline void declare_laboratory(CLI::App& app, Laboratory& test) {
       ->check(examples::number_from(1e-12, true, 1e-3));
   how("--tolerance", test.tolerance, "of held stresses, relative")->check(examples::number_from(1e-12, true, 0.1));
   how("--window", test.window, "length over which peak and residual are means; 0 for single rows")
-      ->check(not_negative(1.0));
+      ->check(from_zero(1.0));
   how("--threads", test.threads, "that test several packings")->check(CLI::Range(1, 1024));
   app.add_option("--overlay", test.overlays,
                  "tables drawn in the figures too: test.csv of other runs, or a laboratory's with columns as "
@@ -120,26 +123,28 @@ inline void declare_laboratory(CLI::App& app, Laboratory& test) {
 inline void require_used(CLI::App const& app, Laboratory const& test) {
   for (auto const* const option : app.get_options()) {
     auto const& group = option->get_group();
-    bool const of_packing = group == "Preparation" || group == "Material" || option->get_name() == "--packing";
+    bool const of_packing = group == "Preparation" || group == "Material" || option->get_name() == "--packing" ||
+                            option->get_name() == "--sand";
     bool const of_soil = group == "Mohr-Coulomb and elastic material";
     bool const of_both = option->get_name() == "--pressure";
     if (!of_both && (test.is_packing() ? of_soil : of_packing))
-      reject_unused(app, option->get_single_name(), fmt::format("the material is '{}'", test.provider));
+      examples::reject_unused(app, option->get_single_name(), fmt::format("the material is '{}'", test.provider));
   }
   if (test.provider == "elastic") {
-    for (auto const* name : {"friction-angle", "dilation-angle", "cohesion"}) reject_unused(app, name, "it is elastic");
+    for (auto const* name : {"friction-angle", "dilation-angle", "cohesion"})
+      examples::reject_unused(app, name, "it is elastic");
   }
-  if (!test.path.starts_with("proportional")) reject_unused(app, "ratio", "the path is not proportional");
-  if (!test.consolidation) reject_unused(app, "k0", "without --consolidation");
+  if (!test.path.starts_with("proportional")) examples::reject_unused(app, "ratio", "the path is not proportional");
+  if (!test.consolidation) examples::reject_unused(app, "consolidation-k0", "without --consolidation");
   if (test.path == "table") {
     if (test.table.empty()) scarp::reject("--path table has no table (its targets are unknown): give --table FILE");
     for (auto const* name : {"strain", "extension", "cycles", "amplitude"})
-      reject_unused(app, name, "the table has the targets");
+      examples::reject_unused(app, name, "the table has the targets");
   } else {
-    reject_unused(app, "table", fmt::format("the path is '{}'", test.path));
+    examples::reject_unused(app, "table", fmt::format("the path is '{}'", test.path));
   }
-  if (test.cycles > 0) reject_unused(app, "strain", "--cycles go to --amplitude");
-  if (test.cycles == 0) reject_unused(app, "amplitude", "without --cycles");
+  if (test.cycles > 0) examples::reject_unused(app, "strain", "--cycles go to --amplitude");
+  if (test.cycles == 0) examples::reject_unused(app, "amplitude", "without --cycles");
 }
 
 }  // namespace rve_lab

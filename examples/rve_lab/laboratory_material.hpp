@@ -2,7 +2,7 @@
 #pragma once
 
 #include "laboratory_run.hpp"
-#include "preparation.hpp"
+#include "packings.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/io/packings/packing_file.hpp"
@@ -20,31 +20,36 @@ struct PackingPerPoint {
   }
 };
 
-/// The material of the packings' files, which is to be one.
-/// \throws InputError for packings of different materials
-inline void read_materials(CLI::App const& app, Laboratory& choice) {
-  auto const given = [&](std::string const& name) { return is_given(app, name); };
-  Material const before = choice.grains;
+/// The shape and law of the packings' files, which are to be one.
+/// \throws InputError for packings of different grains or laws
+inline void read_sands(CLI::App const& app, Laboratory& choice) {
+  Sand const before = choice.sand;
+  auto const of_grains = [](Sand const& sand) {
+    auto const json = examples::to_json(sand);
+    nlohmann::json own;
+    for (auto const* name : examples::grain_options)
+      if (json.contains(name)) own[name] = json[name];
+    return own;
+  };
   for (auto const& file : choice.packings) {
-    Material own = before;
-    read_material(file, given, own);
-    if (&file == &choice.packings.front()) choice.grains = own;
-    if (to_json(own) != to_json(choice.grains))
-      scarp::reject("'{}' is of another material than '{}' (a test has one): test them one by one", file,
+    auto const own = examples::sand_of_packing(file, before, examples::given_in(app));
+    if (&file == &choice.packings.front()) choice.sand = own;
+    if (of_grains(own) != of_grains(choice.sand))
+      scarp::reject("'{}' has other grains or another law than '{}' (a test has one): test them one by one", file,
                     choice.packings.front());
   }
 }
 
 inline bool test_packings(Laboratory& choice, scarp::RunFolder& own) {
   bool finished = false;
-  with_material(choice.grains, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
+  with_packing(Grains{}, choice.sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     PackingPerPoint<PackingType> source;
     for (auto const& file : choice.packings) source.packings.push_back(scarp::load_packing<PackingType>(file));
-    if (choice.packings.empty()) source.packings.push_back(prepare_packing<PackingType>(choice.preparation, law));
+    if (choice.packings.empty()) source.packings.push_back(prepared<PackingType>(choice.sand, law));
     int const count = static_cast<int>(source.packings.size());
     scarp::DemRve<PackingType, PackingPerPoint<PackingType>> const sand{
         .law = law, .source = std::move(source), .strain_per_step = choice.strain_step};
-    auto material = to_json(choice.grains);
+    auto material = examples::to_json(choice.sand);
     material["packings"] = choice.packings;
     finished = test_material<2>(choice, sand, count, own, material);
   });
@@ -54,7 +59,7 @@ inline bool test_packings(Laboratory& choice, scarp::RunFolder& own) {
 template <int Dim>
 bool test_continuum(Laboratory const& choice, scarp::RunFolder& own) {
   auto const elasticity = scarp::IsotropicElasticity::from_young_poisson(choice.young, choice.poisson);
-  scarp::GeostaticStress<Dim> const start{.surcharge = choice.preparation.pressure};
+  scarp::GeostaticStress<Dim> const start{.surcharge = choice.sand.pressure};
   nlohmann::json material{{"young", choice.young}, {"poissons_ratio", choice.poisson}};
   if (choice.provider == "elastic")
     return test_material<Dim>(choice, scarp::LinearElastic<Dim, scarp::GeostaticStress<Dim>>{elasticity, start}, 1, own,
@@ -75,8 +80,11 @@ bool test_continuum(Laboratory const& choice, scarp::RunFolder& own) {
 inline bool test(Laboratory& choice, CLI::App const& app, scarp::RunFolder own) {
   if (!choice.is_packing())
     return choice.dimension == 2 ? test_continuum<2>(choice, own) : test_continuum<3>(choice, own);
-  read_materials(app, choice);
-  require_used(app, choice.grains);
+  if (choice.packings.empty()) {
+    read_sand_file(choice, app);
+  } else {
+    read_sands(app, choice);
+  }
   return test_packings(choice, own);
 }
 

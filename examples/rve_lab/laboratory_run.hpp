@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <numbers>
-
 #include "../shared/print.hpp"
 #include "laboratory.hpp"
 #include "laboratory_table.hpp"
@@ -13,8 +11,6 @@
 #include "scarp/solver/thread_executor.hpp"
 
 namespace rve_lab {
-
-inline constexpr double degree = std::numbers::pi / 180.0;
 
 template <int Dim>
 scarp::PathConditions<Dim> conditions_of(Laboratory const& choice) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 namespace rve_lab {
 
 using Tensor = scarp::Tensor<2>;
+
+inline constexpr double degree = std::numbers::pi / 180.0;
 
 inline double axial_strain(Tensor const& deformation) { return 0.0 - std::log(deformation(1, 1)); }
 inline double shear_strain(Tensor const& deformation) { return deformation(0, 1); }

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSL-1.0
 """plot.py OUTPUT_DIR: packings with force chains, roses of contact normals, stress, volume and energies of
-`rve_lab prepare` and `rve_lab shear`, curves of `rve_lab test`, as far as the folder holds them.
+`rve_lab prepare` and `rve_lab shear`, curves of `rve_lab test`, data against packings and sensitivities of `rve_lab calibrate`, as far as the folder holds
+them.
 plot.py OUTPUT_DIR --overlay TABLE.csv...: with these test.csv of other runs, or tables of a laboratory, beside the test.
 plot.py TABLE.csv [--compare OTHER.csv] [--picture FILE.png]: stresses of `rve_lab replay`, with those of another
 code."""
 
 import argparse
+import csv
 import itertools
 import pathlib
 import sys
@@ -199,6 +201,59 @@ def replayed(table_path, other_path):
     return fig
 
 
+def observations(folder):
+    """Rows of calibration.csv: [(name, {column: number})]."""
+    with open(folder / "calibration.csv", newline="") as file:
+        return [(row.pop("name"), {name: float(cell) for name, cell in row.items()}) for row in csv.DictReader(file)]
+
+
+def calibration(folder):
+    curve = figures.read_csv(folder / "curve.csv", ["axial_strain", "sine", "volumetric_strain"])
+    angle = lambda sine: np.degrees(np.arcsin(np.clip(sine, -1.0, 1.0)))
+    panels = {"sine of friction angle": ("mobilised friction angle [degrees]", angle, "sine"),
+              "volumetric strain": ("volumetric strain [%]\n(contraction positive)", lambda strain: 100.0 * strain, "volumetric_strain")}
+    rows = observations(folder)
+    fig, axes = plt.subplots(2, 1, figsize=(5.4, 6.0), sharex=True, height_ratios=(3, 2))
+    for panel, (name, (label, shown, column)) in zip(axes, panels.items()):
+        panel.plot(100.0 * curve["axial_strain"], shown(curve[column]), color=BLUE, linewidth=1.0, label="packings of seeds not used")
+        table = [row for of, row in rows if of == name]
+        if table:
+            x, wanted, value, scatter = (np.array([row[key] for row in table]) for key in ("axial_strain", "wanted", "value", "scatter"))
+            panel.plot(100.0 * x, shown(wanted), "o", color=BLACK, markersize=4, markerfacecolor="none", label="data")
+            panel.errorbar(100.0 * x, shown(value), yerr=np.abs(shown(value + scatter) - shown(value)), fmt=".", color=VERMILION, markersize=4,
+                           elinewidth=0.8, label="packings that were fitted")
+        panel.set(ylabel=label)
+        panel.margins(y=0.15)
+    said = []
+    for name, row in rows:
+        if row["axial_strain"] == 0.0:
+            said.append(f"{name}: {row['wanted']:.4g} wanted, {row['value']:.4g} ± {row['scatter']:.2g}")
+            if name.endswith("-friction"):
+                axes[0].axhline(row["wanted"], color=BLACK, linewidth=0.8, linestyle=(0, (4, 3)))
+    axes[0].set(title="\n".join(["Data and packings", *said]))
+    axes[-1].set(xlabel="axial strain [%]")
+    axes[0].legend(loc="best")
+    return fig
+
+
+def sensitivities(folder):
+    """Change of each target from one bound of a parameter to the other, over its scatter; of a table's column the root mean square."""
+    rows = observations(folder)
+    names = list(dict.fromkeys(name for name, _ in rows))
+    parameters = [key for key in rows[0][1] if key.startswith("per range of ")]
+    fig, axes = plt.subplots(figsize=(5.4, 1.2 + 0.35 * len(names) * len(parameters)))
+    for k, (key, colour) in enumerate(zip(parameters, itertools.cycle([BLUE, VERMILION, GREEN, ORANGE, PURPLE]))):
+        sizes = [np.sqrt(np.mean([(row[key] / max(row["scatter"], 1e-12)) ** 2 for of, row in rows if of == name])) for name in names]
+        axes.barh(np.arange(len(names)) + (k - 0.5 * (len(parameters) - 1)) * 0.8 / len(parameters), sizes, 0.8 / len(parameters), color=colour,
+                  label=key.removeprefix("per range of "))
+    axes.axvline(1.0, color=BLACK, linewidth=0.8)
+    axes.set(yticks=range(len(names)), yticklabels=names, xscale="log", xlabel="change over the range of the parameter / scatter",
+             title="Sensitivities: below 1 the data do not determine a parameter")
+    axes.invert_yaxis()
+    axes.legend(loc="best")
+    return fig
+
+
 def folder_figures(folder, overlays):
     """{name: draw} of what the folder holds."""
     found = {}
@@ -209,6 +264,8 @@ def folder_figures(folder, overlays):
         found[stem] = lambda folder, stem=stem: packing(folder, stem, stem.capitalize())
     if stems:
         found["roses"] = lambda folder: roses(folder, stems)
+    if (folder / "calibration.csv").is_file():
+        found.update({"calibration": calibration, "sensitivities": sensitivities})
     if (folder / "path.csv").is_file():
         found.update({"curve": curve, "energies": energies})
     if (folder / "test.csv").is_file():

@@ -3,7 +3,7 @@
 
 #include "../shared/packing_input.hpp"
 #include "../shared/print.hpp"
-#include "material.hpp"
+#include "../shared/sand/built.hpp"
 #include "paths.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/fabric.hpp"
@@ -20,13 +20,13 @@ struct GivenLaw {
   bool friction = false;
 };
 
-inline void take_law_from(scarp::CsvColumns const& contacts, GivenLaw const& given, Material& material) {
+inline void take_law_from(scarp::CsvColumns const& contacts, GivenLaw const& given, Sand& sand) {
   auto const take = [&](bool is_given, std::string_view column, double& parameter) {
     if (!is_given) parameter = examples::only_value(contacts, column).value_or(parameter);
   };
-  take(given.normal_stiffness, "kn", material.normal_stiffness);
-  take(given.tangential_stiffness, "ks", material.tangential_stiffness);
-  take(given.friction, "tan_phi", material.friction);
+  take(given.normal_stiffness, "kn", sand.normal_stiffness);
+  take(given.tangential_stiffness, "ks", sand.tangential_stiffness);
+  take(given.friction, "tan_phi", sand.friction);
 }
 
 /// The columns of tests/reference/yade: everything is the state at the row's deformation.
@@ -75,7 +75,7 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
                 std::optional<scarp::CsvColumns> const& contacts, Tensor const& cell,
                 scarp::LinearFrictional const& law) {
   using Lab = Specimen<PackingType, scarp::Observe::balance>;
-  auto named = scarp::read_packing<PackingType>(particles, cell, choice.density, choice.thickness);
+  auto named = scarp::read_packing<PackingType>(particles, cell, choice.sand.density, choice.sand.thickness);
   if (contacts && contacts->has("ftx")) scarp::read_contacts(named, *contacts, law, choice.tolerance);
   if (choice.relaxation) relax(named.packing, law, *choice.relaxation);
   PathKind const& path = path_named(choice.path.name);
@@ -117,11 +117,14 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
 inline void replay(Replay choice, GivenLaw const& given) {
   examples::reject_overwriting(choice.out, {choice.particles, choice.contacts});
   auto const input = examples::read_packing_input(choice.particles, choice.contacts, choice.cell);
-  if (input.contacts) take_law_from(*input.contacts, given, choice.material);
-  choice.material.shape = examples::shape_of(input.particles);
-  with_linear_law(choice.material, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    run_replay<PackingType>(choice, input.particles, input.contacts, input.cell, law);
-  });
+  if (input.contacts) take_law_from(*input.contacts, given, choice.sand);
+  choice.sand.shape = examples::shape_of(input.particles);
+  using examples::Linear;
+  using LinearGrains = examples::Built<Linear<scarp::Disc>, Linear<scarp::Ellipse>, Linear<scarp::Superellipse>>;
+  examples::with_packing(LinearGrains{}, choice.sand,
+                         [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
+                           run_replay<PackingType>(choice, input.particles, input.contacts, input.cell, law);
+                         });
 }
 
 }  // namespace rve_lab

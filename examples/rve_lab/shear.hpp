@@ -7,8 +7,8 @@
 #include "../shared/budget_report.hpp"
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
+#include "../shared/sand/options.hpp"
 #include "choices.hpp"
-#include "material_file.hpp"
 #include "recorder.hpp"
 #include "row_budget.hpp"
 #include "scarp/io/packings/packing_file.hpp"
@@ -32,11 +32,11 @@ inline void print_row(Row const& row) {
 }
 
 /// Sends a packing along the path. In the run's folder: path.csv row by row, the states at the start, at the largest q/p and at
-/// the end, end.packing (with end.json) to continue from, summary.json last.
+/// the end, end.packing (with end.sand) to continue from, summary.json last.
 /// \throws InputError when the packing cannot continue; the rows so far are then on disk
 template <class PackingType>
 void run_path(PackingType start, typename PackingType::Law const& law, Path const& choice, scarp::RunFolder& own,
-              nlohmann::json const& material) {
+              Sand const& sand) {
   std::filesystem::path const& folder = own.path();
   PathKind const& path = path_named(choice.name);
   Specimen<PackingType, scarp::Observe::energy> lab(std::move(start), law, path, choice.strain_step, choice.held);
@@ -89,11 +89,11 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   write_state(folder, "peak", peak_packing, law);
   write_state(folder, "end", lab.packing(), law);
   scarp::save_packing(folder / "end.packing", lab.packing());
-  examples::write_json(folder / "end.json", nlohmann::json{{"material", material}});
+  scarp::write_file(examples::sand_path(folder / "end.packing"), examples::text_of(sand));
   examples::print(stdout, "{}{}", scarp::budget_headline(budget.parts()), scarp::budget_table(budget.parts()));
   examples::print(stdout, "largest q/p {:.4f} at strain {:.5f}\n", largest_ratio(peak), value(peak, "strain"));
   nlohmann::json const summary{{"path", choice.name},
-                               {"material", material},
+                               {"sand", examples::to_json(sand)},
                                {"grains", lab.packing().grain_count()},
                                {"cycles", choice.cycles},
                                {"strain_step", choice.strain_step},

@@ -6,8 +6,10 @@
 #include <string>
 
 #include "scarp/dem/contacts.hpp"
+#include "scarp/io/atomic_file.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/io/packings/packing_reader.hpp"
+#include "scarp/shape/disc.hpp"
 
 namespace rve_lab {
 
@@ -64,6 +66,36 @@ scarp::CsvTable contact_table(PackingType const& packing, typename PackingType::
     table.add(std::span<double const>(cells));
   });
   return table;
+}
+
+/// The grains as another code reads them: STEM.txt for ymport.text of Yade, with the cell in its first line; STEM.data for LAMMPS (sphere,
+/// dimension 2), turned so that the first edge of the cell lies along x.
+/// \throws FileError when a file cannot be written
+template <class PackingType>
+  requires std::same_as<typename PackingType::Shape, scarp::Disc>
+void write_for_code(std::string const& code, std::filesystem::path const& stem, PackingType const& packing) {
+  bool const is_yade = code == "yade";
+  auto const& population = *packing.population;
+  double const thickness = population.thickness();
+  scarp::Vector<2> const along =
+      is_yade ? scarp::Vector<2>(1.0, 0.0) : scarp::Vector<2>(packing.cell.col(0).normalized());
+  scarp::Tensor<2> turn;
+  turn << along.x(), along.y(), -along.y(), along.x();
+  scarp::Tensor<2> const cell = turn * packing.cell;
+  std::string text =
+      is_yade ? fmt::format("# O.cell.hSize = Matrix3( {} , {} , 0 , {} , {} , 0 , 0 , 0 , {} )\n", cell(0, 0),
+                            cell(0, 1), cell(1, 0), cell(1, 1), thickness)
+              : fmt::format(
+                    "discs\n\n{} atoms\n1 atom types\n\n0 {} xlo xhi\n0 {} ylo yhi\n{} {} zlo zhi\n{} 0 0 xy xz yz\n\n"
+                    "Atoms # sphere\n\n",
+                    packing.grain_count(), cell(0, 0), cell(1, 1), -thickness / 2.0, thickness / 2.0, cell(0, 1));
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) {
+    double const r = population.size(i)[0];
+    scarp::Vector<2> const at = turn * scarp::Vector<2>(packing.position(i, 0), packing.position(i, 1));
+    text += is_yade ? fmt::format("{} {} 0 {}\n", at.x(), at.y(), r)
+                    : fmt::format("{} 1 {} {} {} {} 0\n", i + 1, 2.0 * r, population.density(), at.x(), at.y());
+  }
+  scarp::write_file(stem.string() + (is_yade ? ".txt" : ".data"), text);
 }
 
 /// Writes STEM_particles.csv, STEM_contacts.csv and STEM_cell.csv (base vectors [m]).

@@ -11,7 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scarp/io/csv_reader.hpp"
+#include "print.hpp"
+#include "scarp/io/packings/grain_files.hpp"
 #include "scarp/tensor/tensor.hpp"
 
 namespace examples {
@@ -167,18 +168,29 @@ struct PackingInput {
   Tensor cell;
 };
 
-/// particles, contacts: names of files; cell: a1x,a1y,a2x,a2y. One of contacts and cell may be empty: the contacts that
-/// cross the boundary determine the cell.
+/// particles, contacts: names of files; cell: a1x,a1y,a2x,a2y. Where the cell is empty the contacts that cross the boundary determine
+/// it, and without contacts the file of the particles does.
 /// \throws InputError for files that are wrong or do not fit together
 inline PackingInput read_packing_input(std::string const& particles, std::string const& contacts,
                                        std::string const& cell) {
-  if (cell.empty() && contacts.empty()) {
-    scarp::reject("the cell is not known (neither --cell nor --contacts is given): give --cell a1x,a1y,a2x,a2y");
+  auto file = scarp::read_grains(particles);
+  if (cell.empty() && contacts.empty() && !file.cell) {
+    scarp::reject(
+        "the cell is not known (neither --cell nor --contacts is given, nor does '{}' hold it): give --cell "
+        "a1x,a1y,a2x,a2y",
+        particles);
   }
-  PackingInput input{scarp::read_csv(particles), std::nullopt, Tensor::Identity()};
+  if (file.grains.has("z"))
+    file.notes.push_back(fmt::format("'{}': the column z is not read: grains are discs", particles));
+  print_notes(file.notes);
+  PackingInput input{std::move(file.grains), std::nullopt, Tensor::Identity()};
   if (!contacts.empty()) input.contacts = scarp::read_csv(contacts);
   CellClues const clues = input.contacts ? cell_clues(input.particles, *input.contacts) : CellClues{};
-  input.cell = cell.empty() ? clues.solve(contacts) : parse_cell(cell);
+  if (!cell.empty()) {
+    input.cell = parse_cell(cell);
+  } else {
+    input.cell = input.contacts ? clues.solve(contacts) : Tensor(file.cell->topLeftCorner<2, 2>());
+  }
   if (input.contacts) clues.check(input.cell, *input.contacts);
   return input;
 }

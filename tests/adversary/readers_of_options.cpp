@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <CLI/CLI.hpp>
+#include <fstream>
 #include <sstream>
 
-#include "../../examples/rve_lab/material_file.hpp"
+#include "../../examples/shared/command_line.hpp"
+#include "../../examples/shared/sand/grading.hpp"
+#include "../../examples/shared/sand/sand_file.hpp"
 #include "adversary/readers.hpp"
 
 namespace adversary {
@@ -49,20 +52,21 @@ void read_options(std::string const& text) {
   for (double const value : options.list) demand(value >= 0.0 && value <= 10.0, "a listed number out of range");
 }
 
-Game material_reader() {
-  rve_lab::Material material;
+Game sand_reader() {
   auto const folder = std::make_shared<ScratchFolder>();
-  std::string const text = nlohmann::json{{"material", rve_lab::to_json(material)}}.dump(2);
-  std::ofstream(*folder / "sand.packing") << "any";
-  return reader("materials", {text}, [=](std::string const& bytes) {
-    std::ofstream(*folder / "sand.json", std::ios::binary) << bytes;
-    rve_lab::Material read;
-    rve_lab::read_material(
-        *folder / "sand.packing", [](std::string const&) { return false; }, read);
-    rve_lab::for_each_parameter(read, [](char const*, auto const& member, char const*) {
-      if constexpr (std::floating_point<std::remove_cvref_t<decltype(member)>>)
-        demand(std::isfinite(member) && member >= 0.0, "a parameter out of range");
+  examples::Sand const dense{.shape = "ellipse", .relative_density = 0.8, .misfit = "0.5 standard errors"};
+  examples::Sand const sieved{.law = "hertz", .sieve = "0.002 0, 0.004 60, 0.006 100"};
+  return reader("sands", {examples::text_of(dense), examples::text_of(sieved)}, [=](std::string const& bytes) {
+    auto const file = *folder / "any.sand";
+    std::ofstream(file, std::ios::binary) << bytes;
+    auto const sand = examples::read_sand(file);
+    examples::for_each_option(sand, [](char const*, auto const& member, examples::Range range, char const*) {
+      if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(member)>>) {
+        auto const value = static_cast<double>(member);
+        demand(value >= range.least && value <= range.most, "an option out of range");
+      }
     });
+    if (!sand.sieve.empty()) static_cast<void>(examples::sieve_curve(sand.sieve));
   });
 }
 
@@ -72,7 +76,7 @@ std::vector<Game> readers_of_options() {
   std::string const options =
       "size = 2.5\ngrains = 49\nseed = 2\nsoil = elastic\nreverse = true\nlist = 0.1,0.3\n\n[shear]\nfriction = 0.5\n"
       "table = \"out.csv\"\n";
-  return {reader("options", {options}, read_options), material_reader()};
+  return {reader("options", {options}, read_options), sand_reader()};
 }
 
 }  // namespace adversary

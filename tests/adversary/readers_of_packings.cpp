@@ -7,6 +7,7 @@
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/io/checkpoint_files.hpp"
 #include "scarp/io/packings/contact_reader.hpp"
+#include "scarp/io/packings/grain_files.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/shape/sphere.hpp"
@@ -105,6 +106,36 @@ Game contact_reader() {
   });
 }
 
+/// The grains of a table in the forms of other codes.
+std::vector<std::string> other_codes(std::string const& text) {
+  scarp::CsvColumns const table(text, "g.csv");
+  std::string yade = "##PERIODIC:: 0.036 0.036 0.036\n";
+  std::string data =
+      "spheres\n\n0 0.036 xlo xhi\n0 0.036 ylo yhi\n0 0.036 zlo zhi\n0 0 0 xy xz yz\n\nAtoms # sphere\n\n";
+  std::string dump =
+      "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 0.036 0\n0 0.036 0\n0 0.036 0\nITEM: ATOMS id x y z radius\n";
+  std::string mercury = fmt::format(
+      "MercuryDPM 1.0\nxMin 0 xMax 0.036 yMin 0 yMax 0.036 zMin 0 zMax 0.036\nParticles {}\n", table.rows());
+  auto const [x, y, z, r] = std::array{table.column("x"), table.column("y"), table.column("z"), table.column("r")};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    yade += fmt::format("{} {} {} {}\n", x[i], y[i], z[i], r[i]);
+    data += fmt::format("{} 1 {} 2650 {} {} {}\n", i, 2 * r[i], x[i], y[i], z[i]);
+    dump += fmt::format("{} {} {} {} {}\n", i, x[i], y[i], z[i], r[i]);
+    mercury += fmt::format("SphericalParticle id {} position {} {} {} radius {}\n", i, x[i], y[i], z[i], r[i]);
+  }
+  return {yade, data, dump, mercury};
+}
+
+Game other_codes_reader() {
+  auto const folder = std::make_shared<ScratchFolder>();
+  return reader("grains of other codes", other_codes(grain_table(3, 1)), [folder](std::string const& bytes) {
+    std::ofstream(*folder / "g", std::ios::binary) << bytes;
+    auto const file = scarp::read_grains(*folder / "g");
+    if (!file.cell) return;
+    use_packing(scarp::read_packing<Spheres>(file.grains, *file.cell, 2650.0, 1.0).packing);
+  });
+}
+
 /// Length and hash of a damaged file as if it had been written so: only what is behind them can refuse it then.
 void mend_frame(std::string& bytes, Random& random) {
   constexpr std::size_t head = 24;
@@ -176,6 +207,7 @@ std::vector<Game> readers_of_packings() {
   return {grain_reader<Ellipses>("ellipses"),
           grain_reader<Spheres>("spheres"),
           contact_reader(),
+          other_codes_reader(),
           packing_reader<Ellipses>("packings of ellipses"),
           packing_reader<Spheres>("packings of spheres"),
           checkpoint_reader()};

@@ -56,7 +56,7 @@ def check_closed_forms(folder):
     near("the other one", min(row["length"] for row in rows), -0.001, 1e-9)
     expect(abs(rows[-1]["length"]) < 1e-12, "cycles end where they began")
     _, rows, summary = tested(folder, "oedometer", "--material", "elastic", "--dimension", 3, "--path", "oedometer", "--pressure", "1e4",
-                              "--void-ratio", "0.7", "--strain", "0.02")
+                              "--initial-void-ratio", "0.7", "--strain", "0.02")
     near("K0 of added stress", (rows[-1]["lateral_stress"] - 1e4) / (rows[-1]["axial_stress"] - 1e4), 0.3 / 0.7, 1e-6)
     near("void ratio", rows[-1]["void_ratio"], 1.7 * math.exp(-0.02) - 1.0, 1e-9)
 
@@ -103,7 +103,7 @@ def check_ends(folder):
     for arguments, named in ((["--young", "1e6"], "--young is given but not used"), (["--ratio", "1"], "--ratio"),
                              (["--material", "elastic", "--cohesion", "1"], "--cohesion"),
                              (["--material", "elastic", "--grains", "9"], "--grains"),
-                             (["--path", "table"], "no table"), (["--k0", "0.5"], "--k0"),
+                             (["--path", "table"], "no table"), (["--consolidation-k0", "0.5"], "--consolidation-k0"),
                              (["--material", "elastic", "--amplitude", "0.1"], "--amplitude")):
         code, said = run(folder, "rejected", *arguments)
         expect(code == 1 and named in said, f"{arguments}: ended with {code}, {said}")

@@ -98,6 +98,15 @@ for wanted in (0.20, 0.19):
 at_rest = scarp.MaterialPoints(scarp.discs(grains=100, pressure=2e4, vertical_pressure=1e5), np.zeros((1, 2))).stresses()[0]
 expect(abs(at_rest[1] / -1e5 - 1.0) < 2e-3 and 0.2 < at_rest[0] / at_rest[1] < 1.0, f"K0 compression gives {at_rest}")
 
+with tempfile.TemporaryDirectory() as scratch:
+    file = pathlib.Path(scratch) / "own.sand"
+    file.write_text("shape = ellipse\ngrains = 60\nfriction = 0.3\npreparation-friction = 0.05\n")
+    state = [scarp.MaterialPoints(made, np.zeros((1, 2))).quantities(0) for made in
+             (scarp.packing(file, seed=2), scarp.ellipses(grains=60, friction=0.3, preparation_friction=0.05, seed=2))]
+    expect(state[0] == state[1], f"a sand's file gives {state[0]}, its keywords {state[1]}")
+    file.write_text("viod-ratio = 0.2\n")
+    refused(ValueError, "line 1: a sand has no 'viod-ratio'", lambda: scarp.packing(file))
+
 # Spheres in space; springs softer than the plane's, for contacts have no thickness.
 state = scarp.MaterialPoints(scarp.spheres(grains=60, normal_stiffness=3e5, tangential_stiffness=3e5), np.zeros((1, 3))).quantities(0)
 expect(abs(state["p"] / 2e5 - 1.0) < 1e-3 and state["q"] < 800.0 and state["coordination"] > 4.0, f"spheres at 200 kPa: {state}")

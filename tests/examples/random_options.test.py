@@ -74,7 +74,7 @@ TABLE = {
         "grains": whole(1, 100), "seeds": whole(1, 3), "seed": SEEDS, "preparation-friction": several(between(0, 2)),
         "pressure": decades(1, 1e8), "strain": decades(1e-4, 1), "strain-per-dem-step": decades(1e-7, 1e-3),
         "smoothing": decades(1e-5, 0.5)}, False),
-    "rve_lab prepare": ([], {**MATERIAL, **CLOUD, "preparation-friction": between(0, 2)}, False),
+    "rve_lab prepare": ([], {**MATERIAL, **CLOUD, "preparation-friction": between(0, 2), "format": one_of("yade", "lammps")}, False),
     "rve_lab shear": ([], {**MATERIAL, **CLOUD, "path": one_of("biaxial", "simple_shear", "isochoric", "undrained"),
                            "strain": decades(1e-4, 1), "strain-step": decades(1e-8, 1e-3), "cycles": whole(0, 3),
                            "amplitude": decades(1e-4, 0.1)}, False),

@@ -177,10 +177,10 @@ def check_material(folder):
     shear = ["rve_lab", "shear", "--packing", "made/packing.packing", "--strain", "0.002", "--strain-step", "2e-5", "--output", "out"]
     for option, value in (("--grains", "50"), ("--pressure", "1e5"), ("--seed", "3")):
         refused(f"{option} for a packing that is there", [*shear, option, value], folder, option, "--packing")
-    (folder / "made/packing.json").rename(folder / "elsewhere.json")
+    (folder / "made/packing.sand").rename(folder / "elsewhere.sand")
     before = contents(folder)
     code, said = run(shear, folder)
-    expect(code == 1 and "packing.json" in said and "--friction" in said, f"no material: ended with {code}\n{said}")
+    expect(code == 1 and "packing.sand" in said and "--friction" in said, f"no material: ended with {code}\n{said}")
     expect(contents(folder) == before, "a packing without material leaves files")
     material = ["--shape", "disc", "--law", "linear", "--normal-stiffness", "6e6", "--tangential-stiffness", "6e6",
                 "--friction", "0.3"]

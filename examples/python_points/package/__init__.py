@@ -25,6 +25,15 @@ ellipses = _maker("ellipses", (2,))
 spheres = _maker("spheres", (3,))
 
 
+def packing(sand, **keywords):
+    """The sand of a file, with lines `option = value` (examples/sands); keywords as of discs, ellipses and spheres replace its values."""
+    known = _points.sand_keywords(str(sand), set(keywords))
+    kinds = {"disc": discs, "ellipse": ellipses, "sphere": spheres}
+    if known["shape"] not in kinds:
+        raise ValueError(f"the shape is '{known['shape']}' (expected is {', '.join(kinds)}): take another sand")
+    return kinds[known["shape"]](**{**known, **keywords})
+
+
 def loads(saved):
     """Points from the bytes of their pickle."""
     return _points.loads(saved)

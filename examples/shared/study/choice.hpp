@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../sand/sand.hpp"
 #include "scarp/tensor/tensor.hpp"
 
 namespace fault_rupture {
@@ -39,9 +40,11 @@ struct Choice {
   bool mirrored_packings = false;  ///< draws among their mirror images too
   std::uint64_t seed = 1;
   double preparation_friction = 0.09;
-  double overconsolidation_ratio = 1.0;           ///< what the sand once carried over its overburden
-  double grain_aspect = 0.75;                     ///< width over length of the ellipses
-  double grain_friction = 0.55;                   ///< coefficient between grains
+  double overconsolidation_ratio = 1.0;  ///< what the sand once carried over its overburden
+  double grain_aspect = 0.75;            ///< width over length of the ellipses
+  double grain_friction = 0.55;          ///< coefficient between grains
+  std::string sand_file{};
+  examples::Sand sand{.shape = "ellipse"};        ///< of that file; what members before name counts first, see sand_of
   double peak_friction_angle = 30.8;              ///< [degrees], of Mohr-Coulomb ground, as the next three
   double peak_dilation_angle = 6.6;               ///< [degrees]
   std::optional<double> residual_friction_angle;  ///< [degrees]; Bolton's, peak friction less 0.8 of the dilation
@@ -130,5 +133,9 @@ struct Choice {
     visit("strained", strained);
   }
 };
+
+/// The sand of a choice, with its grains, seed, density and friction.
+/// \throws scarp::InputError for grains that the scenes are not built for
+examples::Sand sand_of(Choice const& choice);
 
 }  // namespace fault_rupture

@@ -5,12 +5,11 @@
 #include <numbers>
 #include <vector>
 
+#include "../sand/ground.hpp"
 #include "any_soil.hpp"
 #include "scarp/dem/mirrored.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
-#include "scarp/rve/level_ground.hpp"
 #include "scarp/solver/thread_executor.hpp"
-#include "study_sand.hpp"
 
 namespace fault_rupture {
 
@@ -56,13 +55,8 @@ std::size_t images_of(Choice const& choice) { return choice.mirrored_packings ? 
 
 /// No more than what points draw, at the same time where threads are requested.
 Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
-  auto const law = examples::study_law(choice.grain_friction);
-  scarp::LevelGround<scarp::EllipseGrading> ground;
-  ground.cloud = examples::study_cloud(choice.grains, choice.seed, choice.grain_aspect);
-  ground.unit_weight = unit_weight;
-  ground.surcharge = surcharge;
-  ground.preparation.preparation_friction = choice.preparation_friction;
-  ground.overconsolidation_ratio = choice.overconsolidation_ratio;
+  auto const sand = sand_of(choice);
+  auto const law = examples::law_of<Grains::Law>(sand);
   auto depths = drawn_depths(choice, sites);
   std::size_t const count = depths.size();
   std::size_t const images = images_of(choice);
@@ -71,9 +65,8 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
   executor.for_each(choice.packings, [&](int number) {
     auto const k = static_cast<std::size_t>(number);
     if (depths[k].empty()) return;
-    auto own = ground;
-    if (k > 0) own.cloud.seed = scarp::family_seed(choice.seed, k);
-    columns.sources[k] = own.make<Grains>(law, std::move(depths[k]));
+    auto const seed = k > 0 ? scarp::family_seed(sand.seed, k) : sand.seed;
+    columns.sources[k] = examples::level_ground<Grains>(sand, law, seed, unit_weight, surcharge, std::move(depths[k]));
     if (images == 1) return;
     columns.sources[count + k] = columns.sources[k];
     for (auto& packing : columns.sources[count + k].packings) packing = scarp::mirrored(std::move(packing));
@@ -82,6 +75,18 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
 }
 
 }  // namespace
+
+examples::Sand sand_of(Choice const& choice) {
+  auto sand = choice.sand;
+  sand.grains = choice.grains;
+  sand.seed = choice.seed;
+  sand.preparation_friction = choice.preparation_friction;
+  sand.overconsolidation_ratio = choice.overconsolidation_ratio;
+  sand.aspect = choice.grain_aspect;
+  sand.friction = choice.grain_friction;
+  with_packing(examples::Built<Grains>{}, sand, [](auto, auto const&) {});
+  return sand;
+}
 
 std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   auto const count = static_cast<std::size_t>(choice.packings);
@@ -98,7 +103,7 @@ std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<
 Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   Sand sand;
   auto& packings = sand.provider;
-  packings.law = examples::study_law(choice.grain_friction);
+  packings.law = examples::law_of<Grains::Law>(sand_of(choice));
   packings.source = make_columns(choice, sites);
   packings.strain_per_step = choice.strain_per_step;
   packings.min_steps = choice.min_dem_steps;

@@ -30,7 +30,7 @@ VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
 /// \f$ C = \frac1V (\sum M^T S M - A_l^T K^{-1} A),\; K = \sum B^T S B,\; A = \sum B^T S M,\; A_l = \sum B^T S^T M \f$
 /// with a contact's spring S, its relative motion M in each strain mode and B in the motions of both grains (arms from
 /// the centres to the contact), plus the terms of the present stress, 8 % of C_xxyy at a stress of 0.7 % of the
-/// stiffness. That forces turn with their contacts is left out: 0.2 % there (docs/notes/tangents.md).
+/// stiffness. That forces turn with their contacts is left out: 0.2 % there (docs/theory/homogenisation.md).
 /// Spins are scaled by a length, so that K is in N/m throughout. Grains without contact are left out; rigid
 /// translations, spins of smooth discs and grains on a single contact are held by `regularisation`, which changes other
 /// motions by its own order only, because the forces A lie in the range of a symmetric K.

@@ -161,6 +161,10 @@ class CsvColumns {
     }
   }
 
+  /// rows: as many cells as the header has names
+  CsvColumns(std::string file, detail::CsvLine header, std::vector<detail::CsvLine> rows)
+      : file_(std::move(file)), header_(std::move(header)), rows_(std::move(rows)) {}
+
   std::string const& file() const { return file_; }
   std::vector<std::string> const& names() const { return header_.cells; }
   std::size_t rows() const { return rows_.size(); }

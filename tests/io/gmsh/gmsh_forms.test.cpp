@@ -94,11 +94,14 @@ TEST_CASE("a partitioned file reads as the whole") {
   // Gmsh keeps the entities and adds theirs that are shared out, with parents, partitions and the parents' groups.
   auto const shared =
       with(strip_41("1 1", "1 2"), "$Nodes",
-           "$PartitionedEntities\n2\n1\n7 2\n1 1 2 0\n5 0 1 1 1 0 0 0 0\n8 1 1 2 1 2 0 0 0 2 0 0 1 4 2 5 -5\n"
-           "8 2 1 1 1 0 0 0 1 1 0 1 1 0\n9 2 2 1 2 1 0 0 2 1 0 1 2 0\n$EndPartitionedEntities\n$Nodes");
-  check_same(read(with(with(with(shared, "2 1 2 2\n7", "2 8 2 2\n7"), "2 2 2 2\n9", "2 9 2 2\n9"), "1 1 1 2\n11",
-                       "1 8 1 2\n11")),
-             whole);
+           "$PartitionedEntities\n2\n1\n7 2\n1 2 2 0\n5 0 1 1 1 0 0 0 0\n8 1 1 2 1 2 0 0 0 2 0 0 1 4 2 5 -5\n"
+           "12 2 1 2 1 2 1 0 0 1 1 0 1 1 0\n8 2 1 1 1 0 0 0 1 1 0 1 1 0\n9 2 2 1 2 1 0 0 2 1 0 1 2 "
+           "0\n$EndPartitionedEntities\n$Nodes");
+  auto const parts =
+      with(with(with(shared, "2 1 2 2\n7", "2 8 2 2\n7"), "2 2 2 2\n9", "2 9 2 2\n9"), "1 1 1 2\n11", "1 8 1 2\n11");
+  check_same(read(parts), whole);
+  // The line between the partitions has the group of the surface that it divides, which is no group of sides.
+  check_same(read(with(with(parts, "3 6 7 12", "4 7 7 13"), "12 2 3\n", "12 2 3\n1 12 1 1\n13 2 5\n")), whole);
 }
 
 TEST_CASE("of several groups of an element the smallest counts") {
@@ -158,6 +161,12 @@ TEST_CASE("elements that run clockwise are turned and told") {
   CHECK(mesh.elements[0] == std::array<int, 3>{0, 1, 4});
   CHECK(notes(turned) == Notes{"'m.msh': 2 elements run clockwise: they are turned"});
   CHECK(read(turned).boundaries == read(strip).boundaries);
+  // Far from the origin, where products of coordinates have no digits left for an area.
+  auto const far = with(strip, nodes,
+                        "$Nodes\n6\n1 1e9 1e9 0\n2 1000000001 1e9 0\n3 1000000002 1e9 0\n4 1e9 1000000001 0\n"
+                        "5 1000000001 1000000001 0\n6 1000000002 1000000001 0\n$EndNodes\n");
+  CHECK(notes(far).empty());
+  CHECK(samples::volume(read(far)) == samples::Approx(2.0));
 }
 
 TEST_CASE("nodes that no element here has are left out, on request all but corners") {
@@ -170,7 +179,7 @@ TEST_CASE("nodes that no element here has are left out, on request all but corne
   CHECK(eight.nodes.size() == 8);
   CHECK(samples::volume(eight) == samples::Approx(2.0 + 2.0 * 2.0 / 3.0 * 2.0 * 0.1));  // analytic: two parabolas
   CHECK(eight.boundaries.at("physical_4").size() == 1);
-  CHECK(notes(nine) == Notes{"'m.msh': a 9-node quadrangle is read as a 8-node quadrangle, without its other nodes"});
+  CHECK(notes(nine) == Notes{"'m.msh': each 9-node quadrangle is read as 8-node quadrangle, without its other nodes"});
   auto const four = read<scarp::Quad4>(nine, {.highest_order = 1});
   CHECK(four.nodes.size() == 4);
   CHECK(samples::volume(four) == samples::Approx(2.0));

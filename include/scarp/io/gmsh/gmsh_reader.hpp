@@ -175,6 +175,12 @@ Mesh<Element> assemble_gmsh(GmshContent const& content) {
 
 namespace scarp {
 
+/// What of a file of Gmsh counts.
+struct GmshOptions {
+  int highest_order = 2;               ///< of elements; at 1 all nodes but corners are left out: sides become straight
+  std::vector<std::string> regions{};  ///< physical groups that count before others where an element lies in several
+};
+
 /// A file of Gmsh, read once: MSH 1, 2 to 2.2, 4.0 or 4.1, text or binary, of any order of bytes.
 class GmshFile {
  public:
@@ -184,7 +190,7 @@ class GmshFile {
   /// bytes: of the file; name: in messages
   GmshFile(std::string bytes, std::string const& name, GmshOptions const& options = {})
       : content_(detail::read_gmsh_content(std::move(bytes), name)) {
-    detail::normalise_gmsh(content_, options);
+    detail::normalise_gmsh(content_, options.highest_order, options.regions);
   }
 
   /// Gmsh's number of the type of the elements, to choose the one that mesh() reads them as (`Tri6::gmsh_type`); of several types

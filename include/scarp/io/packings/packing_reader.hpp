@@ -154,7 +154,7 @@ inline void reject_places_in_space(CsvColumns const& table) {
   for (std::size_t i = 1; i < places.size(); ++i) {
     if (places[i] == places[0]) continue;
     table.reject_cell(i, "z", fmt::format("the first grain has {}, and grains in the plane lie in one", places[0]),
-                      "read them as grains in space, or leave the column out");
+                      "read them as spheres in space by scarp::read_packing, or leave the column out");
   }
 }
 

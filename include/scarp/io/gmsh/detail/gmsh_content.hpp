@@ -57,6 +57,9 @@ inline constexpr std::array gmsh_types{
     GmshType{29, 3, 20, "20-node tetrahedron"},
     GmshType{30, 3, 35, "35-node tetrahedron"},
     GmshType{31, 3, 56, "56-node tetrahedron"},
+    GmshType{36, 2, 16, "16-node quadrangle"},
+    GmshType{37, 2, 25, "25-node quadrangle"},
+    GmshType{39, 2, 12, "12-node quadrangle"},
     GmshType{92, 3, 64, "64-node hexahedron"},
     GmshType{93, 3, 125, "125-node hexahedron"},
 };

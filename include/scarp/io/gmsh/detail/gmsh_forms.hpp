@@ -15,7 +15,6 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/io/gmsh/detail/gmsh_content.hpp"
-#include "scarp/io/gmsh/gmsh_options.hpp"
 
 namespace scarp::detail {
 
@@ -99,7 +98,7 @@ inline void join_gmsh_copies(GmshContent& content, int dim) {
   });
 }
 
-/// Tells what a file names or holds that its mesh does not have.
+/// Notes what a file names or holds that its mesh does not have.
 inline void note_gmsh_rest(GmshContent& content, int dim) {
   auto const note = [&](std::string const& text) {
     content.notes.push_back(fmt::format("'{}': {}", content.file, text));
@@ -146,7 +145,7 @@ struct GmshGroupSizes {
   std::size_t of(std::string const& a, std::string const& b) const { return common.at({a, b}); }
 };
 
-/// Of several groups of an element the smallest counts, as its material; groups that hold it wholly are told.
+/// Of several groups of an element the smallest counts, as its material; the others are noted.
 /// wanted: names of groups that count before others
 /// \throws InputError where a group neither holds another one nor lies in it
 inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::string> const& wanted) {
@@ -202,8 +201,8 @@ inline void drop_gmsh_nodes(GmshContent& content, int highest_order) {
     for (std::size_t e = 0; e < block.tags.size(); ++e)
       for (int a = 0; a < type.nodes; ++a) nodes.push_back(block.nodes[e * index(block.type.nodes) + index(a)]);
     if (!block.tags.empty() && told.emplace(block.type.name).second) {
-      content.notes.push_back(
-          fmt::format("'{}': a {} is read as a {}, without its other nodes", content.file, block.type.name, type.name));
+      content.notes.push_back(fmt::format("'{}': each {} is read as {}, without its other nodes", content.file,
+                                          block.type.name, type.name));
     }
     block.type = type;
     block.nodes = std::move(nodes);
@@ -218,11 +217,11 @@ inline void turn_clockwise_gmsh(GmshContent& content) {
   rearrange_gmsh(content, [&](GmshBlock const& block, std::int64_t, GmshNodes nodes) {
     double area = 0.0;
     auto const corners = index(block.type.dim == 2 ? without_gmsh_nodes(block.type, 1).nodes : 0);
-    for (std::size_t a = 0; a < corners; ++a) {
-      auto const from = places.find(nodes[a]);
-      auto const to = places.find(nodes[(a + 1) % corners]);
-      if (from == places.end() || to == places.end()) break;  // rejected later
-      area += from->second[0] * to->second[1] - from->second[1] * to->second[0];
+    for (std::size_t a = 2; a < corners; ++a) {
+      auto const side = [&](std::size_t b, std::size_t axis) {
+        return places[nodes[b]][axis] - places[nodes[0]][axis];
+      };
+      area += side(a - 1, 0) * side(a, 1) - side(a - 1, 1) * side(a, 0);
     }
     bool const clockwise = area == 0.0 ? block.turned : area < 0.0;
     if (clockwise != block.turned) ++turned;
@@ -232,14 +231,14 @@ inline void turn_clockwise_gmsh(GmshContent& content) {
     content.notes.push_back(fmt::format("'{}': {} elements run clockwise: they are turned", content.file, turned));
 }
 
-/// Brings what a file may say in several ways into one form.
-inline void normalise_gmsh(GmshContent& content, GmshOptions const& options) {
+/// Brings what a file may write in several ways into one form.
+inline void normalise_gmsh(GmshContent& content, int highest_order, std::vector<std::string> const& regions) {
   int const dim = gmsh_dimension(content);
   take_gmsh_group_data(content);
   join_gmsh_copies(content, dim);
   note_gmsh_rest(content, dim);
-  choose_gmsh_regions(content, dim, options.regions);
-  drop_gmsh_nodes(content, options.highest_order);
+  choose_gmsh_regions(content, dim, regions);
+  drop_gmsh_nodes(content, highest_order);
   if (dim == 2) turn_clockwise_gmsh(content);
 }
 

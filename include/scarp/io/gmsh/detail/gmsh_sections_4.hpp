@@ -117,8 +117,10 @@ class GmshSections4 {
 
   void read_entity(GmshStream& stream, int dim, bool partitioned) {
     int const tag = stream.value<std::int32_t>("the tag of an entity");
+    int parent = dim;
     if (partitioned) {
-      for (int k = 0; k < 2; ++k) stream.value<std::int32_t>("the entity that is partitioned");
+      parent = stream.value<std::int32_t>("the dimension of the entity that is partitioned");
+      stream.value<std::int32_t>("the tag of the entity that is partitioned");
       auto const partitions = stream.count("the number of partitions of an entity", 1);
       for (std::size_t k = 0; k < partitions; ++k) stream.value<std::int32_t>("a partition of an entity");
     }
@@ -128,7 +130,7 @@ class GmshSections4 {
     auto const in_groups = stream.count("the number of physical groups of an entity", 1);
     for (std::size_t k = 0; k < in_groups; ++k) {
       auto const group = stream.value<std::int32_t>("the tag of a physical group");
-      add_group(entity.groups, group);
+      if (parent == dim) add_group(entity.groups, group);  // between partitions lie curves with the groups of a surface
       // MSH 2.2 has the elements of a group with negative entities turned already.
       if (k == 0) entity.turned = group < 0;
     }

@@ -12,9 +12,9 @@
 
 #include "scarp/core/error.hpp"
 
-namespace points_library {
+namespace examples {
 
-/// Lines "key value" of a text, each of which must be taken.
+/// Lines "key value" or "key = value" of a text, each of which must be taken.
 class Entries {
  public:
   /// \throws InputError for a line without a value and for a key that is given twice
@@ -24,10 +24,11 @@ class Entries {
       text.remove_prefix(std::min(whole.size() + 1, text.size()));
       std::string_view const entry = trimmed(whole.substr(0, whole.find('#')));
       if (entry.empty()) continue;
-      std::string_view const key = entry.substr(0, entry.find_first_of(blanks));
-      std::string_view const value = trimmed(entry.substr(key.size()));
+      std::string_view const key = entry.substr(0, entry.find_first_of(" \t\r="));
+      std::string_view value = trimmed(entry.substr(key.size()));
+      if (value.starts_with('=')) value = trimmed(value.substr(1));
       if (value.empty()) scarp::reject("line {} is '{}' (a key and its value are expected): add the value", line, key);
-      if (!values_.try_emplace(std::string(key), value).second)
+      if (!values_.try_emplace(std::string(key), Value{std::string(value), line}).second)
         scarp::reject("line {} gives '{}' again (one value is expected): leave one out", line, key);
     }
   }
@@ -36,24 +37,23 @@ class Entries {
 
   /// Leaves the value as it is where the key is not given.
   void take(std::string const& key, std::string& value) {
-    if (auto const found = values_.extract(key)) value = found.mapped();
+    if (auto const found = values_.extract(key)) value = found.mapped().text;
   }
   template <class Number>
     requires std::floating_point<Number> || std::integral<Number>
   void take(std::string const& key, Number& value) {
     auto const found = values_.extract(key);
     if (!found) return;
-    std::string const& text = found.mapped();
+    auto const& [text, line] = found.mapped();
     auto const [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(static_cast<double>(value)))
-      scarp::reject("'{}' is '{}' ({} is expected): correct it", key, text, expected<Number>());
+      scarp::reject("line {}: '{}' is '{}' ({} is expected): correct it", line, key, text, expected<Number>());
   }
 
   /// \throws InputError for keys that nobody took
   void require_all_taken(std::string_view kind) const {
-    if (!values_.empty())
-      scarp::reject("a material of kind {} has no '{}' (it is unknown or of another kind): leave it out", kind,
-                    values_.begin()->first);
+    for (auto const& [key, value] : values_)
+      scarp::reject("line {}: {} has no '{}' (it is unknown or of another kind): leave it out", value.line, kind, key);
   }
 
  private:
@@ -72,7 +72,11 @@ class Entries {
                                            : text.substr(first, text.find_last_not_of(blanks) - first + 1);
   }
 
-  std::map<std::string, std::string> values_;
+  struct Value {
+    std::string text;
+    int line;
+  };
+  std::map<std::string, Value> values_;
 };
 
-}  // namespace points_library
+}  // namespace examples

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "calibrate.hpp"
+
+#include <chrono>
+#include <limits>
+#ifdef RVE_LAB_WITH_NLOPT
+#include <nlopt.hpp>
+#endif
+
+#include "../shared/sand/options.hpp"
+#include "calibration_report.hpp"
+#include "evaluation_table.hpp"
+#include "options.hpp"
+#include "packings.hpp"
+
+namespace rve_lab {
+
+namespace {
+
+/// Packings of a sand beyond the densest or loosest that its grains can have are those.
+Curve curve_of(Sand const& sand, CurveTest const& test) {
+  Curve curve;
+  with_packing(Grains{}, sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
+    curve = tested(examples::prepared<PackingType>(sand, law, sand.seed, {}, std::numeric_limits<double>::infinity()),
+                   law, test);
+  });
+  return curve;
+}
+
+bool is_density(std::string const& name) { return examples::sets_density(name); }
+
+Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
+  if (!choice.sand_file.empty())
+    choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
+  Calibration all{.start = choice.sand,
+                  .free = free_parameters(choice.free),
+                  .test = choice.test,
+                  .seeds = choice.seeds,
+                  .evaluations = choice.evaluations,
+                  .threads = choice.threads,
+                  .run = curve_of};
+  for (auto const& one : all.free) {
+    if (is_density(one.name)) all.start.preparation_friction = all.start.void_ratio = all.start.relative_density = 0.0;
+  }
+  for (auto const& one : all.free) one.of(all.start) = one.of(choice.sand);
+  if (auto const densities = std::ranges::count_if(all.free, [](Free const& one) { return is_density(one.name); });
+      densities > 1)
+    scarp::reject("--free names {} parameters that set the density: leave one", densities);
+  all.observations = targets(choice.target, choice.window);
+  double last = 0.0;
+  for (auto const& file : choice.tables) {
+    auto const table = LabTable::read(file, choice.triaxial);
+    last = std::max(last, table.strain.back());
+    auto const more = observations_of(table, all.observations.empty() ? 0 : all.groups());
+    all.observations.insert(all.observations.end(), more.begin(), more.end());
+  }
+  if (all.observations.empty()) scarp::reject("there is nothing to calibrate on: give --target or --table");
+  all.test.held = choice.held;
+  all.test.strain = choice.strain.value_or(last > 0.0 ? last : 0.1);
+  for (auto const& one : all.free) {
+    if (auto const why = examples::why_unused(all.start, one.name); !why.empty())
+      scarp::reject("--free names {}, which this sand does not use ({}): leave it out", one.name, why);
+  }
+  return all;
+}
+
+Eigen::VectorXd start_of(Calibration const& calibration) {
+  Eigen::VectorXd shares(static_cast<Eigen::Index>(calibration.free.size()));
+  Sand sand = calibration.start;
+  for (std::size_t k = 0; k < calibration.free.size(); ++k) {
+    double const value = calibration.free[k].of(sand);
+    bool const inside = value > calibration.free[k].least && value < calibration.free[k].most;
+    shares(static_cast<Eigen::Index>(k)) = inside ? std::clamp(calibration.free[k].share_of(value), 0.1, 0.9) : 0.5;
+  }
+  return shares;
+}
+
+/// Evaluates, prints a line for each evaluation, and keeps the best.
+class Search {
+ public:
+  Search(Calibration const& calibration, std::filesystem::path const& folder, bool resume)
+      : calibration_(calibration),
+        team_(calibration.threads),
+        table_(folder / "evaluations.csv", calibration, resume) {}
+
+  Evaluation evaluate(Eigen::VectorXd const& shares) {
+    auto found = table_.find(shares);
+    bool const known = found.has_value();
+    if (!known) {
+      found = evaluated(calibration_, shares, team_);
+      table_.add(*found);
+    }
+    if (units_.size() == 0) units_ = units(calibration_, *found);
+    double const error = misfit(calibration_, *found, units_);
+    print(*found, error, known);
+    if (best_.shares.size() == 0 || error < misfit(calibration_, best_, units_)) best_ = *found;
+    return *found;
+  }
+
+  void optimise(Eigen::VectorXd const& start) {
+#ifdef RVE_LAB_WITH_NLOPT
+    auto const count = static_cast<unsigned>(start.size());
+    nlopt::opt optimiser(count > 1 ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, count);
+    optimiser.set_lower_bounds(0.0);
+    optimiser.set_upper_bounds(1.0);
+    optimiser.set_initial_step(0.25);
+    optimiser.set_xtol_abs(0.02);
+    optimiser.set_maxeval(calibration_.evaluations);
+    auto const objective = [](std::vector<double> const& place, std::vector<double>&, void* self) {
+      auto& search = *static_cast<Search*>(self);
+      try {
+        auto const shares = Eigen::Map<Eigen::VectorXd const>(place.data(), static_cast<Eigen::Index>(place.size()));
+        double const error = misfit(search.calibration_, search.evaluate(shares), search.units_);
+        return error * error;
+      } catch (std::exception const&) {
+        search.problem_ = std::current_exception();
+        throw nlopt::forced_stop();
+      }
+    };
+    optimiser.set_min_objective(objective, this);
+    std::vector<double> place(start.begin(), start.end());
+    double least = 0.0;
+    try {
+      optimiser.optimize(place, least);
+    } catch (nlopt::roundoff_limited const&) {  // the scatter: it has come as far as it can
+    } catch (nlopt::forced_stop const&) {
+      std::rethrow_exception(problem_);
+    }
+#else
+    static_cast<void>(start);
+    scarp::reject(
+        "this rve_lab does not calibrate (it was built without NLopt): install libnlopt-cxx-dev and build again");
+#endif
+  }
+
+  Evaluation on_other_seeds(Eigen::VectorXd const& shares) {
+    return evaluated(calibration_, shares, team_, calibration_.seeds);
+  }
+  Evaluation const& best() const { return best_; }
+  Eigen::VectorXd const& scale() const { return units_; }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
+
+ private:
+  void print(Evaluation const& one, double error, bool known) {
+    std::string line = fmt::format("{:3}:", ++number_);
+    for (std::size_t k = 0; k < calibration_.free.size(); ++k)
+      line += fmt::format(" {} {:.5g}", calibration_.free[k].name,
+                          calibration_.free[k].at(one.shares(static_cast<Eigen::Index>(k))));
+    for (std::size_t k = 0; k < calibration_.observations.size(); ++k) {
+      auto const& wanted = calibration_.observations[k];
+      auto const at = static_cast<Eigen::Index>(k);
+      if (wanted.strain == 0.0)
+        line += fmt::format(", {} {:.4g} +- {:.2g}", wanted.name, one.values(at), one.scatter(at));
+    }
+    evaluated_ += known ? 0 : 1;
+    int const all = calibration_.evaluations + 2 * static_cast<int>(calibration_.free.size()) + 2;
+    examples::print(stdout, "{}, void ratio {:.4f}: misfit {:.2f}; {}\n", line, one.void_ratio, error,
+                    known ? "from evaluations.csv"
+                          : fmt::format("{:.0f} s, at most {:.0f} s more", seconds(),
+                                        seconds() / evaluated_ * std::max(0, all - number_)));
+  }
+
+  Calibration const& calibration_;
+  scarp::ThreadExecutor team_;
+  EvaluationTable table_;
+  Eigen::VectorXd units_;
+  Evaluation best_;
+  std::exception_ptr problem_;  ///< NLopt passes on no exceptions but its own
+  int number_ = 0;
+  int evaluated_ = 0;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+/// What a resumed calibration must have in common with the one before.
+std::string settings_of(Calibration const& calibration) {
+  std::string text = examples::text_of(calibration.start);
+  for (auto const& one : calibration.free) text += fmt::format("free {} {} {}\n", one.name, one.least, one.most);
+  for (auto const& one : calibration.observations) text += fmt::format("{} {} {}\n", one.name, one.strain, one.wanted);
+  auto const& test = calibration.test;
+  return text + fmt::format("{} {} {} {} {} seeds {}\n", test.path, test.held.value_or(0.0), test.strain,
+                            test.strain_step, test.row_strain, calibration.seeds);
+}
+
+/// \return whether there is anything to resume
+bool resumes(std::filesystem::path const& folder, std::string const& settings) {
+  auto const file = folder / "settings.txt";
+  if (!std::filesystem::exists(file) || !std::filesystem::exists(folder / "evaluations.csv")) return false;
+  if (scarp::read_file(file) != settings)
+    scarp::reject(
+        "'{}' is of another calibration (other sand, bounds, targets or seeds): resume with its options, or calibrate "
+        "into another folder",
+        file.string());
+  return true;
+}
+
+}  // namespace
+
+void calibrate(CalibrateChoice choice, CLI::App const& app) {
+  auto const calibration = calibration_of(choice, app);
+  examples::require_used(app, calibration.start);
+  auto const settings = settings_of(calibration);
+  bool const resume = choice.resume && resumes(choice.output.folder, settings);
+  scarp::RunFolder own({.folder = choice.output.folder,
+                        .overwrite = choice.output.overwrite || resume,
+                        .record = "run_calibrate.json",
+                        .results = {"evaluations.csv"}},
+                       examples::record_of("rve_lab calibrate", app));
+  own.begin();
+  scarp::write_file(own.path() / "settings.txt", settings);
+  Search search(calibration, own.path(), resume);
+  search.optimise(start_of(calibration));
+  auto const evaluate = [&](Eigen::VectorXd const& shares) { return search.evaluate(shares); };
+  auto const found = sensitivities(calibration, Eigen::VectorXd(search.best().shares), search.scale(), evaluate);
+  search.evaluate(improved(calibration, Evaluation(search.best()), found, search.scale()));
+  auto const other = search.on_other_seeds(search.best().shares);
+  CalibrationReport const report{calibration, search.best(), other, found, search.scale(), search.seconds()};
+  report.write(own);
+  report.print();
+  report.require_reached();
+  scarp::write_file(own.path() / "calibrated.sand", report.text());
+  examples::print(stdout, "{}\n", (own.path() / "calibrated.sand").string());
+  own.end("finished");
+}
+
+void declare_calibrate(CLI::App& app, CalibrateChoice& choice) {
+  app.add_option(
+      "--free", choice.free,
+      "parameters with bounds, name=LEAST:MOST,...; friction, relative-density and rolling-friction have usual ones");
+  app.add_option("--target", choice.target,
+                 "of the drained curve, name=VALUE,...: peak-friction, residual-friction, peak-dilation, "
+                 "secant-dilation [degrees], void-ratio, e50 [Pa]");
+  app.add_option("--table", choice.tables,
+                 "of the laboratory: axial_strain or axial_strain_percent, volumetric_strain or "
+                 "volumetric_strain_percent, stress_ratio or q and p")
+      ->check(CLI::ExistingFile);
+  app.add_flag("--triaxial", choice.triaxial,
+               "the tables are of triaxial tests: p is the mean of three stresses; friction angles are compared");
+  app.add_option("--path", choice.test.path, "of the tests")->check(CLI::IsMember({"biaxial", "constant_mean_stress"}));
+  app.add_option("--lateral-stress,--held-stress", choice.held, "of the path [Pa]; that of the sand when not given")
+      ->check(positive(1e12));
+  app.add_option("--strain", choice.strain, "at the end; the last one of the tables, or 0.1")->check(positive(1.0));
+  app.add_option("--strain-step", choice.test.strain_step, "strain of one DEM step")
+      ->check(examples::number_from(1e-12, true, 1e-3));
+  app.add_option("--window", choice.window, "axial strain over which peaks are means")->check(positive(0.1));
+  app.add_option("--seeds", choice.seeds, "packings of an evaluation")->check(CLI::Range(2, 1000));
+  app.add_option("--evaluations", choice.evaluations, "most of the search; sensitivities follow")
+      ->check(CLI::Range(3, 10'000));
+  app.add_option("--threads", choice.threads, "0 uses all")->check(CLI::Range(0, 1024));
+  app.add_flag("--resume", choice.resume, "take up the evaluations of the folder")->configurable(false);
+  examples::declare_sand_file(app, choice.sand_file);
+  examples::declare_sand(app, choice.sand);
+  examples::declare_output(app, choice.output, "folder of calibrated.sand, tables and figures", "--output,-o");
+}
+
+}  // namespace rve_lab

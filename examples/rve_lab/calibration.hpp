@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/QR>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "../shared/print.hpp"
+#include "calibration_data.hpp"
+#include "scarp/io/csv.hpp"
+#include "scarp/rve/random_packings.hpp"
+#include "scarp/solver/thread_executor.hpp"
+
+namespace rve_lab {
+
+/// What a calibration is to find and how it tests a sand.
+struct Calibration {
+  Sand start{};
+  std::vector<Free> free{};
+  std::vector<Observation> observations{};
+  CurveTest test{};
+  int seeds = 4;
+  int evaluations = 30;
+  int threads = 0;
+  /// Curve of one packing. \throws PreparationError, InputError
+  std::function<Curve(Sand const&, CurveTest const&)> run{};
+
+  std::size_t groups() const { return observations.back().group + 1; }
+  Sand sand_at(Eigen::VectorXd const& shares) const {
+    Sand sand = start;
+    for (std::size_t k = 0; k < free.size(); ++k) free[k].of(sand) = free[k].at(shares(static_cast<Eigen::Index>(k)));
+    return sand;
+  }
+};
+
+/// What the mean curve of several seeds has at one place of the parameters.
+struct Evaluation {
+  Eigen::VectorXd shares{};   ///< of the way between the bounds
+  Eigen::VectorXd values{};   ///< of the observations
+  Eigen::VectorXd scatter{};  ///< standard error of the values, jackknife over the seeds
+  double void_ratio = 0.0;    ///< at the start of the test
+  Curve mean{};               ///< empty where it was read from a file
+};
+
+/// Seed number k of a calibration; the first is the sand's own.
+inline std::uint64_t seed_of(Sand const& sand, int k) {
+  return k == 0 ? sand.seed : scarp::family_seed(sand.seed, static_cast<std::uint64_t>(k));
+}
+
+/// first: number of the first seed
+inline Evaluation evaluated(Calibration const& calibration, Eigen::VectorXd const& shares, scarp::ThreadExecutor& team,
+                            int first = 0) {
+  auto const seeds = static_cast<std::size_t>(calibration.seeds);
+  std::vector<Curve> curves(seeds);
+  team.for_each(calibration.seeds, [&](int k) {
+    Sand sand = calibration.sand_at(shares);
+    sand.seed = seed_of(calibration.start, first + k);
+    curves[static_cast<std::size_t>(k)] = calibration.run(sand, calibration.test);
+  });
+  auto const mean_without = [&](std::size_t left_out) {
+    std::vector<Curve const*> some;
+    for (std::size_t k = 0; k < seeds; ++k) {
+      if (k != left_out) some.push_back(&curves[k]);
+    }
+    return mean_of(some);
+  };
+  auto const values_of = [&](Curve const& curve) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(calibration.observations.size()));
+    for (Eigen::Index k = 0; k < values.size(); ++k)
+      values(k) = calibration.observations[static_cast<std::size_t>(k)].of(curve);
+    return values;
+  };
+  Evaluation evaluation{.shares = shares, .mean = mean_without(seeds)};
+  evaluation.values = values_of(evaluation.mean);
+  evaluation.void_ratio = evaluation.mean.void_ratio;
+  Eigen::MatrixXd each(evaluation.values.size(), calibration.seeds);
+  for (std::size_t k = 0; k < seeds; ++k) each.col(static_cast<Eigen::Index>(k)) = values_of(mean_without(k));
+  Eigen::VectorXd const middle = each.rowwise().mean();
+  double const n = calibration.seeds;
+  evaluation.scatter = ((n - 1.0) / n * (each.colwise() - middle).rowwise().squaredNorm()).cwiseSqrt();
+  return evaluation;
+}
+
+/// Units of the misfit: standard error of each observation at the start, of a table's column the mean.
+inline Eigen::VectorXd units(Calibration const& calibration, Evaluation const& start) {
+  std::vector<double> squares(calibration.groups()), counts(calibration.groups());
+  auto const each = [&](auto const& visit) {
+    for (std::size_t k = 0; k < calibration.observations.size(); ++k)
+      visit(static_cast<Eigen::Index>(k), calibration.observations[k]);
+  };
+  each([&](Eigen::Index k, Observation const& one) {
+    squares[one.group] += start.scatter(k) * start.scatter(k), counts[one.group] += 1.0;
+  });
+  Eigen::VectorXd units(start.values.size());
+  each([&](Eigen::Index k, Observation const& one) {
+    units(k) = std::max(one.least_scatter, std::sqrt(squares[one.group] / counts[one.group]));
+  });
+  return units;
+}
+
+/// Differences in units of the scatter, weighted so that each group counts as one number: their squares sum to the squared misfit.
+inline Eigen::VectorXd residuals(Calibration const& calibration, Eigen::VectorXd const& values,
+                                 Eigen::VectorXd const& units) {
+  std::vector<double> counts(calibration.groups());
+  for (auto const& one : calibration.observations) counts[one.group] += 1.0;
+  Eigen::VectorXd residuals(values.size());
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    auto const& one = calibration.observations[static_cast<std::size_t>(k)];
+    double const weight = 1.0 / (counts[one.group] * static_cast<double>(calibration.groups()));
+    residuals(k) = std::sqrt(weight) * (values(k) - one.wanted) / units(k);
+  }
+  return residuals;
+}
+
+/// Root mean square over the groups; a void ratio that the grains do not have counts as one more.
+inline double misfit(Calibration const& calibration, Evaluation const& one, Eigen::VectorXd const& units) {
+  double const wanted = calibration.sand_at(one.shares).void_ratio;
+  constexpr double allowed = 3e-3;
+  double const missed = wanted > 0.0 ? (one.void_ratio - wanted) / allowed : 0.0;
+  return std::sqrt(residuals(calibration, one.values, units).squaredNorm() +
+                   (std::abs(missed) > 1.0 ? missed * missed : 0.0));
+}
+
+/// Change of all values from one bound of each parameter to the other, by finite differences about a place.
+struct Sensitivities {
+  Eigen::MatrixXd slopes{};      ///< values over shares
+  Eigen::MatrixXd covariance{};  ///< of the shares, from the scatter of the values
+};
+
+/// evaluate(shares) -> Evaluation
+template <class Evaluate>
+Sensitivities sensitivities(Calibration const& calibration, Eigen::VectorXd const& best, Eigen::VectorXd const& units,
+                            Evaluate const& evaluate) {
+  constexpr double step = 0.1;
+  auto const count = static_cast<Eigen::Index>(calibration.free.size());
+  Sensitivities found{.slopes = Eigen::MatrixXd(units.size(), count)};
+  Eigen::MatrixXd weighted(units.size(), count);
+  Eigen::VectorXd const none = residuals(calibration, Eigen::VectorXd::Zero(units.size()), units);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Eigen::VectorXd below = best, above = best;
+    below(k) = std::max(0.0, best(k) - step), above(k) = std::min(1.0, best(k) + step);
+    found.slopes.col(k) = (evaluate(above).values - evaluate(below).values) / (above(k) - below(k));
+    weighted.col(k) = residuals(calibration, found.slopes.col(k), units) - none;
+  }
+  // In groups as in the misfit, whose groups share one unit of weight.
+  Eigen::MatrixXd const information = static_cast<double>(calibration.groups()) * weighted.transpose() * weighted;
+  found.covariance = (information + 1e-6 * Eigen::MatrixXd::Identity(count, count)).inverse();
+  return found;
+}
+
+/// The place that the slopes lead to, no further than the steps reach over which they were taken.
+inline Eigen::VectorXd improved(Calibration const& calibration, Evaluation const& best, Sensitivities const& found,
+                                Eigen::VectorXd const& units) {
+  constexpr double farthest = 0.15;
+  Eigen::VectorXd const none = residuals(calibration, Eigen::VectorXd::Zero(units.size()), units);
+  Eigen::MatrixXd weighted(units.size(), found.slopes.cols());
+  for (Eigen::Index k = 0; k < weighted.cols(); ++k)
+    weighted.col(k) = residuals(calibration, found.slopes.col(k), units) - none;
+  Eigen::VectorXd const move = weighted.colPivHouseholderQr().solve(-residuals(calibration, best.values, units));
+  return (best.shares + move.cwiseMin(farthest).cwiseMax(-farthest)).cwiseMin(1.0).cwiseMax(0.0);
+}
+
+}  // namespace rve_lab

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../shared/command_line.hpp"
+#include "../shared/sand/sand.hpp"
+#include "mean_curve.hpp"
+#include "scarp/io/csv_reader.hpp"
+
+namespace rve_lab {
+
+using examples::Sand;
+
+/// A parameter of the sand that the calibration is free to choose within bounds.
+struct Free {
+  std::string name;
+  double least = 0.0;
+  double most = 1.0;
+
+  /// \throws InputError for an option that is no number
+  double& of(Sand& sand) const {
+    double* found = nullptr;
+    examples::for_each_option(sand, [&](std::string const& option, auto& member, examples::Range, char const*) {
+      if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, double>) {
+        if (option == name) found = &member;
+      }
+    });
+    if (found == nullptr) scarp::reject("--free names '{}' (no number of a sand): see --help for its options", name);
+    return *found;
+  }
+  /// Stiffnesses are varied by ratio. share: from 0 to 1
+  double at(double share) const {
+    return by_ratio() ? least * std::pow(most / least, share) : least + share * (most - least);
+  }
+  double share_of(double value) const {
+    return by_ratio() ? std::log(value / least) / std::log(most / least) : (value - least) / (most - least);
+  }
+
+ private:
+  bool by_ratio() const { return name == "modulus" || name.ends_with("stiffness"); }
+};
+
+/// A number that the mean curve is to have.
+struct Observation {
+  std::string name;
+  std::size_t group = 0;  ///< the columns of a table count as one number each
+  double wanted = 0.0;
+  double least_scatter = 0.0;
+  double reached = 0.0;  ///< how near it is to come, 0 for those of tables
+  double strain = 0.0;   ///< of a table's row
+  std::function<double(Curve const&)> of{};
+};
+
+inline double number_in(std::string const& text, std::string_view option) {
+  double value = 0.0;
+  auto const [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    scarp::reject("--{} has '{}' (a number is expected): correct it", option, text);
+  return value;
+}
+
+/// "name=least:most,...": parameters with their bounds; some have usual ones.
+/// \throws InputError
+inline std::vector<Free> free_parameters(std::string const& text) {
+  std::vector<Free> all;
+  for (auto const& item : examples::list_items(text)) {
+    auto const equals = item.find('=');
+    Free one{item.substr(0, equals)};
+    if (equals == std::string::npos) {
+      if (one.name == "friction")
+        one.least = 0.1;
+      else if (one.name == "relative-density")
+        one.least = 0.05;
+      else if (one.name == "rolling-friction")
+        one.most = 0.5;
+      else
+        scarp::reject("--free has '{}' (its bounds are not usual ones): give {}=LEAST:MOST", item, item);
+    } else {
+      auto const bounds = item.substr(equals + 1);
+      auto const colon = bounds.find(':');
+      if (colon == std::string::npos) scarp::reject("--free has '{}' (name=LEAST:MOST is expected): correct it", item);
+      one.least = number_in(bounds.substr(0, colon), "free");
+      one.most = number_in(bounds.substr(colon + 1), "free");
+    }
+    if (!(one.least < one.most))
+      scarp::reject("--free has {} from {} to {} (the first is to be below the second): correct it", one.name,
+                    one.least, one.most);
+    Sand trial;
+    for (double const end : {one.least, one.most}) {
+      one.of(trial) = end;
+      examples::validate(trial);
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// "name=value,...": targets.
+inline std::vector<Observation> targets(std::string const& text, double window) {
+  std::vector<Observation> all;
+  if (text.empty()) return all;
+  for (auto const& item : examples::list_items(text)) {
+    auto const equals = item.find('=');
+    if (equals == std::string::npos) scarp::reject("--target has '{}' (name=VALUE is expected): correct it", item);
+    Measure const& measure = measure_named(item.substr(0, equals));
+    double const wanted = number_in(item.substr(equals + 1), "target");
+    double const relative = measure.name == "e50" ? wanted : 1.0;
+    all.push_back({std::string(measure.name), all.size(), wanted, relative * measure.least_scatter,
+                   relative * measure.reached, 0.0,
+                   [&measure, window](Curve const& curve) { return measure.of(curve, window); }});
+  }
+  return all;
+}
+
+/// A column of a curve at an axial strain, by straight lines between the ends of rows.
+inline double at_strain(Curve const& curve, double strain, std::function<double(std::size_t)> const& column) {
+  auto const after = static_cast<std::size_t>(std::ranges::lower_bound(curve.strain, strain) - curve.strain.begin());
+  if (after == 0) return column(0) * strain / curve.strain[0];
+  if (after == curve.rows()) return column(after - 1);
+  double const share = (strain - curve.strain[after - 1]) / (curve.strain[after] - curve.strain[after - 1]);
+  return column(after - 1) + share * (column(after) - column(after - 1));
+}
+
+/// Columns of a laboratory table: axial_strain and volumetric_strain (or with _percent), compression positive, and stress_ratio (q/p),
+/// or q and p; columns of path.csv will do.
+struct LabTable {
+  std::vector<double> strain;
+  std::vector<double> sine;        ///< of the mobilised friction angle; empty without stresses
+  std::vector<double> volumetric;  ///< empty where it is not given
+
+  /// triaxial: p is the mean of three principal stresses, q/p becomes \f$ \sin\varphi = 3 (q/p) / (6 + q/p) \f$; else of two,
+  /// \f$ \sin\varphi = (q/p) / 2 \f$.
+  /// \throws InputError
+  static LabTable read(std::string const& file, bool triaxial) {
+    auto const table = scarp::read_csv(file);
+    auto const strains = [&](std::string const& name) {
+      bool const percent = table.has(name + "_percent");
+      auto values = table.column<double>(percent ? name + "_percent" : name);
+      for (double& value : values) value *= percent ? 0.01 : 1.0;
+      return values;
+    };
+    LabTable lab{strains("axial_strain"), {}, {}};
+    if (table.has("volumetric_strain") || table.has("volumetric_strain_percent"))
+      lab.volumetric = strains("volumetric_strain");
+    if (table.has("stress_ratio")) {
+      lab.sine = table.column<double>("stress_ratio");
+    } else if (table.has("q")) {
+      bool const means = table.has("mean_q");
+      lab.sine = table.column<double>(means ? "mean_q" : "q");
+      auto const p = table.column<double>(means ? "mean_p" : "p");
+      for (std::size_t row = 0; row < p.size(); ++row) lab.sine[row] /= p[row];
+    }
+    for (double& ratio : lab.sine) ratio = triaxial ? 3.0 * ratio / (6.0 + ratio) : ratio / 2.0;
+    if (lab.strain.size() < 3 || (lab.sine.empty() && lab.volumetric.empty()))
+      scarp::reject(
+          "'{}' has {} rows and no stress_ratio, q and p, or volumetric_strain (three rows and one of these are "
+          "expected): complete it",
+          file, lab.strain.size());
+    for (std::size_t row = 1; row < lab.strain.size(); ++row) {
+      if (!(lab.strain[row] > lab.strain[row - 1]))
+        scarp::reject("line {} of '{}': the axial strain {} follows {} (it is to increase): give one loading path",
+                      table.line(row), file, lab.strain[row], lab.strain[row - 1]);
+    }
+    return lab;
+  }
+
+  double at(std::vector<double> const& column, double wanted) const {
+    Curve curve;
+    curve.strain = strain;
+    return at_strain(curve, wanted, [&](std::size_t row) { return column[row]; });
+  }
+};
+
+/// Twenty strains, denser at the start, at which the curve is to have the table's values. after: groups so far
+inline std::vector<Observation> observations_of(LabTable const& table, std::size_t groups) {
+  constexpr int rows = 20;
+  std::vector<Observation> all;
+  double const last = table.strain.back();
+  for (auto const& [name, column, scatter] : {std::tuple{"sine of friction angle", &table.sine, 0.005},
+                                              std::tuple{"volumetric strain", &table.volumetric, 2e-4}}) {
+    if (column->empty()) continue;
+    bool const stress = column == &table.sine;
+    for (int row = 1; row <= rows; ++row) {
+      double const strain = last * std::pow(row / static_cast<double>(rows), 1.5);
+      if (strain < table.strain.front()) continue;
+      all.push_back(
+          {name, groups, table.at(*column, strain), scatter, 0.0, strain, [stress, strain](Curve const& curve) {
+             return at_strain(curve, strain,
+                              [&](std::size_t at) { return stress ? curve.sine(at) : curve.volumetric[at]; });
+           }});
+    }
+    ++groups;
+  }
+  return all;
+}
+
+}  // namespace rve_lab

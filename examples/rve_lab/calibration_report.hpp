@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string>
+
+#include "../shared/sand/options.hpp"
+#include "../shared/write_json.hpp"
+#include "calibration.hpp"
+#include "scarp/run/run_folder.hpp"
+
+namespace rve_lab {
+
+/// What a calibration came to: tables for figures, the summary, and the sand itself.
+class CalibrationReport {
+ public:
+  /// other: the best sand on seeds that were not used
+  CalibrationReport(Calibration const& calibration, Evaluation best, Evaluation other, Sensitivities found,
+                    Eigen::VectorXd units, double seconds)
+      : calibration_(calibration),
+        best_(std::move(best)),
+        other_(std::move(other)),
+        found_(std::move(found)),
+        units_(std::move(units)),
+        seconds_(seconds) {}
+
+  /// \throws FileError
+  void write(scarp::RunFolder& own) const {
+    write_observations(own.path());
+    write_curve(own.path());
+    nlohmann::ordered_json json{{"misfit", misfit(calibration_, best_, units_)},
+                                {"misfit_on_other_seeds", misfit(calibration_, other_, units_)},
+                                {"seconds", seconds_},
+                                {"seeds", calibration_.seeds}};
+    for (auto const& [name, value, error, range] : parameters())
+      json["parameters"][name] = {{"value", value}, {"standard_error", error}, {"range", range}};
+    for (std::size_t k = 0; k < calibration_.observations.size(); ++k) {
+      auto const& one = calibration_.observations[k];
+      auto const at = static_cast<Eigen::Index>(k);
+      if (one.strain == 0.0)
+        json["targets"][one.name] = {{"wanted", one.wanted},
+                                     {"value", best_.values(at)},
+                                     {"scatter", best_.scatter(at)},
+                                     {"on_other_seeds", other_.values(at)},
+                                     {"scatter_on_other_seeds", other_.scatter(at)}};
+    }
+    json["void_ratio"] = best_.void_ratio;
+    json["run"] = examples::json_of(own.record());
+    examples::write_json(own.path() / "summary.json", json);
+  }
+
+  void print() const {
+    examples::print(stdout, "misfit {:.2f} in units of the scatter, {:.2f} on other seeds; {:.0f} s\n",
+                    misfit(calibration_, best_, units_), misfit(calibration_, other_, units_), seconds_);
+    for (auto const& [name, value, error, range] : parameters()) {
+      bool const open = error > 0.25 * range;
+      examples::print(stdout, "{} {:.5g} +- {:.2g}{}\n", name, value, error,
+                      open ? ": the data hardly determine it" : "");
+    }
+    for_each_target([](Observation const& one, double value, double scatter, double other, double other_scatter) {
+      examples::print(stdout, "{} {:.5g} +- {:.2g} where {:.5g} is wanted; {:.5g} +- {:.2g} on other seeds\n", one.name,
+                      value, scatter, one.wanted, other, other_scatter);
+    });
+  }
+
+  /// \throws InputError for targets that the best sand misses, naming what limits it
+  void require_reached() const {
+    std::string missed;
+    for_each_target([&](Observation const& one, double value, double, double, double) {
+      if (std::abs(value - one.wanted) > one.reached)
+        missed +=
+            fmt::format("{}{} {:.5g} (nearest is {:.5g})", missed.empty() ? "" : ", ", one.name, one.wanted, value);
+    });
+    auto const limits = limits_of();
+    bool const no_such_packing = void_ratio_limit() != "";
+    if (missed.empty() && !no_such_packing) return;
+    if (missed.empty()) missed = "the void ratio";
+    scarp::reject("out of reach: {} (limited by {}): widen the bounds, free another parameter, or take other grains",
+                  missed, limits.empty() ? "nothing but the grains themselves, no parameter is at its bounds" : limits);
+  }
+
+  /// The calibrated sand as a file.
+  std::string text() const {
+    Sand sand = calibration_.sand_at(best_.shares);
+    std::string on, off;
+    for_each_target([&](Observation const& one, double value, double scatter, double, double) {
+      on += fmt::format("{}{} {:.6g}", on.empty() ? "" : ", ", one.name, one.wanted);
+      off += fmt::format(", {} {:.4g} +- {:.2g}", one.name, value, scatter);
+    });
+    if (calibration_.observations.back().strain > 0.0)
+      on += on.empty() ? "a laboratory table" : " and a laboratory table";
+    auto const& test = calibration_.test;
+    sand.calibrated_on = fmt::format("{}; {}{}, means of {} packings", on, test.path,
+                                     test.held ? fmt::format(" at {:.6g} Pa", *test.held) : "", calibration_.seeds);
+    sand.misfit = fmt::format("{:.2f} standard errors{}", misfit(calibration_, best_, units_), off);
+    return examples::text_of(sand);
+  }
+
+ private:
+  struct Parameter {
+    std::string name;
+    double value;
+    double error;
+    double range;
+  };
+
+  std::vector<Parameter> parameters() const {
+    std::vector<Parameter> all;
+    for (std::size_t k = 0; k < calibration_.free.size(); ++k) {
+      auto const& one = calibration_.free[k];
+      auto const at = static_cast<Eigen::Index>(k);
+      double const share = best_.shares(at);
+      double const error = std::sqrt(found_.covariance(at, at));
+      double const slope = (one.at(std::min(1.0, share + 0.01)) - one.at(std::max(0.0, share - 0.01))) /
+                           (std::min(1.0, share + 0.01) - std::max(0.0, share - 0.01));
+      all.push_back({one.name, one.at(share), std::min(error, 1.0) * slope, one.most - one.least});
+    }
+    return all;
+  }
+
+  template <class Visit>
+  void for_each_target(Visit const& visit) const {
+    for (std::size_t k = 0; k < calibration_.observations.size(); ++k) {
+      auto const at = static_cast<Eigen::Index>(k);
+      if (calibration_.observations[k].strain == 0.0)
+        visit(calibration_.observations[k], best_.values(at), best_.scatter(at), other_.values(at), other_.scatter(at));
+    }
+  }
+
+  std::string void_ratio_limit() const {
+    constexpr double allowed = 3e-3;
+    double const wanted = calibration_.sand_at(best_.shares).void_ratio;
+    if (wanted == 0.0 || std::abs(best_.void_ratio - wanted) <= allowed) return {};
+    return fmt::format("void ratio {:.4f}, where the {} packings that the grains have are at {:.4f}", wanted,
+                       best_.void_ratio > wanted ? "densest" : "loosest", best_.void_ratio);
+  }
+
+  std::string limits_of() const {
+    constexpr double near = 0.03;
+    std::string text = void_ratio_limit();
+    for (std::size_t k = 0; k < calibration_.free.size(); ++k) {
+      auto const& one = calibration_.free[k];
+      double const share = best_.shares(static_cast<Eigen::Index>(k));
+      if (share > near && share < 1.0 - near) continue;
+      bool const low = share <= near;
+      text += fmt::format("{}{} at the {} end of its bounds, {:.5g}", text.empty() ? "" : ", ", one.name,
+                          low ? "lower" : "upper", low ? one.least : one.most);
+      if (one.name == "relative-density") text += low ? " (the loosest)" : " (the densest)";
+    }
+    return text;
+  }
+
+  void write_observations(std::filesystem::path const& folder) const {
+    std::vector<std::string> columns{"name",           "axial_strain",          "wanted", "value", "scatter",
+                                     "on_other_seeds", "scatter_on_other_seeds"};
+    for (auto const& one : calibration_.free) columns.push_back("per range of " + one.name);
+    std::string text = scarp::listed(columns, ",") + "\n";
+    for (std::size_t k = 0; k < calibration_.observations.size(); ++k) {
+      auto const& one = calibration_.observations[k];
+      auto const at = static_cast<Eigen::Index>(k);
+      text += fmt::format("{},{},{},{},{},{},{}", one.name, one.strain, one.wanted, best_.values(at), best_.scatter(at),
+                          other_.values(at), other_.scatter(at));
+      for (Eigen::Index j = 0; j < found_.slopes.cols(); ++j) text += fmt::format(",{}", found_.slopes(at, j));
+      text += "\n";
+    }
+    scarp::write_file(folder / "calibration.csv", text);
+  }
+
+  void write_curve(std::filesystem::path const& folder) const {
+    scarp::CsvTable table({"axial_strain", "sine", "volumetric_strain"});
+    for (std::size_t row = 0; row < other_.mean.rows(); ++row)
+      table.add(other_.mean.strain[row], other_.mean.sine(row), other_.mean.volumetric[row]);
+    table.write(folder / "curve.csv");
+  }
+
+  Calibration const& calibration_;
+  Evaluation best_;
+  Evaluation other_;
+  Sensitivities found_;
+  Eigen::VectorXd units_;
+  double seconds_;
+};
+
+}  // namespace rve_lab

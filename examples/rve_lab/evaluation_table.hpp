@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration.hpp"
+
+namespace rve_lab {
+
+/// evaluations.csv: a row for each evaluation, from which a resumed calibration takes what it has already.
+class EvaluationTable {
+ public:
+  /// \throws InputError for a table of other parameters or targets
+  EvaluationTable(std::filesystem::path const& file, Calibration const& calibration, bool resumes)
+      : calibration_(calibration),
+        log_(read(file, resumes), columns(calibration), resumes ? scarp::CsvStart::resumed : scarp::CsvStart::anew) {}
+
+  std::size_t rows() const { return rows_.size(); }
+
+  std::optional<Evaluation> find(Eigen::VectorXd const& shares) const {
+    constexpr double round_off = 1e-9;
+    for (auto const& row : rows_) {
+      if ((row.shares - shares).cwiseAbs().maxCoeff() < round_off) return row;
+    }
+    return std::nullopt;
+  }
+
+  void add(Evaluation const& one) {
+    std::vector<double> cells(one.shares.begin(), one.shares.end());
+    for (std::size_t k = 0; k < calibration_.free.size(); ++k) cells.push_back(calibration_.free[k].at(cells[k]));
+    cells.push_back(one.void_ratio);
+    cells.insert(cells.end(), one.values.begin(), one.values.end());
+    cells.insert(cells.end(), one.scatter.begin(), one.scatter.end());
+    log_.add(std::span<double const>(cells));
+    rows_.push_back(one);
+    rows_.back().mean = {};
+  }
+
+ private:
+  static std::string observation(Calibration const& calibration, std::size_t k) {
+    auto const& one = calibration.observations[k];
+    return one.strain > 0.0 ? fmt::format("{} at {:.6g}", one.name, one.strain) : one.name;
+  }
+
+  static std::vector<std::string> columns(Calibration const& calibration) {
+    std::vector<std::string> names;
+    for (auto const& one : calibration.free) names.push_back("share of " + one.name);
+    for (auto const& one : calibration.free) names.push_back(one.name);
+    names.emplace_back("void ratio at the start");
+    for (std::size_t k = 0; k < calibration.observations.size(); ++k)
+      names.push_back("value of " + observation(calibration, k));
+    for (std::size_t k = 0; k < calibration.observations.size(); ++k)
+      names.push_back("scatter of " + observation(calibration, k));
+    return names;
+  }
+
+  std::filesystem::path const& read(std::filesystem::path const& file, bool resumes) {
+    if (!resumes || !std::filesystem::exists(file)) return file;
+    auto const table = scarp::read_csv(file);
+    auto const names = columns(calibration_);
+    if (table.names() != names)
+      scarp::reject("'{}' has other parameters or targets than these: calibrate into another folder", file.string());
+    auto const free = static_cast<Eigen::Index>(calibration_.free.size());
+    auto const count = static_cast<Eigen::Index>(calibration_.observations.size());
+    rows_.resize(table.rows(), {Eigen::VectorXd(free), Eigen::VectorXd(count), Eigen::VectorXd(count)});
+    for (std::size_t column = 0; column < names.size(); ++column) {
+      auto const values = table.column<double>(names[column]);
+      auto const k = static_cast<Eigen::Index>(column);
+      for (std::size_t row = 0; row < rows_.size(); ++row) {
+        auto& one = rows_[row];
+        if (k < free)
+          one.shares(k) = values[row];
+        else if (k == 2 * free)
+          one.void_ratio = values[row];
+        else if (k > 2 * free && k <= 2 * free + count)
+          one.values(k - 2 * free - 1) = values[row];
+        else if (k > 2 * free + count)
+          one.scatter(k - 2 * free - 1 - count) = values[row];
+      }
+    }
+    return file;
+  }
+
+  Calibration const& calibration_;
+  std::vector<Evaluation> rows_;
+  scarp::CsvLog log_;
+};
+
+}  // namespace rve_lab

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "built.hpp"
+#include "preparation.hpp"
+#include "scarp/rve/level_ground.hpp"
+
+namespace examples {
+
+/// Level ground of a sand, one packing for each depth [m]. Void ratio and relative density are those that the packing has when it is
+/// compressed isotropically to the sand's pressure instead; it may be off by 0.01, over which packings of few grains jump.
+/// unit_weight [N/m3], surcharge [Pa]
+/// \throws InputError, PreparationError
+template <class PackingType>
+scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename PackingType::Law const& law,
+                                                 std::uint64_t seed, double unit_weight, double surcharge,
+                                                 std::vector<double> depths) {
+  using Shape = typename PackingType::Shape;
+  constexpr double off = 0.01;
+  constexpr double least_friction = 0.005;  // without any, few grains at a low pressure may not come to rest
+  if (sand.k0 > 0.0)
+    scarp::reject(
+        "the sand's k0 is {} (level ground comes to its own when it is compressed): give "
+        "overconsolidation-ratio instead",
+        sand.k0);
+  scarp::LevelGround<SandGrading<Shape>> ground{.cloud = cloud_of<Shape>(sand, seed),
+                                                .unit_weight = unit_weight,
+                                                .surcharge = surcharge,
+                                                .overconsolidation_ratio = sand.overconsolidation_ratio};
+  double& friction = ground.preparation.preparation_friction;
+  friction = sand.preparation_friction;
+  if (sand.void_ratio > 0.0 || sand.relative_density > 0.0) {
+    Consolidation<PackingType> const consolidation{
+        ground.cloud.template make<PackingType>(), law, sand.pressure, ground.preparation.pressure, {}, least_friction};
+    friction = reach_density(consolidation, sand, off).friction;
+  }
+  return ground.template make<PackingType>(law, std::move(depths));
+}
+
+}  // namespace examples
