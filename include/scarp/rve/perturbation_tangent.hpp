@@ -12,7 +12,8 @@ namespace scarp {
 /// The most exact tangent for its strain and by far the most expensive: some hundred to thousand DEM steps a settling.
 template <DampsMotion Damping = LocalDamping, class Boundary = Periodic>
 struct PerturbationTangent {
-  double strain = 1e-5;   ///< engineering, of each mode; no plateau where contacts slide, see docs/theory/homogenisation.md
+  double strain =
+      1e-5;  ///< engineering, of each mode; no plateau where contacts slide, see docs/theory/homogenisation.md
   int strain_steps = 20;  ///< time steps that apply it
   double unbalanced_tolerance =
       1e-6;                ///< of settled packings: times the stress it must stay well below stiffness x strain
