@@ -5,17 +5,14 @@ import pathlib
 import re
 import sys
 
+import terms
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 WRONG = {r"doctest::Approx\(": "takes tolerances that are absolute for small numbers: use samples::Approx",
          r"CHECK_THROWS\(|CHECK_THROWS_AS\([^;]*(?:InputError|FileError|FolderError|CheckpointError)\);":
          "passes with any refusal on the way: name the quantity and its value by CHECK_REFUSED or samples::message_of"}
 
-# Everyday words and the terms to write instead, see docs/glossary.md.
-TERMS = {"answer(s|ed|ing)?": "response, stress or result", "ask(s|ed|ing)?": "evaluate or require", "(tell|say)(s|ing)?|told|said": "report or return",
-         "refus(e|ed|es|al|als|ing)": "reject", "(go|goes|going) on": "resume or continue", "hangs? on": "depend on",
-         "starv(e|ed|es|ing)": "lose contact stress", "mend(s|ed|ing)?": "fix", "remember(s|ed|ing)?": "store or memory",
-         "(hear|feel)(s|ing)?|heard|felt": "the quantity and the verb of the equation", "complain(s|ed|t|ts|ing)?": "reject or message",
-         "hopeless": "the bound that is exceeded", "sticking": "tied", "foot wall": "footwall", "(?<!reference )study": "the reference study or (Author, year)"}
+TERMS = terms.TERMS | {"(?<!reference )study": "the reference study or (Author, year)"}
 
 faults = []
 files = 0

@@ -24,7 +24,7 @@ constexpr double long_length = 8.0;    ///< [m], of coarser meshes
 
 /// Beside the reference study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
 /// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and half of the DEM steps, which give the
-/// same places (docs/notes/profile.md).
+/// same places (docs/notes/performance.md).
 void make_objective(Choice& choice) {
   choice.length = short_length;
   choice.overconsolidation_ratio = 1.25;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Random packings, laws and strain paths against what every packing obeys: momentum, the energy ledger, turned, mirrored and
-// renumbered copies. fuzz_packings --seed S [--inputs N | --seconds T] [--only PAIR] [--first K]; docs/notes/adversary.md
+// renumbered copies. fuzz_packings --seed S [--inputs N | --seconds T] [--only PAIR] [--first K]; docs/notes/testing.md
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
