@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""What the sketches share: axes in units of the drawing, boxes, arrows, dimensions, and SVG files with the same bytes for the same drawing."""
+"""What the sketches share: axes in units of the drawing, boxes, arrows, dimensions, and PNG files."""
 import pathlib
 import sys
 
@@ -10,7 +10,7 @@ import scarp_figures as house
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 
 plt = house.plt
-plt.rcParams.update({"svg.hashsalt": "scarp", "svg.fonttype": "path", "mathtext.fontset": "dejavusans"})
+plt.rcParams.update({"savefig.dpi": 150, "mathtext.fontset": "dejavusans"})
 
 
 def canvas(width, height, limits, columns=1):
@@ -43,7 +43,7 @@ def dimension(axes, start, end, text, shift=(0, 0)):
 
 
 def save(figure, name):
-    path = ROOT / "docs" / "figures" / f"sketch_{name}.svg"
-    figure.savefig(path, format="svg", metadata={"Date": None, "Creator": None})
+    path = ROOT / "docs" / "figures" / f"sketch_{name}.png"
+    figure.savefig(path, metadata={"Software": None})
     plt.close(figure)
     print(path.relative_to(ROOT), path.stat().st_size)
