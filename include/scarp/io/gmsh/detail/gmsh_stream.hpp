@@ -99,8 +99,11 @@ class GmshStream {
     auto const whole = next_word(what);
     auto word = whole;
     std::string fortran;
-    if (auto const at = whole.find_first_of("Dd"); std::floating_point<Number> && at != std::string_view::npos)
-      word = (fortran = whole).replace(at, 1, "e");
+    if (auto const at = whole.find_first_of("Dd"); std::floating_point<Number> && at != std::string_view::npos) {
+      fortran = whole;
+      fortran[at] = 'e';
+      word = fortran;
+    }
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars accepts no plus
     Number number{};
     auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
