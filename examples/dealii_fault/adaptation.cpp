@@ -157,9 +157,10 @@ std::string Ground::identity() const {
 
 /// Mesh, displacements and states in the files of the forest, with a file of numbers, written last. The run saved before goes when this one is whole.
 void Ground::save() {
-  fs::path const folder = options_.checkpoint, next = options_.checkpoint + ".new";
+  fs::path const folder = options_.checkpoint, next = options_.checkpoint + ".new",
+                 before = options_.checkpoint + ".old";
   bool const is_root = mpi::this_mpi_process(comm_) == 0;
-  if (is_root) fs::remove_all(next), fs::create_directories(next);
+  if (is_root) fs::remove_all(next), fs::remove_all(before), fs::create_directories(next);
   MPI_Barrier(comm_);
   Vector const now(ghosted(moved_)), rest(ghosted(rest_)), last(ghosted(last_));
   Transfer transfer(dofs_);
@@ -178,7 +179,8 @@ void Ground::save() {
     auto const text = fmt::format("{}\n{} {} {} {} {} {} {}\n", identity(), mpi::n_mpi_processes(comm_), throw_,
                                   increment_, last_throw_, reaction_at_rest_, work_, steps_);
     scarp::write_file(next / "run", text + fmt::format("{}\n", fingerprint(next, text)));
-    fs::remove_all(folder), fs::rename(next, folder);
+    if (fs::exists(folder)) fs::rename(folder, before);  // whole at any time, as resume() expects it
+    fs::rename(next, folder), fs::remove_all(before);
   }
   MPI_Barrier(comm_);
   saved_at_ = mpi::max(total_.wall_time(), comm_);

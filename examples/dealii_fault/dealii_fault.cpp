@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // How does a program of deal.II take packings as its material? The reference study's fault on a distributed, adaptive mesh.
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -40,12 +41,26 @@ void declare(CLI::App& app, Options& options, std::string& own) {
       app.add_option("--checkpoint", options.checkpoint, "folder where the run is saved at its end and meanwhile")
           ->check(examples::folder_problem);
   app.add_option("--checkpoint-every", options.checkpoint_every, "wall time after which the run is saved again [s]")
-      ->check(number_from(0.0, true, 1e9));
+      ->check(number_from(0.0, true, 1e9))
+      ->needs(folder);
   app.add_flag("--resume", options.resume, "from there, on any number of processes")->needs(folder);
   app.add_option("--stop-at", options.stop_at, "throw at which to end [m]")->check(number_from(0.0, false, 25.0));
 }
 
+/// A saved run takes the place of a whole folder.
+/// \throws scarp::InputError for a folder of other files
+void check_checkpoint(std::string& name) {
+  namespace fs = std::filesystem;
+  if (name.empty()) return;
+  fs::path const folder = (fs::path(name) / "").parent_path();  // without a slash at its end
+  name = folder.string();
+  if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(folder / "run"))
+    scarp::reject("'{}' holds other files than a saved run (which would replace them): give --checkpoint another name",
+                  name);
+}
+
 void complete(Options& options, std::string const& own) {
+  check_checkpoint(options.checkpoint);
   bool const packings = options.soil == Soil::dem && !options.block;
   options.newton = options.newton || options.block || options.soil == Soil::elastic;
   options.residual = options.newton ? 1e-8 : packings ? 1e-3 : 1e-5;
