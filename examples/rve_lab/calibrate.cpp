@@ -55,8 +55,14 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
     all.observations.insert(all.observations.end(), more.begin(), more.end());
   }
   if (all.observations.empty()) scarp::reject("there is nothing to calibrate on: give --target or --table");
+  if (choice.strain && *choice.strain < last * (1.0 - 1e-9))
+    scarp::reject("--strain is {} (the tables go to {}): give that or more, or shorten the tables", *choice.strain,
+                  last);
   all.test.held = choice.held;
   all.test.strain = choice.strain.value_or(last > 0.0 ? last : 0.1);
+  if (double const least = 3.0 * all.test.row_strain; all.test.strain < least)
+    scarp::reject("the tests end at an axial strain of {} (at least {} is expected): give --strain", all.test.strain,
+                  least);
   for (auto const& one : all.free) {
     if (auto const why = examples::why_unused(all.start, one.name); !why.empty())
       scarp::reject("--free names {}, which this sand does not use ({}): leave it out", one.name, why);

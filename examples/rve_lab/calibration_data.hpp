@@ -41,6 +41,11 @@ struct Free {
   double share_of(double value) const {
     return by_ratio() ? std::log(value / least) / std::log(most / least) : (value - least) / (most - least);
   }
+  /// Whether a bound of zero is none: it has no ratio, or means that the option is not used.
+  bool begins_above_zero() const {
+    return by_ratio() || name == "void-ratio" || name == "relative-density" || name == "vertical-pressure" ||
+           name == "k0";
+  }
 
  private:
   bool by_ratio() const { return name == "modulus" || name.ends_with("stiffness"); }
@@ -91,6 +96,8 @@ inline std::vector<Free> free_parameters(std::string const& text) {
     if (!(one.least < one.most))
       scarp::reject("--free has {} from {} to {} (the first is to be below the second): correct it", one.name,
                     one.least, one.most);
+    if (one.begins_above_zero() && !(one.least > 0.0))
+      scarp::reject("--free has {} from {} (a bound above 0 is expected): raise it", one.name, one.least);
     Sand trial;
     for (double const end : {one.least, one.most}) {
       one.of(trial) = end;
@@ -154,7 +161,12 @@ struct LabTable {
       bool const means = table.has("mean_q");
       lab.sine = table.column<double>(means ? "mean_q" : "q");
       auto const p = table.column<double>(means ? "mean_p" : "p");
-      for (std::size_t row = 0; row < p.size(); ++row) lab.sine[row] /= p[row];
+      for (std::size_t row = 0; row < p.size(); ++row) {
+        if (!(p[row] > 0.0))
+          scarp::reject("line {} of '{}': p is {} (a mean stress above 0 is expected): correct it", table.line(row),
+                        file, p[row]);
+        lab.sine[row] /= p[row];
+      }
     }
     for (double& ratio : lab.sine) ratio = triaxial ? 3.0 * ratio / (6.0 + ratio) : ratio / 2.0;
     if (lab.strain.size() < 3 || (lab.sine.empty() && lab.volumetric.empty()))

@@ -21,7 +21,7 @@ struct PackingPerPoint {
 };
 
 /// The shape and law of the packings' files, which are to be one.
-/// \throws InputError for packings of different grains or laws
+/// \throws InputError for packings of different grains or laws, and for options that their law has no use for
 inline void read_sands(CLI::App const& app, Laboratory& choice) {
   Sand const before = choice.sand;
   auto const of_grains = [](Sand const& sand) {
@@ -38,6 +38,7 @@ inline void read_sands(CLI::App const& app, Laboratory& choice) {
       scarp::reject("'{}' has other grains or another law than '{}' (a test has one): test them one by one", file,
                     choice.packings.front());
   }
+  examples::require_used(app, choice.sand);
 }
 
 inline bool test_packings(Laboratory& choice, scarp::RunFolder& own) {

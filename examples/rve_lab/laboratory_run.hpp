@@ -253,7 +253,7 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
                   total.cut_backs, total.iterations, total.missing);
   if (run.rows().front().size() > 1) {
     double const window =
-        choice.path == "table" || choice.cycles > 0 || run.length() < choice.window ? 0.0 : choice.window;
+        choice.path == "table" || choice.cycles > 0 || std::abs(run.length()) < choice.window ? 0.0 : choice.window;
     examples::print(stdout, "{:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>10} {:>6}\n", "point",
                     "phi_peak", "at", "e", "psi_peak", "phi_res", "e", "transf.", "E50 [Pa]", "G0 [Pa]", "K0");
     double mean_void_ratio = 0.0;
