@@ -36,6 +36,11 @@ Rve<Shape> rve(Grains const& grains, double pressure, scarp::LinearFrictional co
 scarp::AnyProvider<2> prepared(Grains const& grains, double pressure, int points, scarp::ThreadExecutor& executor) {
   constexpr double off = 0.01;  // over such void ratios packings of few grains jump
   Sand sand = grains.sand;
+  if (sand.vertical_pressure > 0.0 || sand.k0 > 0.0)
+    scarp::reject(
+        "the sand has vertical-pressure {} and k0 {} (the specimen begins under the confining pressure alone): leave "
+        "both out",
+        sand.vertical_pressure, sand.k0);
   sand.pressure = pressure;
   scarp::AnyProvider<2> made;
   using examples::Linear;
