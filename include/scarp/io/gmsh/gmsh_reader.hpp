@@ -141,17 +141,13 @@ void reject_repeated_elements(GmshContent const& content, std::vector<GmshPick> 
 template <class Element>
 void reject_inverted_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
                               Mesh<Element> const& mesh) {
-  constexpr std::string_view advice = Element::dim == 2
-                                          ? "turn the surface so that its normal points along z, or mesh it again"
-                                          : "mesh the geometry again";
   for (int e = 0; e < count(mesh.elements); ++e) {
     if (auto const determinant = bad_jacobian(mesh, e)) {
       auto const& pick = picks[index(e)];
       reject(
           "element {} of '{}' (its nodes there: {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way "
-          "round): {}",
-          pick.tag, content.file, listed(std::span(pick.nodes, index(Element::nodes))), *determinant, Element::dim,
-          advice);
+          "round): mesh the geometry again",
+          pick.tag, content.file, listed(std::span(pick.nodes, index(Element::nodes))), *determinant, Element::dim);
     }
   }
 }
@@ -177,19 +173,20 @@ namespace scarp {
 
 /// What of a file of Gmsh counts.
 struct GmshOptions {
-  int highest_order = 2;               ///< of elements; at 1 all nodes but corners are left out: sides become straight
+  int highest_order = 2;  ///< of elements, 1 or 2; at 1 all nodes but corners are left out: sides become straight
   std::vector<std::string> regions{};  ///< physical groups that count before others where an element lies in several
 };
 
-/// A file of Gmsh, read once: MSH 1, 2 to 2.2, 4.0 or 4.1, text or binary, of any order of bytes.
+/// A file of Gmsh, read once: MSH 2 to 2.2, 4.0 or 4.1, text or binary, of any order of bytes.
 class GmshFile {
  public:
-  /// \throws InputError naming file and line or byte for what is no mesh of Gmsh or is damaged
+  /// \throws InputError naming file and line or byte for what is no mesh of Gmsh or is damaged, and for an order but 1 and 2
   explicit GmshFile(std::filesystem::path const& path, GmshOptions const& options = {})
       : GmshFile(read_file(path), path.string(), options) {}
   /// bytes: of the file; name: in messages
   GmshFile(std::string bytes, std::string const& name, GmshOptions const& options = {})
       : content_(detail::read_gmsh_content(std::move(bytes), name)) {
+    require_between("highest order of a Gmsh file's elements", options.highest_order, 1, 2);
     detail::normalise_gmsh(content_, options.highest_order, options.regions);
   }
 
@@ -208,9 +205,8 @@ class GmshFile {
 
   /// Physical groups of the elements' dimension become regions, those of one dimension less boundaries, with each side
   /// once; without a name they are called "physical_<tag>". Elements in no group form the region "mesh", those in
-  /// several the smallest of them. Nodes and
-  /// elements are numbered in the order of their tags; nodes of no element, points and elements of lower dimension in
-  /// no group are left out. Lengths in [m].
+  /// several the smallest of them. Nodes and elements are numbered in the order of their tags; nodes of no element, points
+  /// and elements of lower dimension in no group are left out. Lengths in [m].
   /// \throws InputError naming file and node or element for what is no mesh of such elements, is flat or turned inside
   /// out, or in 2D not flat in z
   template <HasGmshType Element>

@@ -131,6 +131,8 @@ inline GrainFile read_lammps_dump(GrainLines lines) {
   for (std::size_t k = 0; k < lines.count(); ++k) {
     if (lines.word(k, 0) != "ITEM:") continue;
     if (lines.word(k, 1) == "BOX") {
+      if (lines.words(k).size() > 3 && lines.word(k, 3) == "abc")
+        lines.reject_line(k, "a general triclinic box is not read", "write it with triclinic/general off");
       std::array<double, 3> tilts{};
       bool const tilted = lines.words(k).size() > 3 && lines.word(k, 3) == "xy";
       for (std::size_t a = 0; tilted && a < 3; ++a) tilts[a] = lines.number(k + 1 + a, 2);
