@@ -5,7 +5,6 @@ from ._points import build, load, reasons, statuses
 from .micro_simulation import MicroSimulation
 
 
-
 def _maker(kind, spaces):
     def make(dim=spaces[0], **keywords):
         if dim not in spaces:

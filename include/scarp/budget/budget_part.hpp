@@ -75,8 +75,8 @@ struct ErrorBounds {
   double held_stress = 1e-2;      ///< of a single packing: missing from what a servo holds, root mean square
   double doubling_median =
       1e-2;  ///< of samples spread over all points: stress with twice the work against the accepted one
-  double doubling_95 = 5e-2;       ///< the same, for 19/20 of the stress that the samples carry
-  double doubling_strained = 0.1;  ///< the same of the most strained points
+  double doubling_95 = 5e-2;       ///< difference that 19/20 of the samples' stress does not exceed
+  double doubling_strained = 0.1;  ///< difference that 19/20 of the most strained points' stress does not exceed
   double accumulated = 0.05;       ///< of the tracked points together, on their whole paths
   double mesh = 4e-2;              ///< against a sensitivity run on another mesh
   double load_step = 2e-2;         ///< against a sensitivity run with smaller load steps

@@ -42,7 +42,7 @@ PathConditions<Dim> without_shear(PathConditions<Dim> conditions, double rate = 
   return conditions;
 }
 
-/// One condition on the axial strain or the volume, and one more that all lateral axes have; in space they also share `alike`.
+/// The axial axis shortens at the rate 1 under one more condition; in space the difference of the lateral stresses stays.
 template <int Dim>
 PathConditions<Dim> axial(PathCondition<Dim> lateral) {
   PathConditions<Dim> conditions{strain_condition<Dim>(component<Dim>(Dim - 1), -1.0), std::move(lateral)};
