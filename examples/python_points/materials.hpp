@@ -71,7 +71,7 @@ struct SandOptions {
   int min_steps = 20;
   int max_steps = 20'000;
   std::string file{};  ///< of save_packing, instead of a preparation
-  SCARP_MEMBERS(sand, packings, strain_per_step, unbalanced_tolerance, min_steps, max_steps, file)
+  SCARP_MEMBERS_EXCEPT((sand), packings, strain_per_step, unbalanced_tolerance, min_steps, max_steps, file)
 };
 
 template <class Shape>
@@ -80,7 +80,22 @@ struct Sand {
 
   SandOptions options{.sand = {.shape = examples::name_in_sand<Shape>}};
   std::vector<Packing> packings{};
-  SCARP_MEMBERS(options, packings)
+
+  /// Whether grains of this shape with linear contacts have an option, by its name with underscores.
+  static bool has(std::string_view name) {
+    if (name == "aspect") return std::is_same_v<Shape, scarp::Ellipse>;
+    if (name == "thickness") return Shape::dim == 2;
+    return name != "exponent" && name != "modulus" && name != "poisson" && !name.starts_with("rolling_");
+  }
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    examples::Sand::members(self.options.sand, [&](std::string_view name, auto& member) {
+      if (has(name)) visit(name, member);
+    });
+    visit("options", self.options);
+    visit("packings", self.packings);
+  }
 
   auto law() const { return examples::law_of<typename Packing::Law>(options.sand); }
 

@@ -30,7 +30,9 @@ def packing(sand, **keywords):
     kinds = {"disc": discs, "ellipse": ellipses, "sphere": spheres}
     if known["shape"] not in kinds:
         raise ValueError(f"the shape is '{known['shape']}' (expected is {', '.join(kinds)}): take another sand")
-    return kinds[known["shape"]](**{**known, **keywords})
+    make = kinds[known["shape"]]
+    own = (_points.defaults_in_space if make is spheres else _points.defaults)(make.__name__)
+    return make(**{**{name: value for name, value in known.items() if name in own}, **keywords})
 
 
 def loads(saved):
