@@ -74,7 +74,7 @@ class LaboratoryRun {
     }
     double const sign = choice_.extension ? -1.0 : 1.0;
     if (choice_.cycles == 0) {
-      constexpr double first = 1e-5;  // a row for the stiffness at small strain
+      double const first = std::min(1e-5, choice_.strain);  // a row for the stiffness at small strain
       static_cast<void>(go(sign * first, first) && go(sign * (choice_.strain - first), choice_.increment));
       return verdict_;
     }

@@ -90,6 +90,7 @@ with tempfile.TemporaryDirectory() as scratch:
         expect_near(found(moved, what), found(kept, what), 1e-2, f"{what} of points that are shared out anew and that are not")
     killed_after_save(*shared)
     folder = pathlib.Path(scratch, "killed")
+    shutil.rmtree(f"{folder}.new", ignore_errors=True)  # of a save that was under way
     folder.rename(f"{folder}.new")  # as if it had been killed between removing an older folder and renaming this
     resumed = run(*shared, "--checkpoint", "killed", "--resume")
     expect(found(resumed, "resumed at")[0] > 0.0, "a killed run begins anew")
