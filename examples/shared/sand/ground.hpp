@@ -21,6 +21,9 @@ scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename Pack
   using Shape = typename PackingType::Shape;
   constexpr double off = 0.01;
   constexpr double least_friction = 0.005;  // without any, few grains at a low pressure may not come to rest
+  if (sand.vertical_pressure > 0.0)
+    scarp::reject("the sand's vertical-pressure is {} Pa (ground has that of its depth): leave it out",
+                  sand.vertical_pressure);
   if (sand.k0 > 0.0)
     scarp::reject(
         "the sand's k0 is {} (level ground comes to its own when it is compressed): give "
