@@ -32,6 +32,7 @@ bool is_density(std::string const& name) { return examples::sets_density(name); 
 Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   if (!choice.sand_file.empty())
     choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
+  if (!choice.sand.sieve.empty()) static_cast<void>(examples::sieve_curve(choice.sand.sieve));  // rejects other text
   Calibration all{.start = choice.sand,
                   .free = free_parameters(choice.free),
                   .test = choice.test,
