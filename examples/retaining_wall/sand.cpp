@@ -19,11 +19,10 @@ struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, scarp::PackingsByDepth
 
 Sand sand_of(Choice const& choice, Wall const& wall) {
   Sand sand;
-  with_packing(examples::Built<Grains>{}, choice.sand, [&](auto, Grains::Law const& law) {
-    sand.provider.law = law;
-    sand.provider.source = examples::level_ground<Grains>(choice.sand, law, choice.sand.seed, wall.unit_weight,
-                                                          wall.surcharge, wall.depths());
-  });
+  with_packing(examples::Built<Grains>{}, choice.sand, [](auto, auto const&) {});  // rejects other grains
+  sand.provider.law = examples::law_of<Grains::Law>(choice.sand);
+  sand.provider.source = examples::level_ground<Grains>(choice.sand, sand.provider.law, choice.sand.seed,
+                                                        wall.unit_weight, wall.surcharge, wall.depths());
   sand.provider.pressure_floor = wall.surcharge / 2.0;
   return sand;
 }
