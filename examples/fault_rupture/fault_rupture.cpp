@@ -87,6 +87,9 @@ void declare_materials(CLI::App& app, Choice& choice) {
 /// The sand of a file, but for what other options give. Its values are recorded as if they were the defaults.
 void read_sand(CLI::App& app, Choice& choice) {
   if (choice.sand_file.empty()) return;
+  if (choice.soil != fault_rupture::Soil::dem)
+    scarp::reject("--sand '{}' is not used (ground of --soil dem alone has grains): leave one of the two out",
+                  choice.sand_file);
   std::map<std::string, std::string> const options{{"aspect", "--grain-aspect"},
                                                    {"friction", "--grain-friction"},
                                                    {"grains", "--grains"},

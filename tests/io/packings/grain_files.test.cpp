@@ -106,6 +106,8 @@ TEST_CASE("a packing of spheres comes from another code's file") {
 TEST_CASE("what cannot be read is refused with the line") {
   CHECK(complaint(with(yade, "#format x_y_z_r", "#format r_x_y")) == Naming{"line 1 of", "export it as x_y_z_r"});
   CHECK(complaint(with(yade, "1.5\t2\t3\t0.25", "1.5 2 3")) == Naming{"line 4 of", "3 words (4 are needed)"});
+  CHECK(complaint("# id x y z r\n1 1 1 1 0.5\n") == Naming{"line 1 of", "columns are not named"});
+  CHECK(complaint(with(lammps, " # sphere", "")) == Naming{"line 11 of", "style is not named"});
   CHECK(complaint(with(lammps, "# sphere", "# atomic")) == Naming{"line 11 of", "the style 'atomic' has no diameters"});
   CHECK(complaint(with(lammps, "0 4 xlo", "0 x xlo")) == Naming{"line 6 of", "'x' (it is no number)"});
   CHECK(complaint(with(lammps, "9 1 0.5 2650 1.5 2 3 0 0 0", "9 1 0.5")) == Naming{"line 14 of", "3 words"});

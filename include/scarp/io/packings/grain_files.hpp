@@ -96,6 +96,9 @@ inline GrainFile read_yade(GrainLines lines) {
     cell = sheared_box({lines.number(0, 1), lines.number(0, 2), lines.number(0, 3)});
   } else if (has_head && lines.word(0, 0) == "O.cell.hSize") {  // = Matrix3( a , b , ... )
     for (int k = 0; k < 9; ++k) (cell ? *cell : cell.emplace())(k / 3, k % 3) = lines.number(0, index(3 + 2 * k));
+  } else if (lines.count() > (has_head ? 1u : 0u) && lines.words(has_head ? 1 : 0).size() != 4) {
+    lines.reject_line(0, "its columns are not named; without a line '#format' x y z r are read",
+                      "export it as x_y_z_r, or leave other columns out");
   }
   for (std::size_t k = has_head ? 1 : 0; k < lines.count(); ++k) lines.add(k, at, 1.0);
   return {std::move(lines).columns(), cell};
@@ -110,7 +113,9 @@ inline GrainFile read_lammps_data(GrainLines lines) {
     auto const& words = lines.words(k);
     if (!number_in(words[0])) {
       in_atoms = words[0] == "Atoms";
-      if (in_atoms && words.size() > 2 && words[2] != "sphere")
+      if (in_atoms && words.size() < 3)
+        lines.reject_line(k, "its style is not named; sphere has diameters", "write 'Atoms # sphere' where it is that");
+      if (in_atoms && words[2] != "sphere")
         lines.reject_line(k, fmt::format("the style '{}' has no diameters", words[2]),
                           "write it with atom_style sphere");
     } else if (in_atoms) {
