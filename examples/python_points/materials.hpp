@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -12,6 +14,7 @@
 
 #include "../shared/sand/built.hpp"
 #include "../shared/sand/preparation.hpp"
+#include "../shared/sand/sand_file.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/points/any_provider.hpp"
@@ -101,11 +104,13 @@ struct Sand {
 
   /// \throws InputError, PreparationError
   void prepare(int threads, Progress const& progress) {
+    auto const& sand = options.sand;
     if (!options.file.empty()) {
+      read_sand_of_file();
+      with_packing(examples::Built<Packing>{}, sand, [](auto, auto const&) {});
       packings = {scarp::load_packing<Packing>(options.file)};
       return;
     }
-    auto const& sand = options.sand;
     with_packing(examples::Built<Packing>{}, sand, [](auto, auto const&) {});
     scarp::require_between("number of packings", options.packings, 1, 100'000);
     packings.resize(static_cast<std::size_t>(options.packings));
@@ -130,6 +135,23 @@ struct Sand {
                                                              .min_steps = options.min_steps,
                                                              .max_steps = options.max_steps,
                                                              .unbalanced_tolerance = options.unbalanced_tolerance};
+  }
+
+ private:
+  /// The grains and the law of the packing's file, from the .sand beside it, but for keywords that are not the defaults.
+  /// \throws InputError
+  void read_sand_of_file() {
+    if (!std::filesystem::is_regular_file(examples::sand_path(options.file))) return;
+    auto const values = [](examples::Sand const& sand) {
+      std::map<std::string, std::string> texts;
+      examples::for_each_option(sand, [&](std::string const& name, auto const& value, examples::Range, char const*) {
+        texts[name] = fmt::format("{}", value);
+      });
+      return texts;
+    };
+    auto const given = values(options.sand), usual = values({.shape = examples::name_in_sand<Shape>});
+    options.sand = examples::sand_of_packing(options.file, options.sand,
+                                             [&](std::string const& name) { return given.at(name) != usual.at(name); });
   }
 };
 
