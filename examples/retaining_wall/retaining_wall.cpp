@@ -42,6 +42,9 @@ int main(int argc, char** argv) {
   declare_options(app, choice, output);
   if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
+    if (!choice.sand_file.empty() && choice.soil != Soil::sand)
+      scarp::reject("--sand '{}' is not used (ground of --soil sand alone has grains): leave one of the two out",
+                    choice.sand_file);
     if (!choice.sand_file.empty())
       choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
     scarp::RunFolder folder({.folder = output.folder, .overwrite = output.overwrite},

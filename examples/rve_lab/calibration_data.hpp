@@ -41,7 +41,7 @@ struct Free {
   double share_of(double value) const {
     return by_ratio() ? std::log(value / least) / std::log(most / least) : (value - least) / (most - least);
   }
-  /// Whether a bound of zero is none: it has no ratio, or means that the option is not used.
+  /// Whether zero is no bound: it has no ratio, or means that the option is not used.
   bool begins_above_zero() const {
     return by_ratio() || name == "void-ratio" || name == "relative-density" || name == "vertical-pressure" ||
            name == "k0";
