@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSL-1.0
 """The catalogues in docs/reference name every contact law, shape, element, solver and provider with its parameters and their defaults: each header of these
-rooms is on its page or a helper, each section has all headings, and each parameter of its class stands there. docs/reference/output.md has the
-columns and keys that the sources of each section write, and no others."""
+rooms is on its page or a helper, each section has all headings, and each parameter of its class stands there. docs/reference/output_columns.csv
+has the columns and keys that the sources of each file write, and no others; docs/messages.md has messages that exist, and each reason of a status."""
+import collections
+import csv
 import pathlib
 import re
 import sys
@@ -55,17 +57,16 @@ for page in sorted(set(PAGES.values())):
             if expected not in section:
                 faults.append(f"{where}: {expected} is missing")
 
-# Output files: a section names its sources, "From `a.hpp`, `b.hpp`.", and lists what they write, "- `column`, `column`: meaning".
+# Output files and the sources that write them.
 PROGRAMS = ("fault_rupture", "biaxial_specimen", "retaining_wall", "rve_lab")
 WRITES = re.compile(r"\b(CsvTable|CsvLog|JsonLog|VtuFields) \w+\(?[;({]|\b(?:CsvTable|CsvLog)\(\{|\bwrite_json\(")
-NO_TABLES = {"io/csv.hpp", "io/json.hpp", "io/vtu.hpp", "examples/shared/write_json.hpp",  # definitions
+NO_TABLES = {"io/csv.hpp", "io/json.hpp", "examples/shared/write_json.hpp",  # definitions
              # write what others made
              *(f"examples/fault_rupture/{name}" for name in ("run_scene.hpp", "ensemble_runs.hpp", "sensitivity.cpp"))}
 # Keys that a source reads or leaves out.
 READ = {"examples/fault_rupture/ensemble.cpp": {"bands", "cpu_seconds", "elements", "fault_line_x50", "grains_per_rve", "height_over_depth", "peak_memory_bytes",
                                        "share_of_time_in_points", "share_of_time_outside_points", "threads", "tolerance", "wall_seconds"},
         "examples/shared/run_options.hpp": {"cells", "columns", "elements", "grains", "mesh", "packings", "rows", "seeds", "size"}}
-NAMES = r"^- ((?:`[^`]+`(?:, )?)+): "  # that a line of a list explains
 STRING = r'(?:"[^"]*"|measure_\.name)'
 
 
@@ -83,28 +84,25 @@ def written(source):
     return {"throw_over_depth" if name == "measure_.name" else name.strip('"') for name in names} - READ.get(source, set())
 
 
-page = (ROOT / "docs" / "reference" / "output.md").read_text()
-described = set()
-for title, section in re.findall(r"^#{2,3} ([^\n]+)\n(.*?)(?=^#{2,3} |\Z)", page, re.M | re.S):
-    origin = re.search(r"\bFrom (`[^`\n]+\.(?:hpp|cpp)`(?:, `[^`\n]+`)*)\.", section)
-    if origin is None:
+listed = collections.defaultdict(set)
+with open(ROOT / "docs" / "reference" / "output_columns.csv", newline="") as table:
+    for row in csv.DictReader(table):
+        listed[row["files"], row["sources"]] |= set(row["names"].split("; "))
+described = {source for _, sources in listed for source in sources.split(", ")}
+for (files, sources), names in listed.items():
+    if lost := [source for source in sources.split(", ") if place(source) is None]:
+        faults.append(f"docs/reference/output_columns.csv, {files}: there is no {', '.join(lost)}")
         continue
-    sources = re.findall(r"`([^`]+)`", origin[1])
-    described |= set(sources)
-    if lost := [source for source in sources if place(source) is None]:
-        faults.append(f"docs/reference/output.md, {title}: there is no {', '.join(lost)}")
-        continue
-    listed = {name for line in re.findall(NAMES, section, re.M) for name in re.findall(r"`([^`]+)`", line)}
-    made = set().union(*(written(source) for source in sources))
-    checked += len(listed)
-    for what, names in (("lacks", made - listed), ("has, but the sources do not write,", listed - made)):
-        if names:
-            faults.append(f"docs/reference/output.md, {title}: {what} {', '.join(sorted(names))}")
+    made = set().union(*(written(source) for source in sources.split(", ")))
+    checked += len(names)
+    for what, difference in (("lacks", made - names), ("has, but the sources do not write,", names - made)):
+        if difference:
+            faults.append(f"docs/reference/output_columns.csv, {files}: {what} {', '.join(sorted(difference))}")
 for folder in ("include/scarp", "examples/shared", *(f"examples/{program}" for program in PROGRAMS)):
     for path in (ROOT / folder).rglob("*.[ch]pp"):
         source = path.relative_to(ROOT).as_posix().removeprefix("include/scarp/")
         if WRITES.search(path.read_text()) and source not in described | NO_TABLES:
-            faults.append(f"docs/reference/output.md: no section is from {source}, which writes a file")
+            faults.append(f"docs/reference/output_columns.csv: no row is from {source}, which writes a file")
 
 # Messages: each literal text is in a source, whatever values stand between its parts, and each reason of a status has a remedy.
 LIBRARY_MESSAGES = {"The following arguments were not expected"}  # of CLI11
@@ -112,7 +110,7 @@ page = (ROOT / "docs" / "messages.md").read_text()
 code = "".join(path.read_text() for folder in ("include", "examples", ".ci") for path in sorted((ROOT / folder).rglob("*"))
                if path.suffix in (".hpp", ".cpp", ".sh") and "output" not in path.parts)
 code = re.sub(r'"\s*(?://[^\n]*\n\s*)?"', "", code)  # strings in several pieces
-messages = [name for line in re.findall(NAMES, page, re.M) for name in re.findall(r"`([^`]+)`", line) if not re.fullmatch(r"[a-z_]+", name)]
+messages = [name for line in re.findall(r"^- ((?:`[^`]+`(?:, )?)+): ", page, re.M) for name in re.findall(r"`([^`]+)`", line) if not re.fullmatch(r"[a-z_]+", name)]
 reasons = set(re.findall(r"^  (\w+)(?: = \d+)?,? +///<", re.search(r"enum class Reason.*?\};", code, re.S)[0], re.M)) - {"none"}
 checked += len(messages)
 if len(messages) < 15:
