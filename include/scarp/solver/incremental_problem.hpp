@@ -36,7 +36,7 @@ class IncrementalProblem {
   virtual std::vector<VoigtTangent<Dim>> trial_tangents() const = 0;  ///< Of each point in the last evaluation, [Pa].
   /// Largest component of all points' gradients in the last plan or evaluation.
   virtual double max_displacement_gradient() const = 0;
-  virtual bool turns_stresses() const = 0;  ///< Whether the rotation in a gradient turns the stress that is there.
+  virtual bool turns_stresses() const = 0;  ///< Whether the rotation in a gradient turns the committed stress.
 
   virtual void set_load(double load) = 0;  ///< Forces are measured against the loads at this load factor.
   /// Fixes the work of every point for the load step from a predicted increment [m].
