@@ -5,8 +5,9 @@
 docstrings.py [--count] [ROOM...]    runs Doxygen (without pages) and lists the names of all rooms, or of some
 docstrings.py --of WARNINGS          reads the warnings of a run of Doxygen that docs/build has made
 
-Without a docstring may be: what is `= default` or `= delete`, destructors, operators of arithmetic, comparison and logic, and deduction
-guides, which only repeat a constructor."""
+Without a docstring may be: what is `= default` or `= delete`, destructors, operators of arithmetic, comparison and logic, deduction guides,
+which only repeat a constructor, and specialisations of variables, which have the docstring of their template. What a concept requires has
+its docstring from concept_members.txt."""
 import argparse
 import collections
 import pathlib
@@ -16,7 +17,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-GUIDE = re.compile(r"^(\w+)\(.*\) -> \1\b")
+OBVIOUS = re.compile(r"=\s*(default|delete)$|~\w+\(|\boperator ?(==|!=|<=>|[-+*/]=?|[<>]=?|!|&&|\|\|)\("  # of a class
+                     r"|^(\w+)\(.*\) -> \3\b|^\w+< .* >$")  # deduction guides, specialisations of variables
 WITHOUT_PAGES = "GENERATE_HTML=NO\nGENERATE_TAGFILE=\nLAYOUT_FILE=\n"
 
 
@@ -37,8 +39,8 @@ def undocumented(warnings):
             others.append(warning)
             continue
         header, line, member = found[1], int(found[2]), found[3]
-        declaration = re.sub(r" \(\w+\) of (namespace|class|struct|union|file|group|concept) \S+$", "", member)
-        if not GUIDE.match(declaration) and not re.search(r"=\s*(default|delete)$|\boperator ?(==|!=|<=>|[-+*\/]=?|[<>]=?|!|&&|\|\|)\(|~\w+\(", declaration):
+        declaration = re.sub(r" \([\w ]+\) of (namespace|class|struct|union|file|group|concept) .+$", "", member)
+        if not OBVIOUS.search(declaration):
             names[header].add((line, declaration))
     return names, others
 
