@@ -71,6 +71,7 @@ PathConditions<Dim> proportional_strain_path(double ratio) {
   return detail::without_shear<Dim>(std::move(conditions));
 }
 
+/// Axial compression without lateral strain.
 template <int Dim>
 PathConditions<Dim> oedometer_path() {
   return proportional_strain_path<Dim>(0.0);

@@ -76,11 +76,13 @@ class CheckpointedRun {
   /// Of all stages so far.
   RunReport const& report() const { return report_; }
 
+  /// Passes an attempt on to the observers; a file that cannot be written stops the run.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& step) {
     ++attempts_;
     writing(problem, [&] { watched_.attempted(problem, step); });
   }
+  /// Whether a file could not be written or an observer stops the run.
   bool wants_stop() const { return stopped_ || watched_.wants_stop(); }
 
   /// What could not be written; on the root rank, empty where there is nothing of the kind.
@@ -88,6 +90,8 @@ class CheckpointedRun {
   /// Whether a rank has such trouble.
   bool stopped() const { return stopped_; }
 
+  /// Loads the checkpoint into the stage that it was made in.
+  /// \throws CheckpointError for a checkpoint of another scene
   template <class Problem, class Session>
   void begins(Problem& problem, Session& session, RunState& state) {
     if (!files_.resumes() || stage_ != first_) return;
@@ -103,6 +107,7 @@ class CheckpointedRun {
     if (state.report.verdict.reason == Reason::interrupted) state.report.verdict = {};
   }
 
+  /// Makes a checkpoint where it is due by time or number of attempts.
   template <class Problem, class Session>
   void between(Problem& problem, Session const& session, RunState const& state) {
     auto const& settings = files_.settings();
@@ -112,6 +117,7 @@ class CheckpointedRun {
     if (broadcast_flag(problem.executor(), due) && attempts_ > 0) save(problem, session, state);
   }
 
+  /// Makes a checkpoint of the state that a stage ends in, unless it has just been made.
   template <class Problem, class Session>
   void ends(Problem& problem, Session const& session, RunState const& state) {
     if (attempts_ > 0) save(problem, session, state);

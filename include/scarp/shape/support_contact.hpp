@@ -14,9 +14,9 @@ namespace scarp {
 /// dh/dphi [m] and radius of curvature h + d2h/dphi2 [m] of the boundary at the support point.
 template <class T>
 struct Support {
-  T value;
-  T slope;
-  T curvature_radius;
+  T value;             ///< distance of the tangent line from the centre [m]
+  T slope;             ///< derivative by the normal's angle [m] per radian
+  T curvature_radius;  ///< of the boundary where the tangent line touches [m]
 };
 
 /// One Newton step for the normal n that minimises \f$ f(\phi) = h_A(n) + h_B(n) - d \cdot n \f$, from a given start.

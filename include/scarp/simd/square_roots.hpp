@@ -11,8 +11,8 @@ namespace scarp::lanes {
 /// A square root and its inverse.
 template <class T>
 struct SquareRoot {
-  T value;
-  T inverse;
+  T value;    ///< \f$ \sqrt{x} \f$
+  T inverse;  ///< \f$ 1/\sqrt{x} \f$
 };
 
 /// Square roots of two positive numbers, or of packs of them; infinities and zeros are not among them. They share a division.

@@ -53,7 +53,7 @@ class LinearisedStep {
     }
   }
 
-  FreeSystem const& system() const { return system_; }
+  FreeSystem const& system() const { return system_; }  ///< Numbering of the free degrees of freedom.
   /// Estimate for the last matrix, in the 1-norm; 0 where a body floats.
   double condition() const { return is_held_ ? equations_.condition() : 0.0; }
   /// |K x - b| / |b| of the last linear system.
@@ -278,6 +278,7 @@ class LinearPredictor {
     return increment;
   }
 
+  /// Linearisation of the step, for solves within its iteration.
   LinearisedStep<Problem, Linear>& linearised() { return linearised_; }
 
  private:
