@@ -56,7 +56,7 @@ struct WorkBalanceOf<Problem> {
 template <class Problem>
 class ErrorBudget : public NeverStops {
  public:
-  static constexpr int dim = Problem::dim;
+  static constexpr int dim = Problem::dim;  ///< of the problem's space
 
   /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
   explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
@@ -132,8 +132,8 @@ class ErrorBudget : public NeverStops {
     return parts;
   }
 
-  DoubledSamples const& samples() const { return samples_; }
-  TrackedPoints const& tracked() const { return tracked_; }
+  DoubledSamples const& samples() const { return samples_; }  ///< repetitions of single increments so far
+  TrackedPoints const& tracked() const { return tracked_; }   ///< repetitions of whole paths so far
 
   SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, seen_, at_rest_), balance_, packings_, samples_,
                        tracked_, residual_, linear_residual_, condition_, work_, answers_)

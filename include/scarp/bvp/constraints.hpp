@@ -52,7 +52,9 @@ class Constraints {
     prescribe(dim_ * nodes_ + number, fmt::format("extra degree of freedom {}", number), rate, std::move(amplitude));
   }
 
+  /// Degrees of freedom of the nodes and of attached bodies.
   int dof_count() const { return dim_ * nodes_ + extra_dofs_; }
+  /// Degrees of freedom that are not prescribed.
   int free_count() const { return dof_count() - detail::count(dofs_); }
 
   /// Prescribed degrees of freedom in increasing order.
@@ -61,6 +63,7 @@ class Constraints {
   /// Displacement per load factor of each of prescribed_dofs().
   std::vector<double> const& rates() const { return rates_; }
 
+  /// Whether a degree of freedom's motion is prescribed, also by zero.
   bool is_prescribed(int dof) const { return std::binary_search(dofs_.begin(), dofs_.end(), dof); }
 
   /// Free degrees of freedom in increasing order.

@@ -23,19 +23,21 @@ namespace scarp {
 template <CheckedElement Element, Kinematics Motion = UpdatedLagrangian, Integration<Element> Scheme = FullIntegration>
 class SCARP_EXPORT Discretisation {
  public:
-  using ElementType = Element;
+  using ElementType = Element;  ///< type of all elements of the mesh
   static constexpr bool follows_motion = Motion::follows_motion;
-  static constexpr int dim = Element::dim;
+  static constexpr int dim = Element::dim;  ///< of the elements and of space
+  /// Material points that `Scheme` places in an element.
   static constexpr int points_per_element = static_cast<int>(material_points<Scheme, Element>);
 
   /// thickness [m] out of the plane; in 3D it is 1
   /// \throws InputError for an invalid mesh or thickness
   explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0);
 
-  Mesh<Element> const& mesh() const { return mesh_; }
-  double thickness() const { return thickness_; }
-  int node_count() const { return detail::count(mesh_.nodes); }
-  int dof_count() const { return dim * node_count(); }
+  Mesh<Element> const& mesh() const { return mesh_; }            ///< with the nodes where they were at the start
+  double thickness() const { return thickness_; }                ///< out of the plane [m]
+  int node_count() const { return detail::count(mesh_.nodes); }  ///< of the mesh
+  int dof_count() const { return dim * node_count(); }           ///< of all nodes
+  /// Material points of all elements.
   int point_count() const { return points_per_element * detail::count(mesh_.elements); }
 
   /// Where a point is on the reference element, with its weight.
@@ -65,6 +67,7 @@ class SCARP_EXPORT Discretisation {
   void stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                  std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const;
 
+  /// The stiffness [N/m] as a matrix of its own, shape (dof_count, dof_count).
   Eigen::SparseMatrix<double> stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                                         std::span<VoigtTangent<dim> const> tangents) const {
     Eigen::SparseMatrix<double> matrix;

@@ -26,6 +26,7 @@ concept PlacesPoints = requires {
   >= 1;
 };
 
+/// Number of material points of an element.
 template <class Policy, class Element>
   requires PlacesPoints<Policy, Element>
 inline constexpr std::size_t material_points = std::tuple_size_v<decltype(Policy::template points<Element>())>;

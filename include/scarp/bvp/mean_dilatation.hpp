@@ -148,6 +148,7 @@ struct MeanDilatation {
   }
 };
 
+/// Mean dilatation at the points of `ShapeChangeRule` (B-bar).
 using BBar = MeanDilatation<ShapeChangeRule>;
 
 }  // namespace scarp

@@ -12,8 +12,8 @@ namespace scarp {
 
 /// Lame's constants of an isotropic material. [Pa]
 struct IsotropicElasticity {
-  double lame_lambda = 0.0;
-  double shear_modulus = 0.0;
+  double lame_lambda = 0.0;    ///< lambda [Pa]
+  double shear_modulus = 0.0;  ///< G [Pa]
 
   /// \throws InputError unless shear modulus and three-dimensional bulk modulus are finite and positive
   void validate() const {
@@ -71,13 +71,13 @@ struct LinearElastic {
 
   /// Stress [Pa], tension positive.
   struct State {
-    VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
+    VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy [Pa], tension positive
 
     SCARP_MEMBERS(stress)
   };
 
-  IsotropicElasticity elasticity{};
-  InitialStress initial{};  ///< every point's start, by depth
+  IsotropicElasticity elasticity{};  ///< of all points
+  InitialStress initial{};           ///< every point's start, by depth
 
   /// \throws InputError unless shear modulus and three-dimensional bulk modulus are finite and positive
   static LinearElastic from_lame(double lame_lambda, double shear_modulus, InitialStress initial = {}) {

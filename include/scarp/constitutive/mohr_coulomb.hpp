@@ -30,9 +30,9 @@ struct MohrCoulomb {
     SCARP_MEMBERS(stress, plastic_shear, tangent)
   };
 
-  IsotropicElasticity elasticity{};
-  StrengthType strength{};
-  InitialStress initial{};  ///< every point's start, by depth
+  IsotropicElasticity elasticity{};  ///< below the yield surface
+  StrengthType strength{};           ///< constant, or a function of the plastic shear strain
+  InitialStress initial{};           ///< every point's start, by depth
 
   /// The stress out of the plane starts as the horizontal one in it.
   /// \throws InputError for a strength or elasticity that cannot be, and for a stress outside the strength

@@ -19,11 +19,12 @@ struct StiffnessFloor {
 
   /// State of the inner provider and stress of the elastic floor.
   struct State {
-    typename Provider::State own;
-    IsotropicElasticity elasticity{};
+    typename Provider::State own;                              ///< of the inner provider
+    IsotropicElasticity elasticity{};                          ///< of the floor [Pa]
     VoigtStress<dim> floor_stress = VoigtStress<dim>::Zero();  ///< [Pa]
-    bool fluid = false;
+    bool fluid = false;  ///< whether the inner response is fluid, so that the floor acts
 
+    /// For saving, see `Described`.
     template <class Self, class Visit>
     static void members(Self& self, Visit&& visit) requires Described<typename Provider::State> {
       SCARP_ALL_MEMBERS(own, elasticity, floor_stress, fluid);
@@ -34,7 +35,7 @@ struct StiffnessFloor {
     }
   };
 
-  Provider provider{};
+  Provider provider{};         ///< of the points while they carry
   double share = 1e-4;         ///< of the isotropic part of the initial tangent
   double shear_modulus = 0.0;  ///< [Pa] instead, with Poisson's ratio zero, when positive
 

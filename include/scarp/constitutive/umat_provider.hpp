@@ -82,7 +82,7 @@ struct UmatProvider {
     SCARP_MEMBERS(stress, strain, variables, deformation, time, position, number, tangent)
   };
 
-  Umat* umat = nullptr;
+  Umat* umat = nullptr;              ///< address of the subroutine
   std::string name = "UMAT";         ///< CMNAME
   std::vector<double> properties{};  ///< PROPS
   std::vector<double> variables{};   ///< STATEV at the start; its length is NSTATV

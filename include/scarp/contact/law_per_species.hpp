@@ -27,6 +27,7 @@ struct LawPerSpecies {
 
   /// The law between two species, 1 to `Species`. \throws InputError for others
   Law& between(int first, int second) { return laws[checked_place(first, second)]; }
+  /// The law between two species, 1 to `Species`. \throws InputError for others
   Law const& between(int first, int second) const { return laws[checked_place(first, second)]; }
 
   void validate() const {

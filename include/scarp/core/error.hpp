@@ -26,6 +26,7 @@ inline std::string without_control_characters(std::string text) {
 /// Wrong input at a boundary of the library; the text reads "problem (why): suggestion".
 class InputError : public std::invalid_argument {
  public:
+  /// Control characters other than line feed and tab become question marks.
   explicit InputError(std::string text) : std::invalid_argument(detail::without_control_characters(std::move(text))) {}
 };
 

@@ -14,7 +14,7 @@ namespace scarp {
 /// Grains that have been cemented.
 template <class PackingType>
 struct BondedPacking {
-  PackingType packing;
+  PackingType packing;    ///< under the law with bonds, at rest
   Verdict verdict{};      ///< of the list of near pairs; the packing is of use only where it is acceptable
   std::size_t bonds = 0;  ///< contacts that were bonded
 };

@@ -89,9 +89,11 @@ double dashpot_modulus(PackingType const& packing, typename PackingType::Law con
 template <class PackingType, Observe what = Observe::balance>
 class CellDriver {
  public:
-  static constexpr int dim = PackingType::dim;
-  using Law = typename PackingType::Law;
+  static constexpr int dim = PackingType::dim;  ///< of the packing's space
+  using Law = typename PackingType::Law;        ///< of the contacts
 
+  /// The packing must outlive the driver.
+  /// \throws InputError for a loading or gains that their validate() rejects, and for a packing without grains
   CellDriver(PackingType& packing, Law const& law, Loading<dim> const& loading, ServoGains const& feedback = {})
       : packing_(packing),
         law_(law),
@@ -119,11 +121,14 @@ class CellDriver {
     return {};
   }
 
+  /// Another loading from the next step on. \throws InputError for one that its validate() rejects
   void load(Loading<dim> const& loading) { loading_ = detail::validated(loading); }
+  /// Of the next step.
   Loading<dim> const& loading() const { return loading_; }
 
   /// The packing as it was before the last move, and the cell's displacement gradient during that move.
   StepObservation<dim> const& seen() const { return seen_; }
+  /// Displacement gradient of the cell during the last move.
   Tensor<dim> const& strain_step() const { return strain_step_; }
 
  private:
@@ -144,11 +149,11 @@ class CellDriver {
 
 /// Servo control: drives a packing until its held stresses are met and its forces balance.
 struct Servo {
-  ServoGains feedback{};
-  double stress_tolerance = 1e-4;  ///< relative to the largest target, to 0.001 of the springs' modulus for none
-  double unbalanced_tolerance = 1e-4;
-  long max_steps = 400'000;
-  int check_every = 20;  ///< steps between tests of the stopping rule
+  ServoGains feedback{};               ///< strain rates that stress errors give
+  double stress_tolerance = 1e-4;      ///< relative to the largest target, to 0.001 of the springs' modulus for none
+  double unbalanced_tolerance = 1e-4;  ///< on the unbalanced ratio
+  long max_steps = 400'000;            ///< until the servo gives up as `not_converged`
+  int check_every = 20;                ///< steps between tests of the stopping rule
 
   /// \throws InputError
   void validate() const {

@@ -14,7 +14,7 @@ namespace scarp {
 template <class PackingType, class Damping = LocalDamping>
 class HalvedPath {
  public:
-  static constexpr int dim = PackingType::dim;
+  static constexpr int dim = PackingType::dim;  ///< of the packing's space
 
   /// From a copy of the packing as it is.
   explicit HalvedPath(PackingType packing) : packing_(std::move(packing)) {}

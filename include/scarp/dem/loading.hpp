@@ -14,9 +14,10 @@ namespace scarp {
 /// tensor of that component as D, the mean stress with the identity.
 template <int Dim>
 struct StressControl {
-  Tensor<Dim> direction = Tensor<Dim>::Zero();
-  double target = 0.0;  ///< [Pa], tension positive
+  Tensor<Dim> direction = Tensor<Dim>::Zero();  ///< D, symmetric
+  double target = 0.0;                          ///< [Pa], tension positive
 
+  /// Target minus the held component of a stress [Pa].
   double missing(Tensor<Dim> const& stress) const {
     return target - stress.cwiseProduct(direction).sum() / direction.squaredNorm();
   }
@@ -44,8 +45,8 @@ StressControl<Dim> mean_stress_control(double pressure) {
 /// along directions that are orthogonal to each other. Held components of the prescribed gradient are to be zero.
 template <int Dim>
 struct Loading {
-  Tensor<Dim> gradient_per_step = Tensor<Dim>::Zero();
-  std::vector<StressControl<Dim>> controls;
+  Tensor<Dim> gradient_per_step = Tensor<Dim>::Zero();  ///< prescribed
+  std::vector<StressControl<Dim>> controls;             ///< stresses that are held
 
   /// All stress components held.
   static Loading stress(VoigtStress<Dim> const& target) {
@@ -73,6 +74,7 @@ struct Loading {
     }
   }
 
+  /// The prescribed gradient with its sign changed; held stresses keep theirs.
   Loading reversed() const {
     Loading other = *this;
     other.gradient_per_step = -gradient_per_step;
@@ -169,7 +171,7 @@ Loading<Dim> constant_mean_stress(double rate, double pressure) {
 
 /// Turns a loading round whenever the strain that it prescribes has grown to an amplitude.
 struct Cyclic {
-  double amplitude = 0.0;
+  double amplitude = 0.0;  ///< of the strain, positive
 
   /// \return the sign, 1 or -1, of the next step, given the strain so far and the present sign
   int next_sign(double strain, int sign) const {

@@ -18,8 +18,8 @@ class PreparationError : public std::runtime_error {
 /// A packing and whether it got where it was to go.
 template <class PackingType>
 struct Prepared {
-  PackingType packing;
-  Verdict verdict;
+  PackingType packing;  ///< as far as it got
+  Verdict verdict;      ///< acceptable where its targets are met
 };
 
 /// From a loose cloud to a packing under isotropic pressure: consolidation at a *preparation friction*, the knob of the
@@ -27,8 +27,8 @@ struct Prepared {
 struct IsotropicPreparation {
   double pressure = 0.0;              ///< [Pa], positive
   double preparation_friction = 0.1;  ///< of all contacts; 0 gives the densest packing
-  Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
-  Servo relaxation{};
+  Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};  ///< at the preparation friction
+  Servo relaxation{};                                                           ///< at the law's own friction
 
   /// \throws InputError
   void validate() const {
@@ -63,6 +63,7 @@ struct IsotropicPreparation {
 /// One-dimensional compression of one packing, as under the growing overburden of level ground: lateral strain zero, shear
 /// stress zero, vertical stress (last axis) through a list of targets. A copy is stored at each.
 struct OneDimensionalCompression {
+  /// How each target is approached and what counts as reached.
   Servo servo{.feedback = {.fastest = 1e-5}, .stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-4};
 
   /// vertical_pressures [Pa], positive, in the order of the path: one below the pressure before it unloads
