@@ -74,6 +74,7 @@ class ErrorBudget : public NeverStops {
     tracked_ = TrackedPoints::choose(problem, seen_, sampling);
   }
 
+  /// Counts the work of an attempt, and after an accepted one checks residual, work, packings, tracked points and samples.
   void attempted(Problem const& problem, StepReport const& report) {
     for (auto const& record : report.history) {
       work_ += record.inner_steps;

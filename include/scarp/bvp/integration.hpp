@@ -105,6 +105,7 @@ struct PointwiseIntegration {
     return sum;
   }
 
+  /// Derivative [N/m] of the nodal forces by the nodal displacements, in numbers dim * local node + axis.
   template <class Motion, class Element, std::size_t Points>
   static ElementMatrix<Element> stiffness(std::array<SpatialShape<Element>, Points> const& shapes,
                                           std::span<VoigtStress<Element::dim> const, Points> stresses,

@@ -69,6 +69,7 @@ struct MeanDilatation {
     return gradients;
   }
 
+  /// Nodal forces [N], shape (nodes, dim).
   template <class Element, std::size_t Points>
   static Corners<Element, Element::dim> forces(std::array<SpatialShape<Element>, Points> const& shapes,
                                                std::span<VoigtStress<Element::dim> const, Points> stresses) {

@@ -15,7 +15,7 @@ namespace scarp {
 template <CheckedProvider Provider>
 struct StiffnessFloor {
   static constexpr int dim = Provider::dim;
-  using Plan = PlanOf<Provider>;
+  using Plan = PlanOf<Provider>;  ///< of the inner provider
 
   /// State of the inner provider and stress of the elastic floor.
   struct State {

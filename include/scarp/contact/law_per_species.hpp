@@ -34,6 +34,7 @@ struct LawPerSpecies {
     for (Law const& law : laws) detail::validated(law);
   }
 
+  /// Bonds a contact under the laws of all pairs of species, which share one memory.
   template <int Dim, class T>
   static void bond(ContactMemory<Dim, T>& memory) requires Bonds<Law> {
     Law::bond(memory);
