@@ -97,6 +97,9 @@ struct ProblemOfFault {
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
+/// \tparam Structure a `StandsOnGround`
+/// \tparam Solver such as `QuasiNewton`
+/// \tparam GridType a `Discretisation` of the ground's element
 template <CheckedMaterial Soil, class Structure, class Solver = QuasiNewton<>,
           Ground GroundType = StructuredGround<Tri3>, BedrockMotion Motion = NormalFault,
           class GridType = DefaultGridOf<GroundType>>

@@ -82,6 +82,7 @@ inline BasePressure base_pressure(FootingMotion const& motion) {
 }
 
 /// How a scene's footing moves, a row for each accepted step, and the pressures on its base at every so many of them.
+/// \tparam Structure a `StandsOnGround` whose motion(problem) is a `FootingMotion`
 template <class Structure>
 class FootingLog : public NeverStops {
  public:

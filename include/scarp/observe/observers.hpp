@@ -14,6 +14,7 @@
 namespace scarp {
 
 /// Several observers as one; each is called at every attempt, any may stop the run.
+/// \tparam Parts each an `ObservesSteps`
 template <class... Parts>
 struct Observers {
   boost::hana::tuple<Parts...> parts;  ///< in the order in which they are called
@@ -56,6 +57,7 @@ struct Observers {
 };
 
 /// An observer that lives elsewhere, for a program that reads it when the run has ended.
+/// \tparam Observer an `ObservesSteps`
 template <class Observer>
 struct ObserverRef {
   Observer* observer;  ///< outlives the run

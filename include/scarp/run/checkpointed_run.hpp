@@ -51,6 +51,7 @@ void with_all_states(Problem& problem, Task const& task) {
 /// with the last accepted state then. When something cannot be written, by an observer or of a checkpoint, the run stops there as
 /// when it is interrupted, and trouble() returns the message. Where points are distributed over processes,
 /// the first one writes for all and each reads all: another number of processes may resume.
+/// \tparam Watched an `ObservesSteps` that is `Described`, such as `Observers`
 template <class Watched, Described Notes>
 class CheckpointedRun {
  public:

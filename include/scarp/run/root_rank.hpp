@@ -66,6 +66,8 @@ void on_root_rank(Problem const& problem, Task const& task) {
 }
 
 /// Observers that live on the root rank; all ranks stop when they want to.
+/// \tparam Executor an `ExecutesTasks`
+/// \tparam Observers an `ObservesSteps` with ended(problem, load)
 template <class Executor, class Observers>
 class OnRootRank {
  public:

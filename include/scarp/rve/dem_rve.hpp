@@ -44,6 +44,7 @@ concept PackingTangent = requires(Tangent const& tangent, PackingType const& pac
 /// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
 /// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the response is Love and Weber's stress at its end.
 /// Grains retain their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
+/// \tparam PackingType a `Packing`
 template <class PackingType, PackingSource<PackingType> Source, PackingTangent<PackingType> Tangent = AffineTangent,
           DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
 struct DemRve {

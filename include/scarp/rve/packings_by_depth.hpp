@@ -13,6 +13,7 @@
 namespace scarp {
 
 /// One packing for all points.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct SamePacking {
   PackingType packing;  ///< start of every point
@@ -21,6 +22,7 @@ struct SamePacking {
 };
 
 /// Packings prepared for a list of depths; a site gets the one whose depth is nearest.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct PackingsByDepth {
   std::vector<double> depths;         ///< [m], increasing

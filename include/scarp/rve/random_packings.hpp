@@ -29,6 +29,8 @@ concept PreparesFromSeed = requires(Recipe const& recipe, std::uint64_t seed) {
 };
 
 /// A cloud under isotropic pressure; the seed replaces the cloud's.
+/// \tparam PackingType a `Packing`
+/// \tparam Grading a `SamplesGrains`
 template <class PackingType, class Grading, DampsMotion Damping = LocalDamping>
 struct IsotropicRecipe {
   Cloud<Grading> cloud{};              ///< grains; its own seed is not used
@@ -47,6 +49,7 @@ struct IsotropicRecipe {
 /// One of several sources for every point, drawn at random by the point's number. Points that share a source lie anywhere:
 /// taken in turn, a structured mesh would get stripes. Sources of packings by depth, each from its own seed, give ground whose
 /// columns differ.
+/// \tparam Source a `PackingSource`
 template <class Source>
 struct RandomChoice {
   std::vector<Source> sources;  ///< at least one

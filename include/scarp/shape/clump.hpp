@@ -103,6 +103,7 @@ inline DiscUnion disc_union(std::span<ClumpMember const> discs) {
 /// Rigid composition of discs in the plane; size is (scale), which multiplies `Template::members`, orientation (cos,
 /// sin) of the template's x axis. The centre is the centroid of the union, whose area and inertia are those of the
 /// grain. The pose of a part is its disc: offset (x, y) from the grain's centre in the frame of space, radius.
+/// \tparam Template has the discs as `members`, a constant std::array of `ClumpMember`
 template <class Template>
 struct Clump {
   static constexpr int dim = 2;                ///< discs lie in a plane

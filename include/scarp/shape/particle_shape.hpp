@@ -23,6 +23,8 @@ inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 /// contact point, the middle between the two support points. `normal_error` is the angle [rad] by which the search for the normal
 /// turned it last [rad], infinite where it found none, zero where the shape gives none: a touch that is far from its end is
 /// searched anew, one that turned by less than 1e-8 has ended, which is right where errors fall as squares.
+/// \tparam Dim 2 or 3
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct ContactGeometry {
   T overlap;                 ///< [m], positive where the grains touch

@@ -14,6 +14,7 @@ namespace scarp {
 
 /// Support function, and where the normal stands among the grain's axes: `tilt` is the tangent of its angle from the
 /// nearest one (that of larger r |n|), never zero. The slope is there nearly linear in the tilt to the power 1 / bend.
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class T>
 struct SuperellipseSupport : Support<T> {
   T tilt;  ///< tangent of the normal's angle from the nearest axis, signed
@@ -21,6 +22,7 @@ struct SuperellipseSupport : Support<T> {
 };
 
 /// The normal among a superellipse's axes: `along` is the half axis nearer to it (of larger r |n|), `beside` the other one.
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class T>
 struct SuperellipseFrame {
   T along;          ///< half axis [m]

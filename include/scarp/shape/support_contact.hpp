@@ -12,6 +12,7 @@ namespace scarp {
 
 /// Support function of a convex, centrally symmetric plane shape along a unit normal n(phi): value h [m], slope
 /// dh/dphi [m] and radius of curvature h + d2h/dphi2 [m] of the boundary at the support point.
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class T>
 struct Support {
   T value;             ///< distance of the tangent line from the centre [m]

@@ -19,6 +19,7 @@
 namespace scarp {
 
 /// The scalar that a pack has many of, or the scalar itself.
+/// \tparam T a floating-point number or a `BasicPack`
 template <class T>
 struct ScalarOf {
   using type = T;  ///< a single number is its own scalar
@@ -64,6 +65,8 @@ template <class Scalar, std::size_t Width>
 using VectorOf = typename detail::RawVector<Scalar, Width>::type;
 
 /// A yes or no for each lane of a pack: what comparisons of packs give.
+/// \tparam Scalar float or double, of which comparisons are made
+/// \tparam Width number of lanes, a power of two
 template <class Scalar, std::size_t Width>
 struct BasicMask {
   /// Integers of the scalar's size: all bits set for yes, none for no.
@@ -132,6 +135,8 @@ concept FitsInto = std::same_as<Number, int> || std::same_as<Number, Scalar> ||
 
 /// Scalars side by side in the compiler's own vector; laws and shapes accept it in place of one. The width is part of the
 /// type, because sources for different instruction sets may be linked together.
+/// \tparam Scalar float or double
+/// \tparam Width number of lanes, a power of two
 template <class Scalar, std::size_t Width>
 struct BasicPack {
   using value_type = Scalar;               ///< of one lane

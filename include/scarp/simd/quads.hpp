@@ -10,6 +10,7 @@
 namespace scarp::lanes {
 
 /// A quad: four scalars that lie side by side, such as half a grain's row.
+/// \tparam Scalar float or double
 template <class Scalar>
 struct FourScalars {
   using Vector = VectorOf<Scalar, 4>;  ///< the compiler's vector of four scalars

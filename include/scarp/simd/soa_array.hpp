@@ -11,6 +11,7 @@
 namespace scarp {
 
 /// Allocates whole cache lines, so that no vector register's load or store straddles two of them.
+/// \tparam T any element
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;                        ///< of one element
@@ -35,6 +36,8 @@ using AlignedVector = std::vector<T, CacheLineAllocator<T>>;  ///< std::vector t
 
 /// `Count` arrays of equal length in one block (structure of arrays). Each column is padded with the fill value to
 /// full vectors of 64 bytes so that vector loops need no tail. `Count` zero needs no memory.
+/// \tparam Scalar type of a value
+/// \tparam Count number of columns, at least 0
 template <class Scalar, int Count>
 class SoaArray {
  public:

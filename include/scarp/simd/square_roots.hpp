@@ -9,6 +9,7 @@
 namespace scarp::lanes {
 
 /// A square root and its inverse.
+/// \tparam T a floating-point number or a `BasicPack`
 template <class T>
 struct SquareRoot {
   T value;    ///< \f$ \sqrt{x} \f$

@@ -20,6 +20,7 @@ namespace scarp {
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
+/// \tparam DiscretisationType a `Discretisation`
 template <class DiscretisationType, ExecutesTasks Executor,
           AttachmentOrNone<DiscretisationType::dim> Attached = NoAttachment>
 class SCARP_EXPORT EquilibriumProblem final
@@ -196,7 +197,6 @@ class SCARP_EXPORT EquilibriumProblem final
 
   /// Tangents of all points' committed states.
   std::vector<VoigtTangent<dim>> committed_tangents() const override { return points_.committed_tangents(executor_); }
-
   /// Tangents of all points' trial states, which belong to the last evaluation.
   std::vector<VoigtTangent<dim>> trial_tangents() const override { return points_.tangents(executor_); }
 

@@ -16,6 +16,7 @@ namespace scarp {
 /// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment has its own
 /// forces: contact that opens, closes or slides is followed here, where no material point is evaluated. Without attachment
 /// this is one linear solve.
+/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
 template <class Problem, LinearSolver Linear>
 class LinearisedStep {
  public:
@@ -240,6 +241,7 @@ class ExtrapolatedPredictor {
 
 /// What a load step begins with: the system linearised about the committed state, what is
 /// known of it, and the first guess that follows from it.
+/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
 template <class Problem, LinearSolver Linear>
 class LinearPredictor {
  public:

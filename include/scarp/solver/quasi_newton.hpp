@@ -17,6 +17,8 @@ namespace scarp {
 
 /// The iteration of a `QuasiNewton` on one problem, which may be an `IncrementalProblem`: factorisation and what the points'
 /// tangents have learned. Its members are defined outside so that a library can contain them.
+/// \tparam Settings a `QuasiNewton`
+/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
 template <class Settings, class Problem>
 class SCARP_EXPORT QuasiNewtonSession {
  public:

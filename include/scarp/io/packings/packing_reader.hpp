@@ -72,6 +72,7 @@ concept HasGrainColumns = requires {
 };
 
 /// A packing of a file and what its grains are called there.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct NamedPacking {
   PackingType packing;                                    ///< at rest, placed as in the file, without a list of pairs
