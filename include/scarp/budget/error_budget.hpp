@@ -53,6 +53,7 @@ struct WorkBalanceOf<Problem> {
 /// ... run ...
 /// fmt::print("{}{}", budget_headline(budget.parts()), budget_table(budget.parts()));
 /// \endcode
+/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
 template <class Problem>
 class ErrorBudget : public NeverStops {
  public:

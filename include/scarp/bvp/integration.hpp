@@ -74,6 +74,7 @@ struct ReducedRule {
 };
 
 /// The displacement method as it stands: every point sees the displacement gradient at its own place.
+/// \tparam Rule a `PlacesPoints` of the elements that are integrated
 template <class Rule>
 struct PointwiseIntegration {
   template <class Element>

@@ -64,6 +64,8 @@ struct IsotropicElasticity {
 /// Isotropic linear elasticity between Cauchy stress and strain, carried along by the increment's rotation.
 /// \f$ \sigma_1 = R\,(\sigma_0 + \lambda\,tr(E) I + 2 G E)\,R^T \f$ with rotation R and strain E of the increment. A rotation on
 /// top of any increment turns the stress exactly. 2D means plane strain.
+/// \tparam Dim 2 or 3
+/// \tparam InitialStress an `InitialStressField`
 template <int Dim, class InitialStress = StressFree<Dim>>
   requires InitialStressField<InitialStress, Dim>
 struct LinearElastic {

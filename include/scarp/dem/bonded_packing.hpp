@@ -12,6 +12,7 @@
 namespace scarp {
 
 /// Grains that have been cemented.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct BondedPacking {
   PackingType packing;    ///< under the law with bonds, at rest

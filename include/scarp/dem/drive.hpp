@@ -86,6 +86,8 @@ double dashpot_modulus(PackingType const& packing, typename PackingType::Law con
 }
 
 /// Applies a loading to a packing, one DEM step at a time. Stress is evaluated once before the first step.
+/// \tparam PackingType a `Packing`
+/// \tparam what at least Observe::balance
 template <class PackingType, Observe what = Observe::balance>
 class CellDriver {
  public:

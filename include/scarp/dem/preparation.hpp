@@ -16,6 +16,7 @@ class PreparationError : public std::runtime_error {
 };
 
 /// A packing and whether it got where it was to go.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct Prepared {
   PackingType packing;  ///< as far as it got
