@@ -23,6 +23,7 @@ class RigidBody {
   static constexpr int jacobians = 3;  ///< degrees of freedom that move a place of the body
 
   /// reference [m]: the point that loads act on; arm [m]: such as half the width
+  /// \throws InputError for an arm that is not finite and positive
   RigidBody(Vector<2> const& reference, double arm) : reference_(reference), arm_(require_positive("arm", arm)) {}
 
   /// Committed place of the reference point [m] and rotation [rad], counter-clockwise.

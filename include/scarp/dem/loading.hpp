@@ -174,6 +174,7 @@ struct Cyclic {
   double amplitude = 0.0;  ///< of the strain, positive
 
   /// \return the sign, 1 or -1, of the next step, given the strain so far and the present sign
+  /// \throws InputError for an amplitude that is not finite and positive
   int next_sign(double strain, int sign) const {
     require_positive("strain amplitude of a cyclic loading", amplitude);
     if (strain >= amplitude) return -1;

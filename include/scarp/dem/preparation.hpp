@@ -69,6 +69,7 @@ struct OneDimensionalCompression {
 
   /// vertical_pressures [Pa], positive, in the order of the path: one below the pressure before it unloads
   /// \return one packing per pressure; the list ends early at one whose verdict is not acceptable
+  /// \throws InputError for a pressure that is not finite and positive
   template <class PackingType, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
   std::vector<Prepared<PackingType>> compress(PackingType packing, typename PackingType::Law const& law,
                                               std::vector<double> const& vertical_pressures,
