@@ -59,6 +59,7 @@ class ErrorBudget : public NeverStops {
  public:
   static constexpr int dim = Problem::dim;  ///< of the problem's space
 
+  /// Begins with the stresses that the points carry now.
   /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
   explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
       : bounds_(bounds), sampling_(sampling), iterates_equations_(problem.points().means() != nullptr) {

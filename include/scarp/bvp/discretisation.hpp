@@ -79,7 +79,7 @@ class SCARP_EXPORT Discretisation {
     return matrix;
   }
 
-  /// Engineering strains of all points for a small further displacement from the end of the increment, as Scheme forms
+  /// Engineering strains of all points for a small further displacement from the end of the increment [m], as Scheme forms
   /// them; row = voigt_size * point + component, shape (voigt_size * point_count, dof_count)
   /// \throws InputError for an increment of another length
   Eigen::SparseMatrix<double> strain_operator(Eigen::VectorXd const& increment) const;

@@ -59,7 +59,8 @@ struct LawPerSpecies {
     return force;
   }
 
-  /// The largest of all pairs, which bounds the time step; that of one contact is `contact_stiffness`.
+  /// The largest of all pairs at an overlap and a reduced radius [m], which bounds the time step; that of one contact is
+  /// `contact_stiffness`.
   ContactStiffness stiffness(double overlap, double reduced_radius) const {
     ContactStiffness most;
     for (Law const& law : laws) {

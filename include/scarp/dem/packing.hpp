@@ -175,6 +175,7 @@ struct Packing {
   /// What a saved packing consists of.
   SCARP_MEMBERS(population, cell, position, velocity, spin, orientation, last_move, pairs)
 
+  /// Checks numbers that were read.
   /// \throws InputError for numbers that no packing has
   void after_loading() const { detail::require_valid_packing(*this); }
 

@@ -39,6 +39,7 @@ struct IsotropicPreparation {
     relaxation.validate();
   }
 
+  /// Brings a cloud to isotropic pressure and to rest, first at the preparation friction, then at that of the law.
   /// \throws InputError for parameters that validate() rejects or a law that contradicts itself
   template <class PackingType, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
   Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law, Damping const& damping = {},
