@@ -104,7 +104,8 @@ struct Loading {
   }
 };
 
-// The tests of the laboratory as loadings. The last axis is the axial one. Shear stresses are not held: their strains are zero.
+/// \file
+/// The tests of the laboratory are loadings. Their last axis is the axial one; shear stresses are not held, their strains are zero.
 
 /// Equal shortening along all axes. rate: strain of each axis per step
 template <int Dim>
