@@ -45,26 +45,31 @@ def undocumented(warnings):
     return names, others
 
 
-parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("rooms", nargs="*", metavar="ROOM")
-parser.add_argument("--of", type=pathlib.Path, metavar="WARNINGS")
-parser.add_argument("--count", action="store_true", help="only the number of each room")
-options = parser.parse_args()
-names, others = undocumented(options.of.read_text() if options.of else warnings_of_doxygen())
-counts = collections.Counter()
-for header in sorted(names):
-    room = header.split("/")[0]
-    if options.rooms and room not in options.rooms:
-        continue
-    counts[room] += len(names[header])
-    if not options.count:
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("rooms", nargs="*", metavar="ROOM")
+    parser.add_argument("--of", type=pathlib.Path, metavar="WARNINGS")
+    parser.add_argument("--count", action="store_true", help="only the number of each room")
+    options = parser.parse_args()
+    names, others = undocumented(options.of.read_text() if options.of else warnings_of_doxygen())
+    counts = collections.Counter()
+    for header in sorted(names):
+        room = header.split("/")[0]
+        if options.rooms and room not in options.rooms:
+            continue
+        counts[room] += len(names[header])
         for line, declaration in sorted(names[header]):
-            print(f"include/scarp/{header}:{line}: {declaration} has no docstring")
-if options.count:
-    for room, count in counts.items():
-        print(f"{count:5} {room}")
-if not options.rooms:
+            if not options.count:
+                print(f"include/scarp/{header}:{line}: {declaration} has no docstring")
+    if options.count:
+        print("".join(f"{count:5} {room}\n" for room, count in counts.items()), end="")
+    if options.rooms:
+        others = []
     print("".join(f"{line}\n" for line in others), end="")
-total = sum(counts.values())
-print(f"{total} public names without a docstring, {len(others)} other warnings of Doxygen")
-sys.exit(1 if total or (others and not options.rooms) else 0)
+    total = sum(counts.values())
+    print(f"{total} public names without a docstring, {len(others)} other warnings of Doxygen")
+    return 1 if total or others else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+/// \file
+/// Checks of a point whose response has just been committed.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +18,6 @@
 #include "scarp/core/nan_max.hpp"
 #include "scarp/points/step_doubling.hpp"
 
-/// Checks of a point whose response has just been committed.
 namespace scarp {
 
 /// How well all packings of a problem were balanced, and how fast they were strained, over its accepted steps.

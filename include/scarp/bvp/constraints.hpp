@@ -24,6 +24,7 @@ class Constraints {
   explicit Constraints(Mesh<Element> const& mesh, int extra_dofs = 0)
       : dim_(Element::dim), nodes_(detail::count(mesh.nodes)), extra_dofs_(extra_dofs) {}
 
+  /// Holds a node along an axis of space at its place.
   /// \throws InputError for a node or axis that does not exist, or one that is already moved
   void fix(int node, int axis) { move(node, axis, 0.0); }
 
@@ -34,6 +35,7 @@ class Constraints {
     }
   }
 
+  /// Moves a node along an axis of space by rate [m] times `amplitude` at the load factor.
   /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different motion
   void move(int node, int axis, double rate, TimeFunction amplitude = {}) {
     if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
@@ -43,7 +45,7 @@ class Constraints {
     prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(amplitude));
   }
 
-  /// A degree of freedom of an attached body, counted from 0.
+  /// Moves a degree of freedom of an attached body, counted from 0, by rate [m] times `amplitude` at the load factor.
   /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
   void move_extra(int number, double rate, TimeFunction amplitude = {}) {
     if (number < 0 || number >= extra_dofs_) {

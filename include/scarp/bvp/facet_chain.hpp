@@ -47,6 +47,7 @@ class FacetChain {
     SCARP_MEMBERS(facet, xi, at_end)
   };
 
+  /// Facets in any order, each with the body on its left.
   /// \throws InputError when there is no facet, or one twice
   explicit FacetChain(std::vector<Facet> facets) : facets_(std::move(facets)) {
     detail::require_facets("a chain of facets", facets_);

@@ -74,6 +74,7 @@ struct ReducedRule {
 };
 
 /// The displacement method as it stands: every point sees the displacement gradient at its own place.
+/// \tparam Rule a `PlacesPoints` of the elements that are integrated
 template <class Rule>
 struct PointwiseIntegration {
   template <class Element>
@@ -105,6 +106,7 @@ struct PointwiseIntegration {
     return sum;
   }
 
+  /// Derivative [N/m] of the nodal forces by the nodal displacements, in numbers dim * local node + axis.
   template <class Motion, class Element, std::size_t Points>
   static ElementMatrix<Element> stiffness(std::array<SpatialShape<Element>, Points> const& shapes,
                                           std::span<VoigtStress<Element::dim> const, Points> stresses,

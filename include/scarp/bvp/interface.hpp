@@ -82,6 +82,7 @@ class Interface {
     add_stiffness(entries, [&](State const& state) { return state.stiffness; });
   }
 
+  /// Appends the stiffness [N/m] as if nothing slid: that of the closed contact where there is pressure or stiffness, else zero.
   void add_stick_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
     add_stiffness(entries, [&](State const& state) {
       bool const touches = state.pressure != 0.0 || state.stiffness != Tensor<2>::Zero();

@@ -74,6 +74,7 @@ class LoadHistory {
     add(dead_load, TimeFunction::constant(1.0));
   }
 
+  /// Adds nodal forces [N], shape (degrees of freedom), times `amplitude` at the load factor.
   /// \throws InputError for a pattern of another size or one that is not finite
   void add(Eigen::VectorXd forces, TimeFunction amplitude) {
     if (!parts_.empty() && forces.size() != size()) {

@@ -23,6 +23,7 @@ class RigidBody {
   static constexpr int jacobians = 3;  ///< degrees of freedom that move a place of the body
 
   /// reference [m]: the point that loads act on; arm [m]: such as half the width
+  /// \throws InputError for an arm that is not finite and positive
   RigidBody(Vector<2> const& reference, double arm) : reference_(reference), arm_(require_positive("arm", arm)) {}
 
   /// Committed place of the reference point [m] and rotation [rad], counter-clockwise.
@@ -33,17 +34,17 @@ class RigidBody {
   /// Where a place of the body, given relative to the reference point before any rotation [m], is now.
   Vector<2> place(Vector<2> const& own) const { return reference_ + scarp::rotation(angle_) * own; }
 
-  /// The place after an increment of the body's degrees of freedom, which begin at `first`.
+  /// The place [m] after an increment [m] of the body's degrees of freedom, which begin at `first`.
   Vector<2> place(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
     return reference_ + increment.segment<2>(first) + turned(increment(first + 2)) * own;
   }
 
-  /// How a direction of the body is turned after it.
+  /// A direction of the body after an increment [m] of its degrees of freedom, which begin at `first`.
   Vector<2> turned(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
     return turned(increment(first + 2)) * own;
   }
 
-  /// Derivatives of a place of the body, at an increment, by its degrees of freedom, which begin at `first`.
+  /// Derivatives of a place of the body [m], at an increment [m], by its degrees of freedom, which begin at `first`.
   std::array<DofJacobian, jacobians> jacobians_at(Vector<2> const& own, Eigen::VectorXd const& increment,
                                                   int first) const {
     Vector<2> const arm = turned(increment(first + 2)) * own;

@@ -71,6 +71,7 @@ class CorrelatedField {
     int waves = 500;                            ///< N, at least one
   };
 
+  /// Draws the waves and phases of a choice.
   /// \throws InputError for lengths that are not finite and positive or fewer than one wave
   explicit CorrelatedField(Choice const& choice) {
     for (double const length : choice.lengths) require_positive("correlation length", length);

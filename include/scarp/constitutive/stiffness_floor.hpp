@@ -15,7 +15,7 @@ namespace scarp {
 template <CheckedProvider Provider>
 struct StiffnessFloor {
   static constexpr int dim = Provider::dim;
-  using Plan = PlanOf<Provider>;
+  using Plan = PlanOf<Provider>;  ///< of the inner provider
 
   /// State of the inner provider and stress of the elastic floor.
   struct State {
@@ -45,6 +45,7 @@ struct StiffnessFloor {
     require_not_negative("shear modulus of a fluid point", shear_modulus);
   }
 
+  /// The provider's state, with the floor's elasticity from its tangent or from `shear_modulus`.
   /// \throws InputError also for a share of nothing where a point is fluid from the start
   State initial_state(Site<dim> const& site) const {
     validate();

@@ -54,6 +54,7 @@ struct VariedParameters {
     if (!vary) reject("points have no parameters of their own (no function varies the common ones): give `vary`");
   }
 
+  /// Makes the point's own provider and its initial state.
   /// \throws InputError as validate() does, and whatever the function that varies throws
   State initial_state(Site<dim> const& site) const {
     auto own = provider_at(site);

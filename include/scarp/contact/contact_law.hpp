@@ -32,6 +32,8 @@ struct ContactInputs {
 
 /// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and rotation
 /// are zero where the memory already contains them.
+/// \tparam Dim 2 or 3
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct ContactKinematics {
   T overlap;                                  ///< [m], positive in compression
@@ -49,6 +51,8 @@ struct ContactKinematics {
 inline constexpr int max_contact_scalars = 4;
 
 /// Memory of a contact from step to step, as far as its law needs it.
+/// \tparam Dim 2 or 3
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct ContactMemory {
   Tangential<Dim, T> shear{};                    ///< tangential force on the second grain [N]
@@ -59,6 +63,8 @@ struct ContactMemory {
 };
 
 /// Response of a law. What its caller does not use costs nothing.
+/// \tparam Dim 2 or 3
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct ContactForce {
   T normal;                    ///< [N], positive pushes the grains apart

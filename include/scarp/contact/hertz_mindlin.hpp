@@ -126,7 +126,7 @@ struct HertzMindlin {
     return between(modulus, poisson, modulus, poisson, friction, damping);
   }
 
-  /// Spheres of two materials.
+  /// Spheres of two materials: Young's moduli [Pa], Poisson's ratios.
   static HertzMindlin between(double modulus_1, double poisson_1, double modulus_2, double poisson_2, double friction,
                               Damping damping = {}) {
     auto const compliance = [](double modulus, double poisson) { return (1.0 - poisson * poisson) / modulus; };
@@ -160,7 +160,7 @@ struct HertzMindlin {
     return {.normal = normal, .shear = shear, .dissipated = lost};
   }
 
-  /// \f$ S_n = 2 E^* a,\; S_t = 8 G^* a \f$
+  /// \f$ S_n = 2 E^* a,\; S_t = 8 G^* a \f$ [N/m] at an overlap and a reduced radius [m]
   ContactStiffness stiffness(double overlap, double reduced_radius) const {
     double const contact_radius = std::sqrt(reduced_radius * lanes::at_least(overlap, 0.0));
     return {.normal = 2.0 * reduced_modulus * contact_radius,

@@ -11,6 +11,7 @@ namespace scarp {
 
 /// Constraints of a boundary on grains: hold their centres or spins on the cell's mean motion, without fluctuation. What is held
 /// has no net force, also in the unbalanced ratio; the stress is of all contacts.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 class GrainHolds {
  public:

@@ -43,6 +43,7 @@ struct Cloud {
     require_between("share of the cell filled by the cloud", filled_share, 0.0, 1.0);
   }
 
+  /// A packing at rest whose grains do not touch, without a pair list.
   /// \throws InputError on counts, sizes or shares that cannot be packed
   template <class PackingType>
   PackingType make() const {

@@ -21,6 +21,7 @@ concept DampsMotion = requires(Damping const& damping, double const& one, lanes:
 };
 
 /// Net force [N] and torque [N m] on every grain.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct NetForces {
   using Scalar = typename PackingType::Scalar;  ///< of the packing's coordinates

@@ -86,6 +86,8 @@ double dashpot_modulus(PackingType const& packing, typename PackingType::Law con
 }
 
 /// Applies a loading to a packing, one DEM step at a time. Stress is evaluated once before the first step.
+/// \tparam PackingType a `Packing`
+/// \tparam what at least Observe::balance
 template <class PackingType, Observe what = Observe::balance>
 class CellDriver {
  public:
@@ -104,6 +106,7 @@ class CellDriver {
         // Frictional grains are isostatic at dim + 1 contacts per grain, each shared by two.
         fewest_contacts_(0.5 * (dim + 1) * static_cast<double>(packing.grain_count())) {}
 
+  /// One DEM step with the cell strain that the loading and the stress before it require.
   /// \return not_converged / unreachable for a target no packing can carry, failed / not_finite, or what the stepper reports
   template <class Stepper>
   Verdict step(Stepper& stepper) {
@@ -164,6 +167,7 @@ struct Servo {
     require_at_least("number of steps between checks of the servo", check_every, 1);
   }
 
+  /// Steps until held stresses and unbalanced ratio are within their tolerances.
   /// \return not_converged / unreachable or unbalanced after `max_steps`, or at once for a target no packing can carry
   template <class Stepper, class PackingType>
   Verdict reach(Stepper& stepper, PackingType& packing, typename PackingType::Law const& law,

@@ -25,6 +25,7 @@ inline void validate_grading(double smallest, double largest, double aspect = 1.
 }  // namespace detail
 
 /// Radii of round grains, or scales of clumps, uniform between two bounds [m].
+/// \tparam ShapePolicy a `ParticleShape` of one parameter
 template <class ShapePolicy>
 struct RadiusGrading {
   using Shape = ShapePolicy;  ///< of the grains that it samples
@@ -47,6 +48,7 @@ template <class Template>
 using ClumpGrading = RadiusGrading<Clump<Template>>;
 
 /// Semi-major axes uniform between two bounds [m]; semi-minor = aspect x semi-major.
+/// \tparam ShapePolicy a `ParticleShape` of two parameters
 template <class ShapePolicy>
 struct AxesGrading {
   using Shape = ShapePolicy;  ///< of the grains that it samples
@@ -67,6 +69,7 @@ struct AxesGrading {
 using EllipseGrading = AxesGrading<Ellipse>;
 
 /// Axes as of ellipses, and one exponent for all grains.
+/// \tparam ShapePolicy a `ParticleShape` of three parameters
 template <class ShapePolicy>
 struct ExponentGrading {
   using Shape = ShapePolicy;  ///< of the grains that it samples

@@ -32,6 +32,7 @@ struct RowLayout {
 };
 
 /// Scratch memory of the pair loop; one per thread, reused from call to call.
+/// \tparam Scalar float or double
 template <class Scalar>
 struct PairScratch {
   AlignedVector<Scalar> rows;    ///< data of grains, ghosts and one row far from all

@@ -56,6 +56,7 @@ Point<PackingType::dim, double> row_position(PackingType const& packing, std::si
 }
 
 /// How the rows of a near pair touch: poses of both, the branch between the centres [m] and the touch.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct PairGeometry {
   static constexpr int dim = PackingType::dim;  ///< of the packing's space

@@ -11,6 +11,8 @@ namespace scarp {
 
 /// A stretch of a packing's path, to be gone once more in steps of half the strain, hence at half the rate: what the mean stress
 /// over it then changes by estimates the error of the steps.
+/// \tparam PackingType a `Packing`
+/// \tparam Damping a `DampsMotion`
 template <class PackingType, class Damping = LocalDamping>
 class HalvedPath {
  public:

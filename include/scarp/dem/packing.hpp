@@ -88,6 +88,9 @@ struct ListBasis {
 /// Pairs of grains closer than a skin (Verlet list), each once. Numbers are *rows*: part p of grain i has row
 /// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
 /// moved by cell x `ghost_shift[g]`. What a shape or law has no memory of is not stored.
+/// \tparam Shape a `ParticleShape`
+/// \tparam Law a `ContactLaw`
+/// \tparam Scalar float or double
 template <CheckedShape Shape, CheckedContactLaw Law, class Scalar>
 struct VerletList {
   static constexpr int dim = Shape::dim;                                 ///< of the grains' space
@@ -138,6 +141,9 @@ struct LastMove {
 
 /// State of a periodic packing: everything that evolves. Velocities are fluctuations about the affine motion of the
 /// cell; the cell's columns are its base vectors [m]. Positions may lie outside the cell by a lattice vector.
+/// \tparam ShapePolicy a `ParticleShape`
+/// \tparam LawPolicy a `ContactLaw`
+/// \tparam ScalarType float or double
 template <CheckedShape ShapePolicy, CheckedContactLaw LawPolicy, class ScalarType = double>
 struct Packing {
   using Shape = ShapePolicy;              ///< of the grains
@@ -169,6 +175,7 @@ struct Packing {
   /// What a saved packing consists of.
   SCARP_MEMBERS(population, cell, position, velocity, spin, orientation, last_move, pairs)
 
+  /// Checks numbers that were read.
   /// \throws InputError for numbers that no packing has
   void after_loading() const { detail::require_valid_packing(*this); }
 

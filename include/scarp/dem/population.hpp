@@ -19,6 +19,8 @@ namespace scarp {
 
 /// The grains of a packing as far as they never change: sizes, masses, inertias. One copy serves every state.
 /// `thickness` [m] is the out-of-plane length in 2D and 1 in 3D, so that content x thickness is a volume.
+/// \tparam Shape a `ParticleShape`
+/// \tparam Scalar float or double
 template <CheckedShape Shape, class Scalar = double>
 class Population {
  public:

@@ -16,6 +16,7 @@ class PreparationError : public std::runtime_error {
 };
 
 /// A packing and whether it got where it was to go.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct Prepared {
   PackingType packing;  ///< as far as it got
@@ -38,6 +39,7 @@ struct IsotropicPreparation {
     relaxation.validate();
   }
 
+  /// Brings a cloud to isotropic pressure and to rest, first at the preparation friction, then at that of the law.
   /// \throws InputError for parameters that validate() rejects or a law that contradicts itself
   template <class PackingType, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
   Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law, Damping const& damping = {},
@@ -68,6 +70,7 @@ struct OneDimensionalCompression {
 
   /// vertical_pressures [Pa], positive, in the order of the path: one below the pressure before it unloads
   /// \return one packing per pressure; the list ends early at one whose verdict is not acceptable
+  /// \throws InputError for a pressure that is not finite and positive
   template <class PackingType, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
   std::vector<Prepared<PackingType>> compress(PackingType packing, typename PackingType::Law const& law,
                                               std::vector<double> const& vertical_pressures,

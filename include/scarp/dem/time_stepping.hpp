@@ -44,6 +44,9 @@ inline constexpr bool kernel_is_precompiled =
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient; a damping or relaxation gives the
 /// velocities, a boundary holds grains on the cell's motion. Holds the scratch memory, so one stepper serves many packings in
 /// turn but only one thread.
+/// \tparam PackingOf a `Packing`
+/// \tparam Damping a `DampsMotion`, with the whole packing in view a `SeesAllGrains`
+/// \tparam Boundary a `ConstrainsGrains`
 template <class PackingOf, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingOf> Boundary = Periodic>
 class TimeStepper {
   static_assert(
