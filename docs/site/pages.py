@@ -13,7 +13,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 KATEX = pathlib.Path("/usr/share/javascript/katex")
 # Where pages outside of docs, and folders, are in the site.
 MOVED = {"README.md": "index.md", "docs/README.md": "pages.md", "CHANGELOG.md": "changelog.md", "tests/README.md": "tests.md",
-         "benchmarks/README.md": "benchmarks.md", "docs/data": "reference/tables.md"}
+         "benchmarks/README.md": "benchmarks.md", "docs/data": "reference/tables.md",
+         "docs/reference/output_columns.csv": "reference/columns.md"}
 
 
 def site_path(source):

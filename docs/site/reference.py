@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Pages of the site that are made from the code: command line, statuses and exit codes, headers with their classes, tables of numbers."""
+"""Pages of the site that are made from the code: command line, statuses and exit codes, headers with their classes, columns of output, tables of numbers."""
 import ast
+import csv
 import os
 import pathlib
 import re
@@ -167,7 +168,22 @@ def tables():
     return "\n".join(text) + "\n"
 
 
+def columns():
+    """Columns and keys of the output files, a table for each file."""
+    text = ["# Columns of output files", "", "Every column and key, by program and file. [Output files](output.md) lists what the programs write.", ""]
+    with open(ROOT / "docs" / "reference" / "output_columns.csv", newline="") as table:
+        rows = list(csv.DictReader(table))
+    for row, before in zip(rows, [{}, *rows]):
+        if row["program"] != before.get("program"):
+            text += ["", f"## {row['program']}"]
+        if (row["program"], row["files"]) != (before.get("program"), before.get("files")):
+            text += ["", f"### {plain(row['files'])}", "", "| name | unit | positive | meaning |", "|---|---|---|---|"]
+        names = ", ".join(f"`{name}`" for name in row["names"].split("; "))
+        text.append(f"| {names} | {row['unit']} | {row['positive']} | {plain(row['meaning'])} |")
+    return "\n".join(text) + "\n"
+
+
 def pages(tags, api):
     """Text of each page, by its path in the site. Programs are those in SCARP_EXAMPLES, by default build/release/examples."""
     return {"reference/command_line.md": command_line(), "reference/statuses.md": statuses(api), "reference/api.md": headers(tags, api),
-            "reference/tables.md": tables()}
+            "reference/columns.md": columns(), "reference/tables.md": tables()}
