@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 // User-defined boundary-value problem: a trench is cut into sand of packings on elastic rock, on a mesh from Gmsh.
-#include <boost/hana/tuple.hpp>
 #include <filesystem>
 
 #include "../shared/print.hpp"
@@ -23,7 +22,6 @@
 
 using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
 using Sand = scarp::StiffnessFloor<scarp::DemRve<Grains, scarp::PackingsByDepth<Grains>>>;
-using Rock = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
 using Grid = scarp::DefaultGrid<scarp::Tri6>;
 
 /// Vertical force [N] of the support of a side whose nodes carry these loads [N], per metre of thickness.
@@ -42,9 +40,9 @@ int main(int count, char** arguments) try {
                               : std::filesystem::path(__FILE__).replace_filename("excavation.msh");
   double const unit_weight = 16e3, cover = 4e3;  // [N/m3], [Pa]
   Grid grid(scarp::read_gmsh<scarp::Tri6>(file));
-
   // Materials: elastic rock, and for every depth of the sand a packing that was compressed to the overburden.
-  auto const rock = Rock::from_young_poisson(500e6, 0.25, {.surcharge = cover, .unit_weight = unit_weight, .k0 = 0.5});
+  auto const rock = scarp::LinearElastic<2, scarp::GeostaticStress<2>>::from_young_poisson(
+      500e6, 0.25, {.surcharge = cover, .unit_weight = unit_weight, .k0 = 0.5});
   scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};  // [N/m]
   scarp::LevelGround<scarp::EllipseGrading> const level{
       .cloud = {.grading = {4e-3, 6e-3, 0.6}, .grains = 200, .density = 2650.0, .thickness = 0.2},
@@ -54,13 +52,11 @@ int main(int count, char** arguments) try {
   for (int point = 0; point < grid.point_count(); ++point) depths.push_back(grid.site(point, 0.0).depth);
   Sand const sand{.provider = {.law = law, .source = level.make<Grains>(law, depths), .pressure_floor = cover / 2.0}};
   auto const regions = boost::hana::make_tuple(scarp::Region{"sand", sand}, scarp::Region{"rock", rock});
-
   // Boundary conditions by the names of groups: rollers.
   scarp::Constraints constraints(grid.mesh());
   for (auto const* const side : {"left", "right"})
     for (int const node : boundary_nodes(grid.mesh(), side)) constraints.fix(node, 0);
   for (int const node : boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node, 1);
-
   // Loads: the forces that hold the ground as it was, which fade, and those that act on it in the end, which grow.
   scarp::ThreadExecutor executor;
   auto points = make_points(grid, 0.0, regions, executor);  // 0: height of the surface
@@ -86,13 +82,14 @@ int main(int count, char** arguments) try {
     run = stepping.advance(session, problem, 0.25 * (stage - 1), 0.25 * stage, series);
     auto const& now = problem.discretisation();
     double heave = 0.0;
-    for (std::size_t const node : boundary_nodes(now.mesh(), "floor"))
-      heave = std::max(heave, now.positions()[node].y() - now.mesh().nodes[node].y());
+    for (int const node : boundary_nodes(now.mesh(), "floor")) {
+      auto const k = static_cast<std::size_t>(node);
+      heave = std::max(heave, now.positions()[k].y() - now.mesh().nodes[k].y());
+    }
     examples::print(stdout, "{:9.2f} {:24.2f} {:21.1f} {:6} {:11}\n", run.load, 1e3 * heave,
                     1e-3 * reaction(problem, "bottom", after), run.steps, run.iterations);
   }
-  // In the end the base carries what is left above it.
-  double const share = reaction(problem, "bottom", after) / -after.sum();
+  double const share = reaction(problem, "bottom", after) / -after.sum();  // the base carries what is left above it
   examples::print(stdout, "base reaction over weight and surcharge: {:.5f}\n", share);
   return run.verdict.acceptable() && std::abs(share - 1.0) < solver.tolerance ? 0 : 1;
 } catch (std::exception const& problem) {
