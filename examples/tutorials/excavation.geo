@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSL-1.0
+// Half of a trench in six metres of sand on four metres of rock; the surface is at y = 0, the cut 4 m deep at 1 : 2.
+// gmsh -2 excavation.geo -format msh41
+Point(1) = {0, -10, 0};
+Point(2) = {22, -10, 0};
+Point(3) = {22, -6, 0};
+Point(4) = {22, 0, 0};
+Point(5) = {11, 0, 0};   // crest
+Point(6) = {3, -4, 0};   // toe
+Point(7) = {0, -4, 0};
+Point(8) = {0, -6, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 7};
+Line(7) = {7, 8};
+Line(8) = {8, 1};
+Line(9) = {8, 3};
+Curve Loop(1) = {9, 3, 4, 5, 6, 7};
+Plane Surface(1) = {1};
+Curve Loop(2) = {1, 2, -9, 8};
+Plane Surface(2) = {2};
+Physical Surface("sand") = {1};
+Physical Surface("rock") = {2};
+Physical Curve("bottom") = {1};
+Physical Curve("right") = {2, 3};
+Physical Curve("surface") = {4};
+Physical Curve("slope") = {5};
+Physical Curve("floor") = {6};
+Physical Curve("left") = {7, 8};
+MeshSize {1, 2, 3, 4} = 3;
+MeshSize {5, 6, 7, 8} = 1.5;
+Mesh.ElementOrder = 2;
