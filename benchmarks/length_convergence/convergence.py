@@ -25,7 +25,8 @@ AREA = "dilated area over throw [m]"
 QUANTITIES = [*PLACES, AREA, "rupture dip [deg]", "reaction [MN/m]"]
 WIDTHS = [f"width at {level} of the height [m]" for level in ("1/4", "1/2", "3/4")]
 CRITICAL = ["critical strain [%]", "critical volume [%]"]
-SOILS = {"sand": "Sand", "mohr_coulomb": "Mohr-Coulomb"}
+SOILS = {"sand": "Sand", "fontainebleau": "Fontainebleau", "mohr_coulomb": "Mohr-Coulomb"}
+SHOWN = {"fontainebleau": ("8", "4", "2.83")}  # lengths of the page's table
 FORMS = {"band": lambda x: (u := x / np.geomspace(1.0, 200.0, 93)[:, None]) * (1.0 - np.exp(-1.0 / u)),
          "power": lambda x: x ** np.linspace(0.5, 1.5, 21)[:, None],
          "line": lambda x: x[None, :]}
@@ -147,7 +148,7 @@ def page(rows):
     digits = [1, 1, 1, 2, 2, 1, 1, 0]
     for soil, title in SOILS.items():
         known = usable(rows, soil)
-        for length in [length for length in ("8", "4", "2", "1") if any(row["length [m]"] == length for row in known)]:
+        for length in [length for length in SHOWN.get(soil, ("8", "4", "2", "1")) if any(row["length [m]"] == length for row in known)]:
             here = [row for row in known if row["length [m]"] == length]
             cells = [f"{np.nanmean(column(here, name)):.{n}f}" for name, n in zip(shown, digits)]
             if len(here) > 1:
@@ -171,8 +172,8 @@ def ticks(axes, name, places):
 def over_length(rows):
     """For each soil a column: places, and widths of the band."""
     soils = [soil for soil in SOILS if usable(rows, soil)]
-    of_places, axes = plt.subplots(1, len(soils), figsize=(5.4 * len(soils), 4.2), sharey=True, squeeze=False)
-    of_widths, width_axes = plt.subplots(1, len(soils), figsize=(4.4 * len(soils), 3.6), sharey=True, squeeze=False)
+    of_places, axes = plt.subplots(1, len(soils), figsize=(3.9 * len(soils) + 0.6, 4.2), sharey=True, squeeze=False)
+    of_widths, width_axes = plt.subplots(1, len(soils), figsize=(3.2 * len(soils) + 0.6, 3.6), sharey=True, squeeze=False)
     for soil, axis, width_axis in zip(soils, axes[0], width_axes[0]):
         known = usable(rows, soil)
         lengths, throw = column(known, "length [m]"), DEPTH * column(known, "h/H").mean()

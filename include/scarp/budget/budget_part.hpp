@@ -16,8 +16,8 @@ namespace scarp {
 
 /// One number of an error budget and the bound that was set for it.
 struct BudgetPart {
-  std::string name{};
-  double value = 0.0;
+  std::string name{};     ///< in the first column of budget_table()
+  double value = 0.0;     ///< relative, see `meaning`
   double bound = 0.0;     ///< infinite: no bound
   std::string meaning{};  ///< in words, with what it is relative to
 
@@ -25,6 +25,7 @@ struct BudgetPart {
   bool is_within() const { return value <= bound; }
 };
 
+/// Parts in the order of a report.
 using BudgetParts = std::vector<BudgetPart>;
 
 /// A line that names the parts outside their bounds; empty without any.
@@ -66,13 +67,13 @@ struct ErrorBounds {
   double work_gap = 5e-2;         ///< external against internal work of the run
   double linear_residual = 1e-8;  ///< largest of a linear system
   double iterated_linear_residual =
-      1e-2;                       ///< the same where it is iterated, and only as far as the next iteration needs
-  double condition = 1e12;        ///< largest of a step's stiffness
-  double unbalanced_mean = 2e-2;  ///< over all packings and steps
-  double unbalanced_largest = 5e-2;
-  double kinetic_share = 1e-2;    ///< largest, of a packing's pressure
-  double inertial_number = 1e-2;  ///< largest of a response
-  double held_stress = 1e-2;      ///< of a single packing: missing from what a servo holds, root mean square
+      1e-2;                          ///< the same where it is iterated, and only as far as the next iteration needs
+  double condition = 1e12;           ///< largest of a step's stiffness
+  double unbalanced_mean = 2e-2;     ///< over all packings and steps
+  double unbalanced_largest = 5e-2;  ///< over all packings and steps
+  double kinetic_share = 1e-2;       ///< largest, of a packing's pressure
+  double inertial_number = 1e-2;     ///< largest of a response
+  double held_stress = 1e-2;         ///< of a single packing: missing from what a servo holds, root mean square
   double doubling_median =
       1e-2;  ///< of samples spread over all points: stress with twice the work against the accepted one
   double doubling_95 = 5e-2;       ///< difference that 19/20 of the samples' stress does not exceed

@@ -53,11 +53,13 @@ struct WorkBalanceOf<Problem> {
 /// ... run ...
 /// fmt::print("{}{}", budget_headline(budget.parts()), budget_table(budget.parts()));
 /// \endcode
+/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
 template <class Problem>
 class ErrorBudget : public NeverStops {
  public:
-  static constexpr int dim = Problem::dim;
+  static constexpr int dim = Problem::dim;  ///< of the problem's space
 
+  /// Begins with the stresses that the points carry now.
   /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
   explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
       : bounds_(bounds), sampling_(sampling), iterates_equations_(problem.points().means() != nullptr) {
@@ -74,6 +76,7 @@ class ErrorBudget : public NeverStops {
     tracked_ = TrackedPoints::choose(problem, seen_, sampling);
   }
 
+  /// Counts the work of an attempt, and after an accepted one checks residual, work, packings, tracked points and samples.
   void attempted(Problem const& problem, StepReport const& report) {
     for (auto const& record : report.history) {
       work_ += record.inner_steps;
@@ -132,8 +135,8 @@ class ErrorBudget : public NeverStops {
     return parts;
   }
 
-  DoubledSamples const& samples() const { return samples_; }
-  TrackedPoints const& tracked() const { return tracked_; }
+  DoubledSamples const& samples() const { return samples_; }  ///< repetitions of single increments so far
+  TrackedPoints const& tracked() const { return tracked_; }   ///< repetitions of whole paths so far
 
   SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, seen_, at_rest_), balance_, packings_, samples_,
                        tracked_, residual_, linear_residual_, condition_, work_, answers_)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+/// \file
+/// Checks of a point whose response has just been committed.
 #pragma once
 
 #include <algorithm>
@@ -16,17 +18,17 @@
 #include "scarp/core/nan_max.hpp"
 #include "scarp/points/step_doubling.hpp"
 
-/// Checks of a point whose response has just been committed.
 namespace scarp {
 
 /// How well all packings of a problem were balanced, and how fast they were strained, over its accepted steps.
 struct PackingSurvey {
-  double looked_at = 0.0;  ///< packings of all steps
-  double unbalanced_sum = 0.0;
-  double unbalanced = 0.0;  ///< largest, as the next two
-  double kinetic_share = 0.0;
-  double inertial_number = 0.0;
+  double looked_at = 0.0;        ///< packings of all steps
+  double unbalanced_sum = 0.0;   ///< of all unbalanced ratios
+  double unbalanced = 0.0;       ///< largest, as the next two
+  double kinetic_share = 0.0;    ///< share of moving grains in a packing's pressure
+  double inertial_number = 0.0;  ///< of a response
 
+  /// Mean unbalanced ratio over packings and steps; zero before the first.
   double mean_unbalanced() const { return looked_at > 0.0 ? unbalanced_sum / looked_at : 0.0; }
 
   /// After an accepted step.
@@ -48,8 +50,8 @@ struct PackingSurvey {
 
 /// Relative differences of stress at sampled points, in the order of the samples.
 struct SampledDifferences {
-  std::vector<double> differences{};
-  std::vector<double> carried{};  ///< [Pa], size of the stress that each is relative to
+  std::vector<double> differences{};  ///< relative sizes, not negative
+  std::vector<double> carried{};      ///< [Pa], size of the stress that each is relative to
 
   /// Smallest difference that is not exceeded where a share of all samples' stress is carried; 0 without any.
   double quantile(double share) const {
@@ -77,6 +79,7 @@ struct DoubledSamples {
   SampledDifferences strained{};  ///< the most strained point of a step
   long work = 0;                  ///< that they cost
 
+  /// Samples so far, spread and strained ones.
   std::size_t count() const { return spread.differences.size() + strained.differences.size(); }
 
   /// After an accepted step. at_rest [Pa]: sizes of all points' stresses when the run began; afforded: work that samples
@@ -150,7 +153,7 @@ struct DoubledSamples {
 /// A point whose increments are repeated along the whole run, with twice the DEM steps and from the repetition's own
 /// states: how far the two have come apart is what the steps of the point's inner work have added up to on its path.
 struct TrackedPoint {
-  int point = -1;
+  int point = -1;           ///< number of the point, -1 for none
   std::string bits{};       ///< second state; empty before the first step, and for a state that names no members
   double apart = 0.0;       ///< relative difference of the stresses now
   double farthest = 0.0;    ///< largest so far
@@ -161,10 +164,10 @@ struct TrackedPoint {
 
 /// Points whose whole history is repeated with steps twice as fine, and the sums of their differences.
 struct TrackedPoints {
-  std::vector<TrackedPoint> points{};
-  int steps = 0;
-  long work = 0;            ///< that they cost
-  double square_sum = 0.0;  ///< over all steps, see together()
+  std::vector<TrackedPoint> points{};  ///< in increasing order of their numbers
+  int steps = 0;                       ///< accepted ones that were followed
+  long work = 0;                       ///< that they cost
+  double square_sum = 0.0;             ///< over all steps, see together()
 
   /// Spread over the points that this process sees, and those that are named.
   /// \throws InputError for points that the problem does not have
@@ -221,6 +224,7 @@ struct TrackedPoints {
     if (double const apart = stress_size<dim>(sum); apart != 0.0) square_sum += apart * apart / (all * all);
   }
 
+  /// Whether the path of at least one point has been repeated.
   bool any() const {
     return std::any_of(points.begin(), points.end(), [](auto const& one) { return !one.bits.empty(); });
   }
@@ -241,6 +245,7 @@ struct TrackedPoints {
     return count > 0 ? std::sqrt(squares / count) : 0.0;
   }
 
+  /// Largest relative difference of one point at any time.
   double farthest() const {
     double farthest = 0.0;
     for (auto const& one : points) farthest = nan_max(farthest, one.farthest);

@@ -24,6 +24,7 @@ class Constraints {
   explicit Constraints(Mesh<Element> const& mesh, int extra_dofs = 0)
       : dim_(Element::dim), nodes_(detail::count(mesh.nodes)), extra_dofs_(extra_dofs) {}
 
+  /// Holds a node along an axis of space at its place.
   /// \throws InputError for a node or axis that does not exist, or one that is already moved
   void fix(int node, int axis) { move(node, axis, 0.0); }
 
@@ -34,6 +35,7 @@ class Constraints {
     }
   }
 
+  /// Moves a node along an axis of space by rate [m] times `amplitude` at the load factor.
   /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different motion
   void move(int node, int axis, double rate, TimeFunction amplitude = {}) {
     if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
@@ -43,7 +45,7 @@ class Constraints {
     prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(amplitude));
   }
 
-  /// A degree of freedom of an attached body, counted from 0.
+  /// Moves a degree of freedom of an attached body, counted from 0, by rate [m] times `amplitude` at the load factor.
   /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
   void move_extra(int number, double rate, TimeFunction amplitude = {}) {
     if (number < 0 || number >= extra_dofs_) {
@@ -52,7 +54,9 @@ class Constraints {
     prescribe(dim_ * nodes_ + number, fmt::format("extra degree of freedom {}", number), rate, std::move(amplitude));
   }
 
+  /// Degrees of freedom of the nodes and of attached bodies.
   int dof_count() const { return dim_ * nodes_ + extra_dofs_; }
+  /// Degrees of freedom that are not prescribed.
   int free_count() const { return dof_count() - detail::count(dofs_); }
 
   /// Prescribed degrees of freedom in increasing order.
@@ -61,6 +65,7 @@ class Constraints {
   /// Displacement per load factor of each of prescribed_dofs().
   std::vector<double> const& rates() const { return rates_; }
 
+  /// Whether a degree of freedom's motion is prescribed, also by zero.
   bool is_prescribed(int dof) const { return std::binary_search(dofs_.begin(), dofs_.end(), dof); }
 
   /// Free degrees of freedom in increasing order.

@@ -23,19 +23,21 @@ namespace scarp {
 template <CheckedElement Element, Kinematics Motion = UpdatedLagrangian, Integration<Element> Scheme = FullIntegration>
 class SCARP_EXPORT Discretisation {
  public:
-  using ElementType = Element;
+  using ElementType = Element;  ///< type of all elements of the mesh
   static constexpr bool follows_motion = Motion::follows_motion;
-  static constexpr int dim = Element::dim;
+  static constexpr int dim = Element::dim;  ///< of the elements and of space
+  /// Material points that `Scheme` places in an element.
   static constexpr int points_per_element = static_cast<int>(material_points<Scheme, Element>);
 
   /// thickness [m] out of the plane; in 3D it is 1
   /// \throws InputError for an invalid mesh or thickness
   explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0);
 
-  Mesh<Element> const& mesh() const { return mesh_; }
-  double thickness() const { return thickness_; }
-  int node_count() const { return detail::count(mesh_.nodes); }
-  int dof_count() const { return dim * node_count(); }
+  Mesh<Element> const& mesh() const { return mesh_; }            ///< with the nodes where they were at the start
+  double thickness() const { return thickness_; }                ///< out of the plane [m]
+  int node_count() const { return detail::count(mesh_.nodes); }  ///< of the mesh
+  int dof_count() const { return dim * node_count(); }           ///< of all nodes
+  /// Material points of all elements.
   int point_count() const { return points_per_element * detail::count(mesh_.elements); }
 
   /// Where a point is on the reference element, with its weight.
@@ -52,19 +54,24 @@ class SCARP_EXPORT Discretisation {
   /// Displacement gradient of the increment at every point, for the material.
   /// increment [m], shape (dof_count); out: shape (point_count), always filled
   /// \return the first element whose Jacobian is not positive (or NaN) after the increment, if there is one
+  /// \throws InputError for arrays of other lengths
   std::optional<int> gradients(Eigen::VectorXd const& increment, std::span<Gradient<dim>> out) const;
 
   /// \f$ f_{a} = \int \sigma \nabla N_a\,dv \f$ [N] as Scheme sums it; out: shape (dof_count), overwritten
   /// stresses [Pa] at the end of the increment, shape (point_count)
+  /// \throws InputError for arrays of other lengths
   void internal_force(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                       Eigen::VectorXd& out) const;
 
   /// Derivative of the internal force [N/m] with respect to a further displacement from the end of the increment.
   /// tangents [Pa]: change of the co-rotated Cauchy stress with the strain of that further displacement
   /// out: overwritten; its memory is used again when it comes from an earlier call
+  /// \throws InputError for arrays of other lengths
   void stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                  std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const;
 
+  /// The stiffness [N/m] as a matrix of its own, shape (dof_count, dof_count).
+  /// \throws InputError for arrays of other lengths
   Eigen::SparseMatrix<double> stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                                         std::span<VoigtTangent<dim> const> tangents) const {
     Eigen::SparseMatrix<double> matrix;
@@ -72,15 +79,17 @@ class SCARP_EXPORT Discretisation {
     return matrix;
   }
 
-  /// Engineering strains of all points for a small further displacement from the end of the increment, as Scheme forms
+  /// Engineering strains of all points for a small further displacement from the end of the increment [m], as Scheme forms
   /// them; row = voigt_size * point + component, shape (voigt_size * point_count, dof_count)
+  /// \throws InputError for an increment of another length
   Eigen::SparseMatrix<double> strain_operator(Eigen::VectorXd const& increment) const;
 
   /// Volume [m3] of each point, thickness included, in the configuration that forces are balanced in.
+  /// \throws InputError for an increment of another length
   std::vector<double> volumes(Eigen::VectorXd const& increment) const;
 
   /// Makes the configuration at the end of the increment the committed one.
-  /// \throws InputError when the increment is not finite; nothing has moved then
+  /// \throws InputError when the increment is not finite or has another length; nothing has moved then
   void commit(Eigen::VectorXd const& increment) {
     require_length("displacement increment", increment.size(), dof_count());
     if (!increment.allFinite()) {

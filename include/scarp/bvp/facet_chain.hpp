@@ -36,24 +36,26 @@ void require_facets(std::string_view what, std::vector<Facet> facets) {
 /// Part of a mesh's outline in the plane, straight facets with the body on their left.
 class FacetChain {
  public:
-  using Facet = std::array<int, Line2::nodes>;
+  using Facet = std::array<int, Line2::nodes>;  ///< nodes of a facet, body on the left
 
   /// A place on the chain: facet, local coordinate in [0, 1], and whether the chain ends there.
   struct ClosestPoint {
-    int facet = 0;
-    double xi = 0.0;
-    bool at_end = false;
+    int facet = 0;        ///< number of the facet in the chain
+    double xi = 0.0;      ///< local coordinate, 0 at the facet's first node and 1 at its second
+    bool at_end = false;  ///< whether the place is an end of the chain to which no place is opposite
 
     SCARP_MEMBERS(facet, xi, at_end)
   };
 
+  /// Facets in any order, each with the body on its left.
   /// \throws InputError when there is no facet, or one twice
   explicit FacetChain(std::vector<Facet> facets) : facets_(std::move(facets)) {
     detail::require_facets("a chain of facets", facets_);
   }
 
-  std::vector<Facet> const& facets() const { return facets_; }
+  std::vector<Facet> const& facets() const { return facets_; }  ///< node numbers of each facet, in the order given
 
+  /// Position [m] of a place of the chain, given those of the mesh's nodes.
   Vector<2> place(ClosestPoint const& foot, std::vector<Vector<2>> const& nodes) const {
     auto const& [a, b] = ends(foot.facet, nodes);
     return (1.0 - foot.xi) * a + foot.xi * b;

@@ -17,6 +17,7 @@ struct FieldError {
 /// Integrated exactly up to degree 5 on undistorted elements: differences of the order of the next polynomial that a
 /// quadratic element lacks are resolved.
 /// displacement [m], shape (dim * number of nodes); exact(x): shape (dim); exact_gradient(x): shape (dim, dim)
+/// \throws InputError for a displacement of another length
 template <GivesRules Element, class Exact, class ExactGradient>
 FieldError field_error(Mesh<Element> const& mesh, Eigen::VectorXd const& displacement, Exact const& exact,
                        ExactGradient const& exact_gradient) {

@@ -23,7 +23,7 @@ template <ReferenceCell FacetType = Line2>
   requires(FacetType::dim == 1)
 class FollowingPressure {
  public:
-  using Facet = std::array<int, FacetType::nodes>;
+  using Facet = std::array<int, FacetType::nodes>;  ///< nodes of a facet, body on the left
 
   /// pressure [Pa], positive pushes inwards; thickness [m]
   /// \throws InputError for a pressure that is not finite, a thickness that is not positive, no facets or one twice

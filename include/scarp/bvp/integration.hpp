@@ -26,6 +26,7 @@ concept PlacesPoints = requires {
   >= 1;
 };
 
+/// Number of material points of an element.
 template <class Policy, class Element>
   requires PlacesPoints<Policy, Element>
 inline constexpr std::size_t material_points = std::tuple_size_v<decltype(Policy::template points<Element>())>;
@@ -73,6 +74,7 @@ struct ReducedRule {
 };
 
 /// The displacement method as it stands: every point sees the displacement gradient at its own place.
+/// \tparam Rule a `PlacesPoints` of the elements that are integrated
 template <class Rule>
 struct PointwiseIntegration {
   template <class Element>
@@ -104,6 +106,7 @@ struct PointwiseIntegration {
     return sum;
   }
 
+  /// Derivative [N/m] of the nodal forces by the nodal displacements, in numbers dim * local node + axis.
   template <class Motion, class Element, std::size_t Points>
   static ElementMatrix<Element> stiffness(std::array<SpatialShape<Element>, Points> const& shapes,
                                           std::span<VoigtStress<Element::dim> const, Points> stresses,

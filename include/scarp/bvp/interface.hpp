@@ -47,7 +47,7 @@ class Interface {
                 "an interface has neither rolling nor radii nor dashpots: use a law of springs and sliders");
 
  public:
-  using Memory = ContactMemory<2, double>;
+  using Memory = ContactMemory<2, double>;  ///< shear [Pa] and further numbers of the law at one point
 
   /// nodes [m]: committed places. Laws with bonds begin intact at every point.
   Interface(Law law, Body body, FacetChain ground, std::vector<Vector<2>> const& nodes)
@@ -60,8 +60,8 @@ class Interface {
     trial_ = committed_;
   }
 
-  Law const& law() const { return law_; }
-  Body const& body() const { return body_; }
+  Law const& law() const { return law_; }     ///< stresses [Pa] of relative displacements [m]
+  Body const& body() const { return body_; }  ///< the body that stands on the ground, in its committed place
   int extra_dofs() const { return body_.extra_dofs(); }
   /// Of the body, where it has one [m].
   double length() const requires requires(Body const& body) { body.length(); }
@@ -82,6 +82,7 @@ class Interface {
     add_stiffness(entries, [&](State const& state) { return state.stiffness; });
   }
 
+  /// Appends the stiffness [N/m] as if nothing slid: that of the closed contact where there is pressure or stiffness, else zero.
   void add_stick_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
     add_stiffness(entries, [&](State const& state) {
       bool const touches = state.pressure != 0.0 || state.stiffness != Tensor<2>::Zero();
@@ -111,6 +112,7 @@ class Interface {
     visit("body", self.body_);
     visit("points", std::span(self.committed_));
   }
+  /// Trial states begin as the committed ones that were read.
   void after_loading() { trial_ = committed_; }
 
  private:

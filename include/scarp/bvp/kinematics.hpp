@@ -39,6 +39,7 @@ concept Kinematics = HasConfiguration<Policy> && FiltersGradient<Policy> && Give
 struct UpdatedLagrangian {
   static constexpr bool follows_motion = true;
 
+  /// The whole gradient: the material sees the rotation too.
   template <int Dim>
   static Gradient<Dim> material_gradient(Gradient<Dim> const& gradient) {
     return gradient;
@@ -69,6 +70,7 @@ struct SmallStrain {
     return (gradient + gradient.transpose()) / 2.0;
   }
 
+  /// Change of stress [Pa] by the tangent alone: geometry and stress do not turn.
   template <int Dim>
   static Tensor<Dim> flux_change(Gradient<Dim> const& further, VoigtStress<Dim> const&,
                                  VoigtTangent<Dim> const& tangent) {

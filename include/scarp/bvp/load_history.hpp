@@ -30,6 +30,7 @@ class TimeFunction {
     }
   }
 
+  /// One value at every load factor.
   static TimeFunction constant(double value) { return TimeFunction({{0.0, value}}); }
 
   /// From 0 to 1 between two load factors.
@@ -44,6 +45,7 @@ class TimeFunction {
 
   friend bool operator==(TimeFunction const&, TimeFunction const&) = default;
 
+  /// Value at a load factor: linear between knots, constant beyond them.
   double operator()(double load) const {
     if (knots_.empty()) return load;
     auto const next = std::upper_bound(knots_.begin(), knots_.end(), load,
@@ -72,6 +74,7 @@ class LoadHistory {
     add(dead_load, TimeFunction::constant(1.0));
   }
 
+  /// Adds nodal forces [N], shape (degrees of freedom), times `amplitude` at the load factor.
   /// \throws InputError for a pattern of another size or one that is not finite
   void add(Eigen::VectorXd forces, TimeFunction amplitude) {
     if (!parts_.empty() && forces.size() != size()) {
@@ -84,6 +87,7 @@ class LoadHistory {
   /// Degrees of freedom of the patterns; zero where there is none.
   Eigen::Index size() const { return parts_.empty() ? 0 : parts_.front().first.size(); }
 
+  /// Nodal forces [N] at a load factor, shape (size()); empty without a pattern.
   Eigen::VectorXd at(double load) const {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size());
     for (auto const& [forces, amplitude] : parts_) sum += amplitude(load) * forces;

@@ -34,6 +34,7 @@ struct ShapeChangeRule {
 /// \f$ f_a = \sum_p v\,(\sigma \nabla N_a + s\,(\overline{\nabla N_a} - \nabla N_a)),\; s = tr(\sigma)/dim \f$
 /// The original weighs by the volumes that \f$ \bar J \f$ gives instead, which makes a hyperelastic stiffness
 /// symmetric; the two differ where the volume change varies within an element.
+/// \tparam Rule a `PlacesPoints` of the elements that are integrated
 template <class Rule>
 struct MeanDilatation {
   template <class Element>
@@ -69,6 +70,7 @@ struct MeanDilatation {
     return gradients;
   }
 
+  /// Nodal forces [N], shape (nodes, dim).
   template <class Element, std::size_t Points>
   static Corners<Element, Element::dim> forces(std::array<SpatialShape<Element>, Points> const& shapes,
                                                std::span<VoigtStress<Element::dim> const, Points> stresses) {
@@ -148,6 +150,7 @@ struct MeanDilatation {
   }
 };
 
+/// Mean dilatation at the points of `ShapeChangeRule` (B-bar).
 using BBar = MeanDilatation<ShapeChangeRule>;
 
 }  // namespace scarp

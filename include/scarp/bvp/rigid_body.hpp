@@ -11,8 +11,8 @@ namespace scarp {
 
 /// How a degree of freedom moves a place: derivative of the position with respect to it.
 struct DofJacobian {
-  int dof = -1;
-  Vector<2> direction = Vector<2>::Zero();
+  int dof = -1;                             ///< number of the degree of freedom, -1 for none
+  Vector<2> direction = Vector<2>::Zero();  ///< dimensionless
 };
 
 /// A rigid body in the plane with three degrees of freedom in addition to those of a mesh: the displacement of its reference point
@@ -20,28 +20,31 @@ struct DofJacobian {
 class RigidBody {
  public:
   static constexpr int extra_dofs = 3;
-  static constexpr int jacobians = 3;
+  static constexpr int jacobians = 3;  ///< degrees of freedom that move a place of the body
 
   /// reference [m]: the point that loads act on; arm [m]: such as half the width
+  /// \throws InputError for an arm that is not finite and positive
   RigidBody(Vector<2> const& reference, double arm) : reference_(reference), arm_(require_positive("arm", arm)) {}
 
   /// Committed place of the reference point [m] and rotation [rad], counter-clockwise.
   Vector<2> const& reference() const { return reference_; }
+  /// Committed rotation [rad], counter-clockwise.
   double rotation() const { return angle_; }
 
   /// Where a place of the body, given relative to the reference point before any rotation [m], is now.
   Vector<2> place(Vector<2> const& own) const { return reference_ + scarp::rotation(angle_) * own; }
 
-  /// The place after an increment of the body's degrees of freedom, which begin at `first`.
+  /// The place [m] after an increment [m] of the body's degrees of freedom, which begin at `first`.
   Vector<2> place(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
     return reference_ + increment.segment<2>(first) + turned(increment(first + 2)) * own;
   }
 
-  /// How a direction of the body is turned after it.
+  /// A direction of the body after an increment [m] of its degrees of freedom, which begin at `first`.
   Vector<2> turned(Vector<2> const& own, Eigen::VectorXd const& increment, int first) const {
     return turned(increment(first + 2)) * own;
   }
 
+  /// Derivatives of a place of the body [m], at an increment [m], by its degrees of freedom, which begin at `first`.
   std::array<DofJacobian, jacobians> jacobians_at(Vector<2> const& own, Eigen::VectorXd const& increment,
                                                   int first) const {
     Vector<2> const arm = turned(increment(first + 2)) * own;
@@ -50,6 +53,7 @@ class RigidBody {
              {first + 2, Vector<2>(-arm.y(), arm.x()) / arm_}}};
   }
 
+  /// Makes the place after an increment [m] the committed one; the body's degrees of freedom begin at `first`.
   void commit(Eigen::VectorXd const& increment, int first) {
     reference_ += increment.segment<2>(first);
     angle_ += increment(first + 2) / arm_;

@@ -15,6 +15,7 @@ namespace scarp {
 /// Degrees of freedom are numbered dim * node + axis.
 class Sparsity {
  public:
+  /// The pattern of all pairs of degrees of freedom that share an element.
   template <class Element>
   explicit Sparsity(Mesh<Element> const& mesh) {
     constexpr int dim = Element::dim;

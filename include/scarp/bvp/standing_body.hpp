@@ -60,7 +60,7 @@ class RigidFooting {
     }
   }
 
-  RigidBody const& body() const { return body_; }
+  RigidBody const& body() const { return body_; }  ///< committed place and rotation
 
   /// Width of the base [m].
   double length() const { return length_; }

@@ -22,7 +22,7 @@ struct Site {
 template <int Dim>
 struct Response {
   VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy [Pa] at the end of the increment, tension positive
-  Verdict verdict;
+  Verdict verdict;                                     ///< whether the response may be committed, and why not
 };
 
 /// A provider names its state, a copyable type.
@@ -83,6 +83,7 @@ concept HasPlan = ConstitutiveProvider<Model> && requires {
 
 /// No inner steps are planned.
 struct NoPlan {
+  /// Number of inner steps: none.
   explicit operator long() const { return 0; }
 };
 

@@ -35,7 +35,9 @@ concept Autocorrelation = requires(double distance, Random& random) {
 
 /// \f$ \rho = e^{-r^2} \f$: a smooth field. Its spectrum is normal with the standard deviation sqrt(2).
 struct GaussianCorrelation {
+  /// Correlation at a distance over the correlation length.
   static double at(double distance) { return std::exp(-distance * distance); }
+  /// A wave vector of the spectrum, for a correlation length of one.
   template <int Dim>
   static Vector<Dim> wave(Random& random) {
     return std::numbers::sqrt2 * normal_vector<Dim>(random);
@@ -44,7 +46,9 @@ struct GaussianCorrelation {
 
 /// \f$ \rho = e^{-r} \f$: a continuous but rough field. Its spectrum is Cauchy's distribution in Dim dimensions.
 struct ExponentialCorrelation {
+  /// Correlation at a distance over the correlation length.
   static double at(double distance) { return std::exp(-distance); }
+  /// A wave vector of the spectrum, for a correlation length of one.
   template <int Dim>
   static Vector<Dim> wave(Random& random) {
     Vector<Dim> const direction = normal_vector<Dim>(random);
@@ -63,10 +67,11 @@ class CorrelatedField {
   /// Parameters of a field.
   struct Choice {
     Vector<Dim> lengths = Vector<Dim>::Ones();  ///< of correlation along the axes [m]
-    std::uint64_t seed = 1;
-    int waves = 500;
+    std::uint64_t seed = 1;                     ///< of the waves and phases
+    int waves = 500;                            ///< N, at least one
   };
 
+  /// Draws the waves and phases of a choice.
   /// \throws InputError for lengths that are not finite and positive or fewer than one wave
   explicit CorrelatedField(Choice const& choice) {
     for (double const length : choice.lengths) require_positive("correlation length", length);
@@ -96,7 +101,7 @@ class CorrelatedField {
 
 /// A positive quantity whose logarithm is normal.
 struct Lognormal {
-  double mean = 1.0;
+  double mean = 1.0;       ///< m, positive, in the unit of the quantity
   double variation = 0.0;  ///< standard deviation over mean
 
   /// Value that belongs to a standard normal number.

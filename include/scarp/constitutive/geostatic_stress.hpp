@@ -43,6 +43,7 @@ struct GeostaticStress {
 /// Initial stress zero at every depth.
 template <int Dim>
 struct StressFree {
+  /// Zero [Pa] at every depth [m].
   VoigtStress<Dim> at(double) const { return VoigtStress<Dim>::Zero(); }
 };
 

@@ -12,8 +12,8 @@ namespace scarp {
 
 /// Lame's constants of an isotropic material. [Pa]
 struct IsotropicElasticity {
-  double lame_lambda = 0.0;
-  double shear_modulus = 0.0;
+  double lame_lambda = 0.0;    ///< lambda [Pa]
+  double shear_modulus = 0.0;  ///< G [Pa]
 
   /// \throws InputError unless shear modulus and three-dimensional bulk modulus are finite and positive
   void validate() const {
@@ -28,6 +28,7 @@ struct IsotropicElasticity {
     }
   }
 
+  /// From Lame's constants [Pa].
   /// \throws InputError as validate() does
   static IsotropicElasticity from_lame(double lame_lambda, double shear_modulus) {
     return detail::validated(IsotropicElasticity{lame_lambda, shear_modulus});
@@ -35,6 +36,7 @@ struct IsotropicElasticity {
 
   SCARP_MEMBERS(lame_lambda, shear_modulus)
 
+  /// From Young's modulus [Pa] and Poisson's ratio.
   /// \throws InputError unless young > 0 and -1 < poisson < 0.5
   static IsotropicElasticity from_young_poisson(double young, double poisson) {
     require_positive("Young's modulus", young);
@@ -64,6 +66,8 @@ struct IsotropicElasticity {
 /// Isotropic linear elasticity between Cauchy stress and strain, carried along by the increment's rotation.
 /// \f$ \sigma_1 = R\,(\sigma_0 + \lambda\,tr(E) I + 2 G E)\,R^T \f$ with rotation R and strain E of the increment. A rotation on
 /// top of any increment turns the stress exactly. 2D means plane strain.
+/// \tparam Dim 2 or 3
+/// \tparam InitialStress an `InitialStressField`
 template <int Dim, class InitialStress = StressFree<Dim>>
   requires InitialStressField<InitialStress, Dim>
 struct LinearElastic {
@@ -71,24 +75,27 @@ struct LinearElastic {
 
   /// Stress [Pa], tension positive.
   struct State {
-    VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
+    VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy [Pa], tension positive
 
     SCARP_MEMBERS(stress)
   };
 
-  IsotropicElasticity elasticity{};
-  InitialStress initial{};  ///< every point's start, by depth
+  IsotropicElasticity elasticity{};  ///< of all points
+  InitialStress initial{};           ///< every point's start, by depth
 
+  /// From Lame's constants [Pa].
   /// \throws InputError unless shear modulus and three-dimensional bulk modulus are finite and positive
   static LinearElastic from_lame(double lame_lambda, double shear_modulus, InitialStress initial = {}) {
     return {IsotropicElasticity::from_lame(lame_lambda, shear_modulus), initial};
   }
 
+  /// From Young's modulus [Pa] and Poisson's ratio.
   /// \throws InputError unless young > 0 and -1 < poisson < 0.5
   static LinearElastic from_young_poisson(double young, double poisson, InitialStress initial = {}) {
     return {IsotropicElasticity::from_young_poisson(young, poisson), initial};
   }
 
+  /// The initial stress at the depth of a site.
   /// \throws InputError for an elasticity or an initial stress that cannot be
   State initial_state(Site<Dim> const& site) const {
     elasticity.validate();

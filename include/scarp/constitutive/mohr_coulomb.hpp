@@ -16,6 +16,9 @@ namespace scarp {
 /// tension is cut off); strength constant or a function of the plastic shear strain. In two dimensions plane strain with the stress out of the
 /// plane as part of the state. The stress update is an implicit Euler step from the committed stress, turned by the
 /// increment's rotation.
+/// \tparam Dim 2 or 3
+/// \tparam InitialStress an `InitialStressField`
+/// \tparam StrengthType a `StrengthLaw`
 template <int Dim, class InitialStress = StressFree<Dim>, StrengthLaw StrengthType = ConstantStrength>
   requires InitialStressField<InitialStress, Dim>
 struct MohrCoulomb {
@@ -30,9 +33,9 @@ struct MohrCoulomb {
     SCARP_MEMBERS(stress, plastic_shear, tangent)
   };
 
-  IsotropicElasticity elasticity{};
-  StrengthType strength{};
-  InitialStress initial{};  ///< every point's start, by depth
+  IsotropicElasticity elasticity{};  ///< below the yield surface
+  StrengthType strength{};           ///< constant, or a function of the plastic shear strain
+  InitialStress initial{};           ///< every point's start, by depth
 
   /// The stress out of the plane starts as the horizontal one in it.
   /// \throws InputError for a strength or elasticity that cannot be, and for a stress outside the strength

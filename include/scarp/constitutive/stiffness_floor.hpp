@@ -15,15 +15,16 @@ namespace scarp {
 template <CheckedProvider Provider>
 struct StiffnessFloor {
   static constexpr int dim = Provider::dim;
-  using Plan = PlanOf<Provider>;
+  using Plan = PlanOf<Provider>;  ///< of the inner provider
 
   /// State of the inner provider and stress of the elastic floor.
   struct State {
-    typename Provider::State own;
-    IsotropicElasticity elasticity{};
+    typename Provider::State own;                              ///< of the inner provider
+    IsotropicElasticity elasticity{};                          ///< of the floor [Pa]
     VoigtStress<dim> floor_stress = VoigtStress<dim>::Zero();  ///< [Pa]
-    bool fluid = false;
+    bool fluid = false;  ///< whether the inner response is fluid, so that the floor acts
 
+    /// For saving, see `Described`.
     template <class Self, class Visit>
     static void members(Self& self, Visit&& visit) requires Described<typename Provider::State> {
       SCARP_ALL_MEMBERS(own, elasticity, floor_stress, fluid);
@@ -34,7 +35,7 @@ struct StiffnessFloor {
     }
   };
 
-  Provider provider{};
+  Provider provider{};         ///< of the points while they carry
   double share = 1e-4;         ///< of the isotropic part of the initial tangent
   double shear_modulus = 0.0;  ///< [Pa] instead, with Poisson's ratio zero, when positive
 
@@ -44,6 +45,7 @@ struct StiffnessFloor {
     require_not_negative("shear modulus of a fluid point", shear_modulus);
   }
 
+  /// The provider's state, with the floor's elasticity from its tangent or from `shear_modulus`.
   /// \throws InputError also for a share of nothing where a point is fluid from the start
   State initial_state(Site<dim> const& site) const {
     validate();

@@ -56,10 +56,11 @@ concept StrengthLaw = std::copyable<Law> && requires(Law const& law, double plas
 
 /// Strength that plastic strain does not change.
 struct ConstantStrength {
-  static constexpr bool changes = false;
+  static constexpr bool changes = false;  ///< whether plastic strain changes the strength
 
-  Strength strength{};
+  Strength strength{};  ///< at every plastic strain
 
+  /// The constant strength, for any plastic shear strain.
   Strength at(double) const { return strength; }
   void validate() const { strength.validate(); }
 };
@@ -70,12 +71,13 @@ static_assert(StrengthLaw<ConstantStrength>);
 /// pascals each for itself). Where one of the two cuts no tension off, the other's cut-off holds in between. Without an
 /// internal length the dissipation of a band depends on the mesh.
 struct SofteningStrength {
-  static constexpr bool changes = true;
+  static constexpr bool changes = true;  ///< whether plastic strain changes the strength
 
-  Strength peak{};
-  Strength residual{};
+  Strength peak{};                ///< at zero plastic shear strain
+  Strength residual{};            ///< from `softening_strain` on
   double softening_strain = 0.1;  ///< plastic shear strain at which the residual strength is reached
 
+  /// Strength at an accumulated plastic shear strain.
   Strength at(double plastic_shear) const {
     double const done = std::clamp(plastic_shear / softening_strain, 0.0, 1.0);
     auto const between = [&](double from, double to) {

@@ -63,6 +63,8 @@ class FencedNumbers {
 /// both as strain with rotation (DSTRAN, DROT; stress and strain are turned before) and as DFGRD0 and DFGRD1. State variables that are
 /// tensors are turned by the UMAT, as for Abaqus; a mirrored copy of a state is rejected.
 /// A UMAT that keeps something between calls (SAVE, COMMON) must not be called by several threads, and is no function of its state.
+/// \tparam Dim 2 or 3
+/// \tparam InitialStress an `InitialStressField`
 template <int Dim, class InitialStress = StressFree<Dim>>
   requires InitialStressField<InitialStress, Dim>
 struct UmatProvider {
@@ -82,7 +84,7 @@ struct UmatProvider {
     SCARP_MEMBERS(stress, strain, variables, deformation, time, position, number, tangent)
   };
 
-  Umat* umat = nullptr;
+  Umat* umat = nullptr;              ///< address of the subroutine
   std::string name = "UMAT";         ///< CMNAME
   std::vector<double> properties{};  ///< PROPS
   std::vector<double> variables{};   ///< STATEV at the start; its length is NSTATV

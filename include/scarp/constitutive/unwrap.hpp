@@ -34,10 +34,10 @@ using Quantities = std::vector<std::pair<std::string_view, double>>;
 /// How well the packing of a point is balanced, and how fast its last response strained it: a provider returns it by
 /// `PackingBalance balance(State const&) const`.
 struct PackingBalance {
-  bool has_packing = false;
-  double unbalanced_ratio = 0.0;
-  double kinetic_share = 0.0;
-  double inertial_number = 0.0;
+  bool has_packing = false;       ///< false: the other members mean nothing
+  double unbalanced_ratio = 0.0;  ///< mean net force of a grain over mean contact force
+  double kinetic_share = 0.0;     ///< of moving grains in the packing's pressure
+  double inertial_number = 0.0;   ///< of the last response
 };
 
 /// Stress [Pa] of a stiffness floor in a state, or in the state within it; zero without a floor.

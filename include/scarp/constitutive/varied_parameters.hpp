@@ -25,16 +25,17 @@ struct VariedParameters {
 
   /// Of the point's own provider, which also refines it.
   struct Plan {
-    std::shared_ptr<Provider const> provider;
-    PlanOf<Provider> own{};
+    std::shared_ptr<Provider const> provider;  ///< null before the first plan
+    PlanOf<Provider> own{};                    ///< of that provider
 
+    /// Number of inner steps that are planned.
     explicit operator long() const requires HasPlan<Provider> { return static_cast<long>(own); }
   };
 
   /// Provider of a point and its state.
   struct State {
-    std::shared_ptr<Provider const> provider;
-    typename Provider::State own;
+    std::shared_ptr<Provider const> provider;  ///< of the point, shared by all its states
+    typename Provider::State own;              ///< of that provider
 
     /// Without the provider: that one follows from the site.
     template <class Self, class Visit>
@@ -44,7 +45,8 @@ struct VariedParameters {
     }
   };
 
-  Provider common{};
+  Provider common{};  ///< passed to `vary`, and in no other use
+  /// The provider of a point, from `common` and the point's site.
   std::function<Provider(Provider const&, Site<dim> const&)> vary{};
 
   /// \throws InputError without a function that varies
@@ -52,6 +54,7 @@ struct VariedParameters {
     if (!vary) reject("points have no parameters of their own (no function varies the common ones): give `vary`");
   }
 
+  /// Makes the point's own provider and its initial state.
   /// \throws InputError as validate() does, and whatever the function that varies throws
   State initial_state(Site<dim> const& site) const {
     auto own = provider_at(site);

@@ -35,11 +35,12 @@ struct CohesiveBond {
     return all;
   }();
 
-  Law law;
-  double tensile_strength = 0.0;
-  double shear_strength = 0.0;
+  Law law;                        ///< of the contact without its bond; its springs also serve the bond
+  double tensile_strength = 0.0;  ///< T [N], finite
+  double shear_strength = 0.0;    ///< C [N], infinite for a bond that shear does not break
 
   /// A bond that no pull breaks would act across any gap, and no list of near pairs reaches as far; one that no shear breaks is well.
+  /// \throws InputError for strengths that are negative, a tensile strength that is not finite, and what the law rejects
   void validate() const {
     detail::validated(law);
     require_not_negative("tensile strength of the bonds", tensile_strength);
@@ -52,11 +53,13 @@ struct CohesiveBond {
     memory.scalars[state] = broadcast<T>(intact);
   }
 
+  /// Mask of the contacts whose bond is intact, `bool` for a scalar T.
   template <int Dim, class T>
   static auto is_intact(ContactMemory<Dim, T> const& memory) {
     return memory.scalars[state] == broadcast<T>(intact);
   }
 
+  /// Mask of the contacts whose bond has broken, `bool` for a scalar T; contacts that never had one are not among them.
   template <int Dim, class T>
   static auto is_broken(ContactMemory<Dim, T> const& memory) {
     return memory.scalars[state] == broadcast<T>(broken);

@@ -32,6 +32,8 @@ struct ContactInputs {
 
 /// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and rotation
 /// are zero where the memory already contains them.
+/// \tparam Dim 2 or 3
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct ContactKinematics {
   T overlap;                                  ///< [m], positive in compression
@@ -49,16 +51,20 @@ struct ContactKinematics {
 inline constexpr int max_contact_scalars = 4;
 
 /// Memory of a contact from step to step, as far as its law needs it.
+/// \tparam Dim 2 or 3
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct ContactMemory {
-  Tangential<Dim, T> shear{};  ///< tangential force on the second grain [N]
-  Turning<Dim, T> moment{};    ///< on the second grain [N m]
-  std::array<T, max_contact_scalars> scalars{};
+  Tangential<Dim, T> shear{};                    ///< tangential force on the second grain [N]
+  Turning<Dim, T> moment{};                      ///< on the second grain [N m]
+  std::array<T, max_contact_scalars> scalars{};  ///< further numbers that the law stores, zero for a new contact
 
   SCARP_MEMBERS(shear, moment, scalars)
 };
 
 /// Response of a law. What its caller does not use costs nothing.
+/// \tparam Dim 2 or 3
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct ContactForce {
   T normal;                    ///< [N], positive pushes the grains apart
@@ -69,9 +75,9 @@ struct ContactForce {
 
 /// Stiffness of a closed contact against a small motion, sliding not regarded: forces [N/m], moment [N m/rad].
 struct ContactStiffness {
-  double normal = 0.0;
-  double tangential = 0.0;
-  double rolling = 0.0;
+  double normal = 0.0;      ///< along the normal [N/m]
+  double tangential = 0.0;  ///< along the tangent [N/m]
+  double rolling = 0.0;     ///< against rolling [N m/rad]
 };
 
 /// respond(approach, memory): forces of the contact; the memory is brought up to date.
@@ -163,6 +169,7 @@ concept HasInteractionRange = requires(Law const& law) {
   { law.interaction_range() } -> std::convertible_to<double>;
 };
 
+/// A law's interaction range [m]; zero for a law without one.
 template <class Law>
 double interaction_range_of(Law const& law) {
   if constexpr (HasInteractionRange<Law>) {
@@ -184,6 +191,7 @@ concept HasDampingRatio = requires(Law const& law) {
   { law.damping_ratio() } -> std::convertible_to<double>;
 };
 
+/// A law's damping ratio; zero for a law without dashpots.
 template <class Law>
 double damping_ratio_of(Law const& law) {
   if constexpr (HasDampingRatio<Law>) {
@@ -193,10 +201,12 @@ double damping_ratio_of(Law const& law) {
   }
 }
 
+/// Inner product of two tangential or turning quantities, numbers in the plane.
 template <class T>
 T inner_product(T const& a, T const& b) {
   return a * b;
 }
+/// Inner product of two tangential or turning quantities, vectors in space.
 template <class T>
 T inner_product(std::array<T, 3> const& a, std::array<T, 3> const& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -208,10 +218,12 @@ auto squared_size(T const& value) {
   return inner_product(value, value);
 }
 
+/// A tangential or turning quantity times a number, in the plane.
 template <class T>
 T scaled(T const& value, T const& factor) {
   return value * factor;
 }
+/// A tangential or turning quantity times a number, in space.
 template <class T>
 std::array<T, 3> scaled(std::array<T, 3> const& value, T const& factor) {
   return {value[0] * factor, value[1] * factor, value[2] * factor};

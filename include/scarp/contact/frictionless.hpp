@@ -11,7 +11,7 @@ namespace scarp {
 struct Frictionless {
   static constexpr ContactInputs inputs{};
 
-  double normal_stiffness = 0.0;
+  double normal_stiffness = 0.0;  ///< k_n [N/m]
 
   /// \throws InputError, as all laws' own checks
   void validate() const { require_positive("normal stiffness of the contact law", normal_stiffness); }

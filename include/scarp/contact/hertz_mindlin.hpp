@@ -23,7 +23,7 @@ concept ContactDamping = requires(Damping const& damping, double& shear, Contact
 
 /// No viscous force at contacts; models ContactDamping.
 struct NoContactDamping {
-  static constexpr bool needs_motion = false;
+  static constexpr bool needs_motion = false;  ///< no input of its own
 
   template <int Dim, class T>
   T push(T const&, ContactKinematics<Dim, T> const&) const {
@@ -60,10 +60,10 @@ inline double damping_ratio_for(double restitution) {
 /// spheres rebound with one restitution at every speed. The contact never pulls.
 /// restitution in (0, 1]; the damping ratio follows from it
 struct HertzRestitution {
-  static constexpr bool needs_motion = true;
+  static constexpr bool needs_motion = true;  ///< of the dashpots: motion, reduced mass and time step
 
-  double restitution = 1.0;
-  double damping_ratio = damping_ratio_for(restitution);
+  double restitution = 1.0;                               ///< e, speed of separation over speed of approach
+  double damping_ratio = damping_ratio_for(restitution);  ///< gamma, share of critical damping, see `damping_ratio_for`
 
   void validate() const {
     require_between("restitution of the contact law", require_positive("restitution of the contact law", restitution),
@@ -109,10 +109,10 @@ template <ContactDamping Damping = NoContactDamping>
 struct HertzMindlin {
   static constexpr ContactInputs inputs{.shear = true, .scalars = 1, .radius = true, .motion = Damping::needs_motion};
 
-  double reduced_modulus = 0.0;
-  double reduced_shear_modulus = 0.0;
-  double friction = 0.0;
-  Damping damping{};
+  double reduced_modulus = 0.0;        ///< E* [Pa]
+  double reduced_shear_modulus = 0.0;  ///< G* [Pa]
+  double friction = 0.0;               ///< mu, coefficient of Coulomb's limit
+  Damping damping{};                   ///< viscous forces in addition to the springs
 
   void validate() const {
     require_positive("reduced modulus of the contact law", reduced_modulus);
@@ -126,7 +126,7 @@ struct HertzMindlin {
     return between(modulus, poisson, modulus, poisson, friction, damping);
   }
 
-  /// Spheres of two materials.
+  /// Spheres of two materials: Young's moduli [Pa], Poisson's ratios.
   static HertzMindlin between(double modulus_1, double poisson_1, double modulus_2, double poisson_2, double friction,
                               Damping damping = {}) {
     auto const compliance = [](double modulus, double poisson) { return (1.0 - poisson * poisson) / modulus; };
@@ -160,7 +160,7 @@ struct HertzMindlin {
     return {.normal = normal, .shear = shear, .dissipated = lost};
   }
 
-  /// \f$ S_n = 2 E^* a,\; S_t = 8 G^* a \f$
+  /// \f$ S_n = 2 E^* a,\; S_t = 8 G^* a \f$ [N/m] at an overlap and a reduced radius [m]
   ContactStiffness stiffness(double overlap, double reduced_radius) const {
     double const contact_radius = std::sqrt(reduced_radius * lanes::at_least(overlap, 0.0));
     return {.normal = 2.0 * reduced_modulus * contact_radius,

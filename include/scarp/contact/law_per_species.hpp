@@ -27,12 +27,14 @@ struct LawPerSpecies {
 
   /// The law between two species, 1 to `Species`. \throws InputError for others
   Law& between(int first, int second) { return laws[checked_place(first, second)]; }
+  /// The law between two species, 1 to `Species`. \throws InputError for others
   Law const& between(int first, int second) const { return laws[checked_place(first, second)]; }
 
   void validate() const {
     for (Law const& law : laws) detail::validated(law);
   }
 
+  /// Bonds a contact under the laws of all pairs of species, which share one memory.
   template <int Dim, class T>
   static void bond(ContactMemory<Dim, T>& memory) requires Bonds<Law> {
     Law::bond(memory);
@@ -57,7 +59,8 @@ struct LawPerSpecies {
     return force;
   }
 
-  /// The largest of all pairs, which bounds the time step; that of one contact is `contact_stiffness`.
+  /// The largest of all pairs at an overlap and a reduced radius [m], which bounds the time step; that of one contact is
+  /// `contact_stiffness`.
   ContactStiffness stiffness(double overlap, double reduced_radius) const {
     ContactStiffness most;
     for (Law const& law : laws) {

@@ -15,9 +15,9 @@ namespace scarp {
 struct LinearFrictional {
   static constexpr ContactInputs inputs{.shear = true};
 
-  double normal_stiffness = 0.0;
-  double tangential_stiffness = 0.0;
-  double friction = 0.0;
+  double normal_stiffness = 0.0;      ///< k_n [N/m]
+  double tangential_stiffness = 0.0;  ///< k_t [N/m]
+  double friction = 0.0;              ///< mu, coefficient of Coulomb's limit
 
   void validate() const {
     require_positive("normal stiffness of the contact law", normal_stiffness);

@@ -23,9 +23,9 @@ struct RollingResistance {
     return all;
   }();
 
-  Law law;
-  double rolling_stiffness = 0.0;
-  double rolling_friction = 0.0;
+  Law law;                         ///< of the forces
+  double rolling_stiffness = 0.0;  ///< k_r [N m/rad]
+  double rolling_friction = 0.0;   ///< mu_r, limit of the moment over R* and |F_n|
 
   void validate() const {
     detail::validated(law);

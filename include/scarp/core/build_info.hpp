@@ -10,12 +10,12 @@ namespace scarp {
 
 /// How a source was compiled. Flags decide more than anything else about the speed of the kernels (`docs/compile.md`).
 struct BuildInfo {
-  std::string_view compiler = {};
-  std::string_view compiler_version = {};
-  std::string_view instruction_set = {};  ///< a level of x86-64, or the architecture
-  std::string_view beyond = {};           ///< instructions that the level does not promise, or nothing
-  int lanes = 1;                          ///< double-precision numbers in one pack of the kernels
-  bool optimised = false;
+  std::string_view compiler = {};          ///< clang++, g++, or that it is unknown
+  std::string_view compiler_version = {};  ///< as the compiler reports it
+  std::string_view instruction_set = {};   ///< a level of x86-64, or the architecture
+  std::string_view beyond = {};            ///< instructions that the level does not promise, or nothing
+  int lanes = 1;                           ///< double-precision numbers in one pack of the kernels
+  bool optimised = false;                  ///< whether the compiler optimises, at any level
 };
 
 /// Of the source that calls: sources of one program may have different flags. For sources that link `scarp::precompiled`

@@ -61,6 +61,7 @@ concept Described = requires(T& value, detail::AnyVisit const& visit) {
   [[maybe_unused]] auto& [SCARP_DETAIL_LISTED(__VA_ARGS__)] = self; \
   SCARP_DETAIL_THERE(__VA_ARGS__) static_assert(true)
 
+/// Defines `members(self, visit)` of a class, see `Described`; the arguments are all its data members.
 #define SCARP_MEMBERS(...)                         \
   template <class Self, class Visit>               \
   static void members(Self& self, Visit&& visit) { \
@@ -68,6 +69,7 @@ concept Described = requires(T& value, detail::AnyVisit const& visit) {
     SCARP_DETAIL_VISITED(__VA_ARGS__)              \
   }
 
+/// Defines `members(self, visit)` of a class, see `Described`; `left_out` are, in brackets, the data members that are not saved.
 #define SCARP_MEMBERS_EXCEPT(left_out, ...)                                               \
   template <class Self, class Visit>                                                      \
   static void members(Self& self, [[maybe_unused]] Visit&& visit) {                       \

@@ -26,6 +26,7 @@ inline std::string without_control_characters(std::string text) {
 /// Wrong input at a boundary of the library; the text reads "problem (why): suggestion".
 class InputError : public std::invalid_argument {
  public:
+  /// Control characters other than line feed and tab become question marks.
   explicit InputError(std::string text) : std::invalid_argument(detail::without_control_characters(std::move(text))) {}
 };
 
@@ -35,12 +36,14 @@ namespace detail {
 }
 }  // namespace detail
 
+/// Rejects an input with a message "problem (why): suggestion".
 /// \throws InputError always, with the formatted text
 template <class... Arguments>
 [[noreturn]] void reject(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   detail::reject_formatted(text, fmt::make_format_args(arguments...));
 }
 
+/// A number that must be positive, returned; `what` names it in the message.
 /// \throws InputError unless value is finite and above zero
 inline double require_positive(std::string_view what, double value) {
   if (!(std::isfinite(value) && value > 0.0)) {
@@ -49,6 +52,7 @@ inline double require_positive(std::string_view what, double value) {
   return value;
 }
 
+/// A number that must not be negative, returned; `what` names it in the message.
 /// \throws InputError unless value is finite and not below zero
 inline double require_not_negative(std::string_view what, double value) {
   if (!(std::isfinite(value) && value >= 0.0)) {
@@ -57,6 +61,7 @@ inline double require_not_negative(std::string_view what, double value) {
   return value;
 }
 
+/// A number that must lie in a closed range, returned; `what` names it in the message.
 /// \throws InputError unless value lies between the two, which it may equal; NaN never does
 template <class Number>
 Number require_between(std::string_view what, Number value, Number least, Number most) {
@@ -66,6 +71,7 @@ Number require_between(std::string_view what, Number value, Number least, Number
   return value;
 }
 
+/// A number that has a least value, returned; `what` names it in the message.
 /// \throws InputError for a value below the least one, and for NaN
 template <class Number>
 Number require_at_least(std::string_view what, Number value, Number least) {
@@ -73,6 +79,7 @@ Number require_at_least(std::string_view what, Number value, Number least) {
   return value;
 }
 
+/// A number that must be finite, returned; `what` names it in the message.
 /// \throws InputError unless value is finite
 inline double require_finite(std::string_view what, double value) {
   if (!std::isfinite(value)) {

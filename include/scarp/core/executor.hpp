@@ -25,6 +25,7 @@ concept SharesPoints = ExecutesTasks<Executor> && requires(Executor& executor, s
 
 /// One task after the other on the calling thread.
 struct SerialExecutor {
+  /// Calls task(i) for i from 0 to count - 1, in this order.
   template <std::invocable<int> Task>
   void for_each(int count, Task&& task) const {
     for (int i = 0; i < count; ++i) task(i);

@@ -17,6 +17,7 @@ SCARP_EXPORT Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& pre
 }  // namespace scarp
 
 #ifndef SCARP_PRECOMPILED
+/// Keyword of gmres() where the header defines it; undefined where the precompiled library does.
 #define SCARP_GMRES_DEFINITIONS inline
 #endif
 #ifdef SCARP_GMRES_DEFINITIONS  // empty in the library that contains them

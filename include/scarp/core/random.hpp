@@ -13,6 +13,7 @@ namespace scarp {
 /// Blackman and Vigna, "Scrambled linear pseudorandom number generators", ACM TOMS 47 (2021) 36.
 class Random {
  public:
+  /// The stream of a seed, which may be any number, also zero.
   explicit Random(std::uint64_t seed) {
     for (auto& word : state_) {
       seed += 0x9e3779b97f4a7c15ULL;
@@ -23,6 +24,7 @@ class Random {
     }
   }
 
+  /// Next 64 random bits of the stream.
   std::uint64_t next() {
     std::uint64_t const result = std::rotl(state_[0] + state_[3], 23) + state_[0];
     std::uint64_t const shifted = state_[1] << 17U;

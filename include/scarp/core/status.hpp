@@ -38,9 +38,10 @@ enum class Reason : std::uint8_t {
 
 /// A status and its reason.
 struct Verdict {
-  Status status = Status::ok;
-  Reason reason = Reason::none;
+  Status status = Status::ok;    ///< how the response was reached
+  Reason reason = Reason::none;  ///< why the status is not `ok`
 
+  /// Whether a response with this verdict may be committed.
   constexpr bool acceptable() const { return status == Status::ok || status == Status::fluid; }
 
   SCARP_MEMBERS(status, reason)
@@ -48,6 +49,7 @@ struct Verdict {
   friend constexpr bool operator==(Verdict const&, Verdict const&) = default;
 };
 
+/// Name of the enumerator, "unknown" for a number that is none.
 constexpr std::string_view name(Status status) {
   switch (status) {
     case Status::ok: return "ok";
@@ -58,6 +60,7 @@ constexpr std::string_view name(Status status) {
   return "unknown";
 }
 
+/// Name of the enumerator, "unknown" for a number that is none.
 constexpr std::string_view name(Reason reason) {
   switch (reason) {
     case Reason::none: return "none";

@@ -8,6 +8,7 @@
 
 namespace scarp {
 
+/// SCARP_VERSION as a string.
 inline constexpr std::string_view version = SCARP_VERSION;
 
 }  // namespace scarp

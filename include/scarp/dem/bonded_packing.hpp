@@ -12,9 +12,10 @@
 namespace scarp {
 
 /// Grains that have been cemented.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct BondedPacking {
-  PackingType packing;
+  PackingType packing;    ///< under the law with bonds, at rest
   Verdict verdict{};      ///< of the list of near pairs; the packing is of use only where it is acceptable
   std::size_t bonds = 0;  ///< contacts that were bonded
 };
@@ -22,6 +23,7 @@ struct BondedPacking {
 /// The same grains under a law with bonds: every contact that touches is bonded, and every gap up to `gap` [m] too. Grains
 /// are at rest, contacts retain their shear forces and moments, so that a packing in balance stays so where
 /// both laws have equal springs.
+/// \throws InputError for a gap that is negative or not finite, and for a law that `require_consistent` rejects
 template <Bonds Law, class PackingType>
 BondedPacking<Packing<typename PackingType::Shape, Law, typename PackingType::Scalar>> bonded(
     PackingType grains, typename PackingType::Law const& former, Law const& law, double gap = 0.0) {

@@ -11,18 +11,22 @@ namespace scarp {
 
 /// Constraints of a boundary on grains: hold their centres or spins on the cell's mean motion, without fluctuation. What is held
 /// has no net force, also in the unbalanced ratio; the stress is of all contacts.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 class GrainHolds {
  public:
-  using Scalar = typename PackingType::Scalar;
+  using Scalar = typename PackingType::Scalar;  ///< of the packing's coordinates
 
+  /// forces: rows of net forces and torques, one per grain, which holds set to zero; both must outlive this object
   GrainHolds(PackingType& packing, Scalar* forces) : packing_(packing), forces_(forces) {}
 
+  /// The centre follows the mean motion along one axis of space; the net force along it becomes zero.
   void hold_centre(std::size_t grain, int axis) const {
     assert(grain < packing_.grain_count() && 0 <= axis && axis < PackingType::dim);
     packing_.velocity(grain, axis) = Scalar(0);
     row(grain)[axis] = Scalar(0);
   }
+  /// The grain turns with the mean rotation, without a spin of its own; its net torque becomes zero.
   void hold_spin(std::size_t grain) const {
     assert(grain < packing_.grain_count());
     for (int k = 0; k < spin_size<PackingType::dim>; ++k) {

@@ -25,13 +25,13 @@ concept SamplesGrains = requires(Grading const& grading, Random& random) {
 /// defaults stay well below.
 template <SamplesGrains Grading>
 struct Cloud {
-  using Shape = typename Grading::Shape;
+  using Shape = typename Grading::Shape;  ///< of all grains
 
-  Grading grading{};
-  int grains = 0;
-  double density = 0.0;                            ///< [kg/m3]
-  double thickness = Shape::dim == 2 ? 0.0 : 1.0;  ///< out of plane [m]; in space it stays 1
-  std::uint64_t seed = 1;
+  Grading grading{};                                    ///< distribution of the sizes [m]
+  int grains = 0;                                       ///< number of grains, at least one
+  double density = 0.0;                                 ///< [kg/m3]
+  double thickness = Shape::dim == 2 ? 0.0 : 1.0;       ///< out of plane [m]; in space it stays 1
+  std::uint64_t seed = 1;                               ///< of sizes, places and axes
   double filled_share = Shape::dim == 2 ? 0.42 : 0.25;  ///< content of the bounding circles or spheres over the cell's
 
   /// \throws InputError
@@ -43,6 +43,7 @@ struct Cloud {
     require_between("share of the cell filled by the cloud", filled_share, 0.0, 1.0);
   }
 
+  /// A packing at rest whose grains do not touch, without a pair list.
   /// \throws InputError on counts, sizes or shares that cannot be packed
   template <class PackingType>
   PackingType make() const {

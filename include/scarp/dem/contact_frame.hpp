@@ -9,10 +9,12 @@
 
 namespace scarp {
 
+/// Scalar product in the plane.
 template <class T>
 T dot(std::array<T, 2> const& a, std::array<T, 2> const& b) {
   return a[0] * b[0] + a[1] * b[1];
 }
+/// Scalar product in space.
 template <class T>
 T dot(std::array<T, 3> const& a, std::array<T, 3> const& b) {
   return inner_product(a, b);
@@ -23,6 +25,7 @@ template <class T>
 T cross(std::array<T, 2> const& a, std::array<T, 2> const& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
+/// Vector product in space.
 template <class T>
 std::array<T, 3> cross(std::array<T, 3> const& a, std::array<T, 3> const& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -33,6 +36,7 @@ template <class T>
 std::array<T, 2> turned_motion(T const& turn, std::array<T, 2> const& arm) {
   return {-turn * arm[1], turn * arm[0]};
 }
+/// Motion of a point at `arm` from the centre of a grain that turns by a small vector `turn`.
 template <class T>
 std::array<T, 3> turned_motion(std::array<T, 3> const& turn, std::array<T, 3> const& arm) {
   return cross(turn, arm);
@@ -43,6 +47,7 @@ template <class T>
 T tangential_part(std::array<T, 2> const& motion, std::array<T, 2> const& normal) {
   return normal[0] * motion[1] - normal[1] * motion[0];
 }
+/// Part of a motion in the tangent plane.
 template <class T>
 std::array<T, 3> tangential_part(std::array<T, 3> const& motion, std::array<T, 3> const& normal) {
   T const along = dot(motion, normal);
@@ -54,6 +59,7 @@ template <class T>
 std::array<T, 2> as_vector(T const& tangential, std::array<T, 2> const& normal) {
   return {-tangential * normal[1], tangential * normal[0]};
 }
+/// In space tangential quantities are vectors already.
 template <class T>
 std::array<T, 3> as_vector(std::array<T, 3> const& tangential, std::array<T, 3> const&) {
   return tangential;
@@ -64,6 +70,7 @@ template <class T>
 T rolling_part(T const& turn, std::array<T, 2> const&) {
   return turn;
 }
+/// Part of a rotation vector in the tangent plane.
 template <class T>
 std::array<T, 3> rolling_part(std::array<T, 3> const& turn, std::array<T, 3> const& normal) {
   return tangential_part(turn, normal);
@@ -73,6 +80,7 @@ std::array<T, 3> rolling_part(std::array<T, 3> const& turn, std::array<T, 3> con
 /// rotation about the normal, is laid into the tangent plane and keeps its size. In the plane the number stays.
 template <class T>
 void carry_to_frame(T&, T const&, std::array<T, 2> const&) {}
+/// In space: turns the stored vector by the twist of `mean_turn` [rad], lays it into the tangent plane and restores its size.
 template <class T>
 void carry_to_frame(std::array<T, 3>& remembered, std::array<T, 3> const& mean_turn, std::array<T, 3> const& normal) {
   using std::sqrt;

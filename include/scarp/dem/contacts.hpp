@@ -10,10 +10,10 @@ namespace scarp {
 /// A pair of grains of a packing at rest in its present positions.
 template <int Dim>
 struct Contact {
-  std::size_t pair;    ///< row in the list of near pairs
-  std::size_t first;   ///< grain
-  std::size_t second;  ///< grain; the owner where the pair lists a ghost
-  ContactGeometry<Dim, double> touch;
+  std::size_t pair;                         ///< row in the list of near pairs
+  std::size_t first;                        ///< grain
+  std::size_t second;                       ///< grain; the owner where the pair lists a ghost
+  ContactGeometry<Dim, double> touch;       ///< overlap, normal and arms at the present positions
   ContactKinematics<Dim, double> approach;  ///< without motion
   ContactMemory<Dim, double> memory;        ///< at the present overlap
   ContactStiffness stiffness;               ///< [N/m], [N m/rad]; sliding not regarded
@@ -21,9 +21,11 @@ struct Contact {
   Vector<Dim> branch;                       ///< from the first centre to the second [m]
   Vector<Dim> force;                        ///< on the second grain [N]
 
+  /// Unit normal from the first to the second grain.
   Vector<Dim> normal() const { return Eigen::Map<Vector<Dim> const>(touch.normal.data()); }
   /// Tangential force on the second grain [N].
   Vector<Dim> shear_force() const { return force - normal_force * normal(); }
+  /// Whether the grains overlap, or the law acts across their gap.
   bool closed() const { return touch.overlap > 0.0 || normal_force != 0.0; }
 };
 

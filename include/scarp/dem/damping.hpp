@@ -21,14 +21,18 @@ concept DampsMotion = requires(Damping const& damping, double const& one, lanes:
 };
 
 /// Net force [N] and torque [N m] on every grain.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct NetForces {
-  using Scalar = typename PackingType::Scalar;
+  using Scalar = typename PackingType::Scalar;  ///< of the packing's coordinates
+  /// Places of force and torque in a row.
   using Layout = RowLayout<typename PackingType::Shape, typename PackingType::Law>;
 
-  Scalar const* rows;
+  Scalar const* rows;  ///< first of the rows, one per grain
 
+  /// Component [N] along an axis of space.
   Scalar force(std::size_t grain, int axis) const { return rows[grain * Layout::force_size + detail::index(axis)]; }
+  /// Component [N m]; in the plane k is 0.
   Scalar torque(std::size_t grain, int k) const { return force(grain, k + static_cast<int>(Layout::torque)); }
 };
 
@@ -43,7 +47,7 @@ concept SeesAllGrains = requires(Damping& damping, PackingType const& packing, N
 /// that touch nothing have no net force and would never come to rest, so all fluctuation velocities also decay,
 /// \f$ \dot v = -c\,v,\; c = -\ln(1 - drag) / (0.78\,\Delta t_{crit}) \f$: a rate [1/s] of packing and law, whatever the time step.
 struct LocalDamping {
-  double factor = 0.2;
+  double factor = 0.2;       ///< share of the net force, 0 to 1
   double drag = 1e-3;        ///< share that velocities lose in `default_time_step_share` of the critical step
   double kept = 1.0 - drag;  ///< share that stays in the present time step: set by before_move, not by users
 

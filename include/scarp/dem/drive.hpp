@@ -86,12 +86,16 @@ double dashpot_modulus(PackingType const& packing, typename PackingType::Law con
 }
 
 /// Applies a loading to a packing, one DEM step at a time. Stress is evaluated once before the first step.
+/// \tparam PackingType a `Packing`
+/// \tparam what at least Observe::balance
 template <class PackingType, Observe what = Observe::balance>
 class CellDriver {
  public:
-  static constexpr int dim = PackingType::dim;
-  using Law = typename PackingType::Law;
+  static constexpr int dim = PackingType::dim;  ///< of the packing's space
+  using Law = typename PackingType::Law;        ///< of the contacts
 
+  /// The packing must outlive the driver.
+  /// \throws InputError for a loading or gains that their validate() rejects, and for a packing without grains
   CellDriver(PackingType& packing, Law const& law, Loading<dim> const& loading, ServoGains const& feedback = {})
       : packing_(packing),
         law_(law),
@@ -102,6 +106,7 @@ class CellDriver {
         // Frictional grains are isostatic at dim + 1 contacts per grain, each shared by two.
         fewest_contacts_(0.5 * (dim + 1) * static_cast<double>(packing.grain_count())) {}
 
+  /// One DEM step with the cell strain that the loading and the stress before it require.
   /// \return not_converged / unreachable for a target no packing can carry, failed / not_finite, or what the stepper reports
   template <class Stepper>
   Verdict step(Stepper& stepper) {
@@ -119,11 +124,14 @@ class CellDriver {
     return {};
   }
 
+  /// Another loading from the next step on. \throws InputError for one that its validate() rejects
   void load(Loading<dim> const& loading) { loading_ = detail::validated(loading); }
+  /// Of the next step.
   Loading<dim> const& loading() const { return loading_; }
 
   /// The packing as it was before the last move, and the cell's displacement gradient during that move.
   StepObservation<dim> const& seen() const { return seen_; }
+  /// Displacement gradient of the cell during the last move.
   Tensor<dim> const& strain_step() const { return strain_step_; }
 
  private:
@@ -144,11 +152,11 @@ class CellDriver {
 
 /// Servo control: drives a packing until its held stresses are met and its forces balance.
 struct Servo {
-  ServoGains feedback{};
-  double stress_tolerance = 1e-4;  ///< relative to the largest target, to 0.001 of the springs' modulus for none
-  double unbalanced_tolerance = 1e-4;
-  long max_steps = 400'000;
-  int check_every = 20;  ///< steps between tests of the stopping rule
+  ServoGains feedback{};               ///< strain rates that stress errors give
+  double stress_tolerance = 1e-4;      ///< relative to the largest target, to 0.001 of the springs' modulus for none
+  double unbalanced_tolerance = 1e-4;  ///< on the unbalanced ratio
+  long max_steps = 400'000;            ///< until the servo gives up as `not_converged`
+  int check_every = 20;                ///< steps between tests of the stopping rule
 
   /// \throws InputError
   void validate() const {
@@ -159,6 +167,7 @@ struct Servo {
     require_at_least("number of steps between checks of the servo", check_every, 1);
   }
 
+  /// Steps until held stresses and unbalanced ratio are within their tolerances.
   /// \return not_converged / unreachable or unbalanced after `max_steps`, or at once for a target no packing can carry
   template <class Stepper, class PackingType>
   Verdict reach(Stepper& stepper, PackingType& packing, typename PackingType::Law const& law,

@@ -17,7 +17,7 @@ struct Fire {
   double decay = 0.99;  ///< of a, in every step
   int patience = 5;     ///< steps after a stop in which a does not decay
   // Memory since the last stop. Grains at rest have no power, so that a stepper begins anew with a packing at rest.
-  int steps = 0;
+  int steps = 0;         ///< since the last stop
   double decayed = 1.0;  ///< a over mixing
   double kept = 1.0;     ///< share of the velocities
   double pushed = 1.0;   ///< effect of the forces over that of leap-frog
@@ -49,6 +49,7 @@ struct Fire {
     decayed = steps > patience ? decayed * decay : 1.0;
   }
 
+  /// Velocity or spin after a step: a share of the former one plus the force's effect; mobility = time step / inertia.
   template <class T>
   T next_velocity(T const& velocity, T const& force, T const& mobility) const {
     return broadcast<T>(kept) * velocity + broadcast<T>(pushed) * force * mobility;

@@ -14,27 +14,29 @@ namespace scarp {
 /// inverse mass, padding. A pair's data then come from one or two cache lines each.
 template <ParticleShape Shape, ContactLaw Law>
 struct RowLayout {
-  static constexpr auto axes = static_cast<std::size_t>(Shape::dim);
-  static constexpr auto turns = static_cast<std::size_t>(spin_size<Shape::dim>);
-  static constexpr auto pose_size = static_cast<std::size_t>(Shape::pose_count);
+  static constexpr auto axes = static_cast<std::size_t>(Shape::dim);              ///< numbers of a position
+  static constexpr auto turns = static_cast<std::size_t>(spin_size<Shape::dim>);  ///< numbers of a spin
+  static constexpr auto pose_size = static_cast<std::size_t>(Shape::pose_count);  ///< numbers of a pose
 
-  static constexpr std::size_t velocity = axes;
-  static constexpr std::size_t spin = 2 * axes;
-  static constexpr std::size_t pose = spin + turns;
+  static constexpr std::size_t velocity = axes;      ///< where the velocity begins
+  static constexpr std::size_t spin = 2 * axes;      ///< where the spin begins
+  static constexpr std::size_t pose = spin + turns;  ///< where the pose begins
+  /// Where the inverse mass stands, if the law needs it.
   static constexpr std::size_t inverse_mass = pose + pose_size;
-  static constexpr std::size_t used = inverse_mass + (Law::inputs.motion ? 1 : 0);
-  static constexpr std::size_t size = (used + 3) / 4 * 4;
+  static constexpr std::size_t used = inverse_mass + (Law::inputs.motion ? 1 : 0);  ///< numbers without padding
+  static constexpr std::size_t size = (used + 3) / 4 * 4;  ///< numbers with padding, a multiple of four
 
   /// Row of forces: force and torque, in space each padded to four; in the plane the fourth entry is scratch.
   static constexpr std::size_t force_size = axes == 2 ? 4 : 8;
-  static constexpr std::size_t torque = axes == 2 ? 2 : 4;
+  static constexpr std::size_t torque = axes == 2 ? 2 : 4;  ///< where the torque begins in a row of forces
 };
 
 /// Scratch memory of the pair loop; one per thread, reused from call to call.
+/// \tparam Scalar float or double
 template <class Scalar>
 struct PairScratch {
-  AlignedVector<Scalar> rows;
-  AlignedVector<Scalar> forces;
+  AlignedVector<Scalar> rows;    ///< data of grains, ghosts and one row far from all
+  AlignedVector<Scalar> forces;  ///< force [N] and torque [N m] of each row
 };
 
 /// Writes the rows of every part of every grain.
@@ -99,6 +101,7 @@ std::size_t fill_ghost_rows(PackingType const& packing, typename PackingType::Sc
   return sentinel_row;
 }
 
+/// Adds one row of forces to another.
 template <class Layout, class Scalar>
 void add_force_row(Scalar const* row, Scalar* to) {
   for (std::size_t quad = 0; quad < Layout::force_size; quad += 4) {

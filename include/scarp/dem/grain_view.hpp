@@ -56,16 +56,18 @@ Point<PackingType::dim, double> row_position(PackingType const& packing, std::si
 }
 
 /// How the rows of a near pair touch: poses of both, the branch between the centres [m] and the touch.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct PairGeometry {
-  static constexpr int dim = PackingType::dim;
-  using Shape = typename PackingType::Shape;
+  static constexpr int dim = PackingType::dim;  ///< of the packing's space
+  using Shape = typename PackingType::Shape;    ///< of the grains
 
-  PoseOf<Shape> first;
-  PoseOf<Shape> second;
-  Point<dim, double> branch;
-  ContactGeometry<dim, double> touch;
+  PoseOf<Shape> first;                 ///< pose of the first row
+  PoseOf<Shape> second;                ///< pose of the second row
+  Point<dim, double> branch;           ///< from the first grain's centre to the second's [m]
+  ContactGeometry<dim, double> touch;  ///< overlap, normal and arms
 
+  /// pair: row in the list of near pairs
   PairGeometry(PackingType const& packing, std::size_t pair) {
     auto const& pairs = packing.pairs;
     auto const row_first = detail::index(pairs.first[pair]);

@@ -11,10 +11,12 @@ namespace scarp {
 
 /// A stretch of a packing's path, to be gone once more in steps of half the strain, hence at half the rate: what the mean stress
 /// over it then changes by estimates the error of the steps.
+/// \tparam PackingType a `Packing`
+/// \tparam Damping a `DampsMotion`
 template <class PackingType, class Damping = LocalDamping>
 class HalvedPath {
  public:
-  static constexpr int dim = PackingType::dim;
+  static constexpr int dim = PackingType::dim;  ///< of the packing's space
 
   /// From a copy of the packing as it is.
   explicit HalvedPath(PackingType packing) : packing_(std::move(packing)) {}

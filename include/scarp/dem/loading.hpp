@@ -14,9 +14,10 @@ namespace scarp {
 /// tensor of that component as D, the mean stress with the identity.
 template <int Dim>
 struct StressControl {
-  Tensor<Dim> direction = Tensor<Dim>::Zero();
-  double target = 0.0;  ///< [Pa], tension positive
+  Tensor<Dim> direction = Tensor<Dim>::Zero();  ///< D, symmetric
+  double target = 0.0;                          ///< [Pa], tension positive
 
+  /// Target minus the held component of a stress [Pa].
   double missing(Tensor<Dim> const& stress) const {
     return target - stress.cwiseProduct(direction).sum() / direction.squaredNorm();
   }
@@ -44,8 +45,8 @@ StressControl<Dim> mean_stress_control(double pressure) {
 /// along directions that are orthogonal to each other. Held components of the prescribed gradient are to be zero.
 template <int Dim>
 struct Loading {
-  Tensor<Dim> gradient_per_step = Tensor<Dim>::Zero();
-  std::vector<StressControl<Dim>> controls;
+  Tensor<Dim> gradient_per_step = Tensor<Dim>::Zero();  ///< prescribed
+  std::vector<StressControl<Dim>> controls;             ///< stresses that are held
 
   /// All stress components held.
   static Loading stress(VoigtStress<Dim> const& target) {
@@ -73,6 +74,7 @@ struct Loading {
     }
   }
 
+  /// The prescribed gradient with its sign changed; held stresses keep theirs.
   Loading reversed() const {
     Loading other = *this;
     other.gradient_per_step = -gradient_per_step;
@@ -102,15 +104,16 @@ struct Loading {
   }
 };
 
-/// The tests of the laboratory as loadings. `rate` is the strain of one DEM step, positive; the last axis is the axial one;
-/// pressures [Pa] are positive in compression. Shear stresses are not held: their strains are zero.
+/// \file
+/// The tests of the laboratory are loadings. Their last axis is the axial one; shear stresses are not held, their strains are zero.
 
+/// Equal shortening along all axes. rate: strain of each axis per step
 template <int Dim>
 Loading<Dim> isotropic_compression(double rate) {
   return {-rate * Tensor<Dim>::Identity(), {}};
 }
 
-/// One-dimensional (oedometric, K0) compression.
+/// One-dimensional (oedometric, K0) compression. rate: axial strain per step, positive shortens
 template <int Dim>
 Loading<Dim> oedometer(double rate) {
   Loading<Dim> loading;
@@ -118,7 +121,8 @@ Loading<Dim> oedometer(double rate) {
   return loading;
 }
 
-/// Axial compression at constant lateral stress: biaxial in the plane, triaxial in space.
+/// Axial compression at constant lateral stress: biaxial in the plane, triaxial in space. rate: strain per step;
+/// lateral_pressure [Pa], positive in compression
 template <int Dim>
 Loading<Dim> drained_compression(double rate, double lateral_pressure) {
   Loading<Dim> loading = oedometer<Dim>(rate);
@@ -126,7 +130,7 @@ Loading<Dim> drained_compression(double rate, double lateral_pressure) {
   return loading;
 }
 
-/// Axial compression at constant volume.
+/// Axial compression at constant volume. rate: strain per step
 template <int Dim>
 Loading<Dim> undrained_compression(double rate) {
   Loading<Dim> loading = oedometer<Dim>(rate);
@@ -135,6 +139,7 @@ Loading<Dim> undrained_compression(double rate) {
 }
 
 /// The first axis lengthens and the second shortens alike; in the plane this is undrained compression.
+/// rate: strain of each per step
 template <int Dim>
 Loading<Dim> pure_shear(double rate) {
   Loading<Dim> loading;
@@ -143,7 +148,7 @@ Loading<Dim> pure_shear(double rate) {
   return loading;
 }
 
-/// The first axis' displacement grows along the last one; constant volume.
+/// The first axis' displacement grows along the last one; constant volume. rate: shear strain per step
 template <int Dim>
 Loading<Dim> simple_shear(double rate) {
   Loading<Dim> loading;
@@ -151,7 +156,8 @@ Loading<Dim> simple_shear(double rate) {
   return loading;
 }
 
-/// Simple shear while the stress along the last axis is held.
+/// Simple shear while the stress along the last axis is held. rate: shear strain per step; axial_pressure [Pa], positive
+/// in compression
 template <int Dim>
 Loading<Dim> simple_shear_at_stress(double rate, double axial_pressure) {
   Loading<Dim> loading = simple_shear<Dim>(rate);
@@ -160,6 +166,7 @@ Loading<Dim> simple_shear_at_stress(double rate, double axial_pressure) {
 }
 
 /// Axial compression at constant mean stress: the deviator of the strain is prescribed, the volume follows.
+/// rate: axial strain per step, positive shortens; pressure [Pa], positive in compression
 template <int Dim>
 Loading<Dim> constant_mean_stress(double rate, double pressure) {
   Loading<Dim> loading = undrained_compression<Dim>(rate);
@@ -169,9 +176,11 @@ Loading<Dim> constant_mean_stress(double rate, double pressure) {
 
 /// Turns a loading round whenever the strain that it prescribes has grown to an amplitude.
 struct Cyclic {
-  double amplitude = 0.0;
+  double amplitude = 0.0;  ///< of the strain, positive
 
+  /// Direction of a cycle's next step.
   /// \return the sign, 1 or -1, of the next step, given the strain so far and the present sign
+  /// \throws InputError for an amplitude that is not finite and positive
   int next_sign(double strain, int sign) const {
     require_positive("strain amplitude of a cyclic loading", amplitude);
     if (strain >= amplitude) return -1;

@@ -18,11 +18,11 @@ template <int Dim>
 struct ContactSums {
   Tensor<Dim> moment = Tensor<Dim>::Zero();  ///< force on the second grain (x) branch [N m]
   double force = 0.0;                        ///< |force| [N]
-  double contacts = 0.0;
-  bool settled = true;      ///< whether every contact normal converged
-  double deepest = 0.0;     ///< largest overlap over the reduced radius of its contact
-  double stored = 0.0;      ///< [J], only with Observe::energy
-  double dissipated = 0.0;  ///< during the step [J], only with Observe::energy
+  double contacts = 0.0;                     ///< number that carry a normal force
+  bool settled = true;                       ///< whether every contact normal converged
+  double deepest = 0.0;                      ///< largest overlap over the reduced radius of its contact
+  double stored = 0.0;                       ///< [J], only with Observe::energy
+  double dissipated = 0.0;                   ///< during the step [J], only with Observe::energy
 
   /// Love and Weber's stress [Pa], tension positive, for a packing's volume [m3].
   Tensor<Dim> stress(double volume) const { return -moment / volume; }
@@ -32,9 +32,9 @@ struct ContactSums {
 template <int Dim>
 struct StepObservation {
   Tensor<Dim> stress = Tensor<Dim>::Zero();  ///< Love and Weber [Pa], tension positive
-  double contacts = 0.0;
-  double unbalanced_ratio = 0.0;  ///< mean net force of a grain over mean contact force
-  double deepest_overlap = 0.0;   ///< over the reduced radius of its contact
+  double contacts = 0.0;                     ///< number that carry a normal force
+  double unbalanced_ratio = 0.0;             ///< mean net force of a grain over mean contact force
+  double deepest_overlap = 0.0;              ///< over the reduced radius of its contact
 
   // Only with Observe::energy, all in [J].
   double stored_energy = 0.0;   ///< in the contacts

@@ -88,25 +88,30 @@ struct ListBasis {
 /// Pairs of grains closer than a skin (Verlet list), each once. Numbers are *rows*: part p of grain i has row
 /// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
 /// moved by cell x `ghost_shift[g]`. What a shape or law has no memory of is not stored.
+/// \tparam Shape a `ParticleShape`
+/// \tparam Law a `ContactLaw`
+/// \tparam Scalar float or double
 template <CheckedShape Shape, CheckedContactLaw Law, class Scalar>
 struct VerletList {
-  static constexpr int dim = Shape::dim;
-  static constexpr int tangential_count = dim == 2 ? 1 : 3;
-  using Shift = std::array<std::int8_t, static_cast<std::size_t>(dim)>;
+  static constexpr int dim = Shape::dim;                                 ///< of the grains' space
+  static constexpr int tangential_count = dim == 2 ? 1 : 3;              ///< numbers of a tangential quantity
+  using Shift = std::array<std::int8_t, static_cast<std::size_t>(dim)>;  ///< in cells along each base vector
 
-  std::vector<std::int32_t> first;
-  std::vector<std::int32_t> second;
+  std::vector<std::int32_t> first;   ///< row of each pair's first grain
+  std::vector<std::int32_t> second;  ///< row of each pair's second grain
+  /// Unit vectors that the search for each contact starts from.
   SoaArray<Scalar, Shape::warm_starts_normal ? dim : 0> normal;
   SoaArray<Scalar, Law::inputs.shear ? tangential_count : 0> shear;    ///< tangential force on the second grain [N]
   SoaArray<Scalar, Law::inputs.moment ? tangential_count : 0> moment;  ///< on the second grain [N m]
-  SoaArray<Scalar, Law::inputs.scalars> scalars;
-  std::vector<std::int32_t> ghost_owner;
-  std::vector<Shift> ghost_shift;
+  SoaArray<Scalar, Law::inputs.scalars> scalars;                       ///< further numbers that the law stores
+  std::vector<std::int32_t> ghost_owner;                               ///< row of a grain's part, for each ghost
+  std::vector<Shift> ghost_shift;                                      ///< from the owner to each ghost
   double drift = 0.0;          ///< bound on how far gaps have shrunk since the list was made [m]
   double skin = -1.0;          ///< gap up to which pairs are listed [m]; negative before the first list
   double critical_step = 0.0;  ///< lower bound of the largest stable time step [s] while the list lasts
-  ListBasis basis;
+  ListBasis basis;             ///< what the list was made for
 
+  /// Number of pairs.
   std::size_t count() const { return first.size(); }
 
   /// What is saved and loaded.
@@ -136,24 +141,28 @@ struct LastMove {
 
 /// State of a periodic packing: everything that evolves. Velocities are fluctuations about the affine motion of the
 /// cell; the cell's columns are its base vectors [m]. Positions may lie outside the cell by a lattice vector.
+/// \tparam ShapePolicy a `ParticleShape`
+/// \tparam LawPolicy a `ContactLaw`
+/// \tparam ScalarType float or double
 template <CheckedShape ShapePolicy, CheckedContactLaw LawPolicy, class ScalarType = double>
 struct Packing {
-  using Shape = ShapePolicy;
-  using Law = LawPolicy;
-  using Scalar = ScalarType;
-  static constexpr int dim = Shape::dim;
+  using Shape = ShapePolicy;              ///< of the grains
+  using Law = LawPolicy;                  ///< of the contacts
+  using Scalar = ScalarType;              ///< of coordinates and velocities
+  static constexpr int dim = Shape::dim;  ///< of the grains' space
   static_assert(Law::inputs.species == 0 || Law::inputs.species == species_count<Shape>(),
                 "scarp: a law per pair of species needs grains `WithSpecies<Shape, N>` of as many species");
 
-  std::shared_ptr<Population<Shape, Scalar> const> population;
-  Tensor<dim> cell = Tensor<dim>::Identity();
-  SoaArray<Scalar, dim> position;
-  SoaArray<Scalar, dim> velocity;
-  SoaArray<Scalar, spin_size<dim>> spin;
-  SoaArray<Scalar, Shape::orientation_count> orientation;
-  LastMove<dim> last_move;
-  VerletList<Shape, Law, Scalar> pairs;
+  std::shared_ptr<Population<Shape, Scalar> const> population;  ///< sizes and masses, shared by copies
+  Tensor<dim> cell = Tensor<dim>::Identity();                   ///< columns are base vectors [m]
+  SoaArray<Scalar, dim> position;                               ///< of the grains' centres [m]
+  SoaArray<Scalar, dim> velocity;                               ///< fluctuation [m/s]
+  SoaArray<Scalar, spin_size<dim>> spin;                        ///< fluctuation [rad/s]
+  SoaArray<Scalar, Shape::orientation_count> orientation;       ///< axes (cos, sin) of plane grains
+  LastMove<dim> last_move;                                      ///< of the cell
+  VerletList<Shape, Law, Scalar> pairs;                         ///< near pairs and memory of contacts
 
+  /// Number of grains, each of one or several parts.
   std::size_t grain_count() const { return position.rows(); }
   /// Rows of the pair list without ghosts: one for each part of each grain.
   std::size_t row_count() const { return grain_count() * static_cast<std::size_t>(part_count<Shape>()); }
@@ -166,6 +175,7 @@ struct Packing {
   /// What a saved packing consists of.
   SCARP_MEMBERS(population, cell, position, velocity, spin, orientation, last_move, pairs)
 
+  /// Checks numbers that were read.
   /// \throws InputError for numbers that no packing has
   void after_loading() const { detail::require_valid_packing(*this); }
 

@@ -35,8 +35,8 @@ struct PackingPicture {
     double normal_force = 0.0;  ///< [N], positive in compression
   };
 
-  Tensor<2> cell;  ///< columns are base vectors [m]
-  std::vector<Grain> grains{};
+  Tensor<2> cell;                   ///< columns are base vectors [m]
+  std::vector<Grain> grains{};      ///< of the packing, in its order
   std::vector<Contact> contacts{};  ///< those that touch
 };
 

@@ -19,10 +19,12 @@ namespace scarp {
 
 /// The grains of a packing as far as they never change: sizes, masses, inertias. One copy serves every state.
 /// `thickness` [m] is the out-of-plane length in 2D and 1 in 3D, so that content x thickness is a volume.
+/// \tparam Shape a `ParticleShape`
+/// \tparam Scalar float or double
 template <CheckedShape Shape, class Scalar = double>
 class Population {
  public:
-  using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;
+  using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;  ///< parameters of one grain [m]
 
   /// density [kg/m3]
   /// \throws InputError on an empty list, on sizes that are not finite and positive and on those that the shape rejects
@@ -71,14 +73,21 @@ class Population {
     }
   }
 
+  /// Number of grains.
   std::size_t count() const { return size_.rows(); }
+  /// [kg/m3]
   double density() const { return density_; }
+  /// Out of the plane [m]; 1 in space.
   double thickness() const { return thickness_; }
   /// Sum of the grains' areas (2D) [m2] or volumes (3D) [m3].
   double content() const { return content_; }
+  /// Of all grains [kg].
   double mass() const { return mass_; }
+  /// Least bounding radius of a grain [m].
   double smallest_radius() const { return smallest_radius_; }
+  /// Greatest bounding radius of a grain [m].
   double largest_radius() const { return largest_radius_; }
+  /// Greatest change of a grain's support function per radian [m].
   double largest_eccentricity() const { return largest_eccentricity_; }
 
   /// Up to this angle [rad] one Newton step for the normal of a contact leaves an error of the overlap below 1e-6 of the
@@ -89,6 +98,7 @@ class Population {
   /// shapes without a bound.
   double unique_minimum_depth() const { return unique_minimum_depth_; }
 
+  /// Parameters of a grain [m] as stored, in double precision.
   Size size(std::size_t grain) const {
     Size values;
     for (int k = 0; k < Shape::size_count; ++k) {
@@ -96,6 +106,7 @@ class Population {
     }
     return values;
   }
+  /// Parameters of all grains [m], a column for each.
   SoaArray<Scalar, Shape::size_count> const& sizes() const { return size_; }
   /// [1/kg]; zero in the padding, which therefore never moves
   Scalar const* inverse_mass() const { return inverse_mass_.column(0); }

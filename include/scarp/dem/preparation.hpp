@@ -16,10 +16,11 @@ class PreparationError : public std::runtime_error {
 };
 
 /// A packing and whether it got where it was to go.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct Prepared {
-  PackingType packing;
-  Verdict verdict;
+  PackingType packing;  ///< as far as it got
+  Verdict verdict;      ///< acceptable where its targets are met
 };
 
 /// From a loose cloud to a packing under isotropic pressure: consolidation at a *preparation friction*, the knob of the
@@ -27,8 +28,8 @@ struct Prepared {
 struct IsotropicPreparation {
   double pressure = 0.0;              ///< [Pa], positive
   double preparation_friction = 0.1;  ///< of all contacts; 0 gives the densest packing
-  Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};
-  Servo relaxation{};
+  Servo consolidation{.stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-3};  ///< at the preparation friction
+  Servo relaxation{};                                                           ///< at the law's own friction
 
   /// \throws InputError
   void validate() const {
@@ -38,6 +39,7 @@ struct IsotropicPreparation {
     relaxation.validate();
   }
 
+  /// Brings a cloud to isotropic pressure and to rest, first at the preparation friction, then at that of the law.
   /// \throws InputError for parameters that validate() rejects or a law that contradicts itself
   template <class PackingType, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
   Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law, Damping const& damping = {},
@@ -63,10 +65,12 @@ struct IsotropicPreparation {
 /// One-dimensional compression of one packing, as under the growing overburden of level ground: lateral strain zero, shear
 /// stress zero, vertical stress (last axis) through a list of targets. A copy is stored at each.
 struct OneDimensionalCompression {
+  /// How each target is approached and what counts as reached.
   Servo servo{.feedback = {.fastest = 1e-5}, .stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-4};
 
   /// vertical_pressures [Pa], positive, in the order of the path: one below the pressure before it unloads
   /// \return one packing per pressure; the list ends early at one whose verdict is not acceptable
+  /// \throws InputError for a pressure that is not finite and positive
   template <class PackingType, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
   std::vector<Prepared<PackingType>> compress(PackingType packing, typename PackingType::Law const& law,
                                               std::vector<double> const& vertical_pressures,

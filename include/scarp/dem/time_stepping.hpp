@@ -44,6 +44,9 @@ inline constexpr bool kernel_is_precompiled =
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient; a damping or relaxation gives the
 /// velocities, a boundary holds grains on the cell's motion. Holds the scratch memory, so one stepper serves many packings in
 /// turn but only one thread.
+/// \tparam PackingOf a `Packing`
+/// \tparam Damping a `DampsMotion`, with the whole packing in view a `SeesAllGrains`
+/// \tparam Boundary a `ConstrainsGrains`
 template <class PackingOf, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingOf> Boundary = Periodic>
 class TimeStepper {
   static_assert(
@@ -52,15 +55,15 @@ class TimeStepper {
       "NetForces<PackingType> const& forces, double time_step)");
 
  public:
-  using PackingType = PackingOf;
-  static constexpr int dim = PackingType::dim;
-  using Shape = typename PackingType::Shape;
-  using Law = typename PackingType::Law;
-  using Scalar = typename PackingType::Scalar;
-  using Lanes = lanes::Pack<Scalar>;
+  using PackingType = PackingOf;                ///< type of the packings that it moves
+  static constexpr int dim = PackingType::dim;  ///< of the packing's space
+  using Shape = typename PackingType::Shape;    ///< of the grains
+  using Law = typename PackingType::Law;        ///< of the contacts
+  using Scalar = typename PackingType::Scalar;  ///< of coordinates and velocities
+  using Lanes = lanes::Pack<Scalar>;            ///< as many numbers as a register holds
 
-  Damping damping{};
-  [[no_unique_address]] Boundary boundary{};
+  Damping damping{};                          ///< what gives the velocities
+  [[no_unique_address]] Boundary boundary{};  ///< what holds grains
   /// Gap up to which pairs are listed, as a share of the largest radius: a wider skin lists more pairs, a thinner one is
   /// rebuilt more often. Of the law only its reach comes on top, so that laws that act in touch share one list.
   double skin_ratio = 0.1;

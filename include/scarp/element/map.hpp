@@ -49,10 +49,11 @@ double measure(Corners<Cell, Space> const& corners, Vector<Cell::dim> const& xi)
 /// integration point; both are meaningless when the volume is not positive.
 template <ReferenceElement Element>
 struct SpatialShape {
-  ShapeGradients<Element> gradients = ShapeGradients<Element>::Zero();
-  double volume = 0.0;
+  ShapeGradients<Element> gradients = ShapeGradients<Element>::Zero();  ///< [1/m], shape (nodes, dim)
+  double volume = 0.0;  ///< [m^dim]; not positive where the element is turned inside out
 };
 
+/// Shape gradients and volume of an integration point, given the places of the element's nodes [m].
 template <ReferenceElement Element>
 SpatialShape<Element> spatial_shape(Corners<Element, Element::dim> const& corners,
                                     QuadraturePoint<Element::dim> const& point) {

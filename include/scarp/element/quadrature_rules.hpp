@@ -14,9 +14,10 @@ template <int Points>
 struct GaussLine {
   static_assert(Points >= 1 && Points <= 5, "Gauss rules are tabulated for one to five points per axis");
 
-  std::array<double, Points> points;
-  std::array<double, Points> weights;
+  std::array<double, Points> points;   ///< ascending, in (-1, 1)
+  std::array<double, Points> weights;  ///< of the points; they add up to 2
 
+  /// The tabulated rule of one to five points.
   static constexpr GaussLine make() {
     if constexpr (Points == 1) {
       return {{0.0}, {2.0}};

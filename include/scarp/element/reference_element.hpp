@@ -12,8 +12,8 @@ namespace scarp {
 /// A sampling point of a reference element: local coordinates and weight (the weights add up to the reference volume).
 template <int Dim>
 struct QuadraturePoint {
-  Vector<Dim> xi = Vector<Dim>::Zero();
-  double weight = 0.0;
+  Vector<Dim> xi = Vector<Dim>::Zero();  ///< local coordinates
+  double weight = 0.0;                   ///< share of the reference volume, in its unit
 };
 
 /// Value of each shape function, shape (nodes).

@@ -105,7 +105,7 @@ struct NormalFault {
   double dip = std::numbers::pi / 3.0;  ///< angle of the fault plane against the horizontal [rad], up to pi/2
   double tip = 0.0;                     ///< where the fault meets the bottom of the ground [m]
 
-  Vector<2> left() const { return Vector<2>::Zero(); }
+  Vector<2> left() const { return Vector<2>::Zero(); }  ///< Zero: the footwall stays.
   /// \throws InputError for a dip outside (0, pi/2]
   Vector<2> right() const { return {detail::heave_per_throw(dip), -1.0}; }
 };
@@ -117,7 +117,7 @@ struct ReverseFault {
   double dip = std::numbers::pi / 3.0;  ///< angle of the fault plane against the horizontal [rad], up to pi/2
   double tip = 0.0;                     ///< where the fault meets the bottom of the ground [m]
 
-  Vector<2> left() const { return Vector<2>::Zero(); }
+  Vector<2> left() const { return Vector<2>::Zero(); }  ///< Zero: the footwall stays.
   /// \throws InputError for a dip outside (0, pi/2]
   Vector<2> right() const { return {-detail::heave_per_throw(dip), 1.0}; }
 };

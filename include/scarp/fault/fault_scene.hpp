@@ -97,22 +97,25 @@ struct ProblemOfFault {
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
+/// \tparam Structure a `StandsOnGround`
+/// \tparam Solver such as `QuasiNewton`
+/// \tparam GridType a `Discretisation` of the ground's element
 template <CheckedMaterial Soil, class Structure, class Solver = QuasiNewton<>,
           Ground GroundType = StructuredGround<Tri3>, BedrockMotion Motion = NormalFault,
           class GridType = DefaultGridOf<GroundType>>
 struct SCARP_EXPORT FaultScene {
-  using Grid = GridType;
-  static constexpr int dim = Grid::dim;
+  using Grid = GridType;                 ///< elements, integration and kinematics of the ground
+  static constexpr int dim = Grid::dim;  ///< of the grid
 
-  Soil soil;
-  GroundType ground{};
-  Motion fault{};
+  Soil soil;                       ///< carries the geostatic stress at first
+  GroundType ground{};             ///< mesh and level of the surface
+  Motion fault{};                  ///< motion of the bedrock
   double unit_weight = 15.68e3;    ///< [N/m3]
   double surcharge = 4e3;          ///< [Pa], on the ground surface, below a structure until it is placed
   double throw_to = 0.085 * 25.0;  ///< [m]
-  Solver solver{};
-  LoadStepping stepping{};
-  Structure structure{};
+  Solver solver{};                 ///< of each load step
+  LoadStepping stepping{};         ///< of all stages
+  Structure structure{};           ///< what stands on the ground
 
   /// The ground with what of the structure is part of the mesh.
   /// \throws InputError for parts that do not fit

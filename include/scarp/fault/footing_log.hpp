@@ -39,10 +39,10 @@ struct StripFooting {
 
 /// How a footing has moved from where the mesh has it, and what the ground presses with against its base.
 struct FootingMotion {
-  double settlement = 0.0;  ///< of the centre of the base, positive down [m]
-  double horizontal = 0.0;  ///< along x [m]
-  double tilt = 0.0;        ///< [rad], clockwise: towards the hanging wall
-  std::vector<InterfacePoint> base;
+  double settlement = 0.0;           ///< of the centre of the base, positive down [m]
+  double horizontal = 0.0;           ///< along x [m]
+  double tilt = 0.0;                 ///< [rad], clockwise: towards the hanging wall
+  std::vector<InterfacePoint> base;  ///< points of the base with what the ground presses against them
 };
 
 /// Vertical force of the ground on the base [N], positive upwards.
@@ -67,6 +67,7 @@ struct BasePressure {
   double pressed = 0.0;                                       ///< area with pressure over the whole area
 };
 
+/// Extremes of the pressure [Pa] over the points of the base, and the pressed share of its area.
 inline BasePressure base_pressure(FootingMotion const& motion) {
   BasePressure found;
   double area = 0.0;
@@ -81,6 +82,7 @@ inline BasePressure base_pressure(FootingMotion const& motion) {
 }
 
 /// How a scene's footing moves, a row for each accepted step, and the pressures on its base at every so many of them.
+/// \tparam Structure a `StandsOnGround` whose motion(problem) is a `FootingMotion`
 template <class Structure>
 class FootingLog : public NeverStops {
  public:
@@ -99,6 +101,7 @@ class FootingLog : public NeverStops {
         end_(to),
         load_unit_(load_unit) {}
 
+  /// Writes a row for an accepted state, and the base's pressures where a profile is due.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;

@@ -7,7 +7,7 @@ namespace scarp {
 
 /// Nothing stands on the ground.
 struct NoStructure {
-  static std::vector<double> edges() { return {}; }
+  static std::vector<double> edges() { return {}; }  ///< No lines of the mesh are needed.
   /// The place of a footing that a mesh marks is bare surface here.
   template <class Element>
   static void put_on(Mesh<Element>& mesh) {
@@ -16,14 +16,17 @@ struct NoStructure {
     auto& surface = mesh.boundaries["surface"];
     surface.insert(surface.end(), base.mapped().begin(), base.mapped().end());
   }
-  static constexpr int extra_dofs() { return 0; }
+  static constexpr int extra_dofs() { return 0; }  ///< Nothing adds degrees of freedom.
+  /// Load factor before the fault moves; no stage places a structure.
   static constexpr double start() { return 0.0; }
   template <class Grid>
-  static void add_loads(Grid const&, double, LoadHistory&) {}
+  static void add_loads(Grid const&, double, LoadHistory&) {}  ///< Adds no loads.
+  /// Nothing is attached to the mesh.
   template <class Grid>
   static NoAttachment attached(Grid const&) {
     return {};
   }
+  /// Materials of the mesh: the soil.
   template <class Soil>
   static auto regions(Region<Soil> const& soil) {
     return boost::hana::make_tuple(soil);

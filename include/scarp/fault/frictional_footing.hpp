@@ -14,18 +14,21 @@ namespace scarp {
 /// A rigid strip footing on an interface. With the default law, Coulomb friction and no tension, it may slide, tilt and lift.
 template <CheckedContactLaw Law = LinearFrictional>
 struct FrictionalFooting {
-  StripFooting footing{};
-  Law interface {};  ///< [Pa/m] where grains have [N/m]
+  StripFooting footing{};  ///< place, width and weight
+  Law interface {};        ///< [Pa/m] where grains have [N/m]
 
   /// \throws InputError
   std::vector<double> edges() const { return footing.edges(); }
+  /// Names the part of the surface below the footing "footing_base".
   template <class Element>
   void put_on(Mesh<Element>& mesh) const {
     mark_footing_base(mesh, footing.centre, footing.width);
   }
+  /// Motion of a rigid body: two displacements [m] and a rotation [rad].
   static constexpr int extra_dofs() { return RigidBody::extra_dofs; }
-  static constexpr double start() { return -1.0; }
+  static constexpr double start() { return -1.0; }  ///< Load factor before the footing is placed.
 
+  /// Weight [N] of the footing, which replaces the surcharge [Pa] below it, as the load factor grows from -1 to 0.
   template <class Grid>
   void add_loads(Grid const& grid, double surcharge, LoadHistory& loads) const {
     add_uncovered_surcharge(grid, surcharge, start(), loads);
@@ -34,6 +37,7 @@ struct FrictionalFooting {
     loads.add(std::move(weight), TimeFunction::ramp(start(), 0.0));
   }
 
+  /// Rigid body on the interface, also beside the base, where it may slide to.
   template <class Grid>
   Interface<Law, RigidFooting> attached(Grid const& grid) const {
     auto const& mesh = grid.mesh();
@@ -49,11 +53,13 @@ struct FrictionalFooting {
     return {interface, body, FacetChain(std::move(ground)), mesh.nodes};
   }
 
+  /// Materials of the mesh: the soil; the footing is no part of it.
   template <class Soil>
   static auto regions(Region<Soil> const& soil) {
     return boost::hana::make_tuple(soil);
   }
 
+  /// Motion [m, rad] of the rigid body, and the interface's points.
   template <class Problem>
   FootingMotion motion(Problem const& problem) const {
     auto const& body = problem.attached().body().body();

@@ -37,9 +37,9 @@ double surface_level(Mesh<Element> const& mesh) {
 /// Ground on a grid made for it, of any element.
 template <CheckedElement E = Tri3>
 struct StructuredGround {
-  using Element = E;
+  using Element = E;  ///< of the mesh
 
-  FaultMesh layer{};
+  FaultMesh layer{};  ///< layer that the mesh is made of
 
   /// edges: x [m] where a structure needs corner nodes on the surface
   Mesh<Element> mesh(std::vector<double> const& edges) const { return layer.generate<Element>(edges); }

@@ -16,6 +16,7 @@ template <int Dim = 2>
 struct GroundAtRest : NeverStops {
   std::vector<Vector<Dim>> positions;  ///< [m], for each node; empty until some were copied
 
+  /// Copies the positions of an accepted state whose load factor is not positive.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (report.verdict.acceptable() && !(report.load > 0.0)) positions = problem.discretisation().positions();

@@ -91,9 +91,9 @@ void require_ground(Mesh<Element> const& mesh) {
 /// region "footing" its "footing_top". `ground_from_file` checks all of this.
 template <CheckedElement E>
 struct MeshFileGround {
-  using Element = E;
+  using Element = E;  ///< of the mesh
 
-  Mesh<Element> given;
+  Mesh<Element> given;  ///< as it was read or made elsewhere
 
   /// edges: x [m] where a structure needs corner nodes on the surface
   /// \throws InputError for an edge without one, naming the nearest

@@ -47,6 +47,7 @@ struct PilotSize {
     require_positive("transition next to strained places", transition);
   }
 
+  /// Size of an element [m] at a place [m], by the distance from the nearest strained place.
   double size(Vector<2> const& place) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (auto const& other : strained) nearest = std::min(nearest, (other - place).squaredNorm());

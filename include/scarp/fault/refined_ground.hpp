@@ -42,6 +42,7 @@ struct StripSize {
     require_positive("transition next to the strip", transition);
   }
 
+  /// Size of an element [m] at a place [m], by the horizontal distance from the strip.
   double size(Vector<2> const& place) const {
     auto const [left, right] = edges(place.y() - bedrock);
     double const outside = std::max(left - place.x(), place.x() - right);
@@ -54,10 +55,10 @@ struct StripSize {
 template <Ground GroundType, SizeField Field = StripSize>
   requires(GroundType::Element::dim == 2)
 struct RefinedGround {
-  using Element = typename GroundType::Element;
+  using Element = typename GroundType::Element;  ///< of the mesh
 
-  GroundType ground{};
-  Field field{};
+  GroundType ground{};  ///< whose mesh is refined
+  Field field{};        ///< size of elements by place
 
   /// edges: x [m] where a structure needs corner nodes on the surface
   /// \throws InputError for a ground or a field that cannot be used

@@ -85,8 +85,8 @@ struct RuptureMeasures {
   double rupture_dip;        ///< of the line from the fault's tip to surface_x50, see line_dip [rad]
   double largest_share;      ///< of the offset that any point has gone: above 1 in a graben
   double outcrop_x;          ///< see Outcrop, as the next two
-  double steepest_x;
-  double outcrop_width;  ///< [m]
+  double steepest_x;         ///< middle of the steepest part [m]
+  double outcrop_width;      ///< [m]
 };
 
 /// depth: height of the surface above the tip [m]

@@ -107,8 +107,8 @@ BandAtLevel band_at_level(Mesh<Element> const& mesh, std::vector<Vector<2>> cons
 
 /// A rupture from bedrock to surface, so that meshes, soils and seeds can be compared.
 struct RuptureSurvey {
-  double depth;  ///< height of the surface above the fault's tip [m]
-  RuptureMeasures surface;
+  double depth;                      ///< height of the surface above the fault's tip [m]
+  RuptureMeasures surface;           ///< measures of the surface's profile
   std::array<BandAtLevel, 3> bands;  ///< at a quarter, half and three quarters of the depth
 };
 

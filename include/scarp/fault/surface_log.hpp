@@ -22,6 +22,7 @@ class SurfaceLog : public NeverStops {
       : log_(file, {"throw_over_depth", "x_initial", "x", "settlement", "joined"}, start),
         schedule_(detail::validated(LoadSchedule{to, profiles, load_unit})) {}
 
+  /// Writes a profile of an accepted state where one is due.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     rest_.attempted(problem, report);

@@ -15,32 +15,36 @@ namespace scarp {
 /// A strip footing as an elastic block that shares the ground's nodes: neither slip nor gap, tension is transmitted,
 /// as in the reference study.
 struct TiedFooting {
-  StripFooting footing{};
+  StripFooting footing{};                                            ///< place, width and weight
   double height = 1.0;                                               ///< [m]
   LinearElastic<2> block = LinearElastic<2>::from_lame(20e9, 12e9);  ///< the reference study's
 
   /// \throws InputError
   std::vector<double> edges() const { return footing.edges(); }
+  /// Adds the block's elements to the mesh, as the region "footing".
   template <class Element>
   void put_on(Mesh<Element>& mesh) const {
     mark_footing_base(mesh, footing.centre, footing.width);
     double const facets = static_cast<double>(boundary(mesh, "footing_base").size());
     add_footing_block(mesh, height, footing.width / facets);
   }
-  static constexpr int extra_dofs() { return 0; }
-  static constexpr double start() { return -1.0; }
+  static constexpr int extra_dofs() { return 0; }   ///< The block has only nodes of the mesh.
+  static constexpr double start() { return -1.0; }  ///< Load factor before the footing is placed.
 
+  /// Weight [N] of the block, which replaces the surcharge [Pa] below it, as the load factor grows from -1 to 0.
   template <class Grid>
   void add_loads(Grid const& grid, double surcharge, LoadHistory& loads) const {
     add_uncovered_surcharge(grid, surcharge, start(), loads);
     loads.add(weight(grid), TimeFunction::ramp(start(), 0.0));
   }
 
+  /// Nothing is attached to the mesh: the block is part of it.
   template <class Grid>
   static NoAttachment attached(Grid const&) {
     return {};
   }
 
+  /// Materials of the mesh: the soil and the block, as "footing".
   template <class Soil>
   auto regions(Region<Soil> const& soil) const {
     return boost::hana::make_tuple(soil, Region<LinearElastic<2>>{"footing", block});

@@ -16,8 +16,8 @@ namespace scarp {
 template <int Dim>
 struct Balance {
   Tensor<Dim> stress =
-      Tensor<Dim>::Zero();  ///< Love and Weber, \f$ \sigma = -\frac1V \sum f \otimes l \f$ [Pa], tension positive
-  std::size_t contacts = 0;
+      Tensor<Dim>::Zero();   ///< Love and Weber, \f$ \sigma = -\frac1V \sum f \otimes l \f$ [Pa], tension positive
+  std::size_t contacts = 0;  ///< number of touching pairs
   double mean_contact_force = 0.0;     ///< [N]
   double mean_unbalanced_force = 0.0;  ///< mean over the grains of |sum of forces| [N]
   double unbalanced_ratio = 0.0;       ///< mean unbalanced over mean contact force; zero without contacts

@@ -35,7 +35,7 @@ VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
 /// translations, spins of smooth discs and grains on a single contact are held by `regularisation`, which changes other
 /// motions by its own order only, because the forces A lie in the range of a symmetric K.
 struct CondensedTangent {
-  SlidingContacts sliding{};
+  SlidingContacts sliding{};     ///< stiffness of contacts at their shear limit
   double regularisation = 1e-9;  ///< spring to the ground of every motion, over the mean k_n
   bool initial_stress = true;    ///< with the terms of the present stress; never in the fallback
   TangentFallback on_fallback = report_tangent_fallback;  ///< called at each fallback

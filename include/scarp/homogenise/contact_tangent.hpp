@@ -16,8 +16,8 @@ namespace scarp {
 /// A tangent whose evaluation can fail, with its verdict. `tangent` [Pa] is usable whatever the verdict.
 template <int Dim>
 struct TangentResult {
-  VoigtTangent<Dim> tangent;
-  Verdict verdict;
+  VoigtTangent<Dim> tangent;  ///< [Pa], for engineering strain
+  Verdict verdict;            ///< ok, or why the tangent was replaced
 };
 
 /// Called for tangents that a policy had to replace or could not evaluate to its accuracy; by several threads at once.

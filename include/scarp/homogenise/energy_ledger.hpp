@@ -15,6 +15,7 @@ struct EnergyLedger {
   double damping_loss = 0.0;  ///< in the damping of the scheme
   double kinetic = 0.0;       ///< of the fluctuations about the affine motion
 
+  /// Work that no other entry accounts for [J]: the error of the time steps.
   double gap() const { return work_in - stored - contact_loss - damping_loss - kinetic; }
 
   /// One entry for each step in turn: what the step observed, with the cell's volume [m3] before its move and the

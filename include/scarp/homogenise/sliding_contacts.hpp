@@ -24,6 +24,7 @@ struct SlidingContacts {
     require_positive("shear force above which contacts count as sliding, as a share,", nearness);
   }
 
+  /// Whether a contact is at its shear limit: its shear force grows by less than half of a trial increment along it.
   template <int Dim, class Law>
   bool slides(Contact<Dim> const& contact, Law const& law) const {
     double const tangential = contact.stiffness.tangential;

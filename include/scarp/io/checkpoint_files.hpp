@@ -95,19 +95,21 @@ class CheckpointFiles {
     read_head(reader);
   }
 
-  std::string const& scene() const { return scene_; }
+  std::string const& scene() const { return scene_; }  ///< All choices that make the scene, a line for each.
   /// Which run is saved here, and the folder of its results; empty where they were not set.
   std::string const& run() const { return run_; }
+  /// Folder of the run's results; empty where it was not set.
   std::string const& run_folder() const { return run_folder_; }
+  /// Identity of the run and folder of its results, for the checkpoints that follow.
   void name_run(std::string run, std::string folder) {
     run_ = std::move(run);
     run_folder_ = std::move(folder);
   }
 
-  bool saves() const { return !settings_.folder.empty(); }
-  bool resumes() const { return !bytes_.empty(); }
-  CheckpointSettings const& settings() const { return settings_; }
-  std::filesystem::path newest() const { return path(number_); }
+  bool saves() const { return !settings_.folder.empty(); }          ///< Whether there is a folder to save into.
+  bool resumes() const { return !bytes_.empty(); }                  ///< Whether there is a checkpoint to continue from.
+  CheckpointSettings const& settings() const { return settings_; }  ///< As they were given.
+  std::filesystem::path newest() const { return path(number_); }    ///< File of the newest checkpoint.
 
   /// write(StateWriter&) adds what is to be saved
   /// \throws FileError when the file cannot be written; the earlier ones are then untouched
@@ -138,6 +140,7 @@ class CheckpointFiles {
     }
   }
 
+  /// Frees the memory of a checkpoint that was loaded; resumes() is false from then on.
   void release() { bytes_ = {}; }
 
  private:

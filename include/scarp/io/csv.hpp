@@ -101,7 +101,7 @@ class CsvTable {
     text_ += format_.row(values...);
   }
 
-  std::string const& text() const { return text_; }
+  std::string const& text() const { return text_; }  ///< Header and rows so far, each with its end of line.
 
   /// \throws FileError when the file cannot be written; an older file of this name is then untouched
   void write(std::filesystem::path const& path) const { write_file(path, text_); }

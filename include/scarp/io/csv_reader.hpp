@@ -165,11 +165,13 @@ class CsvColumns {
   CsvColumns(std::string file, detail::CsvLine header, std::vector<detail::CsvLine> rows)
       : file_(std::move(file)), header_(std::move(header)), rows_(std::move(rows)) {}
 
-  std::string const& file() const { return file_; }
+  std::string const& file() const { return file_; }  ///< Name of the file in messages.
+  /// Names of the columns, from left to right.
   std::vector<std::string> const& names() const { return header_.cells; }
-  std::size_t rows() const { return rows_.size(); }
+  std::size_t rows() const { return rows_.size(); }  ///< Number of rows, the header not counted.
   /// Number of the line where a row begins, from 1.
   std::size_t line(std::size_t row) const { return rows_[row].number; }
+  /// Whether there is a column of this name.
   bool has(std::string_view name) const { return find(name).has_value(); }
 
   /// \throws InputError for a missing column and a cell that is no finite number, or no whole one where these are

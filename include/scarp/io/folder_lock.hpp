@@ -41,7 +41,8 @@ class FolderLock {
     }
   }
 
-  FolderLock(FolderLock&& other) noexcept { swap(other); }
+  FolderLock(FolderLock&& other) noexcept { swap(other); }  ///< The lock moves to this object.
+  /// Exchanges both locks; the folder stays reserved.
   FolderLock& operator=(FolderLock&& other) noexcept {
     swap(other);
     return *this;

@@ -7,8 +7,8 @@ namespace scarp {
 
 /// Header of a binary file.
 struct FileFormat {
-  std::string_view magic;  ///< eight letters
-  std::uint32_t version;
+  std::string_view magic;    ///< eight letters
+  std::uint32_t version;     ///< files of other versions are rejected
   std::string_view content;  ///< such as "packing"
   std::string_view maker;    ///< what writes such files
 };

@@ -120,7 +120,7 @@ class JsonObject {
     return *this;
   }
 
-  std::string text() const { return '{' + members_ + '}'; }
+  std::string text() const { return '{' + members_ + '}'; }  ///< The object in braces, on one line.
 
  private:
   template <class Value>

@@ -46,24 +46,30 @@ inline constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::m
 /// element, arrays follow behind their length; what several members share is stored once.
 class StateWriter {
  public:
+  /// Appends bytes without a name.
   void put(void const* values, std::size_t bytes) {
     if (bytes > 0) bits_.append(static_cast<char const*>(values), bytes);
   }
 
+  /// Number, enumeration or array of fixed size: its bytes.
   template <detail::Flat T>
   void operator()(std::string_view name, T const& value) {
     label(name, sizeof(T));
     put(&value, sizeof(T));
   }
+  /// Text: its length, then its bytes.
   void operator()(std::string_view name, std::string const& text) { list(name, std::span<char const>(text)); }
+  /// List: its length, then the elements.
   template <class T, class Allocator>
   void operator()(std::string_view name, std::vector<T, Allocator> const& values) {
     list(name, std::span<T const>(values));
   }
+  /// List: its length, then the elements.
   template <class T>
   void operator()(std::string_view name, std::span<T> values) {
     list(name, std::span<T const>(values));
   }
+  /// Length, then all columns with their padding.
   template <class Scalar, int Count>
   void operator()(std::string_view name, SoaArray<Scalar, Count> const& columns) {
     if constexpr (Count > 0) {
@@ -73,6 +79,7 @@ class StateWriter {
       put(columns.column(0), columns.padded_rows() * Count * sizeof(Scalar));
     }
   }
+  /// Number of a shared part; its members follow where it is met for the first time. Null has a number of its own.
   template <class T>
   void operator()(std::string_view name, std::shared_ptr<T const> const& shared) {
     if (!shared) return (*this)(name, detail::no_number);
@@ -80,18 +87,20 @@ class StateWriter {
     (*this)(name, known->second);
     if (is_new) T::members(*shared, *this);
   }
+  /// Both parts as "first" and "second".
   template <class First, class Second>
   void operator()(std::string_view, std::pair<First, Second> const& both) {
     (*this)("first", both.first);
     (*this)("second", both.second);
   }
+  /// Members of a described type; its own name is not stored.
   template <Described T>
   void operator()(std::string_view, T const& value) {
     T::members(value, *this);
   }
 
-  std::string const& bits() const { return bits_; }
-  std::string& bits() { return bits_; }
+  std::string const& bits() const { return bits_; }  ///< What has been written so far.
+  std::string& bits() { return bits_; }              ///< What has been written so far, to be moved out.
 
  private:
   void put_length(std::size_t length) {
@@ -134,7 +143,7 @@ class StateReader {
   /// known: parts that replace equal ones; new ones are added
   explicit StateReader(std::string_view bits, SharedParts* known = nullptr) : rest_(bits), known_(known) {}
 
-  bool at_end() const { return rest_.empty(); }
+  bool at_end() const { return rest_.empty(); }  ///< Whether all bits have been read.
 
   /// count values of the given bytes each, in any memory
   void take(std::string_view name, void* values, std::size_t bytes, std::size_t count = 1) {
@@ -146,11 +155,13 @@ class StateReader {
     rest_.remove_prefix(count * bytes);
   }
 
+  /// Number, enumeration or array of fixed size, from its bytes.
   template <detail::Flat T>
   void operator()(std::string_view name, T& value) {
     expect(name, sizeof(T));
     take(name, &value, sizeof(T));
   }
+  /// \throws InputError for a byte that is neither 0 nor 1
   void operator()(std::string_view name, bool& value) {
     std::uint8_t stored = 0;
     expect(name, sizeof(value));
@@ -158,11 +169,13 @@ class StateReader {
     if (stored > 1) reject("'{}' is {} (it can be 0 or 1): save it again", name, stored);
     value = stored == 1;
   }
+  /// Text of the stored length.
   void operator()(std::string_view name, std::string& text) {
     expect(name, sizeof(char));
     text.resize(take_length(name, sizeof(char)));
     take(name, text.data(), sizeof(char), text.size());
   }
+  /// List of the stored length; existing elements are overwritten.
   template <class T, class Allocator>
   void operator()(std::string_view name, std::vector<T, Allocator>& values) {
     expect_list<T>(name);
@@ -189,6 +202,7 @@ class StateReader {
     }
     elements(name, values);
   }
+  /// Resized to the stored length; columns with their padding.
   template <class Scalar, int Count>
   void operator()(std::string_view name, SoaArray<Scalar, Count>& columns) {
     if constexpr (Count > 0) {
@@ -215,11 +229,13 @@ class StateReader {
     }
     shared = std::static_pointer_cast<T const>(shared_[number].second);
   }
+  /// Both parts from "first" and "second".
   template <class First, class Second>
   void operator()(std::string_view, std::pair<First, Second>& both) {
     (*this)("first", both.first);
     (*this)("second", both.second);
   }
+  /// Members of a described type; then after_loading(), where the type has it.
   template <Described T>
   void operator()(std::string_view, T& value) {
     T::members(value, *this);

@@ -61,16 +61,17 @@ inline std::string xml_text(std::string_view text) {
 /// A vector (dim components) is written with three and a tensor (dim * dim, row by row) with nine, the added ones
 /// zero, as VTK wants them; other counts, such as a Voigt stress, and fields with named components are written as they are.
 struct VtuField {
-  std::string name;
-  int components = 1;
+  std::string name;    ///< as ParaView lists it
+  int components = 1;  ///< numbers of each node or element
+  /// one entry for each node or element, its components side by side
   std::variant<std::span<double const>, std::span<int const>> values;
   std::vector<std::string> component_names{};  ///< empty or one for each component, such as xx, yy, xy
 };
 
 /// Fields of a VTU file.
 struct VtuFields {
-  std::vector<VtuField> at_nodes{};
-  std::vector<VtuField> at_elements{};
+  std::vector<VtuField> at_nodes{};     ///< with values at the nodes
+  std::vector<VtuField> at_elements{};  ///< with values in the elements
 };
 
 namespace detail {
@@ -228,8 +229,9 @@ class PvdSeries {
   PvdSeries(std::filesystem::path folder, std::string name, std::vector<Entry> earlier = {})
       : folder_(std::move(folder)), name_(std::move(name)), entries_(std::move(earlier)) {}
 
-  std::filesystem::path path() const { return folder_ / (name_ + ".pvd"); }
+  std::filesystem::path path() const { return folder_ / (name_ + ".pvd"); }  ///< File of the list.
 
+  /// Times and files that are listed, in order of time.
   std::vector<Entry> const& entries() const { return entries_; }
 
   /// Lists one more file and rewrites the list as a whole, so that an interrupted run leaves a complete one.

@@ -16,14 +16,15 @@ namespace scarp {
 /// at their images by `map`: a smooth map makes a graded or curved mesh.
 template <CheckedElement Element>
 struct BoxMesh {
-  static constexpr int dim = Element::dim;
+  static constexpr int dim = Element::dim;  ///< of the elements
 
   Vector<dim> lengths = Vector<dim>::Ones();  ///< [m]
-  std::array<int, dim> cells = filled(1);
+  std::array<int, dim> cells = filled(1);     ///< number along each axis, 1 to 10000
   double distortion = 0.0;  ///< largest move of an interior corner, as a part of the cell's lengths; up to 0.2
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;   ///< of the random moves
   std::function<Vector<dim>(Vector<dim> const&)> map{};  ///< from the box [m] to space [m]; empty: stay
 
+  /// Equal numbers of cells along all axes.
   static constexpr std::array<int, dim> filled(int cells) {
     std::array<int, dim> all{};
     all.fill(cells);

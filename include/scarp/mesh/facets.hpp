@@ -13,7 +13,7 @@ namespace scarp {
 /// The side of an element.
 template <ReferenceElement Element>
 struct ElementSide {
-  int element = 0;
+  int element = 0;                                ///< number of the element
   std::array<int, Element::facet_nodes> nodes{};  ///< in the sense of the outward normal
 };
 

@@ -20,13 +20,14 @@ namespace scarp {
 /// Nodes, elements of one kind, the regions they belong to and named sets of element sides. SI units.
 template <CheckedElement Element>
 struct Mesh {
-  using ElementType = Element;
-  static constexpr int dim = Element::dim;
+  using ElementType = Element;              ///< shape functions and nodes of one element
+  static constexpr int dim = Element::dim;  ///< of space
 
   std::vector<Vector<dim>> nodes;                         ///< [m]
   std::vector<std::array<int, Element::nodes>> elements;  ///< node numbers from 0, in the element's own order
   std::vector<int> element_region;                        ///< for each element a number into `regions`
-  std::vector<std::string> regions;
+  std::vector<std::string> regions;                       ///< names; elements refer to them by number
+  /// Sides of elements by the name of their set, as node numbers of the mesh.
   std::map<std::string, std::vector<std::array<int, Element::facet_nodes>>> boundaries;
 };
 

@@ -17,6 +17,7 @@ enum class Pattern {
   quads,    ///< the rectangle itself
 };
 
+/// Word of a pattern in options and messages.
 constexpr std::string_view name(Pattern pattern) {
   switch (pattern) {
     case Pattern::left: return "left";

@@ -11,13 +11,16 @@ namespace scarp {
 /// Numbers of the nodes at the crossings of grid lines: (column line, row line), both from 0.
 class GridNumbers {
  public:
+  /// Numbers of nodes that are not yet set are -1.
   GridNumbers(int column_lines, int row_lines)
       : row_lines_(row_lines), numbers_(detail::index(column_lines * row_lines), -1) {}
 
   int columns() const { return detail::count(numbers_) / row_lines_ - 1; }  ///< of cells
   int rows() const { return row_lines_ - 1; }                               ///< of cells
 
+  /// Node at the crossing of a column line and a row line.
   int& operator()(int column, int row) { return numbers_[detail::index(column * row_lines_ + row)]; }
+  /// Node at the crossing of a column line and a row line.
   int operator()(int column, int row) const { return numbers_[detail::index(column * row_lines_ + row)]; }
 
  private:
@@ -92,6 +95,7 @@ inline std::vector<std::array<int, 2>> upper_facets(GridNumbers const& numbers, 
   return facets;
 }
 
+/// The grid's left side over some rows from below; facets run from top to bottom.
 inline std::vector<std::array<int, 2>> left_facets(GridNumbers const& numbers, int rows) {
   std::vector<std::array<int, 2>> facets;
   for (int j = 0; j < rows; ++j) {
@@ -100,6 +104,7 @@ inline std::vector<std::array<int, 2>> left_facets(GridNumbers const& numbers, i
   return facets;
 }
 
+/// The grid's right side over some rows from below; facets run from bottom to top.
 inline std::vector<std::array<int, 2>> right_facets(GridNumbers const& numbers, int columns, int rows) {
   std::vector<std::array<int, 2>> facets;
   for (int j = 0; j < rows; ++j) {

@@ -12,12 +12,12 @@ namespace scarp {
 /// Rectangle with its lower left corner at the origin, in crossed triangles; region "soil", boundaries "left", "right",
 /// "bottom" and "top". Interior nodes may be moved at random (for patch tests); the boundary stays.
 struct RectangleMesh {
-  double width = 1.0;   ///< [m]
-  double height = 1.0;  ///< [m]
-  int columns = 1;
-  int rows = 1;
+  double width = 1.0;       ///< [m]
+  double height = 1.0;      ///< [m]
+  int columns = 1;          ///< number of cells along x, 1 to 10000
+  int rows = 1;             ///< number of cells along y, 1 to 10000
   double distortion = 0.0;  ///< largest move of an interior node, as a part of the cell's width and height; up to 0.2
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;   ///< of the random moves
 
   /// \throws InputError for sizes, counts or a distortion out of range
   Mesh<Tri3> generate() const {

@@ -28,6 +28,7 @@ class ConvergenceLog : public NeverStops {
                start),
         lines_(std::filesystem::path(file).replace_extension(".jsonl"), start == CsvStart::resumed) {}
 
+  /// Writes all iterations of an attempt.
   template <class Problem>
   void attempted(Problem const&, StepReport const& report) {
     ++attempt_;

@@ -65,11 +65,14 @@ Distortion<DiscretisationType::dim> largest_distortion(DiscretisationType const&
 template <int Dim>
 class DistortionWarning : public NeverStops {
  public:
-  using Report = std::function<void(Distortion<Dim> const&)>;
+  using Report = std::function<void(Distortion<Dim> const&)>;  ///< receives the element with the least mean ratio
 
+  /// limit: mean ratio below which the first report is made
+  /// \throws InputError unless it is positive
   explicit DistortionWarning(Report report, double limit = 0.2)
       : report_(std::move(report)), limit_(require_positive("mean ratio that is warned of", limit)) {}
 
+  /// Reports an accepted state whose least mean ratio has fallen below the limit.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;

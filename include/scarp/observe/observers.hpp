@@ -14,12 +14,15 @@
 namespace scarp {
 
 /// Several observers as one; each is called at every attempt, any may stop the run.
+/// \tparam Parts each an `ObservesSteps`
 template <class... Parts>
 struct Observers {
-  boost::hana::tuple<Parts...> parts;
+  boost::hana::tuple<Parts...> parts;  ///< in the order in which they are called
 
+  /// Takes the observers over; see `ObserverRef` for one that is read later.
   explicit Observers(Parts... each) : parts(std::move(each)...) {}
 
+  /// Passes an attempt on to each observer.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     boost::hana::for_each(parts, [&](auto& part) { part.attempted(problem, report); });
@@ -33,6 +36,7 @@ struct Observers {
     });
   }
 
+  /// Whether at least one observer stops the run.
   bool wants_stop() const {
     bool stop = false;
     boost::hana::for_each(parts, [&](auto const& part) { stop = stop || part.wants_stop(); });
@@ -53,18 +57,21 @@ struct Observers {
 };
 
 /// An observer that lives elsewhere, for a program that reads it when the run has ended.
+/// \tparam Observer an `ObservesSteps`
 template <class Observer>
 struct ObserverRef {
-  Observer* observer;
+  Observer* observer;  ///< outlives the run
 
-  explicit ObserverRef(Observer& lent) : observer(&lent) {}
+  explicit ObserverRef(Observer& lent) : observer(&lent) {}  ///< The observer must outlive this object.
 
+  /// Passes an attempt on.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     observer->attempted(problem, report);
   }
-  bool wants_stop() const { return observer->wants_stop(); }
+  bool wants_stop() const { return observer->wants_stop(); }  ///< Whether the observer stops the run.
 
+  /// Those of the observer, where it has a state.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) requires(Described<Observer> || std::is_empty_v<Observer>) {
     if constexpr (Described<Observer>) Observer::members(*self.observer, visit);
@@ -73,20 +80,20 @@ struct ObserverRef {
 
 /// How tables and messages express the load: divided by a unit, under a name.
 struct LoadMeasure {
-  double unit = 1.0;
-  std::string name = "load";
+  double unit = 1.0;          ///< load factor that counts as one
+  std::string name = "load";  ///< in headers of tables and messages
 
   /// \throws InputError for a unit that is not positive
   void validate() const { require_positive("unit of the load", unit); }
-  double of(double load) const { return load / unit; }
+  double of(double load) const { return load / unit; }  ///< Load in units of the measure.
 };
 
 /// When a series writes: at load 0, whenever the load has grown by to / count, and at the end.
 struct LoadSchedule {
-  double to = 0.0;
-  int count = 0;
-  double unit = 1.0;  ///< of loads in tables
-  double next = 0.0;
+  double to = 0.0;     ///< load factor at the end
+  int count = 0;       ///< states that are written after that of load 0
+  double unit = 1.0;   ///< of loads in tables
+  double next = 0.0;   ///< load factor from which the next state is written
   double last = -1.0;  ///< load that was written last
 
   /// \throws InputError for an end, a number or a unit that is not positive
@@ -127,7 +134,7 @@ int require_point(Problem const& problem, int point) {
 
 /// Observer behaviour of one that never stops a run.
 struct NeverStops {
-  static bool wants_stop() { return false; }
+  static bool wants_stop() { return false; }  ///< Never stops a run.
 };
 
 }  // namespace scarp

@@ -39,6 +39,7 @@ class PackingSeries : public NeverStops {
     }
   }
 
+  /// Writes the packing of an accepted state that has come to the next share.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     auto const due = [&] { return next_ < std::ssize(shares_) && report.load >= shares_[detail::index(next_)] * to_; };

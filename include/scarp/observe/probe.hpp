@@ -38,6 +38,7 @@ class RveProbe : public NeverStops {
              start),
         point_(point) {}
 
+  /// Writes a row for an accepted state.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;

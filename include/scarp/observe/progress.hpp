@@ -23,6 +23,7 @@ class Progress : public NeverStops {
         name_(std::move(name)),
         started_(std::chrono::steady_clock::now()) {}
 
+  /// Writes a line for an attempt, with the reason of a rejected one.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (from_ < 0.0 && report.load > 0.0) from_ = report.load - report.load_increment;

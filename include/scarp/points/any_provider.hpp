@@ -16,11 +16,12 @@ namespace scarp {
 template <int Dim>
 class AnyProvider {
  public:
-  static constexpr int dim = Dim;
+  static constexpr int dim = Dim;  ///< of the providers
 
   /// Of no use until another one is assigned.
   AnyProvider() = default;
 
+  /// Holds a copy of any provider of this dimension.
   template <ConstitutiveProvider Provider>
     requires(Provider::dim == Dim)
   AnyProvider(Provider provider)  // NOLINT: any provider is one

@@ -5,6 +5,7 @@
 
 namespace scarp {
 
+/// \file
 /// The tests of the laboratory as conditions of a `PointPath`. The length of a path is the compression of the last, the axial, axis, the
 /// volumetric compression of isotropic paths and the angle of simple shear; a negative length is extension or shear to the
 /// other side. Stresses that are held stay what they are where the path begins. In the plane biaxial tests in plane strain, in space triaxial ones.
@@ -71,6 +72,7 @@ PathConditions<Dim> proportional_strain_path(double ratio) {
   return detail::without_shear<Dim>(std::move(conditions));
 }
 
+/// Axial compression without lateral strain.
 template <int Dim>
 PathConditions<Dim> oedometer_path() {
   return proportional_strain_path<Dim>(0.0);

@@ -19,8 +19,9 @@ namespace scarp {
 /// follows from them is positive in compression; p and q in the plane are those of the stresses in it.
 template <int Dim>
 struct LaboratoryRow {
-  double length = 0.0;
-  VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
+  double length = 0.0;                                 ///< as `PointPath` counts it
+  VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy stress [Pa], tension positive
+  /// logarithmic, with engineering shear, extension positive
   EngineeringStrain<Dim> strain = EngineeringStrain<Dim>::Zero();
 
   /// Principal stresses [Pa], largest first.
@@ -40,7 +41,8 @@ struct LaboratoryRow {
     auto const values = principal_stresses();
     return std::asin((values(0) - values(Dim - 1)) / (values(0) + values(Dim - 1)));
   }
-  double axial_strain() const { return 0.0 - strain(Dim - 1); }
+  double axial_strain() const { return 0.0 - strain(Dim - 1); }  ///< Along the last axis, compression positive.
+  /// Logarithmic, compression positive.
   double volumetric_strain() const { return 0.0 - strain.template head<Dim>().sum(); }
   /// Void ratio of grains that do not change their volume. initial: where the path began
   double void_ratio(double initial) const { return (1.0 + initial) * std::exp(-volumetric_strain()) - 1.0; }
@@ -62,7 +64,8 @@ double dilation(LaboratoryRow<Dim> const& from, LaboratoryRow<Dim> const& to) {
 /// Results of a test by the names that practitioners use. NaN where the test does not have them.
 template <int Dim>
 struct LaboratoryResults {
-  using Row = LaboratoryRow<Dim>;
+  using Row = LaboratoryRow<Dim>;  ///< of the test
+  /// value of a result that the test does not have
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   Row peak{};      ///< where the mobilised friction is largest; mean over the window, as all rows here

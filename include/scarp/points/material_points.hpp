@@ -32,8 +32,8 @@ class MaterialPoints : public PointStates<Dim> {
   using States::batches_, States::has_trial_, States::is_planned_, States::means_, States::owned_;
 
  public:
-  using Gradients = std::vector<Gradient<Dim>>;
-  using Responses = std::vector<Response<Dim>>;
+  using Gradients = std::vector<Gradient<Dim>>;  ///< one for each point
+  using Responses = std::vector<Response<Dim>>;  ///< one for each point
   using States::size, States::work;
   using typename States::Stresses, typename States::Tangents;
 
@@ -114,6 +114,7 @@ class MaterialPoints : public PointStates<Dim> {
     is_planned_ = has_trial_ = false;
   }
 
+  /// Gradients of the points' own displacements, before means.
   Gradients const& own_gradients() const { return own_; }
   /// What the points see: means where there are some.
   Gradients const& gradients() const { return seen_; }
@@ -124,11 +125,13 @@ class MaterialPoints : public PointStates<Dim> {
     auto const k = detail::index(existing(point));
     return means_ ? VoigtStress<Dim>(responses_[k].stress + means_->added_stresses()[k]) : responses_[k].stress;
   }
+  /// Cauchy stresses [Pa] of the last responses, with the stabilising stress of means.
   Stresses stresses() const {
     Stresses values(detail::index(size()));
     for (int point = 0; point < size(); ++point) values[detail::index(point)] = stress(point);
     return values;
   }
+  /// Cauchy stresses [Pa] of all points' committed states, without the stabilising stress of means.
   template <ExecutesTasks Executor>
   Stresses committed_stresses(Executor& executor) const {
     Stresses values(detail::index(size()));
@@ -146,10 +149,12 @@ class MaterialPoints : public PointStates<Dim> {
   }
   /// Tangent [Pa] of a point's trial state.
   VoigtTangent<Dim> tangent(int point) const { return batch(point).trial_tangent(local(point)); }
+  /// Tangents [Pa] of all points' committed states for engineering strain.
   template <ExecutesTasks Executor>
   Tangents committed_tangents(Executor& executor) const {
     return all_tangents(executor, [&](int point) { return this->committed_tangent(point); });
   }
+  /// Tangents [Pa] of all points' trial states for engineering strain.
   template <ExecutesTasks Executor>
   Tangents tangents(Executor& executor) const {
     return all_tangents(executor, [&](int point) { return tangent(point); });

@@ -38,6 +38,8 @@ template <int Dim>
 struct Mirror {
   Vector<Dim> normal;  ///< of the plane, of length 1
 
+  /// Replaces a member by its image, those of a described type one by one.
+  /// \throws InputError for a type whose image is not known
   template <class T>
   void operator()(std::string_view name, T& value) const {
     if constexpr (requires { mirrored(value, normal); }) {

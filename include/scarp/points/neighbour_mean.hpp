@@ -16,8 +16,8 @@ class NeighbourMean {
  public:
   /// A neighbour and its weight.
   struct Share {
-    int point;
-    double weight;
+    int point;      ///< number of the neighbour
+    double weight;  ///< share in the mean, without unit
   };
 
   NeighbourMean() = default;
@@ -26,7 +26,7 @@ class NeighbourMean {
   NeighbourMean(std::vector<std::size_t> first, std::vector<Share> shares)
       : first_(std::move(first)), shares_(std::move(shares)) {}
 
-  int size() const { return detail::count(first_) - 1; }
+  int size() const { return detail::count(first_) - 1; }  ///< Number of points.
 
   /// Points that take part in the mean of one, in increasing order; weights add up to one.
   std::span<Share const> of(int point) const {

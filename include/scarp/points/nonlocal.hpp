@@ -91,15 +91,17 @@ PointMeans<Dim> point_means(std::span<Site<Dim> const> sites, std::span<double c
 
 /// Any material whose points see means of the increments around them, see PointMeans, so that one that softens has a length of its
 /// own: `FaultScene<Nonlocal<Soil>, ...>`, or `Region{"soil", Nonlocal{soil, 2.0}}`.
+/// \tparam Provider a `ConstitutiveProvider` or `AnyProvider`
 template <class Provider>
 struct Nonlocal {
-  static constexpr int dim = Provider::dim;
+  static constexpr int dim = Provider::dim;  ///< of the material
 
-  Provider provider{};
+  Provider provider{};     ///< the material
   double length = 0.0;     ///< radius [m] of the neighbourhood; 0: the material as it is
   double stiffness = 1.0;  ///< against strain that the mean does not see, as a share of the initial tangent
   double fading = 1e-3;    ///< strain after which the stress of that stiffness has faded
 
+  /// Settings of the means, equal for all points.
   Neighbourhood neighbourhood() const { return {length, stiffness, fading}; }
 
   /// How the neighbours of points are found.

@@ -34,8 +34,8 @@ struct Neighbourhood {
 /// Tangents [Pa] of points whose stress follows from their own strain and from a mean around them.
 template <int Dim>
 struct SplitTangents {
-  std::vector<VoigtTangent<Dim>> by_own;
-  std::vector<VoigtTangent<Dim>> by_mean;
+  std::vector<VoigtTangent<Dim>> by_own;   ///< derivative by the point's own strain
+  std::vector<VoigtTangent<Dim>> by_mean;  ///< derivative by the mean strain around the point
 };
 
 /// Points that see weighted means of the increments around them instead of their own,
@@ -51,9 +51,9 @@ struct SplitTangents {
 template <int Dim>
 class PointMeans {
  public:
-  using Gradients = std::vector<Gradient<Dim>>;
-  using Stresses = std::vector<VoigtStress<Dim>>;
-  using Tangents = std::vector<VoigtTangent<Dim>>;
+  using Gradients = std::vector<Gradient<Dim>>;     ///< one for each point
+  using Stresses = std::vector<VoigtStress<Dim>>;   ///< one for each point [Pa]
+  using Tangents = std::vector<VoigtTangent<Dim>>;  ///< one for each point [Pa]
 
   /// neighbourhoods, and tangents [Pa] of the states that the points begin with: of all points; iteration: solves linear systems of
   /// stiffnesses that are not assembled
@@ -76,8 +76,8 @@ class PointMeans {
     }
   }
 
-  NeighbourMean const& mean() const { return mean_; }
-  LinearIteration iterate() const { return iterate_; }
+  NeighbourMean const& mean() const { return mean_; }   ///< Neighbours and weights in the reference configuration.
+  LinearIteration iterate() const { return iterate_; }  ///< Solver for stiffnesses that are not assembled.
 
   /// What the points see of their own gradients; tau belongs to it from then on. The executor has for_each(count, task).
   template <class Executor>
@@ -104,10 +104,11 @@ class PointMeans {
     return parts;
   }
 
-  void commit() { committed_ = trial_; }
+  void commit() { committed_ = trial_; }  ///< Makes the trial tau the committed one.
 
   /// tau [Pa] of a point after the last commit; it belongs to the point's state.
   VoigtStress<Dim> const& committed_tau(int point) const { return committed_[detail::index(point)]; }
+  /// Sets committed and trial tau [Pa] of a point, as for a state that is copied or loaded.
   void set_committed_tau(int point, VoigtStress<Dim> const& tau) {
     committed_[detail::index(point)] = trial_[detail::index(point)] = tau;
   }
@@ -134,7 +135,7 @@ class PointMeans {
     SCARP_ALL_MEMBERS(mean_, iterate_, fading_, stiffness_, committed_, trial_, by_own_, by_mean_);
     visit("tau", std::span(self.committed_));
   }
-  void after_loading() { trial_ = committed_; }
+  void after_loading() { trial_ = committed_; }  ///< The trial tau is the one that was loaded.
 
  private:
   std::array<double, 4> basis() const {

@@ -23,9 +23,10 @@ template <int Dim>
 struct PathCondition {
   EngineeringStrain<Dim> of_strain = EngineeringStrain<Dim>::Zero();  ///< a; zero where the stress is controlled
   VoigtStress<Dim> of_stress = VoigtStress<Dim>::Zero();              ///< b; zero where the strain is controlled
-  double rate = 0.0;
-  std::optional<double> target{};
+  double rate = 0.0;                                                  ///< change per unit of the path [-, Pa]
+  std::optional<double> target{};  ///< value after one unit of the path [-, Pa]; replaces the rate
 
+  /// Whether the strain is controlled, not the stress.
   bool controls_strain() const { return !of_strain.isZero(0.0); }
 };
 
@@ -36,7 +37,7 @@ using PathConditions = std::vector<PathCondition<Dim>>;
 /// How a path's increments are iterated.
 struct PathSettings {
   double tolerance = 1e-6;  ///< of controlled stresses, over the point's largest stress component
-  int max_iterations = 25;
+  int max_iterations = 25;  ///< of an increment, then it is halved
   int max_halvings = 12;    ///< of an increment
   int max_refinements = 4;  ///< of a response, see MaterialPoints::respond
 
@@ -71,7 +72,7 @@ struct PathReport {
 template <int Dim>
 class PointPath {
  public:
-  using Strain = EngineeringStrain<Dim>;
+  using Strain = EngineeringStrain<Dim>;  ///< logarithmic, with engineering shear
 
   /// \throws InputError as `load`
   PointPath(MaterialPoints<Dim>& points, PathConditions<Dim> conditions, PathSettings const& settings = {})
@@ -138,7 +139,7 @@ class PointPath {
   double length() const { return length_; }
   /// Logarithmic strain of a point since the path began.
   Strain const& strain(int point) const { return course(point).strain; }
-  VoigtStress<Dim> const& stress(int point) const { return course(point).stress; }
+  VoigtStress<Dim> const& stress(int point) const { return course(point).stress; }  ///< Committed [Pa].
   /// Deformation gradient of a point since the path began.
   Tensor<Dim> const& deformation(int point) const { return course(point).deformation; }
 

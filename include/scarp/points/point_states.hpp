@@ -28,12 +28,11 @@ namespace scarp {
 template <int Dim>
 class PointStates {
  public:
-  static constexpr int dim = Dim;
-  using Stresses = std::vector<VoigtStress<Dim>>;
-  using Tangents = std::vector<VoigtTangent<Dim>>;
+  static constexpr int dim = Dim;                   ///< of the points
+  using Stresses = std::vector<VoigtStress<Dim>>;   ///< one for each point [Pa]
+  using Tangents = std::vector<VoigtTangent<Dim>>;  ///< one for each point [Pa]
 
   PointStates() = default;
-
   /// Points of several regions; a site's region is the number of its name in `names`.
   /// volumes [m3]: weights of means, empty where no region has means; owned(number of a point): whether this process evaluates it
   /// \throws InputError for a region that has no name here, is given twice or has no material, and for counts that differ
@@ -70,12 +69,12 @@ class PointStates {
     fill(
         sites, volumes, [&](Site<Dim> const&) { return number; }, owned);
   }
+  /// Points of one material, all of them of this process.
   template <CheckedMaterial MaterialType>
   PointStates(MaterialType const& material, std::span<Site<Dim> const> sites, std::span<double const> volumes = {})
       : PointStates(material, sites, volumes, [](int) { return true; }) {}
 
-  int size() const { return detail::count(places_); }
-
+  int size() const { return detail::count(places_); }  ///< Number of points, those of other processes included.
   /// Lets the points see means of their gradients from now on; nothing where every mean is the value itself.
   /// \throws InputError for means over another number of points
   void average(PointMeans<Dim> means) {
@@ -86,16 +85,14 @@ class PointStates {
   }
   /// Means that the points see; null where each sees its own gradient.
   PointMeans<Dim> const* means() const { return means_ ? &*means_ : nullptr; }
-
   /// Of the committed states, as the next ones: without the stabilising stress.
   VoigtStress<Dim> committed_stress(int point) const { return batch(point).stress(local(point)); }
-  VoigtTangent<Dim> committed_tangent(int point) const { return batch(point).tangent(local(point)); }
+  VoigtTangent<Dim> committed_tangent(int point) const { return batch(point).tangent(local(point)); }  ///< [Pa]
   /// Tangent [Pa] of the state that a point began with, made anew.
   VoigtTangent<Dim> initial_tangent(int point) const { return batch(point).initial_tangent(local(point)); }
 
   /// Inner (DEM) steps of one response of a point; a weight for partitioning.
   long work(int point) const { return batch(point).work(local(point)); }
-
   /// Named numbers of a committed state; of a packing void ratio, coordination, balance, in the plane fabrics.
   Quantities quantities(int point) const { return batch(point).quantities(local(point)); }
   /// How well the packing of a committed state is balanced; nothing of points without one, and of one that is fluid.
@@ -109,7 +106,6 @@ class PointStates {
   }
   /// Stress [Pa] of a stiffness floor in a committed state.
   VoigtStress<Dim> floor_stress(int point) const { return batch(point).floor_stress(local(point)); }
-
   /// The committed state of a point. \throws InputError unless it is of this type
   template <class State>
   State const& state(int point) const {
@@ -124,7 +120,6 @@ class PointStates {
     if (!provider) reject("the provider of point {} is requested as another type: take its own", point);
     return *provider;
   }
-
   /// The bits of points' committed states, tau of means included; what states share, such as grains, is in it once.
   /// \throws InputError for states that name no members
   std::string pack(std::span<int const> points) const {
@@ -135,7 +130,7 @@ class PointStates {
     }
     return std::move(writer.bits());
   }
-  std::string pack(int point) const { return pack(std::span(&point, 1)); }
+  std::string pack(int point) const { return pack(std::span(&point, 1)); }  ///< Bits of one point's committed state.
   /// Other committed states for points, between load steps, by the bits of as many points of the same providers; points share again
   /// what those shared.
   /// \throws InputError for other bits, and for points that are named twice, without any change
@@ -154,6 +149,7 @@ class PointStates {
       reject("it holds more than the states of {} points: unpack what was packed of such points", points.size());
     for (std::size_t k = 0; k < points.size(); ++k) put(points[k], std::move(states[k].first), states[k].second);
   }
+  /// Another committed state for one point, by bits of a point of the same provider.
   void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }
   /// Gives a point the committed state of another one, as for the children of a refined element; between load steps. In the mirror
   /// of its principal stresses if wanted: the stress stays, and one packing's accidents are not repeated.
@@ -185,7 +181,6 @@ class PointStates {
   }
   /// Leaves a point without state, since another process owns it.
   void release(int point) { batch(point).release(local(point)); }
-
   /// What evolves: the committed states, and tau of means. Read in, those of all points are here until they are forgotten; only own
   /// points respond.
   template <class Self, class Visit>
@@ -200,32 +195,36 @@ class PointStates {
     }
     if (self.means_) visit("means", *self.means_);
   }
+  /// No response and no plan belongs to states that were loaded.
   void after_loading() { is_planned_ = has_trial_ = false; }
 
  protected:
   /// Batch of a point and its number within.
   struct Place {
-    int batch;
-    int local;
+    int batch;  ///< number of the batch
+    int local;  ///< number within the batch
   };
+  /// The number of a point. \throws InputError where there is no such point
   int existing(int point) const {
     if (point < 0 || point >= size())
       reject("point {} is named (there are {} points): use numbers from 0 to {}", point, size(), size() - 1);
     return point;
   }
+  /// Points of one provider to which a point belongs.
   detail::PointBatch<Dim>& batch(int point) {
     return *batches_[detail::index(places_[detail::index(existing(point))].batch)].held;
   }
+  /// Points of one provider to which a point belongs.
   detail::PointBatch<Dim> const& batch(int point) const {
     return *batches_[detail::index(places_[detail::index(existing(point))].batch)].held;
   }
-  int local(int point) const { return places_[detail::index(point)].local; }
+  int local(int point) const { return places_[detail::index(point)].local; }  ///< Number of a point within its batch.
 
-  std::vector<detail::CopiedBatch<Dim>> batches_;
-  std::vector<int> owned_;  ///< points of this process
-  std::optional<PointMeans<Dim>> means_;
-  bool is_planned_ = false;
-  bool has_trial_ = false;  ///< whether there is a response since the last commit or discard
+  std::vector<detail::CopiedBatch<Dim>> batches_;  ///< one for each provider
+  std::vector<int> owned_;                         ///< points of this process
+  std::optional<PointMeans<Dim>> means_;           ///< nothing where each point sees its own gradient
+  bool is_planned_ = false;                        ///< whether inner steps are fixed for the load step
+  bool has_trial_ = false;                         ///< whether there is a response since the last commit or discard
 
  private:
   using Search = PointMeans<Dim> (*)(std::span<Site<Dim> const>, std::span<double const>,

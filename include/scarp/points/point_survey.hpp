@@ -14,15 +14,16 @@ namespace scarp {
 struct PointSurvey {
   /// DEM steps of a point.
   struct Work {
-    int point = -1;
+    int point = -1;        ///< number of the point, -1 for none
     long inner_steps = 0;  ///< DEM steps of one response
     friend bool operator==(Work const&, Work const&) = default;
   };
-  static constexpr std::size_t max_listed = 5;
+  static constexpr std::size_t max_listed = 5;  ///< length of the list of the slowest points
 
   std::array<int, 4> statuses{};  ///< number of points by `Status`
   std::vector<Work> slowest{};    ///< most work first, equal ones by number; points without any are left out
 
+  /// Number of points with a status.
   int count(Status status) const { return statuses[static_cast<std::size_t>(status)]; }
 
   /// Points are added in the order of their numbers.
@@ -41,7 +42,7 @@ struct ResponseReport {
   Verdict verdict{};     ///< of the worst point
   int worst_point = -1;  ///< that is not acceptable, -1 for none
   long inner_steps = 0;  ///< DEM steps of all points
-  PointSurvey points{};
+  PointSurvey points{};  ///< by status, with the slowest
 };
 
 }  // namespace scarp

@@ -23,8 +23,8 @@ concept CheckedMaterial = Material<Type> || CheckedProvider<Type>;
 /// A named region and the material of its points.
 template <CheckedMaterial MaterialType>
 struct Region {
-  std::string name;
-  MaterialType provider;
+  std::string name;       ///< of the region in the mesh
+  MaterialType provider;  ///< response of the region's points
 };
 
 template <class MaterialType>

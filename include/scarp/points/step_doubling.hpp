@@ -22,8 +22,8 @@ Gradient<Dim> half_increment(Gradient<Dim> const& gradient) {
 /// provider that counts none).
 template <int Dim>
 struct DoubledResponse {
-  Response<Dim> response;
-  long work = 0;
+  Response<Dim> response;  ///< stress [Pa] and verdict
+  long work = 0;           ///< inner steps, or the number of responses
 };
 
 /// Response to an increment with twice the work: by the refined plan where that has more inner steps, else in two halves.

@@ -51,6 +51,7 @@ void with_all_states(Problem& problem, Task const& task) {
 /// with the last accepted state then. When something cannot be written, by an observer or of a checkpoint, the run stops there as
 /// when it is interrupted, and trouble() returns the message. Where points are distributed over processes,
 /// the first one writes for all and each reads all: another number of processes may resume.
+/// \tparam Watched an `ObservesSteps` that is `Described`, such as `Observers`
 template <class Watched, Described Notes>
 class CheckpointedRun {
  public:
@@ -76,11 +77,13 @@ class CheckpointedRun {
   /// Of all stages so far.
   RunReport const& report() const { return report_; }
 
+  /// Passes an attempt on to the observers; a file that cannot be written stops the run.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& step) {
     ++attempts_;
     writing(problem, [&] { watched_.attempted(problem, step); });
   }
+  /// Whether a file could not be written or an observer stops the run.
   bool wants_stop() const { return stopped_ || watched_.wants_stop(); }
 
   /// What could not be written; on the root rank, empty where there is nothing of the kind.
@@ -88,6 +91,8 @@ class CheckpointedRun {
   /// Whether a rank has such trouble.
   bool stopped() const { return stopped_; }
 
+  /// Loads the checkpoint into the stage that it was made in.
+  /// \throws CheckpointError for a checkpoint of another scene
   template <class Problem, class Session>
   void begins(Problem& problem, Session& session, RunState& state) {
     if (!files_.resumes() || stage_ != first_) return;
@@ -103,6 +108,7 @@ class CheckpointedRun {
     if (state.report.verdict.reason == Reason::interrupted) state.report.verdict = {};
   }
 
+  /// Makes a checkpoint where it is due by time or number of attempts.
   template <class Problem, class Session>
   void between(Problem& problem, Session const& session, RunState const& state) {
     auto const& settings = files_.settings();
@@ -112,6 +118,7 @@ class CheckpointedRun {
     if (broadcast_flag(problem.executor(), due) && attempts_ > 0) save(problem, session, state);
   }
 
+  /// Makes a checkpoint of the state that a stage ends in, unless it has just been made.
   template <class Problem, class Session>
   void ends(Problem& problem, Session const& session, RunState const& state) {
     if (attempts_ > 0) save(problem, session, state);

@@ -20,6 +20,7 @@ namespace scarp {
 /// CPU time of the process since `start` [s], of all its threads together: other programs on the machine do not count.
 class CpuTime {
  public:
+  /// CPU time [s] since this object was made.
   double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
 
  private:
@@ -38,9 +39,10 @@ inline std::string processor() {
 
 /// Memory that the process may still allocate, and what sets the limit.
 struct FreeMemory {
-  double bytes = std::numeric_limits<double>::infinity();
-  std::string_view limit = "nothing known";
+  double bytes = std::numeric_limits<double>::infinity();  ///< infinite where no limit is known
+  std::string_view limit = "nothing known";                ///< name of what sets the limit
 
+  /// Lowers the limit to `other` bytes where that is less; one that is not finite is ignored.
   void at_most(double other, std::string_view by) {
     if (std::isfinite(other) && other < bytes) *this = {std::max(0.0, other), by};
   }

@@ -66,6 +66,8 @@ void on_root_rank(Problem const& problem, Task const& task) {
 }
 
 /// Observers that live on the root rank; all ranks stop when they want to.
+/// \tparam Executor an `ExecutesTasks`
+/// \tparam Observers an `ObservesSteps` with ended(problem, load)
 template <class Executor, class Observers>
 class OnRootRank {
  public:
@@ -77,16 +79,19 @@ class OnRootRank {
     });
   }
 
+  /// Passes an attempt on to the observers of the root rank; all ranks call it.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     on_root_rank(problem, [&] { observers_->attempted(problem, report); });
   }
 
+  /// Passes the end of a stage on to the observers of the root rank; all ranks call it.
   template <class Problem>
   void ended(Problem const& problem, double load) {
     on_root_rank(problem, [&] { observers_->ended(problem, load); });
   }
 
+  /// Whether an observer of the root rank stops the run, on every rank.
   bool wants_stop() const {
     bool flag = false;
     together(executor_, [&] { flag = observers_ && observers_->wants_stop(); });

@@ -11,7 +11,7 @@ namespace scarp {
 
 /// Requirements on the folder that a run writes its results into.
 struct RunFolderSettings {
-  std::filesystem::path folder{};
+  std::filesystem::path folder{};   ///< made where it does not exist
   bool overwrite = false;           ///< the results of another run may be replaced
   std::string record = "run.json";  ///< file of the run's record; runs with different ones can live in one folder
   std::vector<std::string> results{"summary.json"};  ///< names that show results where there is no record
@@ -50,7 +50,8 @@ class RunFolder {
     if (files != nullptr) files->name_run(record_.identity, absolute(settings_.folder));
   }
 
-  std::filesystem::path const& path() const { return settings_.folder; }
+  std::filesystem::path const& path() const { return settings_.folder; }  ///< As the settings name it.
+  /// Of this run; its identity and start are those of the run that is resumed.
   RunRecord const& record() const { return record_; }
 
   /// From now on the folder is this run's.

@@ -18,7 +18,7 @@ namespace scarp {
 struct RunRecord {
   using Lines = std::vector<std::pair<std::string, std::string>>;  ///< names and values
 
-  std::string program{};
+  std::string program{};     ///< name of the executable
   std::string identity{};    ///< no two runs have the same; made by RunFolder
   std::string state{};       ///< running (or killed), finished, or why it has stopped
   std::string started{};     ///< as time_stamp() has it
@@ -29,7 +29,7 @@ struct RunRecord {
   Lines options{};           ///< all of them, also those that were not given
   Lines defaults{};          ///< what they would have been, in the same order
 
-  bool has_finished() const { return state == "finished"; }
+  bool has_finished() const { return state == "finished"; }  ///< Whether the run came to its own end.
 
   /// Of the most a reader needs to recognise it.
   std::string described() const {
@@ -39,6 +39,7 @@ struct RunRecord {
                                             : "stopped (" + state + ")");
   }
 
+  /// JSON object: a member for each field, with an object for each of the three lists.
   std::string text() const {
     std::string json = "{\n";
     members(*this, [&](std::string_view name, std::string const& value) {

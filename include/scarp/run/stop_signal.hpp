@@ -32,8 +32,8 @@ struct StopSignal {
   }
 
   template <class Problem>
-  void attempted(Problem const&, StepReport const&) {}
-  static bool wants_stop() { return detail::stop_requested; }
+  void attempted(Problem const&, StepReport const&) {}         ///< Records nothing.
+  static bool wants_stop() { return detail::stop_requested; }  ///< Whether the process has received a signal.
 };
 
 }  // namespace scarp

@@ -11,15 +11,16 @@ namespace scarp {
 /// Ends a run once its wall time is spent. [s]; zero means no limit.
 class TimeLimit {
  public:
-  using Moment = std::chrono::steady_clock::time_point;
+  using Moment = std::chrono::steady_clock::time_point;  ///< monotonic, so that changes of the clock have no effect
 
   /// started: when the time began to count, for instance before the scene was prepared
   explicit TimeLimit(double seconds, Moment started = std::chrono::steady_clock::now())
       : seconds_(seconds), started_(started) {}
 
   template <class Problem>
-  void attempted(Problem const&, StepReport const&) {}
+  void attempted(Problem const&, StepReport const&) {}  ///< Records nothing.
 
+  /// Whether the wall time is spent; without a limit never.
   bool wants_stop() const {
     return seconds_ > 0.0 &&
            std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count() > seconds_;

@@ -21,6 +21,7 @@ namespace scarp {
 
 /// Stiffness of a packing as a provider's tangent: all contacts elastic under uniform strain (Kruyt and Rothenburg 1998).
 struct AffineTangent {
+  /// Elastic stiffness [Pa] of the packing for engineering strain.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     return to_voigt_tangent<PackingType::dim>(contact_tangent(packing, law));
@@ -43,39 +44,40 @@ concept PackingTangent = requires(Tangent const& tangent, PackingType const& pac
 /// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient
 /// (\f$ L = \ln(I + G) \f$ spread over the planned time steps) and the response is Love and Weber's stress at its end.
 /// Grains retain their fluctuation velocities, so that steady shearing stays steady from one load step to the next.
+/// \tparam PackingType a `Packing`
 template <class PackingType, PackingSource<PackingType> Source, PackingTangent<PackingType> Tangent = AffineTangent,
           DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingType> Boundary = Periodic>
 struct DemRve {
-  static constexpr int dim = PackingType::dim;
-  using Law = typename PackingType::Law;
-  using Plan = int;  ///< DEM time steps of one response
+  static constexpr int dim = PackingType::dim;  ///< of the packing
+  using Law = typename PackingType::Law;        ///< contact law of the grains
+  using Plan = int;                             ///< DEM time steps of one response
 
   /// Packing of a point and what its last response had.
   struct State {
-    PackingType packing;
+    PackingType packing;                                 ///< grains, contacts and cell
     VoigtStress<dim> stress = VoigtStress<dim>::Zero();  ///< [Pa], tension positive
     double unbalanced_ratio = 0.0;                       ///< mean net force of a grain over mean contact force
     double kinetic_share = 0.0;                          ///< of moving grains in the pressure
     double inertial_number = 0.0;                        ///< of the last response
-    Verdict verdict{};
+    Verdict verdict{};                                   ///< of the last response
 
     SCARP_MEMBERS(packing, stress, unbalanced_ratio, kinetic_share, inertial_number, verdict)
   };
 
-  Law law{};
-  Source source{};
+  Law law{};                      ///< contact law of all points
+  Source source{};                ///< packings that the points start with
   double strain_per_step = 1e-5;  ///< largest principal strain of one DEM step
   double inertial_number =
       5e-3;            ///< largest of one response, \f$ I = \dot\varepsilon d \sqrt{\rho/p} \f$: loose states go slower
   int min_steps = 20;  ///< of one response, however small the increment
-  int max_steps = 20'000;
+  int max_steps = 20'000;              ///< of one response, however large the increment
   double unbalanced_tolerance = 0.05;  ///< of every response
   double pressure_floor = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
   double time_step_share = default_time_step_share;  ///< of the critical step's lower bound
   bool fluid_start = false;  ///< whether a point may start with a packing without contacts, see StiffnessFloor
-  Damping damping{};
+  Damping damping{};         ///< of the grains' motion
   [[no_unique_address]] Boundary boundary{};  ///< which grains follow the mean strain
-  Tangent tangent_policy{};
+  Tangent tangent_policy{};                   ///< stiffness of a packing as the provider's tangent
 
   /// A packing that was listed with another law is listed anew.
   /// \throws InputError for parameters that no response can be made with, and for a packing that carries nothing or cannot be
@@ -117,10 +119,13 @@ struct DemRve {
     detail::validated(tangent_policy);
   }
 
+  /// Love and Weber's stress [Pa] at the end of the last response, tension positive.
   VoigtStress<dim> stress(State const& state) const { return state.stress; }
 
+  /// Stiffness [Pa] of the state's packing for engineering strain.
   VoigtTangent<dim> tangent(State const& state) const { return tangent_policy(state.packing, law); }
 
+  /// DEM steps of a response: as many as the strain of one step and the inertial number require, within the bounds.
   Plan plan(State const& committed, Gradient<dim> const& increment) const {
     double const largest = largest_strain(increment);
     if (!std::isfinite(largest)) return min_steps;
@@ -171,6 +176,7 @@ struct DemRve {
   /// Twice the steps, hence half the rate.
   Plan refined(Plan steps) const { return std::min(2 * steps, max_steps); }
 
+  /// Response to a displacement gradient in as many DEM steps as plan() gives.
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial) const {
     return respond(committed, increment, trial, plan(committed, increment));
   }

@@ -14,14 +14,16 @@ namespace scarp {
 /// Level ground of packings without a macroscopic solve: all its columns are alike, so one packing is consolidated at a small
 /// pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy. With an overconsolidation ratio
 /// the column goes through multiples of the overburdens, and each copy is unloaded to its own.
+/// \tparam Grading a `SamplesGrains`
 template <class Grading>
 struct LevelGround {
-  Cloud<Grading> cloud{};
+  Cloud<Grading> cloud{};                ///< loose grains that the packing is prepared from
   double unit_weight = 15.68e3;          ///< [N/m3]
   double surcharge = 4e3;                ///< [Pa]
   double overconsolidation_ratio = 1.0;  ///< what each depth once carried over its overburden, at least 1: raises K0
+  /// isotropic consolidation before the column is compressed
   IsotropicPreparation preparation{.pressure = 2e3, .preparation_friction = 0.08};
-  OneDimensionalCompression compression{};
+  OneDimensionalCompression compression{};  ///< one-dimensional compression through the overburdens
 
   /// \throws InputError
   void validate() const {
@@ -30,6 +32,7 @@ struct LevelGround {
     require_at_least("overconsolidation ratio of level ground", overconsolidation_ratio, 1.0);
   }
 
+  /// Vertical stress [Pa], compression positive, at a depth [m].
   double overburden(double depth) const { return surcharge + unit_weight * depth; }
 
   /// depths [m], any order; those with the same overburden, to 1e-7 of it, share a packing

@@ -13,14 +13,16 @@
 namespace scarp {
 
 /// One packing for all points.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct SamePacking {
-  PackingType packing;
+  PackingType packing;  ///< start of every point
 
-  PackingType const& at(Site<PackingType::dim> const&) const { return packing; }
+  PackingType const& at(Site<PackingType::dim> const&) const { return packing; }  ///< The packing, whatever the site.
 };
 
 /// Packings prepared for a list of depths; a site gets the one whose depth is nearest.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct PackingsByDepth {
   std::vector<double> depths;         ///< [m], increasing

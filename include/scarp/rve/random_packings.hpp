@@ -29,13 +29,16 @@ concept PreparesFromSeed = requires(Recipe const& recipe, std::uint64_t seed) {
 };
 
 /// A cloud under isotropic pressure; the seed replaces the cloud's.
+/// \tparam PackingType a `Packing`
+/// \tparam Grading a `SamplesGrains`
 template <class PackingType, class Grading, DampsMotion Damping = LocalDamping>
 struct IsotropicRecipe {
-  Cloud<Grading> cloud{};
-  IsotropicPreparation preparation{};
-  typename PackingType::Law law{};
-  Damping damping{};
+  Cloud<Grading> cloud{};              ///< grains; its own seed is not used
+  IsotropicPreparation preparation{};  ///< pressure and friction of the consolidation
+  typename PackingType::Law law{};     ///< contact law of the grains
+  Damping damping{};                   ///< of the grains' motion
 
+  /// Packing of one seed, or the reason why it did not settle.
   Prepared<PackingType> operator()(std::uint64_t seed) const {
     Cloud<Grading> own = cloud;
     own.seed = seed;
@@ -46,10 +49,11 @@ struct IsotropicRecipe {
 /// One of several sources for every point, drawn at random by the point's number. Points that share a source lie anywhere:
 /// taken in turn, a structured mesh would get stripes. Sources of packings by depth, each from its own seed, give ground whose
 /// columns differ.
+/// \tparam Source a `PackingSource`
 template <class Source>
 struct RandomChoice {
-  std::vector<Source> sources;
-  std::uint64_t seed = 1;
+  std::vector<Source> sources;  ///< at least one
+  std::uint64_t seed = 1;       ///< of the draws
 
   /// \throws InputError when there is no source
   template <int Dim>
@@ -79,10 +83,10 @@ struct RandomChoice {
 /// prepares a few packings once, at the same time where the executor can, and every point draws one.
 template <PreparesFromSeed Recipe>
 struct RandomPackings {
-  using Packing = decltype(std::declval<Recipe const&>()(std::uint64_t{}).packing);
+  using Packing = decltype(std::declval<Recipe const&>()(std::uint64_t{}).packing);  ///< what a recipe prepares
 
-  Recipe recipe{};
-  std::uint64_t seed = 1;
+  Recipe recipe{};         ///< prepares a packing from a seed
+  std::uint64_t seed = 1;  ///< of the family of seeds, one for each point
 
   /// \throws PreparationError, naming the point, when its packing does not settle
   Packing at(Site<Packing::dim> const& site) const {

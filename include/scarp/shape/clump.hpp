@@ -17,18 +17,18 @@ namespace scarp {
 
 /// A disc of a clump: centre and radius in the clump's own frame.
 struct ClumpMember {
-  double x;
-  double y;
-  double radius;
+  double x;       ///< centre in the template's frame
+  double y;       ///< centre in the template's frame
+  double radius;  ///< in units of the clump's scale
 
-  Vector<2> centre() const { return {x, y}; }
+  Vector<2> centre() const { return {x, y}; }  ///< In the template's frame, in units of the clump's scale.
 };
 
 /// Area, centroid and polar second moment about the centroid of a union of discs.
 struct DiscUnion {
-  double area;
-  Vector<2> centroid;
-  double polar_moment;
+  double area;          ///< each point counted once, where discs overlap too
+  Vector<2> centroid;   ///< in the frame of the discs
+  double polar_moment;  ///< about the centroid, length to the fourth power
 };
 
 namespace detail {
@@ -103,25 +103,32 @@ inline DiscUnion disc_union(std::span<ClumpMember const> discs) {
 /// Rigid composition of discs in the plane; size is (scale), which multiplies `Template::members`, orientation (cos,
 /// sin) of the template's x axis. The centre is the centroid of the union, whose area and inertia are those of the
 /// grain. The pose of a part is its disc: offset (x, y) from the grain's centre in the frame of space, radius.
+/// \tparam Template has the discs as `members`, a constant std::array of `ClumpMember`
 template <class Template>
 struct Clump {
-  static constexpr int dim = 2;
-  static constexpr int size_count = 1;
-  static constexpr int orientation_count = 2;
-  static constexpr int pose_count = 3;
-  static constexpr int part_count = detail::count(Template::members);
-  static constexpr bool warm_starts_normal = false;
+  static constexpr int dim = 2;                ///< discs lie in a plane
+  static constexpr int size_count = 1;         ///< the scale
+  static constexpr int orientation_count = 2;  ///< cosine and sine of the template's x axis
+  static constexpr int pose_count = 3;         ///< offset x, offset y and radius of one disc [m]
+  static constexpr int part_count = detail::count(Template::members);  ///< discs of the template
+  static constexpr bool warm_starts_normal = false;                    ///< the touch of two discs has a closed form
   static_assert(part_count > 0, "a clump needs at least one disc");
 
   template <class T>
-  using Size = std::array<T, 1>;
+  using Size = std::array<T, 1>;  ///< (scale), the length [m] of the template's unit
 
+  /// Area [m2] of the union.
   static double content(Size<double> const& size) { return unit().area * size[0] * size[0]; }
+  /// Polar second moment of the union about its centroid over its area [m2].
   static double gyration_squared(Size<double> const& size) { return unit().gyration_squared * size[0] * size[0]; }
+  /// Distance of the centroid from the farthest point of a disc [m].
   static double bounding_radius(Size<double> const& size) { return unit().bounding_radius * size[0]; }
+  /// Distance of the centroid from the farthest centre of a disc [m].
   static double eccentricity(Size<double> const& size) { return unit().largest_offset * size[0]; }
+  /// Radius of the smallest disc [m].
   static double min_curvature_radius(Size<double> const& size) { return unit().smallest_radius * size[0]; }
 
+  /// Offset (x, y) of disc `part` from the grain's centre in the frame of space, and its radius [m].
   template <class T>
   static std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation, int part = 0) {
     ClumpMember const& member = unit().members[detail::index(part)];
@@ -131,11 +138,14 @@ struct Clump {
             broadcast<T>(member.radius) * size[0]};
   }
 
+  /// Of the disc of a part [m].
   template <class T>
   static T contact_radius(std::array<T, 3> const& pose) {
     return pose[2];
   }
 
+  /// Two discs, poses of parts of both grains; `branch` [m] joins the grains' centres and the arms start there.
+  /// `normal` is ignored.
   template <class T>
   static ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
                                      Point<2, T> const& branch, Point<2, T> const& normal) {
@@ -180,25 +190,28 @@ struct Clump {
 
 /// Two discs whose centres lie 1.5 radii apart; the scale of all templates here is the radius of a disc.
 struct DumbbellTemplate {
+  /// x, y, radius in units of the scale
   static constexpr std::array<ClumpMember, 2> members{{{-0.75, 0.0, 1.0}, {0.75, 0.0, 1.0}}};
 };
 
 /// Three discs on the corners of a triangle of side 1.5.
 struct TrefoilTemplate {
-  static constexpr double height = 0.75 * std::numbers::sqrt3;
+  static constexpr double height = 0.75 * std::numbers::sqrt3;  ///< of the triangle, in units of the scale
+  /// x, y, radius in units of the scale
   static constexpr std::array<ClumpMember, 3> members{
       {{-0.75, -height / 3.0, 1.0}, {0.75, -height / 3.0, 1.0}, {0.0, 2.0 * height / 3.0, 1.0}}};
 };
 
 /// Four discs on the corners of a square of side 1.4: small enough to leave no hole.
 struct QuatrefoilTemplate {
+  /// x, y, radius in units of the scale
   static constexpr std::array<ClumpMember, 4> members{
       {{-0.7, -0.7, 1.0}, {0.7, -0.7, 1.0}, {0.7, 0.7, 1.0}, {-0.7, 0.7, 1.0}}};
 };
 
-using Dumbbell = Clump<DumbbellTemplate>;
-using Trefoil = Clump<TrefoilTemplate>;
-using Quatrefoil = Clump<QuatrefoilTemplate>;
+using Dumbbell = Clump<DumbbellTemplate>;      ///< Grain of two overlapping discs.
+using Trefoil = Clump<TrefoilTemplate>;        ///< Grain of three overlapping discs.
+using Quatrefoil = Clump<QuatrefoilTemplate>;  ///< Grain of four overlapping discs.
 
 static_assert(ParticleShape<Dumbbell>);
 static_assert(ParticleShape<Trefoil>);

@@ -15,25 +15,31 @@ namespace scarp {
 /// The pose is the matrix of its support function, \f$ h(n)^2 = n \cdot A n,\; A = R\,diag(a^2, b^2) R^T \f$, as mean and deviator,
 /// \f$ A = [m + p,\ q;\ q,\ m - p] \f$.
 struct Ellipse {
-  static constexpr int dim = 2;
-  static constexpr int size_count = 2;
-  static constexpr int orientation_count = 2;
-  static constexpr int pose_count = 3;
-  static constexpr bool warm_starts_normal = true;
+  static constexpr int dim = 2;                     ///< ellipses lie in a plane
+  static constexpr int size_count = 2;              ///< two semi-axes
+  static constexpr int orientation_count = 2;       ///< cosine and sine of the major axis
+  static constexpr int pose_count = 3;              ///< m, p and q [m2] of the support matrix
+  static constexpr bool warm_starts_normal = true;  ///< a step of Newton's method starts from the stored normal
 
   template <class T>
-  using Size = std::array<T, 2>;
+  using Size = std::array<T, 2>;  ///< (a, b), semi-axes [m]
 
+  /// Area \f$ \pi a b \f$ [m2].
   static double content(Size<double> const& size) { return std::numbers::pi * size[0] * size[1]; }
+  /// Polar second moment about the centre over the area, \f$ (a^2 + b^2)/4 \f$ [m2].
   static double gyration_squared(Size<double> const& size) { return (size[0] * size[0] + size[1] * size[1]) / 4.0; }
+  /// The longer semi-axis [m].
   static double bounding_radius(Size<double> const& size) { return std::max(size[0], size[1]); }
+  /// Largest slope of the support function, \f$ |a - b| \f$ [m] per radian.
   static double eccentricity(Size<double> const& size) { return std::abs(size[0] - size[1]); }
+  /// At the ends of the major axis, \f$ b^2/a \f$ [m].
   static double min_curvature_radius(Size<double> const& size) {
     double const longer = std::max(size[0], size[1]);
     double const shorter = std::min(size[0], size[1]);
     return shorter * shorter / longer;
   }
 
+  /// (m, p, q) [m2]; the deviator (p, q) turns by twice the angle of the major axis.
   template <class T>
   static std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
     T const major = size[0] * size[0];
@@ -57,6 +63,7 @@ struct Ellipse {
     return (pose[0] - deviator) / std::sqrt(pose[0] + deviator);
   }
 
+  /// Of one grain along a unit normal: value, slope and radius of curvature [m].
   template <class T>
   static Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& normal) {
     return supports(pose, pose, normal)[0];
@@ -74,6 +81,7 @@ struct Ellipse {
     return {complete(a, roots[0]), complete(b, roots[1])};
   }
 
+  /// One step of Newton's method for a pair, by `support_contact`; `branch` [m], `normal` the unit vector to start from.
   template <class T>
   static ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
                                      Point<2, T> const& branch, Point<2, T> const& normal) {
@@ -105,6 +113,7 @@ struct Ellipse {
 
 static_assert(ParticleShape<Ellipse>);
 
+/// Ellipses are among the shapes of `scarp::precompiled`.
 template <>
 inline constexpr bool is_precompiled<Ellipse> = detail::has_library;
 

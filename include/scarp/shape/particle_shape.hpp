@@ -10,6 +10,7 @@
 
 namespace scarp {
 
+/// Coordinates or components of one point, or of a pack of points, in the frame of space.
 template <int Dim, class T>
 using Point = std::array<T, static_cast<std::size_t>(Dim)>;
 
@@ -22,13 +23,15 @@ inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 /// contact point, the middle between the two support points. `normal_error` is the angle [rad] by which the search for the normal
 /// turned it last [rad], infinite where it found none, zero where the shape gives none: a touch that is far from its end is
 /// searched anew, one that turned by less than 1e-8 has ended, which is right where errors fall as squares.
+/// \tparam Dim 2 or 3
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct ContactGeometry {
-  T overlap;
-  Point<Dim, T> normal;
-  Point<Dim, T> arm_first;
-  Point<Dim, T> arm_second;
-  T normal_error{};
+  T overlap;                 ///< [m], positive where the grains touch
+  Point<Dim, T> normal;      ///< unit vector from the first grain to the second
+  Point<Dim, T> arm_first;   ///< from the first centre to the contact point [m]
+  Point<Dim, T> arm_second;  ///< from the second centre to the contact point [m]
+  T normal_error{};          ///< angle of the search's last step [rad]
 };
 
 /// Parameters of one grain [m], as a scalar each or as packs of as many grains as a register holds.
@@ -66,6 +69,7 @@ constexpr int species_count() {
   }
 }
 
+/// Numbers from which the contact search sees one part of a grain at its present orientation, or of a pack of grains.
 template <class Shape, class T = double>
 using PoseOf = std::array<T, static_cast<std::size_t>(Shape::pose_count)>;
 

@@ -36,29 +36,32 @@ ContactGeometry<Dim, T> round_contact(T const& first, T const& second, Point<Dim
 /// What discs and spheres have in common: a size that is their radius, and no orientation.
 template <int Dim>
 struct RoundGrain {
-  static constexpr int dim = Dim;
-  static constexpr int size_count = 1;
-  static constexpr int orientation_count = 0;
-  static constexpr int pose_count = 1;
-  static constexpr bool warm_starts_normal = false;
+  static constexpr int dim = Dim;                    ///< 2 for discs, 3 for spheres
+  static constexpr int size_count = 1;               ///< the radius
+  static constexpr int orientation_count = 0;        ///< a turn changes nothing
+  static constexpr int pose_count = 1;               ///< the radius
+  static constexpr bool warm_starts_normal = false;  ///< the touch has a closed form
 
   template <class T>
-  using Size = std::array<T, 1>;
+  using Size = std::array<T, 1>;  ///< (radius) [m]
 
-  static double bounding_radius(Size<double> const& size) { return size[0]; }
-  static double eccentricity(Size<double> const&) { return 0.0; }
-  static double min_curvature_radius(Size<double> const& size) { return size[0]; }
+  static double bounding_radius(Size<double> const& size) { return size[0]; }  ///< The radius [m].
+  static double eccentricity(Size<double> const&) { return 0.0; }  ///< Zero: the support function is constant.
+  static double min_curvature_radius(Size<double> const& size) { return size[0]; }  ///< The radius [m].
 
+  /// The radius [m]; there is no orientation.
   template <class T>
   static std::array<T, 1> pose(Size<T> const& size, std::array<T, 0> const&) {
     return size;
   }
 
+  /// The radius [m].
   template <class T>
   static T contact_radius(std::array<T, 1> const& pose) {
     return pose[0];
   }
 
+  /// By `round_contact` of the two radii; `branch` [m] joins the centres, a start normal is ignored.
   template <class T>
   static ContactGeometry<Dim, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
                                        Point<Dim, T> const& branch, Point<Dim, T> const&) {

@@ -17,18 +17,18 @@ namespace scarp {
 /// \f$ h(n) = (|r_x n_x|^q + |r_y n_y|^q)^{1/q},\; q = 2/(2-\epsilon) \f$ is its support function.
 /// The pose is (cos, sin, rx, ry, q - 1, 1/q, 1/(q - 1)).
 struct Superellipse {
-  static constexpr int dim = 2;
-  static constexpr int size_count = 3;
-  static constexpr int orientation_count = 2;
-  static constexpr int pose_count = 7;
-  static constexpr bool warm_starts_normal = true;
-  static constexpr double smallest_exponent = 0.2;
-  static constexpr double largest_exponent = 1.8;
+  static constexpr int dim = 2;                     ///< superellipses lie in a plane
+  static constexpr int size_count = 3;              ///< two half axes and the exponent
+  static constexpr int orientation_count = 2;       ///< cosine and sine of the rx axis
+  static constexpr int pose_count = 7;              ///< numbers of `Pose`
+  static constexpr bool warm_starts_normal = true;  ///< the search starts from the stored normal
+  static constexpr double smallest_exponent = 0.2;  ///< the contact search holds from this value on
+  static constexpr double largest_exponent = 1.8;   ///< the contact search holds up to this value
 
   template <class T>
-  using Size = std::array<T, 3>;
+  using Size = std::array<T, 3>;  ///< (rx, ry, eps): half axes [m] and the exponent, without unit
   template <class T>
-  using Pose = std::array<T, 7>;
+  using Pose = std::array<T, 7>;  ///< (cos, sin, rx, ry, q - 1, 1/q, 1/(q - 1)), half axes in [m]
 
   /// \throws InputError unless the half axes are positive and the exponent lies in the range that the touch is made for
   static void check(Size<double> const& size) {
@@ -61,6 +61,7 @@ struct Superellipse {
     return bulge > 0.0 ? longer * std::pow(1.0 + std::pow(aspect, 2.0 / bulge), bulge / 2.0) : longer;
   }
 
+  /// Largest slope of the support function over the boundary [m] per radian, to about 1e-7 of it.
   static double eccentricity(Size<double> const& size) {
     return largest_of(size, [](Support<double> const& support) { return std::abs(support.slope); });
   }
@@ -75,6 +76,7 @@ struct Superellipse {
     return (2.0 - size[2]) * shorter * shorter / std::max(size[0], size[1]);
   }
 
+  /// From half axes [m], exponent and axis of one grain; `q` follows from the exponent.
   template <class T>
   static Pose<T> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
     T const inverse = broadcast<T>(1) - size[2] * broadcast<T>(0.5);
@@ -89,11 +91,13 @@ struct Superellipse {
     return sqrt(pose[2] * pose[3]);
   }
 
+  /// Of one grain along a unit normal: value, slope and radius of curvature [m].
   template <class T>
   static SuperellipseSupport<T> support(Pose<T> const& pose, Point<2, T> const& normal) {
     return superellipse_supports<T, 1>({pose}, normal)[0];
   }
 
+  /// By `superellipse_contact`: `branch` [m] joins the centres, `normal` is where the search starts.
   template <class T>
   static ContactGeometry<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
                                      Point<2, T> const& normal) {

@@ -14,26 +14,29 @@ namespace scarp {
 
 /// Support function, and where the normal stands among the grain's axes: `tilt` is the tangent of its angle from the
 /// nearest one (that of larger r |n|), never zero. The slope is there nearly linear in the tilt to the power 1 / bend.
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class T>
 struct SuperellipseSupport : Support<T> {
-  T tilt;
-  T bend;
+  T tilt;  ///< tangent of the normal's angle from the nearest axis, signed
+  T bend;  ///< 1/(q - 1), at least one
 };
 
 /// The normal among a superellipse's axes: `along` is the half axis nearer to it (of larger r |n|), `beside` the other one.
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class T>
 struct SuperellipseFrame {
-  T along;
-  T beside;
+  T along;          ///< half axis [m]
+  T beside;         ///< half axis [m]
   T normal_along;   ///< |n|
   T normal_beside;  ///< |n|
   T turn;           ///< its sign is that of the angle from the nearer axis
   T large;          ///< r |n|
-  T inverse_large;
-  T inverse_along;
-  T ratio;  ///< the smaller r |n| over the larger one
+  T inverse_large;  ///< 1 / large [1/m]
+  T inverse_along;  ///< 1 / along [1/m]
+  T ratio;          ///< the smaller r |n| over the larger one
 
   SuperellipseFrame() = default;
+  /// pose: (cos, sin, rx, ry, q - 1, 1/q, 1/(q - 1)) with half axes in [m]; `normal` a unit vector in the frame of space
   SuperellipseFrame(std::array<T, 7> const& pose, Point<2, T> const& normal) {
     using std::abs;
     using std::max;

@@ -12,11 +12,12 @@ namespace scarp {
 
 /// Support function of a convex, centrally symmetric plane shape along a unit normal n(phi): value h [m], slope
 /// dh/dphi [m] and radius of curvature h + d2h/dphi2 [m] of the boundary at the support point.
+/// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class T>
 struct Support {
-  T value;
-  T slope;
-  T curvature_radius;
+  T value;             ///< distance of the tangent line from the centre [m]
+  T slope;             ///< derivative by the normal's angle [m] per radian
+  T curvature_radius;  ///< of the boundary where the tangent line touches [m]
 };
 
 /// One Newton step for the normal n that minimises \f$ f(\phi) = h_A(n) + h_B(n) - d \cdot n \f$, from a given start.

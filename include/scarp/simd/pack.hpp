@@ -19,15 +19,16 @@
 namespace scarp {
 
 /// The scalar that a pack has many of, or the scalar itself.
+/// \tparam T a floating-point number or a `BasicPack`
 template <class T>
 struct ScalarOf {
-  using type = T;
+  using type = T;  ///< a single number is its own scalar
 };
 /// Number type of a lane of a pack.
 template <class T>
   requires requires { typename T::value_type; }
 struct ScalarOf<T> {
-  using type = typename T::value_type;
+  using type = typename T::value_type;  ///< of a pack's lane
 };
 
 /// A number as scalar type T; a pack gets it in every lane, rounded to the pack's precision.
@@ -64,18 +65,22 @@ template <class Scalar, std::size_t Width>
 using VectorOf = typename detail::RawVector<Scalar, Width>::type;
 
 /// A yes or no for each lane of a pack: what comparisons of packs give.
+/// \tparam Scalar float or double, of which comparisons are made
+/// \tparam Width number of lanes, a power of two
 template <class Scalar, std::size_t Width>
 struct BasicMask {
   /// Integers of the scalar's size: all bits set for yes, none for no.
   using Vector = decltype(std::declval<VectorOf<Scalar, Width>>() < std::declval<VectorOf<Scalar, Width>>());
 
-  Vector vector;
+  Vector vector;  ///< one integer for each lane
 
-  static constexpr std::size_t size() { return Width; }
+  static constexpr std::size_t size() { return Width; }  ///< Number of lanes.
 
   BasicMask() = default;
+  /// From integers that have all bits set for yes, none for no.
   [[gnu::always_inline]] explicit BasicMask(Vector const& lanes) : vector(lanes) {}
 
+  /// Whether the condition holds in one lane.
   [[gnu::always_inline]] bool operator[](std::size_t lane) const { return vector[lane] != 0; }
 
   [[gnu::always_inline]] BasicMask operator!() const { return BasicMask(~vector); }
@@ -87,6 +92,7 @@ struct BasicMask {
   }
 };
 
+/// Whether the condition holds in at least one lane.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline bool any_of(BasicMask<Scalar, Width> const& condition) {
   [[maybe_unused]] constexpr std::size_t bytes = Width * sizeof(Scalar);
@@ -107,19 +113,20 @@ template <class Scalar, std::size_t Width>
   for (std::size_t lane = 1; lane < Width; ++lane) found |= condition.vector[lane];
   return found != 0;
 }
+/// Whether the condition holds in no lane.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline bool none_of(BasicMask<Scalar, Width> const& condition) {
   return !any_of(condition);
 }
+/// Whether the condition holds in every lane.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline bool all_of(BasicMask<Scalar, Width> const& condition) {
   return !any_of(!condition);
 }
 
-// The same for the condition of a single number.
-inline bool any_of(bool condition) { return condition; }
-inline bool none_of(bool condition) { return !condition; }
-inline bool all_of(bool condition) { return condition; }
+inline bool any_of(bool condition) { return condition; }    ///< The condition of a single number.
+inline bool none_of(bool condition) { return !condition; }  ///< Whether the condition of a single number fails.
+inline bool all_of(bool condition) { return condition; }    ///< The condition of a single number.
 
 /// Types whose every value a pack of such scalars holds unchanged; plain integers are let in for the sake of `2 * pack`.
 template <class Number, class Scalar>
@@ -128,24 +135,29 @@ concept FitsInto = std::same_as<Number, int> || std::same_as<Number, Scalar> ||
 
 /// Scalars side by side in the compiler's own vector; laws and shapes accept it in place of one. The width is part of the
 /// type, because sources for different instruction sets may be linked together.
+/// \tparam Scalar float or double
+/// \tparam Width number of lanes, a power of two
 template <class Scalar, std::size_t Width>
 struct BasicPack {
-  using value_type = Scalar;
-  using Vector = VectorOf<Scalar, Width>;
-  using Mask = BasicMask<Scalar, Width>;
+  using value_type = Scalar;               ///< of one lane
+  using Vector = VectorOf<Scalar, Width>;  ///< the compiler's vector behind a pack
+  using Mask = BasicMask<Scalar, Width>;   ///< result of a comparison
 
-  Vector vector;
+  Vector vector;  ///< one scalar for each lane
 
   /// One scalar of a pack that may be assigned to.
   class Lane {
    public:
+    /// Of a pack, which must outlive this reference.
     [[gnu::always_inline]] Lane(BasicPack& pack, std::size_t lane) : pack_(pack), lane_(lane) {}
     Lane(Lane const&) = default;
-    [[gnu::always_inline]] operator Scalar() const { return pack_.vector[lane_]; }
+    [[gnu::always_inline]] operator Scalar() const { return pack_.vector[lane_]; }  ///< The lane's value.
+    /// Writes the lane.
     [[gnu::always_inline]] Lane& operator=(Scalar value) {
       pack_.vector[lane_] = value;
       return *this;
     }
+    /// Copies the value of another lane.
     [[gnu::always_inline]] Lane& operator=(Lane const& other) { return *this = Scalar(other); }
 
    private:
@@ -153,10 +165,10 @@ struct BasicPack {
     std::size_t lane_;
   };
 
-  static constexpr std::size_t size() { return Width; }
+  static constexpr std::size_t size() { return Width; }  ///< Number of lanes.
 
   BasicPack() = default;
-  [[gnu::always_inline]] explicit BasicPack(Vector const& lanes) : vector(lanes) {}
+  [[gnu::always_inline]] explicit BasicPack(Vector const& lanes) : vector(lanes) {}  ///< From the compiler's vector.
   /// The same number in every lane.
   template <FitsInto<Scalar> Number>
   [[gnu::always_inline]] BasicPack(Number number)
@@ -167,7 +179,9 @@ struct BasicPack {
   [[gnu::always_inline]] explicit BasicPack(Generator&& generator)
       : vector(generated(generator, std::make_index_sequence<Width>())) {}
 
+  /// Value of one lane, counted from zero.
   [[gnu::always_inline]] Scalar operator[](std::size_t lane) const { return vector[lane]; }
+  /// Reference to one lane, counted from zero.
   [[gnu::always_inline]] Lane operator[](std::size_t lane) { return {*this, lane}; }
 
   [[gnu::always_inline]] BasicPack operator+() const { return *this; }
@@ -225,7 +239,7 @@ template <class Scalar>
 inline constexpr std::size_t lane_count = register_bytes / sizeof(Scalar) < 8 ? register_bytes / sizeof(Scalar) : 8;
 
 template <class Scalar>
-using Pack = BasicPack<Scalar, lane_count<Scalar>>;
+using Pack = BasicPack<Scalar, lane_count<Scalar>>;  ///< Pack that fills one vector register, eight lanes at most.
 
 /// From and to any address of a scalar.
 template <class Scalar, std::size_t Width = lane_count<Scalar>>
@@ -234,6 +248,7 @@ template <class Scalar, std::size_t Width = lane_count<Scalar>>
   std::memcpy(&values.vector, from, sizeof(values.vector));
   return values;
 }
+/// To any address of a scalar: lanes side by side, without alignment.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline void store(BasicPack<Scalar, Width> const& values, Scalar* to) {
   std::memcpy(to, &values.vector, sizeof(values.vector));

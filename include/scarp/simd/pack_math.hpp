@@ -54,6 +54,7 @@ template <class Scalar, std::size_t Width>
   return detail::lane_by_lane([](Scalar value) { return std::sqrt(value); }, x);
 }
 
+/// Magnitude of each lane, by clearing the sign's bit.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> abs(BasicPack<Scalar, Width> const& x) {
   using Pack = BasicPack<Scalar, Width>;
@@ -62,6 +63,7 @@ template <class Scalar, std::size_t Width>
                                                       detail::magnitude_bits<Scalar, Width>()));
 }
 
+/// Magnitude of one pack with the signs of another, lane by lane.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> copysign(BasicPack<Scalar, Width> const& magnitude,
                                                                 BasicPack<Scalar, Width> const& sign) {
@@ -110,19 +112,22 @@ template <class Scalar, std::size_t Width>
   return greatest;
 }
 
-// Lane after lane, by the functions for single numbers.
+/// Lane after lane by std::pow; `positive_power` is faster where bases are positive.
 template <class Scalar, std::size_t Width>
 BasicPack<Scalar, Width> pow(BasicPack<Scalar, Width> const& base, BasicPack<Scalar, Width> const& exponent) {
   return detail::lane_by_lane([](Scalar b, Scalar e) { return std::pow(b, e); }, base, exponent);
 }
+/// Angle [rad] of (x, y) from the x axis, lane after lane by std::atan2.
 template <class Scalar, std::size_t Width>
 BasicPack<Scalar, Width> atan2(BasicPack<Scalar, Width> const& y, BasicPack<Scalar, Width> const& x) {
   return detail::lane_by_lane([](Scalar a, Scalar b) { return std::atan2(a, b); }, y, x);
 }
+/// Length of (x, y), lane after lane by std::hypot.
 template <class Scalar, std::size_t Width>
 BasicPack<Scalar, Width> hypot(BasicPack<Scalar, Width> const& x, BasicPack<Scalar, Width> const& y) {
   return detail::lane_by_lane([](Scalar a, Scalar b) { return std::hypot(a, b); }, x, y);
 }
+/// cbrt, exp, log, tanh, sin, cos, tan, asin, acos, atan, floor and ceil of a pack, lane after lane by the standard functions.
 #define SCARP_LANE_BY_LANE(FUNCTION)                                                   \
   template <class Scalar, std::size_t Width>                                           \
   BasicPack<Scalar, Width> FUNCTION(BasicPack<Scalar, Width> const& x) {               \

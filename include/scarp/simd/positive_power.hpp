@@ -214,17 +214,19 @@ template <class Scalar, std::size_t Width, std::size_t Count>
   return detail::power_series(logarithm, coefficients);
 }
 
+/// base^exponent of positive normal numbers, with the errors of `positive_powers`.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> positive_power(BasicPack<Scalar, Width> const& base,
                                                                       BasicPack<Scalar, Width> const& exponent) {
   return positive_powers<Scalar, Width, 1>({base}, {exponent})[0];
 }
 
-// Single numbers use the standard library's function.
+/// base^exponent of a single number by std::pow.
 template <class Scalar>
   requires std::is_floating_point_v<Scalar> Scalar positive_power(Scalar base, Scalar exponent) {
     return std::pow(base, exponent);
   }
+/// base^exponent of single numbers by std::pow, one after another.
 template <class Scalar, std::size_t Count>
   requires std::is_floating_point_v<Scalar> std::array<Scalar, Count> positive_powers(
       std::array<Scalar, Count> const& base, std::array<Scalar, Count> const& exponent) {
@@ -232,6 +234,7 @@ template <class Scalar, std::size_t Count>
     for (std::size_t k = 0; k < Count; ++k) powers[k] = std::pow(base[k], exponent[k]);
     return powers;
   }
+/// base^exponent of single numbers by std::pow, one after another; the narrow range that packs need is not used.
 template <class Scalar, std::size_t Count>
   requires std::is_floating_point_v<Scalar> std::array<Scalar, Count> small_powers(
       std::array<Scalar, Count> const& base, std::array<Scalar, Count> const& exponent) {

@@ -10,18 +10,20 @@
 namespace scarp::lanes {
 
 /// A quad: four scalars that lie side by side, such as half a grain's row.
+/// \tparam Scalar float or double
 template <class Scalar>
 struct FourScalars {
-  using Vector = VectorOf<Scalar, 4>;
+  using Vector = VectorOf<Scalar, 4>;  ///< the compiler's vector of four scalars
 
-  Vector value;
+  Vector value;  ///< the four scalars in order
 
+  /// From any address of a scalar.
   static FourScalars read(Scalar const* from) {
     FourScalars quad;
     std::memcpy(&quad.value, from, sizeof(Vector));
     return quad;
   }
-  void write(Scalar* to) const { std::memcpy(to, &value, sizeof(Vector)); }
+  void write(Scalar* to) const { std::memcpy(to, &value, sizeof(Vector)); }  ///< To any address of a scalar.
 };
 
 namespace detail {

@@ -14,12 +14,14 @@ template <class T>
 T select(bool condition, T const& yes, T const& no) {
   return condition ? yes : no;
 }
+/// Lane by lane; both alternatives are always computed.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> select(BasicMask<Scalar, Width> const& condition,
                                                               BasicPack<Scalar, Width> const& yes,
                                                               BasicPack<Scalar, Width> const& no) {
   return BasicPack<Scalar, Width>(condition.vector ? yes.vector : no.vector);
 }
+/// Lane by lane for each number of an array.
 template <class Scalar, std::size_t Width, std::size_t Size>
 std::array<BasicPack<Scalar, Width>, Size> select(BasicMask<Scalar, Width> const& condition,
                                                   std::array<BasicPack<Scalar, Width>, Size> const& yes,
@@ -34,6 +36,7 @@ template <std::floating_point T>
 T at_least(T const& value, T const& floor) {
   return value < floor ? floor : value;
 }
+/// The greater one in each lane; not-a-number in `value` stays.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> at_least(BasicPack<Scalar, Width> const& value,
                                                                 BasicPack<Scalar, Width> const& floor) {
@@ -45,6 +48,7 @@ template <std::floating_point T>
 T at_most(T const& value, T const& ceiling) {
   return ceiling < value ? ceiling : value;
 }
+/// The smaller one in each lane; not-a-number in `value` stays.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline BasicPack<Scalar, Width> at_most(BasicPack<Scalar, Width> const& value,
                                                                BasicPack<Scalar, Width> const& ceiling) {

@@ -9,10 +9,11 @@
 namespace scarp::lanes {
 
 /// A square root and its inverse.
+/// \tparam T a floating-point number or a `BasicPack`
 template <class T>
 struct SquareRoot {
-  T value;
-  T inverse;
+  T value;    ///< \f$ \sqrt{x} \f$
+  T inverse;  ///< \f$ 1/\sqrt{x} \f$
 };
 
 /// Square roots of two positive numbers, or of packs of them; infinities and zeros are not among them. They share a division.

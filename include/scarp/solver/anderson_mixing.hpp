@@ -12,6 +12,7 @@ namespace scarp {
 
 /// Operations of a vector that has dot() and the operators of its kind, as Eigen's have.
 struct OwnVectorOperations {
+  /// Inner product of two vectors of equal length.
   template <class Vector>
   double dot(Vector const& first, Vector const& second) const {
     return first.dot(second);

@@ -20,6 +20,7 @@ namespace scarp {
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
+/// \tparam DiscretisationType a `Discretisation`
 template <class DiscretisationType, ExecutesTasks Executor,
           AttachmentOrNone<DiscretisationType::dim> Attached = NoAttachment>
 class SCARP_EXPORT EquilibriumProblem final
@@ -28,8 +29,8 @@ class SCARP_EXPORT EquilibriumProblem final
   using Part = detail::AttachmentPart<EquilibriumProblem, DiscretisationType::dim, Attached>;
 
  public:
-  static constexpr int dim = DiscretisationType::dim;
-  static constexpr bool follows_motion = DiscretisationType::follows_motion;
+  static constexpr int dim = DiscretisationType::dim;                         ///< of the mesh
+  static constexpr bool follows_motion = DiscretisationType::follows_motion;  ///< whether nodes move from step to step
   using Part::is_bare;
   /// What solvers see of it.
   using Interface = std::conditional_t<is_bare, IncrementalProblem<dim>, AttachedProblem<dim>>;
@@ -64,6 +65,7 @@ class SCARP_EXPORT EquilibriumProblem final
     set_load(0.0);
   }
 
+  /// Degrees of freedom of the mesh, then of what is attached.
   int dof_count() const override {
     if constexpr (is_bare) {
       return discretisation_.dof_count();
@@ -75,24 +77,23 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Sets the load factor whose loads the forces are measured against from now on.
   void set_load(double load) override { load_now_ = loads_.at(load); }
 
-  DiscretisationType const& discretisation() const { return discretisation_; }
-  MaterialPoints<dim> const& points() const { return points_; }
+  DiscretisationType const& discretisation() const { return discretisation_; }  ///< Mesh and elements, committed.
+  MaterialPoints<dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
   /// For callers that exchange states between load steps.
   MaterialPoints<dim>& points() { return points_; }
-  Constraints const& constraints() const override { return constraints_; }
-  std::vector<int> const& free_dofs() const { return free_dofs_; }
-  LoadHistory const& loads() const override { return loads_; }
-  Executor& executor() const { return executor_; }
-
-  /// Gradients of the points in the last evaluation, and their responses.
+  Constraints const& constraints() const override { return constraints_; }  ///< Prescribed displacements [m].
+  std::vector<int> const& free_dofs() const { return free_dofs_; }  ///< Without a prescribed displacement, increasing.
+  LoadHistory const& loads() const override { return loads_; }      ///< Forces [N] by load factor.
+  Executor& executor() const { return executor_; }                  ///< Runs the points' tasks; outlives the problem.
+  /// Displacement gradients that the points saw in the last evaluation.
   std::vector<Gradient<dim>> const& gradients() const override { return points_.gradients(); }
+  /// Stress [Pa], tension positive, and verdict of each point in the last evaluation.
   std::vector<Response<dim>> const& responses() const override { return points_.responses(); }
-
   /// Gradients of the elements in the last plan or evaluation: those that points see, or the ones that they see means of.
   std::vector<Gradient<dim>> const& own_gradients() const { return points_.own_gradients(); }
-
+  /// Cauchy stress [Pa] of each point, tension positive, without what a field of means adds.
   std::vector<VoigtStress<dim>> committed_stresses() const override { return points_.committed_stresses(executor_); }
-  /// With what a field of means adds: those that balance the loads, after a step has been committed.
+  /// Stresses [Pa] with what a field of means adds: those that balance the loads, after a step has been committed.
   std::vector<VoigtStress<dim>> balanced_stresses() const { return points_.balanced_stresses(executor_); }
 
   /// Largest component of all points' gradients in the last plan or evaluation.
@@ -196,7 +197,6 @@ class SCARP_EXPORT EquilibriumProblem final
 
   /// Tangents of all points' committed states.
   std::vector<VoigtTangent<dim>> committed_tangents() const override { return points_.committed_tangents(executor_); }
-
   /// Tangents of all points' trial states, which belong to the last evaluation.
   std::vector<VoigtTangent<dim>> trial_tangents() const override { return points_.tangents(executor_); }
 
@@ -222,7 +222,7 @@ class SCARP_EXPORT EquilibriumProblem final
     visit("materials", self.points_);
     if constexpr (!is_bare) visit("attached", self.attached_);
   }
-  void after_loading() { seen_.resize(0); }
+  void after_loading() { seen_.resize(0); }  ///< The next evaluation computes all gradients anew.
 
  private:
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {

@@ -15,6 +15,7 @@ namespace scarp {
 /// Part of a stiffness matrix that belongs to the free degrees of freedom, and the coupling to prescribed displacements.
 class FreeSystem {
  public:
+  /// Of the degrees of freedom that the constraints leave free.
   explicit FreeSystem(Constraints const& constraints) : FreeSystem(constraints.free_dofs(), constraints.dof_count()) {}
 
   /// free_dofs: in increasing order, of `dof_count` in all
@@ -23,8 +24,10 @@ class FreeSystem {
     for (std::size_t k = 0; k < free_dofs_.size(); ++k) free_index_[detail::index(free_dofs_[k])] = static_cast<int>(k);
   }
 
+  /// Order of the reduced system.
   Eigen::Index free_count() const { return static_cast<Eigen::Index>(free_dofs_.size()); }
 
+  /// Rows and columns [N/m] of the free degrees of freedom, shape (free_count, free_count).
   Eigen::SparseMatrix<double> matrix(Eigen::SparseMatrix<double> const& full) const {
     Eigen::Index const size = free_count();
     Eigen::SparseMatrix<double> part(size, size);
@@ -43,6 +46,7 @@ class FreeSystem {
   /// Number among all degrees of freedom of a free one; -1 stays.
   int dof(int free) const { return free < 0 ? -1 : free_dofs_[detail::index(free)]; }
 
+  /// Entries of the free degrees of freedom, shape (free_count).
   Eigen::VectorXd gather(Eigen::VectorXd const& full) const {
     Eigen::VectorXd part(free_count());
     for (std::size_t k = 0; k < free_dofs_.size(); ++k) part(static_cast<Eigen::Index>(k)) = full(free_dofs_[k]);

@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-using SparseMatrix = Eigen::SparseMatrix<double>;
+using SparseMatrix = Eigen::SparseMatrix<double>;  ///< Compressed by columns, of double precision.
 
 /// factorize(matrix): failed / singular_system or not_finite where it cannot; solve(right), after an acceptable one;
 /// solve_transposed(right): with the transposed matrix.

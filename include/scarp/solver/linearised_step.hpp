@@ -16,6 +16,7 @@ namespace scarp {
 /// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment has its own
 /// forces: contact that opens, closes or slides is followed here, where no material point is evaluated. Without attachment
 /// this is one linear solve.
+/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
 template <class Problem, LinearSolver Linear>
 class LinearisedStep {
  public:
@@ -53,7 +54,7 @@ class LinearisedStep {
     }
   }
 
-  FreeSystem const& system() const { return system_; }
+  FreeSystem const& system() const { return system_; }  ///< Numbering of the free degrees of freedom.
   /// Estimate for the last matrix, in the 1-norm; 0 where a body floats.
   double condition() const { return is_held_ ? equations_.condition() : 0.0; }
   /// |K x - b| / |b| of the last linear system.
@@ -240,6 +241,7 @@ class ExtrapolatedPredictor {
 
 /// What a load step begins with: the system linearised about the committed state, what is
 /// known of it, and the first guess that follows from it.
+/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
 template <class Problem, LinearSolver Linear>
 class LinearPredictor {
  public:
@@ -278,6 +280,7 @@ class LinearPredictor {
     return increment;
   }
 
+  /// Linearisation of the step, for solves within its iteration.
   LinearisedStep<Problem, Linear>& linearised() { return linearised_; }
 
  private:

@@ -46,13 +46,13 @@ concept CheckedObserver = ObservesSteps<Observer, Problem> || detail::MissingOfO
 /// An observer that records nothing and never stops a run.
 struct NoObserver {
   template <class Problem>
-  void attempted(Problem const&, StepReport const&) {}
-  bool wants_stop() const { return false; }
+  void attempted(Problem const&, StepReport const&) {}  ///< Records nothing.
+  bool wants_stop() const { return false; }             ///< Never stops a run.
 };
 
 /// How far a run came.
 struct RunReport {
-  Verdict verdict;
+  Verdict verdict;                     ///< acceptable where the run reached its last load factor
   Reason last_failure = Reason::none;  ///< why the last rejected attempt was rejected
   int worst_point = -1;                ///< material point of that attempt, -1 for none
   int weak_dof = -1;                   ///< degree of freedom that its singular system did not hold, -1 for none
@@ -62,8 +62,8 @@ struct RunReport {
   long iterations = 0;                 ///< of all attempts
   long inner_steps = 0;                ///< DEM steps of all attempts
   double largest_residual = 0.0;       ///< of the accepted steps
-  double material_seconds = 0.0;
-  double seconds = 0.0;
+  double material_seconds = 0.0;       ///< wall time in responses and tangents of all attempts [s]
+  double seconds = 0.0;                ///< wall time of all attempts [s]
 
   SCARP_MEMBERS(verdict, last_failure, worst_point, weak_dof, load, steps, refused, iterations, inner_steps,
                 largest_residual, material_seconds, seconds)
@@ -71,7 +71,7 @@ struct RunReport {
 
 /// Where a run stands between two attempts: with the problem and the session it is all that the rest of the run follows from.
 struct RunState {
-  RunReport report;
+  RunReport report;        ///< of the run so far
   double increment = 0.0;  ///< of the load, for the next attempt
 
   SCARP_MEMBERS(report, increment)
@@ -103,14 +103,14 @@ inline RunReport joined(RunReport const& earlier, RunReport later) {
 /// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved. Only
 /// a step whose residual and points are all acceptable is committed.
 struct LoadStepping {
-  double first = 1e-3;     ///< load increment of the first step
-  double smallest = 1e-7;  ///< increment below which the run gives up
-  double largest = 1e300;
+  double first = 1e-3;                      ///< load increment of the first step
+  double smallest = 1e-7;                   ///< increment below which the run gives up
+  double largest = 1e300;                   ///< increment that no step exceeds
   double max_displacement_gradient = 0.01;  ///< of the prediction at any point
   double growth = 1.4;                      ///< after at most `grow_below` iterations
-  int grow_below = 6;
-  double shrinkage = 0.75;  ///< after more than `shrink_above` iterations
-  int shrink_above = 10;
+  int grow_below = 6;                       ///< iterations up to which the increment grows
+  double shrinkage = 0.75;                  ///< after more than `shrink_above` iterations
+  int shrink_above = 10;                    ///< iterations beyond which the increment shrinks
 
   /// \throws InputError for a setting outside of its range
   void validate() const {

@@ -17,17 +17,23 @@ namespace scarp {
 
 /// The iteration of a `QuasiNewton` on one problem, which may be an `IncrementalProblem`: factorisation and what the points'
 /// tangents have learned. Its members are defined outside so that a library can contain them.
+/// \tparam Settings a `QuasiNewton`
+/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
 template <class Settings, class Problem>
 class SCARP_EXPORT QuasiNewtonSession {
  public:
-  static constexpr int dim = Problem::dim;
+  static constexpr int dim = Problem::dim;  ///< of the problem
 
+  /// The problem must outlive the session.
+  /// \throws InputError for a setting outside of its range
   QuasiNewtonSession(Settings const& settings, Problem& problem)
       : settings_(detail::validated(settings)), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
 
   /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
   Verdict begin(double load);
+  /// Adds the condition and the weak degree of freedom that begin() found.
   void describe(StepReport& report) const { start_.describe(report); }
+  /// First guess of the increment [m] between two load factors: the last step's motion where it is known, else a linear solve.
   Eigen::VectorXd predict(double from, double to);
 
   /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
@@ -213,13 +219,13 @@ void QuasiNewtonSession<Settings, Problem>::learn_from_responses() {
 /// moves the points along the straight path from their committed states to the iterate.
 template <TangentRule<2> Rule = PointwiseBroyden, LinearSolver Linear = SparseLu>
 struct QuasiNewton {
-  double tolerance = 5e-3;  ///< force residual, see EquilibriumProblem::residuals
-  int max_iterations = 30;
+  double tolerance = 5e-3;         ///< force residual, see EquilibriumProblem::residuals
+  int max_iterations = 30;         ///< of a load step; then it is given up
   double divergence_limit = 10.0;  ///< residual beyond which a step is given up
   int max_refinements = 4;         ///< of points that have not converged, in each iteration
   /// A step's first guess is the motion of the step before, scaled by the load; after a rejected one it is linear.
   bool repeats_motion = true;
-  Rule rule{};
+  Rule rule{};  ///< working tangent of each point
 
   /// \throws InputError for a setting outside of its range
   void validate() const {
@@ -230,8 +236,8 @@ struct QuasiNewton {
     detail::validated(rule);
   }
 
-  using RuleType = Rule;
-  using LinearType = Linear;
+  using RuleType = Rule;      ///< for sessions
+  using LinearType = Linear;  ///< for sessions
 
   /// The iteration on one problem, seen as an `IncrementalProblem`.
   template <class Problem>

@@ -23,6 +23,7 @@ namespace scarp {
 /// \throws InputError for an MPI that cannot run with threads
 class MpiSession {
  public:
+  /// Initialises MPI, which may remove its own arguments from the program's.
   MpiSession(int& argc, char**& argv) {
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
@@ -35,6 +36,7 @@ class MpiSession {
   MpiSession& operator=(MpiSession const&) = delete;
   ~MpiSession() { MPI_Finalize(); }
 
+  /// Ends the program on all ranks.
   [[noreturn]] static void abort(int exit_code) {
     MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::abort();
@@ -96,9 +98,10 @@ class RankExecutor {
     MPI_Comm_size(communicator_, &ranks_);
   }
 
-  int rank() const { return rank_; }
-  int ranks() const { return ranks_; }
-  Local& local() const { return local_; }
+  int rank() const { return rank_; }       ///< Number of this rank, from zero.
+  int ranks() const { return ranks_; }     ///< Number of ranks of the communicator.
+  Local& local() const { return local_; }  ///< Runs tasks within this rank.
+  /// Points are dealt out in turn: point k belongs to rank k modulo ranks().
   bool owns(int point) const { return point % ranks_ == rank_; }
   /// Wall time [s] that this rank has spent in share(), mostly waiting for slower ones.
   double seconds_sharing() const { return seconds_sharing_; }

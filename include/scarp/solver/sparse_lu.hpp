@@ -11,8 +11,12 @@ namespace scarp {
 /// Direct solver for unsymmetric sparse systems (Eigen's supernodal LU with column ordering).
 class SCARP_EXPORT SparseLu {
  public:
+  /// The ordering is reused while the pattern stays.
+  /// \return singular_system or not_finite where there are no factors
   Verdict factorize(SparseMatrix const& matrix);
+  /// Solves A x = right after an acceptable factorisation.
   Eigen::VectorXd solve(Eigen::VectorXd const& right) const;
+  /// Solves \f$ A^T x = right \f$ after an acceptable factorisation.
   Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const;
 
  private:
@@ -24,6 +28,7 @@ class SCARP_EXPORT SparseLu {
 static_assert(LinearSolver<SparseLu>);
 
 #ifndef SCARP_PRECOMPILED
+/// Specifier of the member functions: empty in the library that contains them, `inline` elsewhere.
 #define SCARP_SPARSE_LU_DEFINITIONS inline
 #endif
 #ifdef SCARP_SPARSE_LU_DEFINITIONS  // empty in the library that contains them

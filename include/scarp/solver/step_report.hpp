@@ -14,8 +14,8 @@ namespace scarp {
 
 /// Imbalance of a part of a problem, relative to what carries or loads it: see EquilibriumProblem::residuals.
 struct PartResidual {
-  std::string name;  ///< "all", a region of the mesh, or "attached"
-  double value = 0.0;
+  std::string name;    ///< "all", a region of the mesh, or "attached"
+  double value = 0.0;  ///< ratio of forces, without unit
 };
 
 /// Forces and residuals of an increment of displacement, with the points' report.
@@ -27,14 +27,14 @@ struct Evaluation : ResponseReport {
 
 /// One iteration of a load step.
 struct IterationRecord {
-  double residual = 0.0;
+  double residual = 0.0;          ///< see EquilibriumProblem::residual
   double linear_residual = 0.0;   ///< |K x - b| / |b| of the linear system that led here
   long inner_steps = 0;           ///< DEM steps of all points
   double material_seconds = 0.0;  ///< wall time in the material points' responses and tangents, sum of forces included
   double seconds = 0.0;           ///< the same and of the linear system that led here
   Verdict verdict{};              ///< of the worst point
   int worst_point = -1;           ///< that is not acceptable, -1 for none
-  PointSurvey points{};
+  PointSurvey points{};           ///< how many points have which status, and the slowest
 };
 
 /// Called between two responses of all points, since an attempt of large packings may last minutes. Empty: never.
@@ -42,20 +42,22 @@ using StopCondition = std::function<bool()>;
 
 /// How one attempt at a load step went.
 struct StepReport {
-  int step = 0;       ///< number of the accepted step it was to become, from 1
-  double load = 0.0;  ///< load factor at its end
-  double load_increment = 0.0;
-  Verdict verdict{};
-  int worst_point = -1;  ///< material point behind a verdict that is not ok, -1 for none
-  std::vector<IterationRecord> history{};
+  int step = 0;                            ///< number of the accepted step it was to become, from 1
+  double load = 0.0;                       ///< load factor at its end
+  double load_increment = 0.0;             ///< growth of the load factor
+  Verdict verdict{};                       ///< acceptable where the step is committed
+  int worst_point = -1;                    ///< material point behind a verdict that is not ok, -1 for none
+  std::vector<IterationRecord> history{};  ///< one record for each iteration
   std::vector<PartResidual> parts{};       ///< of the last iteration; empty where the problem has no parts
   double max_displacement_gradient = 0.0;  ///< of the prediction, over all points
   double condition = 0.0;  ///< estimate of the stiffness at the start of the step, 1-norm; 0 where it was not made
   int weak_dof = -1;       ///< degree of freedom that a singular system does not hold, -1 for none
   double seconds = 0.0;    ///< wall time of the attempt
 
-  int iterations() const { return detail::count(history); }
+  int iterations() const { return detail::count(history); }  ///< Number of iterations, refinements not counted.
+  /// Of the last iteration; 0 before the first.
   double residual() const { return history.empty() ? 0.0 : history.back().residual; }
+  /// Whether a stop condition ended the attempt.
   bool interrupted() const { return verdict.reason == Reason::interrupted; }
 
   /// Ends an attempt that is not yet in equilibrium where that is requested.

@@ -43,6 +43,7 @@ struct PointwiseBroyden {
   double floor = 0.02;              ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
   double min_strain_change = 1e-7;  ///< a smaller change teaches nothing but noise
 
+  /// \throws InputError for a share outside of 0 to 1, a floor above 1 or a negative change of strain
   void validate() const {
     require_between("share of the provider's tangent", provider_share, 0.0, 1.0);
     require_between("floor of a learned tangent", floor, std::numeric_limits<double>::lowest(), 1.0);
@@ -55,6 +56,9 @@ struct PointwiseBroyden {
     return provider_share * provider + (1.0 - provider_share) * learned;
   }
 
+  /// Broyden's update by an iteration's change of strain (engineering shear) and stress [Pa]; then the floor is applied.
+  /// \f$ C \leftarrow C + (\Delta\sigma - C \Delta\epsilon)\, \Delta\epsilon^T / |\Delta\epsilon|^2 \f$
+  /// (Broyden 1965, Math. Comp. 19, 577)
   template <int Dim>
   VoigtTangent<Dim> update(VoigtTangent<Dim> tangent, VoigtTangent<Dim> const& provider,
                            EngineeringStrain<Dim> const& strain_change, VoigtStress<Dim> const& stress_change) const {
@@ -84,6 +88,7 @@ static_assert(TangentRule<PointwiseBroyden, 2> && TangentRule<PointwiseBroyden, 
 struct ConsistentTangent {
   double floor = 0.0;  ///< share of the first tangent that is mixed in, against singular systems at a limit load
 
+  /// \throws InputError for a floor outside of 0 to 1
   void validate() const { require_between("share of the first tangent", floor, 0.0, 1.0); }
 
   /// What the last accepted iteration ended with: the provider's tangent of the committed state with the floor in it.
@@ -92,6 +97,7 @@ struct ConsistentTangent {
     return learned;
   }
 
+  /// Mean [Pa] of the trial state's tangent and the run's first one, weighted by the floor.
   template <int Dim>
   VoigtTangent<Dim> at_trial(VoigtTangent<Dim> const& trial, VoigtTangent<Dim> const& first) const {
     return (1.0 - floor) * trial + floor * first;
@@ -103,8 +109,8 @@ static_assert(TangentRule<ConsistentTangent, 2> && TangentRule<ConsistentTangent
 /// What a tangent can learn from two responses of one point: a strain and the change of stress that it made.
 template <int Dim>
 struct SecantPair {
-  EngineeringStrain<Dim> strain;
-  VoigtStress<Dim> stress;  ///< [Pa]
+  EngineeringStrain<Dim> strain;  ///< engineering shear
+  VoigtStress<Dim> stress;        ///< [Pa]
 };
 
 /// From the response to one gradient to that to another, both from the same start, in the axes of the first: the rotation

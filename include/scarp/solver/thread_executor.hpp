@@ -45,7 +45,7 @@ class ThreadExecutor {
 
   ~ThreadExecutor() { end_service(); }
 
-  int threads() const { return detail::count(team_) + 1; }
+  int threads() const { return detail::count(team_) + 1; }  ///< The calling thread included.
 
   /// An exception of a task is rethrown here after all threads have come to rest. A task that calls a team which is at work,
   /// its own or another one, does its tasks one after the other on its own thread; otherwise calls of several threads wait for

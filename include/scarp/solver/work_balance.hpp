@@ -15,11 +15,12 @@ namespace scarp {
 /// Observer that adds up the work of a run by the trapezoidal rule over its accepted steps: external, of loads and of reactions at
 /// prescribed displacements, and internal, of the points' stresses on their strains, which they store or dissipate. They differ
 /// by what the residual lets through and by the rule, at second order in the step.
+/// \tparam Problem an `EquilibriumProblem` without attachment
 template <class Problem>
 class WorkBalance {
  public:
   static_assert(Problem::is_bare, "the work of what is attached to the mesh is not counted");
-  static constexpr int dim = Problem::dim;
+  static constexpr int dim = Problem::dim;  ///< of the problem
 
   /// From the first accepted step on.
   WorkBalance() = default;
@@ -34,13 +35,14 @@ class WorkBalance {
     return scale > 0.0 ? std::abs(external_ - internal_) / scale : 0.0;
   }
 
+  /// Adds the work of an accepted step; a rejected attempt does none.
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;
     Snapshot next(problem, report.load);
     if (!now_.positions.empty()) add(problem, next);
     now_ = std::move(next);
   }
-  static bool wants_stop() { return false; }
+  static bool wants_stop() { return false; }  ///< Never stops a run.
 
   SCARP_MEMBERS(now_, external_, internal_, turned_over_)
 

@@ -43,6 +43,7 @@ struct RotatedIncrement {
   Tensor<Dim> strain = Tensor<Dim>::Zero();    ///< E, before the rotation
   Verdict verdict;  ///< not_finite, or element_inverted where det(I + gradient) is not positive
 
+  /// Splits I + gradient, shape (Dim, Dim); `verdict` reports a gradient that is not finite or turns the element inside out.
   explicit RotatedIncrement(Gradient<Dim> const& gradient) {
     Tensor<Dim> const identity = Tensor<Dim>::Identity();
     Tensor<Dim> const deformation = identity + gradient;

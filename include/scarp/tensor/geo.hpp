@@ -15,6 +15,7 @@ struct PlaneStress {
   double q;  ///< [Pa]
 };
 
+/// Of a Cauchy stress [Pa], tension positive: p is its mean in the plane, compression positive.
 inline PlaneStress plane_stress(VoigtStress<2> const& stress) {
   double const half_difference = (stress(0) - stress(1)) / 2.0;
   return {-(stress(0) + stress(1)) / 2.0, std::hypot(half_difference, stress(2))};
@@ -24,7 +25,7 @@ inline PlaneStress plane_stress(VoigtStress<2> const& stress) {
 /// principal strains).
 struct PlaneStrain {
   double volumetric;  ///< contraction positive
-  double deviatoric;
+  double deviatoric;  ///< at least zero
 };
 
 /// deformation: gradient of the present with respect to the initial position

@@ -15,10 +15,11 @@ namespace scarp {
 
 /// Principal values, largest first, and their directions as columns.
 struct Principal {
-  Vector<3> values;
-  Tensor<3> directions;
+  Vector<3> values;      ///< descending
+  Tensor<3> directions;  ///< unit vectors, one in each column
 };
 
+/// Of a symmetric tensor, of which only the lower triangle is read.
 inline Principal principal(Tensor<3> const& symmetric) {
   Eigen::SelfAdjointEigenSolver<Tensor<3>> const solver(symmetric);
   return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};

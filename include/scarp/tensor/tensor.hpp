@@ -49,8 +49,9 @@ namespace {
 }  // namespace detail
 
 template <int Dim, class Scalar = double>
-using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+using Vector = Eigen::Matrix<Scalar, Dim, 1>;  ///< Column of `Dim` components in the global Cartesian frame.
 
+/// Second-order tensor, shape (Dim, Dim), in the global Cartesian frame.
 template <int Dim, class Scalar = double>
 using Tensor = Eigen::Matrix<Scalar, Dim, Dim>;
 

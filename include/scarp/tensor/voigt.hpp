@@ -48,6 +48,7 @@ VoigtStress<Dim, Scalar> to_voigt_stress(Tensor<Dim, Scalar> const& stress) {
   return voigt;
 }
 
+/// Symmetric tensor [Pa], shape (Dim, Dim), of a Voigt stress.
 template <int Dim, class Scalar>
 Tensor<Dim, Scalar> from_voigt_stress(VoigtStress<Dim, Scalar> const& voigt) {
   Tensor<Dim, Scalar> stress;

@@ -162,6 +162,8 @@ void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, ty
   named.packing = std::move(packing);
 }
 
+/// Reads the contacts of a CSV file.
+/// \throws InputError for a file that cannot be read, and for contacts that do not fit the packing
 template <class PackingType>
 void read_contacts(NamedPacking<PackingType>& named, std::filesystem::path const& path,
                    typename PackingType::Law const& law, double tolerance = 1e-6) {

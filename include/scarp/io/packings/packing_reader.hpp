@@ -32,34 +32,34 @@ struct Clump;
 /// Columns of a disc.
 template <>
 struct GrainColumns<Disc> {
-  static constexpr std::array<std::string_view, 1> size{"r"};
+  static constexpr std::array<std::string_view, 1> size{"r"};  ///< radius [m]
 };
 
 /// Columns of a sphere.
 template <>
 struct GrainColumns<Sphere> {
-  static constexpr std::array<std::string_view, 1> size{"r"};
+  static constexpr std::array<std::string_view, 1> size{"r"};  ///< radius [m]
 };
 
 /// Columns of an ellipse.
 template <>
 struct GrainColumns<Ellipse> {
-  static constexpr std::array<std::string_view, 2> size{"a", "b"};
-  static constexpr std::string_view angle = "angle";
+  static constexpr std::array<std::string_view, 2> size{"a", "b"};  ///< semi-axes [m]
+  static constexpr std::string_view angle = "angle";                ///< of the axis a [rad]
 };
 
 /// Columns of a superellipse.
 template <>
 struct GrainColumns<Superellipse> {
-  static constexpr std::array<std::string_view, 3> size{"a", "b", "eps"};
-  static constexpr std::string_view angle = "angle";
+  static constexpr std::array<std::string_view, 3> size{"a", "b", "eps"};  ///< half axes [m] and exponent
+  static constexpr std::string_view angle = "angle";                       ///< of the axis of a [rad]
 };
 
 /// Columns of a clump.
 template <class Template>
 struct GrainColumns<Clump<Template>> {
-  static constexpr std::array<std::string_view, 1> size{"scale"};
-  static constexpr std::string_view angle = "angle";
+  static constexpr std::array<std::string_view, 1> size{"scale"};  ///< length [m] of the template's unit
+  static constexpr std::string_view angle = "angle";               ///< of the template's x axis [rad]
 };
 
 /// A shape whose sizes, and angle if it turns, have names of columns.
@@ -72,6 +72,7 @@ concept HasGrainColumns = requires {
 };
 
 /// A packing of a file and what its grains are called there.
+/// \tparam PackingType a `Packing`
 template <class PackingType>
 struct NamedPacking {
   PackingType packing;                                    ///< at rest, placed as in the file, without a list of pairs
@@ -209,6 +210,8 @@ template <class PackingType>
     return named;
   }
 
+/// Reads the packing of a CSV file.
+/// \throws InputError for a file that cannot be read, and for a table or cell that makes no packing
 template <class PackingType>
 NamedPacking<PackingType> read_packing(std::filesystem::path const& path, Tensor<PackingType::dim> const& cell,
                                        double density, double thickness) {
