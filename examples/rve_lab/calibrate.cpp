@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "calibrate.hpp"
-
 #include <chrono>
-#include <limits>
 #ifdef RVE_LAB_WITH_NLOPT
 #include <nlopt.hpp>
 #endif
 
+#include "../shared/sand/grading.hpp"
 #include "../shared/sand/options.hpp"
 #include "calibration_report.hpp"
+#include "commands.hpp"
 #include "evaluation_table.hpp"
 #include "options.hpp"
 #include "packings.hpp"
@@ -17,12 +16,10 @@ namespace rve_lab {
 
 namespace {
 
-/// Packings of a sand beyond the densest or loosest that its grains can have are those.
 Curve curve_of(Sand const& sand, CurveTest const& test) {
   Curve curve;
   with_packing(Grains{}, sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    curve = tested(examples::prepared<PackingType>(sand, law, sand.seed, {}, std::numeric_limits<double>::infinity()),
-                   law, test);
+    curve = tested(Preparation<PackingType>::nearest(sand, law), law, test);
   });
   return curve;
 }

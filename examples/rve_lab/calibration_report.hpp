@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "../shared/run_options.hpp"
 #include "../shared/sand/options.hpp"
 #include "../shared/write_json.hpp"
 #include "calibration.hpp"

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "../shared/print.hpp"
-#include "laboratory.hpp"
+#include "choices.hpp"
 #include "laboratory_table.hpp"
+#include "paths.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/points/laboratory_results.hpp"

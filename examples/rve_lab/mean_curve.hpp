@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "choices.hpp"
 #include "paths.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "specimen.hpp"
@@ -41,15 +42,6 @@ inline Curve mean_of(std::vector<Curve const*> const& curves) {
   for (auto const* curve : curves) mean.void_ratio += share * curve->void_ratio;
   return mean;
 }
-
-/// How a packing is tested.
-struct CurveTest {
-  std::string path = "biaxial";
-  std::optional<double> held{};  ///< [Pa]; that of the packing when not given
-  double strain = 0.1;
-  double strain_step = 2e-5;
-  double row_strain = 1e-3;
-};
 
 /// \throws InputError for a packing that cannot follow the path
 template <class PackingType>
