@@ -2,8 +2,10 @@
 #include "commands.hpp"
 #include "laboratory_run.hpp"
 #include "packings.hpp"
+#include "paths.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/rve/dem_rve.hpp"
 
