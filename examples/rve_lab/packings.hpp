@@ -26,6 +26,11 @@ struct Preparation {
   static PackingType nearest(Sand const& sand, Law const& law);
 };
 
+/// \throws InputError for grains that are not built
+inline void require_built(Sand const& sand) {
+  with_packing(Grains{}, sand, [](auto, auto const&) {});
+}
+
 /// The values of the file, but options that are given.
 /// \throws InputError
 template <class Choice>
