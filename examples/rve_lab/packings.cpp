@@ -10,8 +10,8 @@ namespace rve_lab {
 
 template <class PackingType>
 PackingType Preparation<PackingType>::printed(Sand const& sand, Law const& law) {
-  auto const tell = [](std::string const& text) { examples::print(stdout, "{}\n", text); };
-  return examples::prepared<PackingType>(sand, law, sand.seed, tell, sand.void_ratio_tolerance);
+  auto const progress = [](std::string const& text) { examples::print(stdout, "{}\n", text); };
+  return examples::prepared<PackingType>(sand, law, sand.seed, progress, sand.void_ratio_tolerance);
 }
 
 template <class PackingType>
