@@ -26,7 +26,9 @@ def convergence(folder):
     attempts = attempts_of(table)
     accepted = np.array([table["accepted"][attempt].max() > 0.0 for attempt in attempts])
     count = np.arange(1, len(table["step"]) + 1)
-    fig, (residual, effort, work) = plt.subplots(3, 1, figsize=(7.6, 7.0), height_ratios=(3, 2, 2))
+    packings = table["dem_steps"].any()
+    heights = (3, 2, 2) if packings else (3, 2)
+    fig, (residual, effort, *work) = plt.subplots(len(heights), 1, figsize=(7.6, sum(heights)), height_ratios=heights)
 
     for attempt, good in zip(attempts, accepted):
         residual.plot(count[attempt], table["residual"][attempt], ".-", linewidth=0.6, markersize=2.5,
@@ -50,9 +52,13 @@ def convergence(folder):
     effort.plot(throw[accepted], iterations[accepted], ".", color=BLUE)
     effort.plot(throw[~accepted], iterations[~accepted], "x", color=VERMILION)
     effort.set(ylabel="iterations per\nload step [-]", ylim=(0.0, None))
-    work.plot(table["throw_over_depth"], 1e-6 * np.cumsum(table["dem_steps"]), color=GREEN)
-    work.set(xlabel="throw over depth of layer, h/H [-]", ylabel="DEM steps so far [million]", ylim=(0.0, None))
-    work.sharex(effort)
+    last = effort
+    if packings:
+        last, = work
+        last.plot(table["throw_over_depth"], 1e-6 * np.cumsum(table["dem_steps"]), color=GREEN)
+        last.set(ylabel="DEM steps so far [million]", ylim=(0.0, None))
+        last.sharex(effort)
+    last.set_xlabel("throw over depth of layer, h/H [-]")
     return fig
 
 
@@ -72,24 +78,30 @@ def effort(folder):
         raise figures.InputError("'convergence.jsonl' holds no load step (the run has not come so far): let it run on")
     throw = values(steps, "throw_over_depth")
     accepted = values(steps, "accepted") > 0.0
-    fig, (work, slow, unwell, time) = plt.subplots(4, 1, figsize=(7.6, 8.2), sharex=True)
+    packings = values(steps, "dem_steps").any()
+    panels = 4 if packings else 2
+    fig, (*of_packings, unwell, time) = plt.subplots(panels, 1, figsize=(7.6, 2.05 * panels), sharex=True)
 
     def draw_steps(axes, amounts, good, refused, label):
         axes.plot(throw[accepted], amounts[accepted], ".", color=good, label=label)
         if not accepted.all():
             axes.plot(throw[~accepted], amounts[~accepted], "x", color=refused, markersize=4, label="not accepted")
 
-    draw_steps(work, values(steps, "dem_steps"), BLUE, VERMILION, "accepted")
-    work.set(ylabel="DEM steps per\nload step [-]")
-    work.set_yscale("log", nonpositive="mask")
-    work.legend(title="Cost of the load steps", title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
-
     at = values(iterations, "throw_over_depth")
-    all_steps = values(iterations, "dem_steps")
-    most = np.array([sum(point["dem_steps"] for point in line["slowest"]) for line in iterations])
-    busy = all_steps > 0.0
-    slow.plot(at[busy], 100.0 * most[busy] / all_steps[busy], ".", color=GREEN, markersize=3)
-    slow.set(ylabel="DEM steps of the five\nslowest points [%]", ylim=(0.0, None))
+    if packings:
+        work, slow = of_packings
+        draw_steps(work, values(steps, "dem_steps"), BLUE, VERMILION, "accepted")
+        work.set(ylabel="DEM steps per\nload step [-]")
+        work.set_yscale("log", nonpositive="mask")
+        work.legend(title="Cost of the load steps", title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
+
+        all_steps = values(iterations, "dem_steps")
+        most = np.array([sum(point["dem_steps"] for point in line["slowest"]) for line in iterations])
+        busy = all_steps > 0.0
+        slow.plot(at[busy], 100.0 * most[busy] / all_steps[busy], ".", color=GREEN, markersize=3)
+        slow.set(ylabel="DEM steps of the five\nslowest points [%]", ylim=(0.0, None))
+    else:
+        unwell.set_title("Cost of the load steps", fontsize=9)
 
     marks = (("fluid", SKY, "o"), ("not_converged", ORANGE, "^"), ("failed", VERMILION, "x"))
     for name, colour, mark in marks:
