@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // User-defined boundary-value problem: a trench is cut into sand of packings on elastic rock, on a mesh from Gmsh.
+#include <fmt/core.h>
+
 #include <filesystem>
 
-#include "../shared/print.hpp"
 #include "scarp/bvp/default_integration.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -76,7 +77,7 @@ int main(int count, char** arguments) try {
   scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-4, .largest = 0.1};
   std::filesystem::create_directories("output/excavation/fields");
   scarp::FieldSeries series("output/excavation", 1.0, 4, 1.0);  // to load 1, 4 files
-  examples::print(stdout, "excavated  heave of the floor [mm]  base reaction [kN/m]  steps  iterations\n");
+  fmt::print("excavated  heave of the floor [mm]  base reaction [kN/m]  steps  iterations\n");
   scarp::RunReport run;
   for (int stage = 1; stage <= 4 && run.verdict.acceptable(); ++stage) {
     run = stepping.advance(session, problem, 0.25 * (stage - 1), 0.25 * stage, series);
@@ -86,13 +87,13 @@ int main(int count, char** arguments) try {
       auto const k = static_cast<std::size_t>(node);
       heave = std::max(heave, now.positions()[k].y() - now.mesh().nodes[k].y());
     }
-    examples::print(stdout, "{:9.2f} {:24.2f} {:21.1f} {:6} {:11}\n", run.load, 1e3 * heave,
-                    1e-3 * reaction(problem, "bottom", after), run.steps, run.iterations);
+    fmt::print("{:9.2f} {:24.2f} {:21.1f} {:6} {:11}\n", run.load, 1e3 * heave,
+               1e-3 * reaction(problem, "bottom", after), run.steps, run.iterations);
   }
   double const share = reaction(problem, "bottom", after) / -after.sum();  // the base carries what is left above it
-  examples::print(stdout, "base reaction over weight and surcharge: {:.5f}\n", share);
+  fmt::print("base reaction over weight and surcharge: {:.5f}\n", share);
   return run.verdict.acceptable() && std::abs(share - 1.0) < solver.tolerance ? 0 : 1;
 } catch (std::exception const& problem) {
-  examples::print(stderr, "excavation: {}\n", problem.what());
+  fmt::print(stderr, "excavation: {}\n", problem.what());
   return 2;
 }
