@@ -175,9 +175,10 @@ def columns():
         rows = list(csv.DictReader(table))
     for row, before in zip(rows, [{}, *rows]):
         if row["program"] != before.get("program"):
-            text += ["", f"## {row['program']}"]
+            text += ["", f"## `{row['program']}`"]
         if (row["program"], row["files"]) != (before.get("program"), before.get("files")):
-            text += ["", f"### {plain(row['files'])}", "", "| name | unit | positive | meaning |", "|---|---|---|---|"]
+            files = re.sub(r"[*/\w]+[.][a-z]+", r"`\g<0>`", row["files"])
+            text += ["", f"### {files}", "", "| name | unit | positive | meaning |", "|---|---|---|---|"]
         names = ", ".join(f"`{name}`" for name in row["names"].split("; "))
         text.append(f"| {names} | {row['unit']} | {row['positive']} | {plain(row['meaning'])} |")
     return "\n".join(text) + "\n"
