@@ -76,11 +76,12 @@ def place(source):
 
 
 def written(source):
-    """Names of the columns and keys that a source writes: lists of strings, and strings that begin a pair or index an object."""
+    """Names of the columns and keys that a source writes: lists of strings, and strings that begin a pair or index an object; not of files."""
     text = re.sub(r"//[^\n]*", "", place(source).read_text())
     names = {name for found in re.findall(rf"\{{\s*({STRING}(?:,\s*{STRING})+)\s*[}},]", text) for name in re.findall(STRING, found)}
     names |= set(re.findall(r'(?:\{|emplace_back\(|push_back\(|\.add\(|\[)\s*("[^"]+")\s*[,\])]', text))
     names |= {f'"{tensor}{a}{b}"' for tensor in re.findall(r'add_tensor\(row, "(\w+)"', text) for a in "xy" for b in "xy"}
+    names = {name for name in names if not re.search(r"\.\w+\"$", name)}
     return {"throw_over_depth" if name == "measure_.name" else name.strip('"') for name in names} - READ.get(source, set())
 
 

@@ -77,6 +77,8 @@ Material packing(Entries& entries, std::filesystem::path const& folder) {
   std::string sand_file, file;
   entries.take("sand", sand_file);
   entries.take("file", file);
+  if (!sand_file.empty() && !file.empty())
+    scarp::reject("'sand' stands beside 'file' (the packing of '{}' has its own sand): leave one of them out", file);
   double strain_per_step = 1e-5, unbalanced_tolerance = 0.05;
   entries.take("strain-per-step", strain_per_step);
   entries.take("unbalanced-tolerance", unbalanced_tolerance);

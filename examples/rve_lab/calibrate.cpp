@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "calibrate.hpp"
 
-#include <chrono>
-#include <limits>
-#ifdef RVE_LAB_WITH_NLOPT
-#include <nlopt.hpp>
-#endif
-
+#include "../shared/sand/grading.hpp"
 #include "../shared/sand/options.hpp"
 #include "calibration_report.hpp"
-#include "evaluation_table.hpp"
+#include "calibration_search.hpp"
+#include "commands.hpp"
 #include "options.hpp"
 #include "packings.hpp"
 
@@ -17,22 +12,13 @@ namespace rve_lab {
 
 namespace {
 
-/// Packings of a sand beyond the densest or loosest that its grains can have are those.
-Curve curve_of(Sand const& sand, CurveTest const& test) {
-  Curve curve;
-  with_packing(Grains{}, sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    curve = tested(examples::prepared<PackingType>(sand, law, sand.seed, {}, std::numeric_limits<double>::infinity()),
-                   law, test);
-  });
-  return curve;
-}
-
 bool is_density(std::string const& name) { return examples::sets_density(name); }
 
 Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   if (!choice.sand_file.empty())
     choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
   if (!choice.sand.sieve.empty()) static_cast<void>(examples::sieve_curve(choice.sand.sieve));  // rejects other text
+  require_built(choice.sand);
   Calibration all{.start = choice.sand,
                   .free = free_parameters(choice.free),
                   .test = choice.test,
@@ -59,124 +45,23 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   if (choice.strain && *choice.strain < last * (1.0 - 1e-9))
     scarp::reject("--strain is {} (the tables go to {}): give that or more, or shorten the tables", *choice.strain,
                   last);
+  if (choice.tables.empty()) examples::reject_unused(app, "triaxial", "without --table");
+  bool const windowed = std::ranges::any_of(all.observations, &Observation::windowed);
+  if (!windowed) examples::reject_unused(app, "window", "no target is a mean over it");
   all.test.held = choice.held;
   all.test.strain = choice.strain.value_or(last > 0.0 ? last : 0.1);
   if (double const least = 3.0 * all.test.row_strain; all.test.strain < least)
     scarp::reject("the tests end at an axial strain of {} (at least {} is expected): give --strain", all.test.strain,
                   least);
+  if (windowed && all.test.strain < choice.window)
+    scarp::reject("the tests end at an axial strain of {}, below the --window {}: give a larger --strain",
+                  all.test.strain, choice.window);
   for (auto const& one : all.free) {
     if (auto const why = examples::why_unused(all.start, one.name); !why.empty())
       scarp::reject("--free names {}, which this sand does not use ({}): leave it out", one.name, why);
   }
   return all;
 }
-
-Eigen::VectorXd start_of(Calibration const& calibration) {
-  Eigen::VectorXd shares(static_cast<Eigen::Index>(calibration.free.size()));
-  Sand sand = calibration.start;
-  for (std::size_t k = 0; k < calibration.free.size(); ++k) {
-    double const value = calibration.free[k].of(sand);
-    bool const inside = value > calibration.free[k].least && value < calibration.free[k].most;
-    shares(static_cast<Eigen::Index>(k)) = inside ? std::clamp(calibration.free[k].share_of(value), 0.1, 0.9) : 0.5;
-  }
-  return shares;
-}
-
-/// Evaluates, prints a line for each evaluation, and keeps the best.
-class Search {
- public:
-  Search(Calibration const& calibration, std::filesystem::path const& folder, bool resume)
-      : calibration_(calibration),
-        team_(calibration.threads),
-        table_(folder / "evaluations.csv", calibration, resume) {}
-
-  Evaluation evaluate(Eigen::VectorXd const& shares) {
-    auto found = table_.find(shares);
-    bool const known = found.has_value();
-    if (!known) {
-      found = evaluated(calibration_, shares, team_);
-      table_.add(*found);
-    }
-    if (units_.size() == 0) units_ = units(calibration_, *found);
-    double const error = misfit(calibration_, *found, units_);
-    print(*found, error, known);
-    if (best_.shares.size() == 0 || error < misfit(calibration_, best_, units_)) best_ = *found;
-    return *found;
-  }
-
-  void optimise(Eigen::VectorXd const& start) {
-#ifdef RVE_LAB_WITH_NLOPT
-    auto const count = static_cast<unsigned>(start.size());
-    nlopt::opt optimiser(count > 1 ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, count);
-    optimiser.set_lower_bounds(0.0);
-    optimiser.set_upper_bounds(1.0);
-    optimiser.set_initial_step(0.25);
-    optimiser.set_xtol_abs(0.02);
-    optimiser.set_maxeval(calibration_.evaluations);
-    auto const objective = [](std::vector<double> const& place, std::vector<double>&, void* self) {
-      auto& search = *static_cast<Search*>(self);
-      try {
-        auto const shares = Eigen::Map<Eigen::VectorXd const>(place.data(), static_cast<Eigen::Index>(place.size()));
-        double const error = misfit(search.calibration_, search.evaluate(shares), search.units_);
-        return error * error;
-      } catch (std::exception const&) {
-        search.problem_ = std::current_exception();
-        throw nlopt::forced_stop();
-      }
-    };
-    optimiser.set_min_objective(objective, this);
-    std::vector<double> place(start.begin(), start.end());
-    double least = 0.0;
-    try {
-      optimiser.optimize(place, least);
-    } catch (nlopt::roundoff_limited const&) {  // the scatter: it has come as far as it can
-    } catch (nlopt::forced_stop const&) {
-      std::rethrow_exception(problem_);
-    }
-#else
-    static_cast<void>(start);
-    scarp::reject(
-        "this rve_lab does not calibrate (it was built without NLopt): install libnlopt-cxx-dev and build again");
-#endif
-  }
-
-  Evaluation on_other_seeds(Eigen::VectorXd const& shares) {
-    return evaluated(calibration_, shares, team_, calibration_.seeds);
-  }
-  Evaluation const& best() const { return best_; }
-  Eigen::VectorXd const& scale() const { return units_; }
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
-
- private:
-  void print(Evaluation const& one, double error, bool known) {
-    std::string line = fmt::format("{:3}:", ++number_);
-    for (std::size_t k = 0; k < calibration_.free.size(); ++k)
-      line += fmt::format(" {} {:.5g}", calibration_.free[k].name,
-                          calibration_.free[k].at(one.shares(static_cast<Eigen::Index>(k))));
-    for (std::size_t k = 0; k < calibration_.observations.size(); ++k) {
-      auto const& wanted = calibration_.observations[k];
-      auto const at = static_cast<Eigen::Index>(k);
-      if (wanted.strain == 0.0)
-        line += fmt::format(", {} {:.4g} +- {:.2g}", wanted.name, one.values(at), one.scatter(at));
-    }
-    evaluated_ += known ? 0 : 1;
-    int const all = calibration_.evaluations + 2 * static_cast<int>(calibration_.free.size()) + 2;
-    examples::print(stdout, "{}, void ratio {:.4f}: misfit {:.2f}; {}\n", line, one.void_ratio, error,
-                    known ? "from evaluations.csv"
-                          : fmt::format("{:.0f} s, at most {:.0f} s more", seconds(),
-                                        seconds() / evaluated_ * std::max(0, all - number_)));
-  }
-
-  Calibration const& calibration_;
-  scarp::ThreadExecutor team_;
-  EvaluationTable table_;
-  Eigen::VectorXd units_;
-  Evaluation best_;
-  std::exception_ptr problem_;  ///< NLopt passes on no exceptions but its own
-  int number_ = 0;
-  int evaluated_ = 0;
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-};
 
 /// What a resumed calibration must have in common with the one before.
 std::string settings_of(Calibration const& calibration) {
@@ -215,12 +100,14 @@ void calibrate(CalibrateChoice choice, CLI::App const& app) {
   own.begin();
   scarp::write_file(own.path() / "settings.txt", settings);
   Search search(calibration, own.path(), resume);
-  search.optimise(start_of(calibration));
+  search.optimise(search.feasible(start_of(calibration)));
   auto const evaluate = [&](Eigen::VectorXd const& shares) { return search.evaluate(shares); };
-  auto const found = sensitivities(calibration, Eigen::VectorXd(search.best().shares), search.scale(), evaluate);
+  auto const found = sensitivities(calibration, Evaluation(search.best()), search.scale(), evaluate);
   search.evaluate(improved(calibration, Evaluation(search.best()), found, search.scale()));
   auto const other = search.on_other_seeds(search.best().shares);
-  CalibrationReport const report{calibration, search.best(), other, found, search.scale(), search.seconds()};
+  CalibrationReport const report{calibration,    search.best(),
+                                 other,          found,
+                                 search.scale(), {search.evaluations(), search.reasons(), search.seconds()}};
   report.write(own);
   report.print();
   report.require_reached();

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <Eigen/QR>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "../shared/print.hpp"
 #include "calibration_data.hpp"
+#include "scarp/dem/preparation.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/rve/random_packings.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -41,6 +44,9 @@ struct Evaluation {
   Eigen::VectorXd scatter{};  ///< standard error of the values, jackknife over the seeds
   double void_ratio = 0.0;    ///< at the start of the test
   Curve mean{};               ///< empty where it was read from a file
+  std::string reason{};       ///< why there is no such packing or curve; values are then no numbers
+
+  bool feasible() const { return reason.empty(); }
 };
 
 /// Seed number k of a calibration; the first is the sand's own.
@@ -48,16 +54,34 @@ inline std::uint64_t seed_of(Sand const& sand, int k) {
   return k == 0 ? sand.seed : scarp::family_seed(sand.seed, static_cast<std::uint64_t>(k));
 }
 
+/// A place whose packings cannot be prepared or tested.
+inline Evaluation infeasible(Calibration const& calibration, Eigen::VectorXd const& shares, std::string reason) {
+  double const none = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd const values =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(calibration.observations.size()), none);
+  return {.shares = shares, .values = values, .scatter = values, .void_ratio = none, .reason = std::move(reason)};
+}
+
 /// first: number of the first seed
 inline Evaluation evaluated(Calibration const& calibration, Eigen::VectorXd const& shares, scarp::ThreadExecutor& team,
                             int first = 0) {
   auto const seeds = static_cast<std::size_t>(calibration.seeds);
   std::vector<Curve> curves(seeds);
+  std::vector<std::string> reasons(seeds);
   team.for_each(calibration.seeds, [&](int k) {
     Sand sand = calibration.sand_at(shares);
     sand.seed = seed_of(calibration.start, first + k);
-    curves[static_cast<std::size_t>(k)] = calibration.run(sand, calibration.test);
+    try {
+      curves[static_cast<std::size_t>(k)] = calibration.run(sand, calibration.test);
+    } catch (scarp::PreparationError const& problem) {
+      reasons[static_cast<std::size_t>(k)] = fmt::format("seed {}: {}", sand.seed, problem.what());
+    } catch (scarp::InputError const& problem) {
+      reasons[static_cast<std::size_t>(k)] = fmt::format("seed {}: {}", sand.seed, problem.what());
+    }
   });
+  for (auto const& reason : reasons) {
+    if (!reason.empty()) return infeasible(calibration, shares, reason);
+  }
   auto const mean_without = [&](std::size_t left_out) {
     std::vector<Curve const*> some;
     for (std::size_t k = 0; k < seeds; ++k) {
@@ -73,6 +97,11 @@ inline Evaluation evaluated(Calibration const& calibration, Eigen::VectorXd cons
   };
   Evaluation evaluation{.shares = shares, .mean = mean_without(seeds)};
   evaluation.values = values_of(evaluation.mean);
+  for (Eigen::Index k = 0; k < evaluation.values.size(); ++k) {
+    if (!std::isfinite(evaluation.values(k)))
+      return infeasible(calibration, shares,
+                        fmt::format("the curve has no {}", calibration.observations[static_cast<std::size_t>(k)].name));
+  }
   evaluation.void_ratio = evaluation.mean.void_ratio;
   Eigen::MatrixXd each(evaluation.values.size(), calibration.seeds);
   for (std::size_t k = 0; k < seeds; ++k) each.col(static_cast<Eigen::Index>(k)) = values_of(mean_without(k));
@@ -128,19 +157,26 @@ struct Sensitivities {
   Eigen::MatrixXd covariance{};  ///< of the shares, from the scatter of the values
 };
 
+/// Differences to both sides of the best place, to one side where the other is infeasible, none where both are.
 /// evaluate(shares) -> Evaluation
 template <class Evaluate>
-Sensitivities sensitivities(Calibration const& calibration, Eigen::VectorXd const& best, Eigen::VectorXd const& units,
+Sensitivities sensitivities(Calibration const& calibration, Evaluation const& best, Eigen::VectorXd const& units,
                             Evaluate const& evaluate) {
   constexpr double step = 0.1;
   auto const count = static_cast<Eigen::Index>(calibration.free.size());
-  Sensitivities found{.slopes = Eigen::MatrixXd(units.size(), count)};
+  Sensitivities found{.slopes = Eigen::MatrixXd::Zero(units.size(), count)};
   Eigen::MatrixXd weighted(units.size(), count);
   Eigen::VectorXd const none = residuals(calibration, Eigen::VectorXd::Zero(units.size()), units);
   for (Eigen::Index k = 0; k < count; ++k) {
-    Eigen::VectorXd below = best, above = best;
-    below(k) = std::max(0.0, best(k) - step), above(k) = std::min(1.0, best(k) + step);
-    found.slopes.col(k) = (evaluate(above).values - evaluate(below).values) / (above(k) - below(k));
+    auto const at = [&](double share) {
+      Eigen::VectorXd shares = best.shares;
+      shares(k) = std::clamp(share, 0.0, 1.0);
+      auto const there = evaluate(shares);
+      return there.feasible() ? there : best;
+    };
+    Evaluation const above = at(best.shares(k) + step), below = at(best.shares(k) - step);
+    if (double const between = above.shares(k) - below.shares(k); between > 0.0)
+      found.slopes.col(k) = (above.values - below.values) / between;
     weighted.col(k) = residuals(calibration, found.slopes.col(k), units) - none;
   }
   // In groups as in the misfit, whose groups share one unit of weight.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <functional>
 #include <optional>
@@ -59,6 +60,7 @@ struct Observation {
   double least_scatter = 0.0;
   double reached = 0.0;  ///< how near it is to come, 0 for those of tables
   double strain = 0.0;   ///< of a table's row
+  bool windowed = false;
   std::function<double(Curve const&)> of{};
 };
 
@@ -117,22 +119,41 @@ inline std::vector<Observation> targets(std::string const& text, double window) 
     if (equals == std::string::npos) scarp::reject("--target has '{}' (name=VALUE is expected): correct it", item);
     Measure const& measure = measure_named(item.substr(0, equals));
     double const wanted = number_in(item.substr(equals + 1), "target");
-    double const relative = measure.name == "e50" ? wanted : 1.0;
-    all.push_back({std::string(measure.name), all.size(), wanted, relative * measure.least_scatter,
-                   relative * measure.reached, 0.0,
-                   [&measure, window](Curve const& curve) { return measure.of(curve, window); }});
+    double const unit = measure.relative ? std::abs(wanted) : 1.0;
+    all.push_back({.name = std::string(measure.name),
+                   .group = all.size(),
+                   .wanted = wanted,
+                   .least_scatter = unit * measure.least_scatter,
+                   .reached = unit * measure.reached,
+                   .windowed = measure.windowed,
+                   .of = [&measure, window](Curve const& curve) {
+                     return measure.of(scarp::laboratory_results<2>(curve.rows, window), curve);
+                   }});
   }
   return all;
 }
 
-/// A column of a curve at an axial strain, by straight lines between the ends of rows.
-inline double at_strain(Curve const& curve, double strain, std::function<double(std::size_t)> const& column) {
-  auto const after = static_cast<std::size_t>(std::ranges::lower_bound(curve.strain, strain) - curve.strain.begin());
-  if (after == 0) return column(0) * strain / curve.strain[0];
-  if (after == curve.rows()) return column(after - 1);
-  double const share = (strain - curve.strain[after - 1]) / (curve.strain[after] - curve.strain[after - 1]);
-  return column(after - 1) + share * (column(after) - column(after - 1));
+/// A column at a strain, by straight lines between rows; the last value beyond them. strains: increasing
+inline double at_strain(std::vector<double> const& strains, std::vector<double> const& column, double strain) {
+  auto const after = static_cast<std::size_t>(std::ranges::lower_bound(strains, strain) - strains.begin());
+  if (after == 0) return column.front();
+  if (after == strains.size()) return column.back();
+  double const share = (strain - strains[after - 1]) / (strains[after] - strains[after - 1]);
+  return column[after - 1] + share * (column[after] - column[after - 1]);
 }
+
+/// A column of a curve at an axial strain. of: a row
+inline double at_strain(Curve const& curve, double strain, double (*of)(scarp::LaboratoryRow<2> const&)) {
+  std::vector<double> strains, column;
+  for (auto const& row : curve.rows) {
+    strains.push_back(row.axial_strain());
+    column.push_back(of(row));
+  }
+  return at_strain(strains, column, strain);
+}
+
+inline double sine_of(scarp::LaboratoryRow<2> const& row) { return std::sin(row.friction()); }
+inline double volumetric_strain_of(scarp::LaboratoryRow<2> const& row) { return row.volumetric_strain(); }
 
 /// Columns of a laboratory table: axial_strain and volumetric_strain (or with _percent), compression positive, and stress_ratio (q/p),
 /// or q and p; columns of path.csv will do.
@@ -181,12 +202,6 @@ struct LabTable {
     }
     return lab;
   }
-
-  double at(std::vector<double> const& column, double wanted) const {
-    Curve curve;
-    curve.strain = strain;
-    return at_strain(curve, wanted, [&](std::size_t row) { return column[row]; });
-  }
 };
 
 /// Twenty strains, denser at the start, at which the curve is to have the table's values. after: groups so far
@@ -194,18 +209,19 @@ inline std::vector<Observation> observations_of(LabTable const& table, std::size
   constexpr int rows = 20;
   std::vector<Observation> all;
   double const last = table.strain.back();
-  for (auto const& [name, column, scatter] : {std::tuple{"sine of friction angle", &table.sine, 0.005},
-                                              std::tuple{"volumetric strain", &table.volumetric, 2e-4}}) {
+  for (auto const& [name, column, scatter, of] :
+       {std::tuple{"sine of friction angle", &table.sine, 0.005, &sine_of},
+        std::tuple{"volumetric strain", &table.volumetric, 2e-4, &volumetric_strain_of}}) {
     if (column->empty()) continue;
-    bool const stress = column == &table.sine;
     for (int row = 1; row <= rows; ++row) {
       double const strain = last * std::pow(row / static_cast<double>(rows), 1.5);
       if (strain < table.strain.front()) continue;
-      all.push_back(
-          {name, groups, table.at(*column, strain), scatter, 0.0, strain, [stress, strain](Curve const& curve) {
-             return at_strain(curve, strain,
-                              [&](std::size_t at) { return stress ? curve.sine(at) : curve.volumetric[at]; });
-           }});
+      all.push_back({.name = name,
+                     .group = groups,
+                     .wanted = at_strain(table.strain, *column, strain),
+                     .least_scatter = scatter,
+                     .strain = strain,
+                     .of = [strain, of](Curve const& curve) { return at_strain(curve, strain, of); }});
     }
     ++groups;
   }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "../shared/run_options.hpp"
 #include "../shared/sand/options.hpp"
 #include "../shared/write_json.hpp"
 #include "calibration.hpp"
@@ -10,18 +11,25 @@
 
 namespace rve_lab {
 
+/// What a search took.
+struct Effort {
+  int evaluations = 0;
+  std::vector<std::string> reasons{};  ///< of infeasible evaluations
+  double seconds = 0.0;
+};
+
 /// What a calibration came to: tables for figures, the summary, and the sand itself.
 class CalibrationReport {
  public:
   /// other: the best sand on seeds that were not used
   CalibrationReport(Calibration const& calibration, Evaluation best, Evaluation other, Sensitivities found,
-                    Eigen::VectorXd units, double seconds)
+                    Eigen::VectorXd units, Effort effort)
       : calibration_(calibration),
         best_(std::move(best)),
         other_(std::move(other)),
         found_(std::move(found)),
         units_(std::move(units)),
-        seconds_(seconds) {}
+        effort_(std::move(effort)) {}
 
   /// \throws FileError
   void write(scarp::RunFolder& own) const {
@@ -29,8 +37,12 @@ class CalibrationReport {
     write_curve(own.path());
     nlohmann::ordered_json json{{"misfit", misfit(calibration_, best_, units_)},
                                 {"misfit_on_other_seeds", misfit(calibration_, other_, units_)},
-                                {"seconds", seconds_},
+                                {"seconds", effort_.seconds},
+                                {"evaluations", effort_.evaluations},
+                                {"infeasible_evaluations", effort_.reasons.size()},
                                 {"seeds", calibration_.seeds}};
+    if (!effort_.reasons.empty()) json["first_infeasible_evaluation"] = effort_.reasons.front();
+    if (!other_.feasible()) json["infeasible_on_other_seeds"] = other_.reason;
     for (auto const& [name, value, error, range] : parameters())
       json["parameters"][name] = {{"value", value}, {"standard_error", error}, {"range", range}};
     for (std::size_t k = 0; k < calibration_.observations.size(); ++k) {
@@ -50,7 +62,11 @@ class CalibrationReport {
 
   void print() const {
     examples::print(stdout, "misfit {:.2f} in units of the scatter, {:.2f} on other seeds; {:.0f} s\n",
-                    misfit(calibration_, best_, units_), misfit(calibration_, other_, units_), seconds_);
+                    misfit(calibration_, best_, units_), misfit(calibration_, other_, units_), effort_.seconds);
+    if (!effort_.reasons.empty())
+      examples::print(stdout, "{} of {} evaluations were infeasible, the first: {}\n", effort_.reasons.size(),
+                      effort_.evaluations, effort_.reasons.front());
+    if (!other_.feasible()) examples::print(stdout, "infeasible on other seeds: {}\n", other_.reason);
     for (auto const& [name, value, error, range] : parameters()) {
       bool const open = error > 0.25 * range;
       examples::print(stdout, "{} {:.5g} +- {:.2g}{}\n", name, value, error,
@@ -74,8 +90,11 @@ class CalibrationReport {
     bool const no_such_packing = void_ratio_limit() != "";
     if (missed.empty() && !no_such_packing) return;
     if (missed.empty()) missed = "the void ratio";
+    bool const alone = calibration_.observations.size() == 1;
+    auto const inside =
+        fmt::format("the {}grains themselves, no parameter is at its bounds", alone ? "" : "other targets or the ");
     scarp::reject("out of reach: {} (limited by {}): widen the bounds, free another parameter, or take other grains",
-                  missed, limits.empty() ? "nothing but the grains themselves, no parameter is at its bounds" : limits);
+                  missed, limits.empty() ? inside : limits);
   }
 
   /// The calibrated sand as a file.
@@ -84,8 +103,9 @@ class CalibrationReport {
     std::string on, off;
     for_each_target([&](Observation const& one, double value, double scatter, double other, double other_scatter) {
       on += fmt::format("{}{} {:.6g}", on.empty() ? "" : ", ", one.name, one.wanted);
-      off += fmt::format(", {} {:.4g} +- {:.2g} ({:.4g} +- {:.2g} on other seeds)", one.name, value, scatter, other,
-                         other_scatter);
+      auto const elsewhere =
+          other_.feasible() ? fmt::format("{:.4g} +- {:.2g}", other, other_scatter) : std::string("infeasible");
+      off += fmt::format(", {} {:.4g} +- {:.2g} ({} on other seeds)", one.name, value, scatter, elsewhere);
     });
     if (calibration_.observations.back().strain > 0.0)
       on += on.empty() ? "a laboratory table" : " and a laboratory table";
@@ -168,8 +188,7 @@ class CalibrationReport {
 
   void write_curve(std::filesystem::path const& folder) const {
     scarp::CsvTable table({"axial_strain", "sine", "volumetric_strain"});
-    for (std::size_t row = 0; row < other_.mean.rows(); ++row)
-      table.add(other_.mean.strain[row], other_.mean.sine(row), other_.mean.volumetric[row]);
+    for (auto const& row : other_.mean.rows) table.add(row.axial_strain(), sine_of(row), row.volumetric_strain());
     table.write(folder / "curve.csv");
   }
 
@@ -178,7 +197,7 @@ class CalibrationReport {
   Evaluation other_;
   Sensitivities found_;
   Eigen::VectorXd units_;
-  double seconds_;
+  Effort effort_;
 };
 
 }  // namespace rve_lab

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "../shared/run_options.hpp"
 #include "../shared/sand/sand.hpp"
@@ -41,6 +42,68 @@ struct Replay {
   std::optional<double> relaxation{};  ///< isotropic pressure before the path [Pa]
   double tolerance = 1e-6;             ///< of the file's overlaps against the packing's, over the smallest radius
   std::string out{};
+};
+
+/// How a packing is tested for its curve.
+struct CurveTest {
+  std::string path = "biaxial";
+  std::optional<double> held{};  ///< [Pa]; that of the packing when not given
+  double strain = 0.1;
+  double strain_step = 2e-5;
+  double row_strain = 1e-3;
+};
+
+struct CalibrateChoice {
+  examples::Sand sand{.void_ratio_tolerance = 2e-3};  ///< small packings jump over void ratios
+  std::string sand_file{};
+  std::string free = "friction,relative-density";
+  std::string target{};
+  std::vector<std::string> tables{};
+  bool triaxial = false;  ///< data of the tables
+  std::optional<double> held{};
+  std::optional<double> strain{};
+  double window = 0.02;
+  CurveTest test{};
+  int seeds = 4;
+  int evaluations = 30;
+  int threads = 0;
+  bool resume = false;
+  examples::Output output{"output/rve_lab"};
+};
+
+/// A test of any material by a laboratory's name; pressures [Pa] are positive in compression, angles in degrees.
+struct Laboratory {
+  std::string provider = "packing";
+  Sand sand;
+  std::string sand_file{};
+  std::vector<std::string> packings{};
+  double young = 20e6;
+  double poisson = 0.3;
+  double friction = 30.0;
+  double dilation = 0.0;
+  double cohesion = 0.0;
+  int dimension = 2;
+
+  std::string path = "drained";
+  std::string table{};
+  double strain = 0.1;  ///< length of the path
+  bool extension = false;
+  double ratio = 0.0;
+  int cycles = 0;
+  double amplitude = 0.005;
+  std::optional<double> consolidation{};
+  double k0 = 1.0;
+
+  double increment = 5e-4;
+  double strain_step = 5e-6;
+  double tolerance = 1e-4;
+  double window = 5e-3;
+  std::optional<double> void_ratio{};
+  int threads = 2;
+  std::vector<std::string> overlays{};
+  examples::Output output{"output/rve_lab"};
+
+  bool is_packing() const { return provider == "packing"; }
 };
 
 }  // namespace rve_lab

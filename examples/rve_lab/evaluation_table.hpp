@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,15 +14,13 @@
 
 namespace rve_lab {
 
-/// evaluations.csv: a row for each evaluation, from which a resumed calibration takes what it has already.
+/// evaluations.csv: a row for each evaluation, of infeasible ones with the reason instead of values, from which a resumed calibration takes what it has already.
 class EvaluationTable {
  public:
   /// \throws InputError for a table of other parameters or targets
   EvaluationTable(std::filesystem::path const& file, Calibration const& calibration, bool resumes)
       : calibration_(calibration),
         log_(read(file, resumes), columns(calibration), resumes ? scarp::CsvStart::resumed : scarp::CsvStart::anew) {}
-
-  std::size_t rows() const { return rows_.size(); }
 
   std::optional<Evaluation> find(Eigen::VectorXd const& shares) const {
     constexpr double round_off = 1e-9;
@@ -29,12 +31,18 @@ class EvaluationTable {
   }
 
   void add(Evaluation const& one) {
-    std::vector<double> cells(one.shares.begin(), one.shares.end());
-    for (std::size_t k = 0; k < calibration_.free.size(); ++k) cells.push_back(calibration_.free[k].at(cells[k]));
-    cells.push_back(one.void_ratio);
-    cells.insert(cells.end(), one.values.begin(), one.values.end());
-    cells.insert(cells.end(), one.scatter.begin(), one.scatter.end());
-    log_.add(std::span<double const>(cells));
+    std::vector<std::string> cells;
+    auto const add_numbers = [&](auto const& numbers) {
+      for (double const number : numbers) cells.push_back(std::isfinite(number) ? fmt::format("{}", number) : "");
+    };
+    add_numbers(one.shares);
+    for (std::size_t k = 0; k < calibration_.free.size(); ++k)
+      add_numbers(std::array{calibration_.free[k].at(one.shares(static_cast<Eigen::Index>(k)))});
+    add_numbers(std::array{one.void_ratio});
+    add_numbers(one.values);
+    add_numbers(one.scatter);
+    cells.push_back(one.reason);
+    log_.add(std::span<std::string const>(cells));
     rows_.push_back(one);
     rows_.back().mean = {};
   }
@@ -54,7 +62,21 @@ class EvaluationTable {
       names.push_back("value of " + observation(calibration, k));
     for (std::size_t k = 0; k < calibration.observations.size(); ++k)
       names.push_back("scatter of " + observation(calibration, k));
+    names.emplace_back("reason");
     return names;
+  }
+
+  /// Numbers of a column; empty cells, as rows with a reason have them, are none.
+  static std::vector<double> numbers(scarp::CsvColumns const& table, std::string const& name) {
+    std::vector<double> values;
+    for (auto const& text : table.texts(name)) {
+      double value = std::numeric_limits<double>::quiet_NaN();
+      auto const [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (!text.empty() && (trouble != std::errc{} || end != text.data() + text.size()))
+        table.reject_cell(values.size(), name, "it is no number", "calibrate without --resume");
+      values.push_back(value);
+    }
+    return values;
   }
 
   std::filesystem::path const& read(std::filesystem::path const& file, bool resumes) {
@@ -65,9 +87,10 @@ class EvaluationTable {
       scarp::reject("'{}' has other parameters or targets than these: calibrate into another folder", file.string());
     auto const free = static_cast<Eigen::Index>(calibration_.free.size());
     auto const count = static_cast<Eigen::Index>(calibration_.observations.size());
-    rows_.resize(table.rows(), {Eigen::VectorXd(free), Eigen::VectorXd(count), Eigen::VectorXd(count)});
-    for (std::size_t column = 0; column < names.size(); ++column) {
-      auto const values = table.column<double>(names[column]);
+    auto const reasons = table.texts("reason");
+    for (auto const& reason : reasons) rows_.push_back(infeasible(calibration_, Eigen::VectorXd(free), reason));
+    for (std::size_t column = 0; column + 1 < names.size(); ++column) {
+      auto const values = numbers(table, names[column]);
       auto const k = static_cast<Eigen::Index>(column);
       for (std::size_t row = 0; row < rows_.size(); ++row) {
         auto& one = rows_[row];

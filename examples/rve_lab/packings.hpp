@@ -1,23 +1,34 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "../shared/print.hpp"
 #include "../shared/sand/built.hpp"
-#include "../shared/sand/preparation.hpp"
 #include "options.hpp"
 
 namespace rve_lab {
 
-/// Each pair of shape and law costs compile time, so curved and rolling contacts come with discs only.
-using Grains = examples::Built<examples::Linear<scarp::Disc>, scarp::Packing<scarp::Disc, scarp::HertzMindlin<>>,
-                               scarp::Packing<scarp::Disc, examples::Rolling>, examples::Linear<scarp::Ellipse>,
-                               examples::Linear<scarp::Superellipse>>;
+using Discs = examples::Linear<scarp::Disc>;
+using HertzianDiscs = scarp::Packing<scarp::Disc, scarp::HertzMindlin<>>;
+using RollingDiscs = scarp::Packing<scarp::Disc, examples::Rolling>;
+using Ellipses = examples::Linear<scarp::Ellipse>;
+using Superellipses = examples::Linear<scarp::Superellipse>;
 
-/// \throws InputError, PreparationError
+/// Each pair of shape and law costs compile time, so curved and rolling contacts come with discs only.
+using Grains = examples::Built<Discs, HertzianDiscs, RollingDiscs, Ellipses, Superellipses>;
+
+/// Prepares packings of a sand.
 template <class PackingType>
-PackingType prepared(Sand const& sand, typename PackingType::Law const& law) {
-  auto const tell = [](std::string const& text) { examples::print(stdout, "{}\n", text); };
-  return examples::prepared<PackingType>(sand, law, sand.seed, tell, sand.void_ratio_tolerance);
+struct Preparation {
+  using Law = typename PackingType::Law;
+
+  /// What is done is printed. \throws InputError, PreparationError
+  static PackingType printed(Sand const& sand, Law const& law);
+  /// The densest or loosest packing where the sand's void ratio lies beyond it. \throws InputError, PreparationError
+  static PackingType nearest(Sand const& sand, Law const& law);
+};
+
+/// \throws InputError for grains that are not built
+inline void require_built(Sand const& sand) {
+  with_packing(Grains{}, sand, [](auto, auto const&) {});
 }
 
 /// The values of the file, but options that are given.

@@ -119,7 +119,8 @@ void check_wrong_input(void) {
   good &= rejected(scarp_material_parse("kind packing\nrolling-friction 0.5\n", &material), "'rolling-friction'");
   good &= rejected(scarp_material_parse("kind packing\nseed -1\n", &material), "whole number from 0");
   good &= rejected(scarp_material_parse("kind mohr-coulomb\nyoung 1e7\nfriction 120\n", &material), "is 120");
-  check("wrong materials are rejected with a reason", 12, good);
+  good &= rejected(scarp_material_parse("kind packing\nsand a.sand\nfile a.packing\n", &material), "'sand' stands beside 'file'");
+  check("wrong materials are rejected with a reason", 13, good);
 
   good = rejected(scarp_points_set_gradients(points, few, 4), "2 points have 8");
   good &= rejected(scarp_points_set_gradients(points, NULL, 8), "null");

@@ -5,6 +5,7 @@ import copy
 import os
 import pathlib
 import pickle
+import subprocess
 import sys
 import tempfile
 import threading
@@ -106,6 +107,18 @@ with tempfile.TemporaryDirectory() as scratch:
     expect(state[0] == state[1], f"a sand's file gives {state[0]}, its keywords {state[1]}")
     file.write_text("viod-ratio = 0.2\n")
     refused(ValueError, "line 1: a sand has no 'viod-ratio'", lambda: scarp.packing(file))
+
+# A packing of a file has the grains and the law of the sand beside it, but for keywords that are given.
+lab = module.parent / "examples" / "rve_lab"
+if lab.is_file():
+    with tempfile.TemporaryDirectory() as scratch:
+        subprocess.run([lab, "prepare", "--shape", "ellipse", "--grains", "60", "--friction", "0.3", "--output", "made"], cwd=scratch,
+                       check=True, capture_output=True, timeout=100)
+        file = str(pathlib.Path(scratch) / "made/packing.packing")
+        beside, given, other = (scarp.MaterialPoints(scarp.ellipses(file=file, **more), np.zeros((1, 2))).respond(gradients(1, -5e-3))[0]
+                                for more in ({}, {"friction": 0.3}, {"friction": 0.5}))
+    expect(np.array_equal(beside, given), f"the sand beside the file gives {beside}, its friction as keyword {given}")
+    expect(not np.array_equal(beside, other), f"another friction gives {other} too")
 
 # Spheres in space; springs softer than the plane's, for contacts have no thickness.
 state = scarp.MaterialPoints(scarp.spheres(grains=60, normal_stiffness=3e5, tangential_stiffness=3e5), np.zeros((1, 3))).quantities(0)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """[slow] A sand is a file: it gives the packing that its options give, wrong files are rejected by line and name, and `rve_lab calibrate` finds
-a sand again, resumes with the same result and rejects targets out of reach. Environment: SCARP_EXAMPLES, the folder of the built programs
+a sand again, resumes with the same result, passes over infeasible evaluations, fits tables and rejects targets out of reach. Environment: SCARP_EXAMPLES, the folder of the built programs
 (skipped, exit 77, without)."""
 import csv
 import json
@@ -100,9 +100,96 @@ def check_calibration(folder):
     code, said = run(*far, folder=folder)
     expect(code > 0 and "out of reach" in said and "preparation-friction at the lower end" in said, f"out of reach: ended with {code}\n{said}")
     expect(not (folder / "far/calibrated.sand").exists(), "a sand out of reach was written")
+    code, said = run(LAB, "calibrate", *FAST, "--free", "friction,relative-density", "--target", "peak-friction=50", "--seeds", "2",
+                     "--evaluations", "10", "--output", "discs", folder=folder)
+    expect(code > 0 and "out of reach: peak-friction 50" in said, f"50 degrees of discs: ended with {code}\n{said}")
+    expect("at the upper end of its bounds" in said.split("limited by")[-1], f"50 degrees of discs are limited by what?\n{said}")
 
 
-for check in (check_file, check_refusals, check_scenes, check_calibration):
+def check_infeasible(folder):
+    """Soft contacts give overlaps that end a preparation: rows with a reason, also when they are resumed. None at all is an error."""
+    command = [LAB, "calibrate", *FAST, "--free", "normal-stiffness=1e3:1e7", "--target", "e50=1.5e7", "--seeds", "2", "--evaluations", "14",
+               "--output", "soft"]
+    code, said = run(*command, folder=folder)
+    if code > 0 and "without NLopt" in said:
+        return
+    expect(code == 0, f"with infeasible evaluations: ended with {code}\n{said}")
+    if code > 0:
+        return
+    summary = json.loads((folder / "soft/summary.json").read_text())
+    with open(folder / "soft/evaluations.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    without = [row for row in rows if row["reason"]]
+    expect(0 < len(without) == summary["infeasible_evaluations"] < summary["evaluations"], f"{len(without)} rows with a reason, {summary}")
+    expect(all(row["value of e50"] == "" for row in without), f"values of infeasible rows: {without}")
+    expect("infeasible, seed" in said and summary["first_infeasible_evaluation"] == without[0]["reason"], f"reasons: {said}")
+    expect(abs(summary["targets"]["e50"]["value"] - 1.5e7) < 0.1 * 1.5e7, f"E50 for 15 MPa: {summary['targets']}")
+    sand = (folder / "soft/calibrated.sand").read_text()
+    code, said = run(*command, "--resume", folder=folder)
+    expect(code == 0 and (folder / "soft/calibrated.sand").read_text() == sand, f"--resume: ended with {code}\n{said}")
+    expect(said.count("from evaluations.csv") == summary["evaluations"], f"--resume evaluates again:\n{said}")
+    code, said = run(LAB, "calibrate", "--grains", "60", "--free", "friction=0.3:0.6", "--target", "e50=1.5e7", "--seeds", "2", "--evaluations",
+                     "4", "--strain-step", "1e-3", "--strain", "0.5", "--output", "none", folder=folder)
+    expect(code > 0 and "none of 4 evaluations has packings" in said and "too_deep" in said, f"none feasible: ended with {code}\n{said}")
+
+
+
+def check_tables(folder):
+    """A triaxial table: q/p becomes the sine of the friction angle, and both columns count."""
+    rows = ["axial_strain_percent,volumetric_strain_percent,q,p"]
+    rows += [f"{0.1 * k},{0.01 * k},{1e5 * k / (5 + k)},{2e5 + 1e5 * k / (5 + k) / 3}" for k in range(21)]
+    (folder / "drained.csv").write_text("\n".join(rows) + "\n")
+    command = [LAB, "calibrate", "--grains", "60", "--strain-step", "5e-5", "--free", "friction", "--seeds", "2", "--evaluations", "3"]
+    code, said = run(*command, "--table", "drained.csv", "--triaxial", "--output", "table", folder=folder)
+    if code > 0 and "without NLopt" in said:
+        return
+    expect(code == 0, f"--table --triaxial: ended with {code}\n{said}")
+    if code > 0:
+        return
+    with open(folder / "table/calibration.csv", newline="") as file:
+        fitted = list(csv.DictReader(file))
+    expect({row["name"] for row in fitted} == {"sine of friction angle", "volumetric strain"}, f"columns {fitted}")
+    last = [row for row in fitted if row["name"] == "sine of friction angle"][-1]
+    q = 1e5 * 20 / 25
+    ratio = q / (2e5 + q / 3)
+    expect(abs(float(last["wanted"]) - 3.0 * ratio / (6.0 + ratio)) < 1e-9, f"sine at the end: {last}")
+    expect("a laboratory table" in (folder / "table/calibrated.sand").read_text(), "the sand does not name its table")
+    for arguments, named in ((["--target", "peak-friction=30", "--triaxial"], "--triaxial is given but not used"),
+                             (["--target", "void-ratio=0.2", "--window", "0.01"], "--window is given but not used"),
+                             (["--target", "peak-friction=30", "--strain", "0.01"], "below the --window"),
+                             (["--table", "drained.csv", "--shape", "ellipse", "--law", "hertz"], "are not built")):
+        code, said = run(*command, *arguments, "--output", "rejected", folder=folder)
+        expect(code > 0 and named in said, f"{arguments}: ended with {code}\n{said}")
+        expect(not (folder / "rejected").exists(), f"{arguments}: something was written")
+
+
+def check_ground(folder):
+    """Ground of packings takes the grains and the preparation of a sand's file, but for those that are not built; options count first."""
+    (folder / "smooth.sand").write_text("shape = ellipse\nfriction = 0.2\npreparation-friction = 0.05\n")
+    (folder / "rolling.sand").write_text("shape = disc\nlaw = rolling\n")
+    specimen = [example("biaxial_specimen"), "--columns", "1", "--rows", "1", "--packings", "1", "--grains", "40", "--steps", "1",
+                "--axial-strain-step", "2e-4"]
+    wall = [example("retaining_wall"), "--size", "2", "--grains", "40", "--strain", "0.02"]
+    forces = {}
+    for name, more in (("default", []), ("smooth", ["--sand", "smooth.sand"]), ("denser", ["--sand", "smooth.sand", "--preparation-friction", "0.02"])):
+        code, said = run(*specimen, *more, "--out", f"{name}.csv", folder=folder)
+        expect(code == 0, f"biaxial_specimen {name}: ended with {code}\n{said}")
+        with open(folder / f"{name}.csv", newline="") as file:
+            last = list(csv.DictReader(file))[-1]
+        expect(abs(float(last["mean_sxx"]) + 2e5) < 600.0, f"biaxial_specimen {name} is not held at 200 kPa: {last}")
+        forces[name] = last["top_force"]
+    expect(len(set(forces.values())) == 3, f"forces of three sands: {forces}")
+    code, said = run(*wall, "--sand", "smooth.sand", "--output", "wall", folder=folder)
+    expect(code == 0, f"retaining_wall --sand: ended with {code}\n{said}")
+    summary = json.loads((folder / "wall/summary.json").read_text())
+    expect(summary["preparation_friction"] == 0.05 and summary["grains"] == 40, f"the wall's sand: {summary}")
+    expect(summary["active"]["friction_angle"] < 40.0, f"friction of smooth ellipses: {summary['active']}")  # rough ones have more than 40
+    for program in (specimen, wall):
+        code, said = run(*program, "--sand", "rolling.sand", folder=folder)
+        expect(code > 0 and "law 'rolling' are not built" in said, f"{program[0].name} --sand rolling.sand: ended with {code}\n{said}")
+
+
+for check in (check_file, check_refusals, check_scenes, check_calibration, check_infeasible, check_tables, check_ground):
     with tempfile.TemporaryDirectory() as scratch:
         check(pathlib.Path(scratch))
 finish()

@@ -67,6 +67,14 @@ TEST_CASE("a span of numbers is a row") {
   CHECK_REFUSED(table.add(std::span<double const>(row).first(1)), "1 cells", "2 columns");
 }
 
+TEST_CASE("a span of texts is a row, quoted where it must be") {
+  scarp::CsvTable table({"x [m]", "reason"});
+  std::vector<std::string> const row{"", "too deep, at 0.2"};
+  table.add(std::span<std::string const>(row));
+  CHECK(table.text() == "x [m],reason\n,\"too deep, at 0.2\"\n");
+  CHECK_REFUSED(table.add(std::span<std::string const>(row).first(1)), "1 cells", "2 columns");
+}
+
 TEST_CASE("rows of the wrong width are refused and not kept") {
   scarp::CsvTable table({"a", "b"});
   CHECK_REFUSED(table.add(1.0), "1 cells", "2 columns");

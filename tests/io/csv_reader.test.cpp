@@ -59,6 +59,8 @@ TEST_CASE("columns are found by name, blank lines and foreign ends of lines do n
   CHECK(read.has("note"));
   CHECK_FALSE(read.has("y"));
   CHECK(read.line(1) == 4);
+  CHECK(read.texts("note") == std::vector<std::string>{"soft", ""});
+  CHECK_REFUSED(read.texts("y"), "no column 'y'");
 }
 
 TEST_CASE("a table whose cells are parted by blanks may begin with a marked header") {

@@ -100,6 +100,9 @@ TEST_CASE("results of a synthetic drained test") {
   }
   double const rate = share * (1.0 - (last + end / count / 2.0) / turn);
   CHECK(std::sin(results.peak_dilation) == Approx(-rate / (2.0 - rate)).epsilon(1e-10));
+  // The sum of the increments from `turn` to the end: the volume has changed by volume(end) - volume(turn).
+  double const volume_change = volume(end) - volume(turn);
+  CHECK(std::sin(results.secant_dilation) == Approx(-volume_change / (2.0 * (end - turn) - volume_change)));
   // q = top / 2 at x = 2 - sqrt 3; linear between rows of x = 5e-3.
   double const half = (2.0 - std::sqrt(3.0)) * at;
   CHECK(results.secant_modulus == Approx(top / 2.0 / half).epsilon(1e-4));
@@ -109,19 +112,41 @@ TEST_CASE("results of a synthetic drained test") {
 }
 
 TEST_CASE("a window takes means of stresses, and only the way to the first turn counts") {
-  // Rows of 0.001 with one spike: a window of 0.004 has five rows.
+  // Rows of 0.001 with one spike: a window of 0.004 has four increments.
   auto const spike = [](double axial) { return std::abs(axial - 0.05) < 1e-9 ? 2.0 : 1.0; };
   auto rows = drawn(
       spike, [](double axial) { return -axial; }, 0.1, 100);
   CHECK(scarp::laboratory_results<2>(rows).peak.q() == Approx(2.0));
   auto const smooth = scarp::laboratory_results<2>(rows, 0.004);
-  CHECK(smooth.peak.q() == Approx((4.0 + 2.0) / 5.0));
-  CHECK(smooth.residual.length == Approx(0.098));
+  CHECK(smooth.peak.q() == Approx((3.0 + 2.0) / 4.0));
+  CHECK(smooth.residual.length == Approx(0.0985));
   CHECK(std::sin(smooth.peak_dilation) == Approx(1.0 / 3.0).epsilon(1e-9));  // 1 / (2 + 1)
   CHECK_FALSE(smooth.phase_transformation);
   rows.push_back(rows[98]);
   rows.back().stress(1) = -9.0;
   CHECK(scarp::laboratory_results<2>(rows).peak.q() == Approx(2.0));
+}
+
+TEST_CASE("a minor stress in tension mobilises a right angle, and no stress mobilises nothing") {
+  using Row = scarp::LaboratoryRow<2>;
+  auto const friction = [](double lateral, double axial) {
+    return Row{0.0, {-lateral, -axial, 0.0}, scarp::EngineeringStrain<2>::Zero()}.friction();
+  };
+  CHECK(friction(1.0, 3.0) == Approx(30.0 * degree));  // sin 30 = (3 - 1) / (3 + 1)
+  CHECK(friction(0.0, 3.0) == Approx(90.0 * degree));
+  CHECK(friction(-1.0, 3.0) == Approx(90.0 * degree));
+  CHECK(friction(-3.0, 1.0) == Approx(90.0 * degree));
+  CHECK(friction(-1.0, -1.0) == Approx(90.0 * degree));
+  CHECK(friction(0.0, 0.0) == 0.0);
+  // A material with cohesion, drawn at no lateral pressure: results are numbers, and no Mohr-Coulomb parameters come of them.
+  Rows rows;
+  for (int k = 0; k <= 20; ++k) {
+    double const axial = 1e-3 * k;
+    rows.push_back({axial, {0.1, -1.0 - 100.0 * axial, 0.0}, {0.5 * axial, -axial, 0.0}});
+  }
+  auto const results = scarp::laboratory_results<2>(rows, 0.004);
+  CHECK(results.peak.friction() == Approx(90.0 * degree));
+  CHECK_REFUSED(scarp::mohr_coulomb_of(results), "friction");
 }
 
 TEST_CASE("phase transformation of an undrained test is where the pressure is least") {

@@ -12,8 +12,8 @@
 
 namespace examples {
 
-/// Told what a preparation does; may throw to stop it.
-using Tell = std::function<void(std::string const&)>;
+/// Gets a line for each step of a preparation; may throw to stop it.
+using Progress = std::function<void(std::string const&)>;
 
 /// \throws PreparationError
 template <class PackingType>
@@ -32,7 +32,7 @@ struct Consolidation {
   typename PackingType::Law law;
   double pressure = 0.0;  ///< at which the void ratio is wanted [Pa]
   double begin = 0.0;     ///< of the consolidation by friction [Pa]; below `pressure` it is compressed from there
-  Tell tell{};
+  Progress progress{};
   double least_friction = 0.0;  ///< of the densest packing
 
   struct Made {
@@ -46,7 +46,7 @@ struct Consolidation {
     scarp::IsotropicPreparation const first{.pressure = begin, .preparation_friction = friction};
     auto packing = settled(first.prepare(cloud, law), fmt::format("consolidated at friction {:.4f}", friction));
     double const void_ratio = begin < pressure ? compressed(packing).void_ratio() : packing.void_ratio();
-    if (tell) tell(fmt::format("preparation friction {:.6f} gives void ratio {:.6f}", friction, void_ratio));
+    if (progress) progress(fmt::format("preparation friction {:.6f} gives void ratio {:.6f}", friction, void_ratio));
     return {std::move(packing), void_ratio, friction};
   }
 
@@ -135,16 +135,16 @@ PackingType brought_to_k0(PackingType packing, typename PackingType::Law const& 
 }
 
 /// A packing of a sand, with a seed of its own. off: how far its void ratio may be off the one that is wanted
-/// \throws InputError, PreparationError, and what tell throws
+/// \throws InputError, PreparationError, and what progress throws
 template <class PackingType>
-PackingType prepared(Sand const& sand, typename PackingType::Law const& law, std::uint64_t seed, Tell const& tell,
-                     double off) {
+PackingType prepared(Sand const& sand, typename PackingType::Law const& law, std::uint64_t seed,
+                     Progress const& progress, double off) {
   auto const cloud = cloud_of<typename PackingType::Shape>(sand, seed);
   Consolidation<PackingType> const consolidation{cloud.template make<PackingType>(), law, sand.pressure, sand.pressure,
-                                                 tell};
+                                                 progress};
   auto packing = consolidated(consolidation, sand, off).packing;
   if (sand.vertical_pressure > 0.0) {
-    if (tell) tell("compressed without lateral strain");
+    if (progress) progress("compressed without lateral strain");
     std::vector<double> path{sand.overconsolidation_ratio * sand.vertical_pressure};
     if (sand.overconsolidation_ratio > 1.0) path.push_back(sand.vertical_pressure);
     auto column = scarp::OneDimensionalCompression{}.compress(std::move(packing), law, path);

@@ -75,6 +75,14 @@ class CsvFormat {
     return listed(values, ",") + "\n";
   }
 
+  std::string row(std::span<std::string const> cells) const {
+    require_width(cells.size());
+    std::string line;
+    for (auto const& cell : cells) line += csv_cell(cell) + ",";
+    line.back() = '\n';
+    return line;
+  }
+
  private:
   void require_width(std::size_t cells) const {
     if (cells != width_) {

@@ -185,6 +185,14 @@ class CsvColumns {
     return numbers;
   }
 
+  /// The cells of a column as they stand. \throws InputError for a missing column
+  std::vector<std::string> texts(std::string_view name) const {
+    std::size_t const place = require(name);
+    std::vector<std::string> found;
+    for (auto const& row : rows_) found.push_back(row.cells[place]);
+    return found;
+  }
+
   /// Rejects the value in one cell, naming file, line and column.
   [[noreturn]] void reject_cell(std::size_t row, std::string_view name, std::string_view why,
                                 std::string_view suggestion) const {

@@ -36,10 +36,13 @@ struct LaboratoryRow {
     auto const values = principal_stresses();
     return values(0) - values(Dim - 1);
   }
-  /// Mobilised friction angle [rad], \f$ \sin\varphi = (\sigma_1 - \sigma_3)/(\sigma_1 + \sigma_3) \f$; NaN without pressure.
+  /// Mobilised friction angle [rad], \f$ \sin\varphi = (\sigma_1 - \sigma_3)/(\sigma_1 + \sigma_3) \f$: a right angle where the minor principal
+  /// stress is tension, which no friction angle carries, and 0 without any stress.
   double friction() const {
     auto const values = principal_stresses();
-    return std::asin((values(0) - values(Dim - 1)) / (values(0) + values(Dim - 1)));
+    if (values(Dim - 1) < 0.0) return std::numbers::pi / 2.0;
+    double const sum = values(0) + values(Dim - 1);
+    return sum > 0.0 ? std::asin((values(0) - values(Dim - 1)) / sum) : 0.0;
   }
   double axial_strain() const { return 0.0 - strain(Dim - 1); }  ///< Along the last axis, compression positive.
   /// Logarithmic, compression positive.
@@ -71,9 +74,10 @@ struct LaboratoryResults {
   Row peak{};      ///< where the mobilised friction is largest; mean over the window, as all rows here
   Row residual{};  ///< over the last window
   std::optional<Row>
-      phase_transformation{};    ///< from contraction to dilation; at constant volume from falling to rising p
-  double peak_dilation = none;   ///< largest where nine tenths of the peak friction are mobilised [rad]
-  double shear_modulus = none;   ///< G0 [Pa], over the first row; not of nearly isotropic paths
+      phase_transformation{};     ///< from contraction to dilation; at constant volume from falling to rising p
+  double peak_dilation = none;    ///< largest where nine tenths of the peak friction are mobilised [rad]
+  double secant_dilation = none;  ///< from the largest contraction to the end [rad]; 0 where it contracts to the end
+  double shear_modulus = none;    ///< G0 [Pa], over the first row; not of nearly isotropic paths
   double secant_modulus = none;  ///< E50 [Pa], to half of the largest change of q, where the length is the axial strain
   double secant_poisson = none;  ///< lateral extension over axial compression there, in the plane \f$ \nu/(1-\nu) \f$
   double k0 = none;              ///< lateral over axial stress at the end
@@ -139,9 +143,24 @@ void read_moduli(std::span<LaboratoryRow<Dim> const> rows, LaboratoryResults<Dim
 
 }  // namespace detail
 
+/// Mean of the rows of several tests, which end at the same lengths.
+template <int Dim>
+std::vector<LaboratoryRow<Dim>> mean_rows(std::vector<std::vector<LaboratoryRow<Dim>>> const& tests) {
+  std::vector<LaboratoryRow<Dim>> rows(tests.front().size());
+  double const share = 1.0 / static_cast<double>(tests.size());
+  for (auto const& own : tests) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].length += share * own[k].length;
+      rows[k].stress += share * own[k].stress;
+      rows[k].strain += share * own[k].strain;
+    }
+  }
+  return rows;
+}
+
 /// Reads the results of a test from its rows, up to the first turn of a cyclic one.
-/// window: length of the path over which stresses are means and dilation angles differences, against the scatter of packings;
-/// 0 for single rows
+/// window: length of the path over which stresses are means and dilation angles differences, against the scatter of packings; 0 for
+/// single rows. A row stands for the increment that it ends, so the one where a window begins does not count in its mean stress.
 /// \throws InputError for less than two rows, and a path that is shorter than the window
 template <int Dim>
 LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const& all, double window = 0.0) {
@@ -158,18 +177,20 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
     constexpr double slight = 1e-9;  // of the window, for sums of lengths
     while (last + 1 < rows.size() && (last < first || length(last) < window * (1.0 - slight))) ++last;
     if (length(last) < window * (1.0 - slight)) break;
-    means.push_back(detail::mean<Dim>(rows.subspan(first, last + 1 - first)));
+    std::size_t const begin = std::min(last, window > 0.0 ? first + 1 : first);
+    means.push_back(detail::mean<Dim>(rows.subspan(begin, last + 1 - begin)));
     angles.push_back(dilation(rows[first], rows[std::min(std::max(last, first + 1), rows.size() - 1)]));
   }
   if (means.empty()) reject("the test is shorter than the window {} of its results: take a smaller one", window);
-  auto const friction = [](Row const& row) { return row.p() > 0.0 ? row.friction() : 0.0; };
-  results.peak = *std::ranges::max_element(means, {}, friction);
+  results.peak = *std::ranges::max_element(means, {}, &Row::friction);
   for (std::size_t k = 0; k < means.size(); ++k) {
     constexpr double nearly = 0.9;  // of the peak: before, elastic changes of volume count
-    if (friction(means[k]) < nearly * friction(results.peak) || angles[k] <= results.peak_dilation) continue;
+    if (means[k].friction() < nearly * results.peak.friction() || angles[k] <= results.peak_dilation) continue;
     if (!std::isnan(angles[k])) results.peak_dilation = angles[k];
   }
   results.residual = means.back();
+  auto const contracted = std::ranges::max_element(rows, {}, &Row::volumetric_strain);
+  results.secant_dilation = contracted + 1 == rows.end() ? 0.0 : dilation(*contracted, rows.back());
   bool const undrained =
       std::ranges::all_of(rows, [](Row const& row) { return std::abs(row.volumetric_strain()) < 1e-9; });
   results.phase_transformation =

@@ -199,16 +199,16 @@ inline GrainFile read_grains(std::filesystem::path const& path) {
   auto const text = read_file(path);
   auto const name = path.string();
   auto const first = text.substr(0, text.find('\n'));
-  auto const told = [&](GrainFile file) {
+  auto const noted = [&](GrainFile file) {
     for (auto& note : file.notes) note = fmt::format("'{}': {}", name, note);
     return file;
   };
-  if (first.starts_with("ITEM:")) return told(detail::read_lammps_dump({text, name}));
-  if (first.starts_with("MercuryDPM")) return told(detail::read_mercury({text, name}));
-  if (text.find("\nAtoms") != std::string::npos) return told(detail::read_lammps_data({text, name}));
+  if (first.starts_with("ITEM:")) return noted(detail::read_lammps_dump({text, name}));
+  if (first.starts_with("MercuryDPM")) return noted(detail::read_mercury({text, name}));
+  if (text.find("\nAtoms") != std::string::npos) return noted(detail::read_lammps_data({text, name}));
   auto const begin = std::min(first.find_first_not_of(" \t"), first.size());
   bool const numbers = first.find(',') == std::string::npos && first.find_first_of("+-.0123456789") == begin;
-  return numbers || first.starts_with('#') ? told(detail::read_yade({text, name})) : GrainFile{CsvColumns(text, name)};
+  return numbers || first.starts_with('#') ? noted(detail::read_yade({text, name})) : GrainFile{CsvColumns(text, name)};
 }
 
 }  // namespace scarp

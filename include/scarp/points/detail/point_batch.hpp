@@ -188,20 +188,20 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     return respond_with_double_work(*provider_, trial_[index(k)], increment, plans_[index(k)], trial);
   }
   DoubledResponse<dim> doubled_path(int k, Gradient<dim> const& increment, std::string& bits) const override {
-    DoubledResponse<dim> answer{{stress(k), {}}, 0};
+    DoubledResponse<dim> response{{stress(k), {}}, 0};
     if constexpr (Described<State>) {
       State state = committed_[index(k)];
       if (!bits.empty()) {
         State from = state;
         StateReader reader(bits);
         reader("state", from);
-        answer = respond_with_double_work(*provider_, from, increment, plans_[index(k)], state);
+        response = respond_with_double_work(*provider_, from, increment, plans_[index(k)], state);
       }
       StateWriter writer;
       writer("state", state);
       bits = std::move(writer.bits());
     }
-    return answer;
+    return response;
   }
 
   void const* state(int k, std::type_info const& type) const override {

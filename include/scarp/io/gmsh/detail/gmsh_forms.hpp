@@ -193,14 +193,14 @@ inline GmshType without_gmsh_nodes(GmshType const& type, int highest_order) {
 }
 
 inline void drop_gmsh_nodes(GmshContent& content, int highest_order) {
-  std::set<std::string> told;
+  std::set<std::string> noted;
   for (auto& block : content.blocks) {
     auto const type = without_gmsh_nodes(block.type, highest_order);
     if (type.type == block.type.type) continue;
     std::vector<std::int64_t> nodes;
     for (std::size_t e = 0; e < block.tags.size(); ++e)
       for (int a = 0; a < type.nodes; ++a) nodes.push_back(block.nodes[e * index(block.type.nodes) + index(a)]);
-    if (!block.tags.empty() && told.emplace(block.type.name).second) {
+    if (!block.tags.empty() && noted.emplace(block.type.name).second) {
       content.notes.push_back(fmt::format("'{}': each {} is read as {}, without its other nodes", content.file,
                                           block.type.name, type.name));
     }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-#pragma once
-
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "../shared/budget_report.hpp"
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
-#include "../shared/sand/options.hpp"
-#include "choices.hpp"
+#include "commands.hpp"
+#include "options.hpp"
+#include "packings.hpp"
 #include "recorder.hpp"
 #include "row_budget.hpp"
 #include "scarp/io/packings/packing_file.hpp"
@@ -16,14 +15,16 @@
 
 namespace rve_lab {
 
-inline double largest_ratio(Row const& row) { return value(row, "mean_q") / value(row, "mean_p"); }
+namespace {
 
-inline void print_head() {
+double largest_ratio(Row const& row) { return value(row, "mean_q") / value(row, "mean_p"); }
+
+void print_head() {
   examples::print(stdout, "{:>9} {:>11} {:>11} {:>7} {:>9} {:>6} {:>6} {:>9}\n", "strain", "p [Pa]", "q [Pa]", "q/p",
                   "e", "Z", "F_c", "e_v");
 }
 
-inline void print_row(Row const& row) {
+void print_row(Row const& row) {
   examples::print(stdout, "{:>9.5f} {:>11.4g} {:>11.4g} {:>7.3f} {:>9.5f} {:>6.3f} {:>6.3f} {:>9.5f}\n",
                   value(row, "strain"), value(row, "mean_p"), value(row, "mean_q"), largest_ratio(row),
                   value(row, "void_ratio"), value(row, "coordination"), value(row, "contact_anisotropy"),
@@ -105,6 +106,45 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   examples::write_json(folder / "summary.json", summary);
   if (path.held != nullptr) require_held(lab, path);
   own.end("finished");
+}
+
+}  // namespace
+
+void shear(Test& choice, CLI::App const& app) {
+  require_used(app, choice.path);
+  auto own = folder_of(choice.output, app, {"path.csv", "summary.json"});
+  if (!choice.packing.empty())
+    choice.sand = examples::sand_of_packing(choice.packing, choice.sand, examples::given_in(app));
+  read_sand_file(choice, app);
+  with_packing(Grains{}, choice.sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
+    auto packing = choice.packing.empty() ? Preparation<PackingType>::printed(choice.sand, law)
+                                          : scarp::load_packing<PackingType>(choice.packing);
+    run_path(std::move(packing), law, choice.path, own, choice.sand);
+  });
+}
+
+void declare_shear(CLI::App& app, Test& test) {
+  declare_path(app, test.path);
+  app.add_option("--row-strain", test.path.row_strain, "between rows; a 200th of the path when not given")
+      ->check(positive(2.0))
+      ->group("Path");
+  app.add_option("--cycles", test.path.cycles, "to and fro between +amplitude and -amplitude, instead of --strain")
+      ->check(CLI::Range(0, 100'000))
+      ->group("Path");
+  app.add_option("--amplitude", test.path.amplitude, "strain at which a cycle turns round")
+      ->check(positive(1.0))
+      ->group("Path");
+  auto* const packing =
+      app.add_option("--packing", test.packing,
+                     "file of `prepare`; its sand, in the .sand of the same name, counts where no option is given. "
+                     "Without: a packing is prepared");
+  examples::declare_sand_file(app, test.sand_file)->excludes(packing);
+  examples::declare_sand(app, test.sand);
+  for (auto* const option : app.get_options()) {
+    if (option->get_group() == "Preparation") option->excludes(packing);  // it has been prepared
+  }
+  examples::declare_output(app, test.output, "folder for path.csv and the states at start, peak and end",
+                           "--output,-o");
 }
 
 }  // namespace rve_lab

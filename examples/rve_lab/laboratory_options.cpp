@@ -1,52 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-#pragma once
-
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "commands.hpp"
 #include "options.hpp"
 
 namespace rve_lab {
 
-inline CLI::Validator from_zero(double most) { return examples::number_from(0.0, true, most); }
+namespace {
 
-/// A test of any material by a laboratory's name; pressures [Pa] are positive in compression, angles in degrees.
-struct Laboratory {
-  std::string provider = "packing";
-  Sand sand;
-  std::string sand_file{};
-  std::vector<std::string> packings{};
-  double young = 20e6;
-  double poisson = 0.3;
-  double friction = 30.0;
-  double dilation = 0.0;
-  double cohesion = 0.0;
-  int dimension = 2;
+CLI::Validator from_zero(double most) { return examples::number_from(0.0, true, most); }
 
-  std::string path = "drained";
-  std::string table{};
-  double strain = 0.1;  ///< length of the path
-  bool extension = false;
-  double ratio = 0.0;
-  int cycles = 0;
-  double amplitude = 0.005;
-  std::optional<double> consolidation{};
-  double k0 = 1.0;
-
-  double increment = 5e-4;
-  double strain_step = 5e-6;
-  double tolerance = 1e-4;
-  double window = 5e-3;
-  std::optional<double> void_ratio{};
-  int threads = 2;
-  std::vector<std::string> overlays{};
-  examples::Output output{"output/rve_lab"};
-
-  bool is_packing() const { return provider == "packing"; }
-};
-
-inline std::vector<std::string> laboratory_paths() {
+std::vector<std::string> laboratory_paths() {
   return {"isotropic",
           "oedometer",
           "drained",
@@ -59,7 +24,9 @@ inline std::vector<std::string> laboratory_paths() {
           "table"};
 }
 
-inline void declare_laboratory(CLI::App& app, Laboratory& test) {
+}  // namespace
+
+void declare_test(CLI::App& app, Laboratory& test) {
   app.add_option("--material", test.provider, "what is tested")
       ->check(CLI::IsMember({"packing", "mohr-coulomb", "elastic"}));
   auto* const sand_file = examples::declare_sand_file(app, test.sand_file);
@@ -119,8 +86,7 @@ inline void declare_laboratory(CLI::App& app, Laboratory& test) {
   examples::declare_output(app, test.output, "folder for test.csv and summary.json", "--output,-o");
 }
 
-/// \throws InputError for options that the material or the path has no use for
-inline void require_used(CLI::App const& app, Laboratory const& test) {
+void require_used(CLI::App const& app, Laboratory const& test) {
   for (auto const* const option : app.get_options()) {
     auto const& group = option->get_group();
     bool const of_packing = group == "Preparation" || group == "Material" || option->get_name() == "--packing" ||

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-#pragma once
-
 #include "../shared/packing_input.hpp"
 #include "../shared/print.hpp"
-#include "../shared/sand/built.hpp"
-#include "paths.hpp"
+#include "commands.hpp"
+#include "options.hpp"
+#include "packings.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/io/csv.hpp"
@@ -13,20 +12,16 @@
 
 namespace rve_lab {
 
-/// Which of a replay's law parameters are on the command line; the others follow from the contacts where these determine them.
-struct GivenLaw {
-  bool normal_stiffness = false;
-  bool tangential_stiffness = false;
-  bool friction = false;
-};
+namespace {
 
-inline void take_law_from(scarp::CsvColumns const& contacts, GivenLaw const& given, Sand& sand) {
-  auto const take = [&](bool is_given, std::string_view column, double& parameter) {
-    if (!is_given) parameter = examples::only_value(contacts, column).value_or(parameter);
+/// Options that are given count before the columns of the contacts.
+void take_law_from(scarp::CsvColumns const& contacts, examples::IsGiven const& given, Sand& sand) {
+  auto const take = [&](char const* option, std::string_view column, double& parameter) {
+    if (!given(option)) parameter = examples::only_value(contacts, column).value_or(parameter);
   };
-  take(given.normal_stiffness, "kn", sand.normal_stiffness);
-  take(given.tangential_stiffness, "ks", sand.tangential_stiffness);
-  take(given.friction, "tan_phi", sand.friction);
+  take("normal-stiffness", "kn", sand.normal_stiffness);
+  take("tangential-stiffness", "ks", sand.tangential_stiffness);
+  take("friction", "tan_phi", sand.friction);
 }
 
 /// The columns of tests/reference/yade: everything is the state at the row's deformation.
@@ -114,17 +109,52 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
                   steps, choice.path.strain_step, choice.out);
 }
 
-inline void replay(Replay choice, GivenLaw const& given) {
+}  // namespace
+
+void replay(Replay choice, CLI::App const& app) {
+  require_used(app, choice.path);
   examples::reject_overwriting(choice.out, {choice.particles, choice.contacts});
   auto const input = examples::read_packing_input(choice.particles, choice.contacts, choice.cell);
-  if (input.contacts) take_law_from(*input.contacts, given, choice.sand);
+  if (input.contacts) take_law_from(*input.contacts, examples::given_in(app), choice.sand);
   choice.sand.shape = examples::shape_of(input.particles);
-  using examples::Linear;
-  using LinearGrains = examples::Built<Linear<scarp::Disc>, Linear<scarp::Ellipse>, Linear<scarp::Superellipse>>;
-  examples::with_packing(LinearGrains{}, choice.sand,
+  examples::with_packing(examples::Built<Discs, Ellipses, Superellipses>{}, choice.sand,
                          [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
                            run_replay<PackingType>(choice, input.particles, input.contacts, input.cell, law);
                          });
+}
+
+void declare_replay(CLI::App& app, Replay& replay) {
+  app.add_option("--particles", replay.particles,
+                 "CSV: id, x, y and r, or a, b, angle (and eps); discs also as text of Yade, data or dump of LAMMPS, "
+                 "restart of "
+                 "MercuryDPM")
+      ->required();
+  app.add_option(
+      "--contacts", replay.contacts,
+      "CSV: id1, id2, cell_i, cell_j; ftx, fty give shear forces, kn, ks, tan_phi the law, branches the cell");
+  app.add_option("--cell", replay.cell,
+                 "a1x,a1y,a2x,a2y: base vectors [m]; otherwise from the contacts, or the particles' file");
+  declare_path(app, replay.path);
+  app.get_option("--path")->required();
+  app.get_option("--strain")->required();
+  app.add_option("--row-strain", replay.path.row_strain,
+                 "between rows; 5e-5 for isotropic and 1e-4 else when not given")
+      ->check(positive(2.0))
+      ->group("Path");
+  app.add_option("--normal-stiffness", replay.sand.normal_stiffness, "instead of kn [N/m]")->check(positive(1e15));
+  app.add_option("--tangential-stiffness", replay.sand.tangential_stiffness, "instead of ks [N/m]")
+      ->check(examples::number_from(0.0, true, 1e15));
+  app.add_option("--friction", replay.sand.friction, "instead of tan_phi")
+      ->check(examples::number_from(0.0, true, 1e3));
+  app.add_option("--density", replay.sand.density, "of the grains [kg/m3]")->check(positive(1e9));
+  app.add_option("--thickness", replay.sand.thickness, "out of plane [m]")->check(positive(1e3));
+  app.add_option("--relax", replay.relaxation,
+                 "isotropic pressure under which the packing comes to rest before the path [Pa], no shear strain: for "
+                 "files without shear forces")
+      ->check(positive(1e12));
+  app.add_option("--tolerance", replay.tolerance, "of the overlaps in --contacts, over the smallest radius")
+      ->check(positive(1.0));
+  app.add_option("--out", replay.out, "table to write")->required();
 }
 
 }  // namespace rve_lab

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-#pragma once
-
+#include "commands.hpp"
 #include "laboratory_run.hpp"
 #include "packings.hpp"
+#include "paths.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/rve/dem_rve.hpp"
 
 namespace rve_lab {
+
+namespace {
 
 /// A packing for each point.
 template <class PackingType>
@@ -22,7 +25,7 @@ struct PackingPerPoint {
 
 /// The shape and law of the packings' files, which are to be one.
 /// \throws InputError for packings of different grains or laws, and for options that their law has no use for
-inline void read_sands(CLI::App const& app, Laboratory& choice) {
+void read_sands(CLI::App const& app, Laboratory& choice) {
   Sand const before = choice.sand;
   auto const of_grains = [](Sand const& sand) {
     auto const json = examples::to_json(sand);
@@ -41,12 +44,12 @@ inline void read_sands(CLI::App const& app, Laboratory& choice) {
   examples::require_used(app, choice.sand);
 }
 
-inline bool test_packings(Laboratory& choice, scarp::RunFolder& own) {
+bool test_packings(Laboratory& choice, scarp::RunFolder& own) {
   bool finished = false;
   with_packing(Grains{}, choice.sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     PackingPerPoint<PackingType> source;
     for (auto const& file : choice.packings) source.packings.push_back(scarp::load_packing<PackingType>(file));
-    if (choice.packings.empty()) source.packings.push_back(prepared<PackingType>(choice.sand, law));
+    if (choice.packings.empty()) source.packings.push_back(Preparation<PackingType>::printed(choice.sand, law));
     int const count = static_cast<int>(source.packings.size());
     scarp::DemRve<PackingType, PackingPerPoint<PackingType>> const sand{
         .law = law, .source = std::move(source), .strain_per_step = choice.strain_step};
@@ -76,9 +79,11 @@ bool test_continuum(Laboratory const& choice, scarp::RunFolder& own) {
       1, own, material);
 }
 
-/// Tests a material as a laboratory does.
-/// \return whether the test came to its end
-inline bool test(Laboratory& choice, CLI::App const& app, scarp::RunFolder own) {
+}  // namespace
+
+bool test(Laboratory& choice, CLI::App const& app) {
+  require_used(app, choice);
+  auto own = folder_of(choice.output, app, {"test.csv", "summary.json"});
   if (!choice.is_packing())
     return choice.dimension == 2 ? test_continuum<2>(choice, own) : test_continuum<3>(choice, own);
   if (choice.packings.empty()) {
