@@ -18,6 +18,11 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   if (!choice.sand_file.empty())
     choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
   if (!choice.sand.sieve.empty()) static_cast<void>(examples::sieve_curve(choice.sand.sieve));  // rejects other text
+  if (is_in_space(choice.sand)) {
+    examples::reject_unused(app, "path", "spheres are tested in drained triaxial compression");
+    choice.test.path = triaxial_path().name;
+    choice.triaxial = true;
+  }
   require_built(choice.sand);
   Calibration all{.start = choice.sand,
                   .free = free_parameters(choice.free),

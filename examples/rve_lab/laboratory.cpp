@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "commands.hpp"
 #include "laboratory_run.hpp"
-#include "packings.hpp"
+#include "packing_test.hpp"
 #include "paths.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
-#include "scarp/io/packings/packing_file.hpp"
-#include "scarp/rve/dem_rve.hpp"
+#include "spheres.hpp"
 
 namespace rve_lab {
 
 namespace {
-
-/// A packing for each point.
-template <class PackingType>
-struct PackingPerPoint {
-  std::vector<PackingType> packings;
-
-  PackingType const& at(scarp::Site<PackingType::dim> const& site) const {
-    return packings[static_cast<std::size_t>(site.index)];
-  }
-};
 
 /// The shape and law of the packings' files, which are to be one.
 /// \throws InputError for packings of different grains or laws, and for options that their law has no use for
@@ -42,22 +31,6 @@ void read_sands(CLI::App const& app, Laboratory& choice) {
                     choice.packings.front());
   }
   examples::require_used(app, choice.sand);
-}
-
-bool test_packings(Laboratory& choice, scarp::RunFolder& own) {
-  bool finished = false;
-  with_packing(Grains{}, choice.sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    PackingPerPoint<PackingType> source;
-    for (auto const& file : choice.packings) source.packings.push_back(scarp::load_packing<PackingType>(file));
-    if (choice.packings.empty()) source.packings.push_back(Preparation<PackingType>::printed(choice.sand, law));
-    int const count = static_cast<int>(source.packings.size());
-    scarp::DemRve<PackingType, PackingPerPoint<PackingType>> const sand{
-        .law = law, .source = std::move(source), .strain_per_step = choice.strain_step};
-    auto material = examples::to_json(choice.sand);
-    material["packings"] = choice.packings;
-    finished = test_material<2>(choice, sand, count, own, material);
-  });
-  return finished;
 }
 
 template <int Dim>
@@ -91,7 +64,7 @@ bool test(Laboratory& choice, CLI::App const& app) {
   } else {
     read_sands(app, choice);
   }
-  return test_packings(choice, own);
+  return is_in_space(choice.sand) ? test_spheres(choice, own) : test_packings(Grains{}, choice, own);
 }
 
 }  // namespace rve_lab

@@ -1,42 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "mean_curve.hpp"
 
+#include "curve_test.hpp"
 #include "packings.hpp"
-#include "scarp/homogenise/balance.hpp"
-#include "specimen.hpp"
+#include "spheres.hpp"
 
 namespace rve_lab {
 
-namespace {
-
-/// \throws InputError for a packing that cannot follow the path
-template <class PackingType>
-Curve tested(PackingType packing, typename PackingType::Law const& law, CurveTest const& test) {
-  PathKind const& path = path_named(test.path);
-  Specimen<PackingType, scarp::Observe::balance> lab(std::move(packing), law, path, test.strain_step, test.held);
-  Curve curve;
-  curve.void_ratio = lab.packing().void_ratio();
-  curve.add(scarp::balance(lab.packing(), law).stress, lab.deformation());
-  long const steps_per_row = steps_of(test.row_strain, test.strain_step);
-  Tensor sum = Tensor::Zero();
-  for (long step = 1; step <= steps_of(test.strain, test.strain_step); ++step) {
-    if (auto const verdict = lab.step(); !verdict.acceptable())
-      scarp::reject("a packing ended with {} at strain {:.4g}: take a smaller --strain-step, or another stress",
-                    scarp::name(verdict.reason), path.strain(lab.deformation()));
-    sum += lab.seen().stress / static_cast<double>(steps_per_row);
-    if (step % steps_per_row != 0) continue;
-    curve.add(sum, lab.deformation());
-    sum.setZero();
-  }
-  return curve;
-}
-
-}  // namespace
-
 Curve curve_of(Sand const& sand, CurveTest const& test) {
+  if (is_in_space(sand)) return curve_of_spheres(sand, test);
   Curve curve;
   with_packing(Grains{}, sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    curve = tested(Preparation<PackingType>::nearest(sand, law), law, test);
+    curve = tested(Preparation<PackingType>::nearest(sand, law), law, test, path_named(test.path));
   });
   return curve;
 }

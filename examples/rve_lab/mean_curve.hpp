@@ -18,10 +18,13 @@ struct Curve {
   std::vector<scarp::LaboratoryRow<2>> rows;
   double void_ratio = 0.0;  ///< at the start
 
-  void add(Tensor const& stress, Tensor const& deformation) {
+  /// In space with the mean of the lateral stresses and the sum of the lateral strains, from which friction and dilation are as in the plane.
+  template <int Dim>
+  void add(Eigen::Matrix<double, Dim, Dim> const& stress, Eigen::Matrix<double, Dim, Dim> const& deformation) {
     double const axial = axial_strain(deformation);
-    rows.push_back(
-        {axial, {stress(0, 0), stress(1, 1), 0.0}, {std::log(deformation.determinant()) + axial, -axial, 0.0}});
+    rows.push_back({axial,
+                    {-lateral_pressure(stress), stress(Dim - 1, Dim - 1), 0.0},
+                    {std::log(deformation.determinant()) + axial, -axial, 0.0}});
   }
 };
 

@@ -15,6 +15,12 @@ using Superellipses = examples::Linear<scarp::Superellipse>;
 /// Each pair of shape and law costs compile time, so curved and rolling contacts come with discs only.
 using Grains = examples::Built<Discs, HertzianDiscs, RollingDiscs, Ellipses, Superellipses>;
 
+/// Spheres in space, compiled by themselves (spheres.hpp).
+using Spheres = examples::Built<examples::Linear<scarp::Sphere>, scarp::Packing<scarp::Sphere, examples::Rolling>,
+                                scarp::Packing<scarp::Sphere, examples::RollingHertz>>;
+
+inline bool is_in_space(Sand const& sand) { return sand.shape == "sphere"; }
+
 /// Prepares packings of a sand.
 template <class PackingType>
 struct Preparation {
@@ -28,7 +34,8 @@ struct Preparation {
 
 /// \throws InputError for grains that are not built
 inline void require_built(Sand const& sand) {
-  with_packing(Grains{}, sand, [](auto, auto const&) {});
+  auto const nothing = [](auto, auto const&) {};
+  is_in_space(sand) ? with_packing(Spheres{}, sand, nothing) : with_packing(Grains{}, sand, nothing);
 }
 
 /// The values of the file, but options that are given.

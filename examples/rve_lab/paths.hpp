@@ -17,7 +17,10 @@ using Tensor = scarp::Tensor<2>;
 
 inline constexpr double degree = std::numbers::pi / 180.0;
 
-inline double axial_strain(Tensor const& deformation) { return 0.0 - std::log(deformation(1, 1)); }
+template <int Dim>
+double axial_strain(Eigen::Matrix<double, Dim, Dim> const& deformation) {
+  return 0.0 - std::log(deformation(Dim - 1, Dim - 1));
+}
 inline double shear_strain(Tensor const& deformation) { return deformation(0, 1); }
 /// Half the difference of the logarithmic strains, which the path of constant mean stress prescribes.
 inline double deviatoric_strain(Tensor const& deformation) {
@@ -25,15 +28,20 @@ inline double deviatoric_strain(Tensor const& deformation) {
 }
 
 /// A path by its name: the loading at a strain per step and a held pressure [Pa], and which pressure that is.
-struct PathKind {
+template <int Dim>
+struct PathKindIn {
   std::string_view name;
-  scarp::Loading<2> (*loading)(double rate, double held);
-  double (*held)(Tensor const& stress) = nullptr;  ///< null where nothing is held
-  double (*strain)(Tensor const& deformation) = axial_strain;
+  scarp::Loading<Dim> (*loading)(double rate, double held);
+  double (*held)(scarp::Tensor<Dim> const& stress) = nullptr;  ///< null where nothing is held
+  double (*strain)(scarp::Tensor<Dim> const& deformation) = axial_strain<Dim>;
   double row_strain = 1e-4;  ///< between the rows of a replay
 };
+using PathKind = PathKindIn<2>;
 
-inline double lateral_pressure(Tensor const& stress) { return -stress(0, 0); }
+template <int Dim>
+double lateral_pressure(Eigen::Matrix<double, Dim, Dim> const& stress) {
+  return -stress.diagonal().template head<Dim - 1>().mean();
+}
 inline double axial_pressure(Tensor const& stress) { return -stress(1, 1); }
 inline double mean_pressure(Tensor const& stress) { return -stress.trace() / 2.0; }
 
@@ -43,7 +51,7 @@ inline std::vector<PathKind> const& all_paths() {
        .loading = [](double rate, double) { return scarp::isotropic_compression<2>(rate); },
        .row_strain = 5e-5},
       {.name = "oedometer", .loading = [](double rate, double) { return scarp::oedometer<2>(rate); }},
-      {.name = "biaxial", .loading = scarp::drained_compression<2>, .held = lateral_pressure},
+      {.name = "biaxial", .loading = scarp::drained_compression<2>, .held = lateral_pressure<2>},
       {.name = "undrained", .loading = [](double rate, double) { return scarp::undrained_compression<2>(rate); }},
       {.name = "pure_shear", .loading = [](double rate, double) { return scarp::pure_shear<2>(rate); }},
       {.name = "simple_shear",
@@ -73,6 +81,13 @@ inline PathKind const& path_named(std::string_view name) {
   }
   scarp::reject("there is no path '{}' (the laboratory knows {}): choose one of these", name,
                 scarp::listed(path_names(), ", "));
+}
+
+/// The only path of a packing in space: drained triaxial compression.
+inline PathKindIn<3> const& triaxial_path() {
+  static PathKindIn<3> const path{
+      .name = "triaxial", .loading = scarp::drained_compression<3>, .held = lateral_pressure<3>};
+  return path;
 }
 
 /// Steps between two rows.

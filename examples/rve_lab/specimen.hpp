@@ -28,10 +28,13 @@ double deepest_overlap(PackingType const& packing, typename PackingType::Law con
 template <class PackingType, scarp::Observe what>
 class Specimen {
  public:
+  static constexpr int dim = PackingType::dim;
   using Law = typename PackingType::Law;
+  using Tensor = scarp::Tensor<dim>;
 
   /// \throws InputError for a packing that cannot be listed, or a pressure to hold that no grains can carry
-  Specimen(PackingType packing, Law const& law, PathKind const& path, double strain_step, std::optional<double> held)
+  Specimen(PackingType packing, Law const& law, PathKindIn<dim> const& path, double strain_step,
+           std::optional<double> held)
       : packing_(std::move(packing)), law_(law) {
     inverse_start_ = packing_.cell.inverse();
     if (auto const verdict = renew(); !verdict.acceptable()) {
@@ -76,7 +79,7 @@ class Specimen {
  private:
   static constexpr double deepest = 1.0;  ///< over the reduced radius of a contact: half the radius of equal discs
 
-  /// Brings a packing to the pressure that its path holds, before the path begins: both normal stresses in the proportion that
+  /// Brings a packing to the pressure that its path holds, before the path begins: the normal stresses in the proportion that
   /// they have, no shear strain.
   /// present: the pressure that it has [Pa]
   /// \throws InputError for a pressure that it does not come to
@@ -84,10 +87,10 @@ class Specimen {
     constexpr double slight = 1e-3;  // what the first steps of a path even out
     if (std::abs(pressure_ - present) <= slight * pressure_) return;
     Tensor const stress = scarp::balance(packing_, law_).stress;
-    scarp::Loading<2> loading;
-    for (int axis = 0; axis < 2; ++axis) {
+    scarp::Loading<dim> loading;
+    for (int axis = 0; axis < dim; ++axis) {
       double const share = present > 0.0 ? stress(axis, axis) / -present : -1.0;
-      loading.controls.push_back(scarp::component_control<2>(axis, -pressure_ * (share < 0.0 ? -share : 1.0)));
+      loading.controls.push_back(scarp::component_control<dim>(axis, -pressure_ * (share < 0.0 ? -share : 1.0)));
     }
     double const before = packing_.void_ratio();
     auto verdict = scarp::Servo{}.reach(stepper_, packing_, law_, loading);

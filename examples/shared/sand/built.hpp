@@ -17,6 +17,7 @@
 namespace examples {
 
 using Rolling = scarp::RollingResistance<scarp::LinearFrictional>;
+using RollingHertz = scarp::RollingResistance<scarp::HertzMindlin<>>;
 
 template <class T>
 inline constexpr char const* name_in_sand = nullptr;
@@ -34,13 +35,15 @@ template <>
 inline constexpr char const* name_in_sand<scarp::HertzMindlin<>> = "hertz";
 template <>
 inline constexpr char const* name_in_sand<Rolling> = "rolling";
+template <>
+inline constexpr char const* name_in_sand<RollingHertz> = "rolling-hertz";
 
 template <class Law>
 Law law_of(Sand const& sand) {
   if constexpr (std::is_same_v<Law, scarp::HertzMindlin<>>) {
     return Law::of(sand.modulus, sand.poisson, sand.friction);
-  } else if constexpr (std::is_same_v<Law, Rolling>) {
-    return {.law = law_of<scarp::LinearFrictional>(sand),
+  } else if constexpr (std::is_same_v<Law, Rolling> || std::is_same_v<Law, RollingHertz>) {
+    return {.law = law_of<decltype(Law::law)>(sand),
             .rolling_stiffness = sand.rolling_stiffness,
             .rolling_friction = sand.rolling_friction};
   } else {

@@ -37,7 +37,7 @@ inline void declare_sand(CLI::App& app, Sand& sand) {
     auto const names = name == "void-ratio" ? "--void-ratio,--target-void-ratio" : "--" + name;
     auto* const option = app.add_option(names, member, what)->group(material ? "Material" : "Preparation");
     if (name == "shape") option->check(CLI::IsMember({"disc", "ellipse", "superellipse", "sphere"}).description(""));
-    if (name == "law") option->check(CLI::IsMember({"linear", "hertz", "rolling"}).description(""));
+    if (name == "law") option->check(CLI::IsMember({"linear", "hertz", "rolling", "rolling-hertz"}).description(""));
     if (name == "seed") option->check(seed_number());
     if constexpr (std::is_same_v<Member, int>)
       option->check(CLI::Range(static_cast<int>(range.least), static_cast<int>(range.most)));

@@ -60,7 +60,7 @@ template <class AnySand, class Visit>
 void for_each_option(AnySand& sand, Visit&& visit) {
   visit("shape", sand.shape, Range{}, "of the grains: disc, ellipse, superellipse, or sphere");
   visit("law", sand.law, Range{},
-        "of the contacts: linear, hertz (Hertz and Mindlin), or rolling (linear with rolling resistance)");
+        "of the contacts: linear, hertz (Hertz and Mindlin); rolling, rolling-hertz (these with rolling resistance)");
   visit("normal-stiffness", sand.normal_stiffness, positive, "of linear and rolling contacts [N/m]");
   visit("tangential-stiffness", sand.tangential_stiffness, Range{}, "of linear and rolling contacts [N/m]");
   visit("friction", sand.friction, Range{}, "coefficient between grains");
@@ -119,10 +119,10 @@ inline bool sets_density(std::string_view name) {
 inline std::string why_unused(Sand const& sand, std::string_view name) {
   auto const law_is = fmt::format("the law is '{}'", sand.law);
   auto const shape_is = fmt::format("grains are of the shape '{}'", sand.shape);
-  bool const hertz = sand.law == "hertz";
+  bool const hertz = sand.law.ends_with("hertz");
   if ((name == "modulus" || name == "poisson") && !hertz) return law_is;
   if ((name == "normal-stiffness" || name == "tangential-stiffness") && hertz) return law_is;
-  if (name.starts_with("rolling-") && sand.law != "rolling") return law_is;
+  if (name.starts_with("rolling-") && !sand.law.starts_with("rolling")) return law_is;
   bool const round = sand.shape == "disc" || sand.shape == "sphere";
   if ((name == "aspect" && round) || (name == "exponent" && sand.shape != "superellipse")) return shape_is;
   if (name == "thickness" && sand.shape == "sphere") return shape_is;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "mean_curve.hpp"
+#include "scarp/homogenise/balance.hpp"
+#include "specimen.hpp"
+
+namespace rve_lab {
+
+/// \throws InputError for a packing that cannot follow the path
+template <class PackingType>
+Curve tested(PackingType packing, typename PackingType::Law const& law, CurveTest const& test,
+             PathKindIn<PackingType::dim> const& path) {
+  Specimen<PackingType, scarp::Observe::balance> lab(std::move(packing), law, path, test.strain_step, test.held);
+  Curve curve;
+  curve.void_ratio = lab.packing().void_ratio();
+  curve.add(scarp::balance(lab.packing(), law).stress, lab.deformation());
+  long const steps_per_row = steps_of(test.row_strain, test.strain_step);
+  scarp::Tensor<PackingType::dim> sum = scarp::Tensor<PackingType::dim>::Zero();
+  for (long step = 1; step <= steps_of(test.strain, test.strain_step); ++step) {
+    if (auto const verdict = lab.step(); !verdict.acceptable())
+      scarp::reject("a packing ended with {} at strain {:.4g}: take a smaller --strain-step, or another stress",
+                    scarp::name(verdict.reason), path.strain(lab.deformation()));
+    sum += lab.seen().stress / static_cast<double>(steps_per_row);
+    if (step % steps_per_row != 0) continue;
+    curve.add(sum, lab.deformation());
+    sum.setZero();
+  }
+  return curve;
+}
+
+}  // namespace rve_lab
