@@ -15,7 +15,7 @@ PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
 WRONG = {"FLOAT": ("nan", "inf", "1,5", "many"), "INT": ("1.5", "99999999999", "many"), "UINT": ("-1", "many"),
          "TEXT": ("no/such thing",), "TEXT:SEED": ("-1", "1.5", "many"), "TEXT:FILE": ("no/such thing",)}
 TEXTS = {"--config"}  # read before anything else, refused in the words of the file
-NO_OPTIONS = {"own_ground"}  # its words are files
+NO_OPTIONS = {"own_ground", "excavation"}  # their words are files
 
 
 def run(program, words, folder):

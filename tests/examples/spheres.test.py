@@ -48,7 +48,7 @@ def check_tests(folder):
 
 def check_calibration(folder):
     """The void ratio is that of a sand within the bounds."""
-    command = ["calibrate", *SPHERES, "--free", "preparation-friction=0:0.5", "--strain", "0.01", "--strain-step", "5e-5", "--seeds", "2", "--evaluations", "10"]
+    command = ["calibrate", *SPHERES, "--free", "preparation-friction=0:0.5", "--strain", "0.03", "--strain-step", "5e-5", "--seeds", "2", "--evaluations", "10"]
     code, said = run(folder, *command, "--target", "void-ratio=0.72", "--output", "found")
     if "without NLopt" in said:
         return
