@@ -102,6 +102,11 @@ def usable(rows, soil):
     return [row for row in rows if row["soil"] == soil and row["status"] == "ok"]
 
 
+def repeated(rows):
+    """Whether seeds or meshes are known to scatter; without this there are no intervals."""
+    return len(rows) > len({row["length [m]"] for row in rows})
+
+
 def column(rows, name):
     return np.array([figures.number(row.get(name, "")) for row in rows])
 
@@ -118,7 +123,7 @@ def limits(rows):
     found = []
     for soil in SOILS:
         known = usable(rows, soil)
-        for name in QUANTITIES if known else []:
+        for name in QUANTITIES if repeated(known) else []:
             for at, values in zip(LIMITS, of_rows(known, name, list(LIMITS)).T):
                 low, middle, high = map(float, np.percentile(values, [2.5, 50.0, 97.5]))
                 found.append({"soil": soil, "quantity": name, "length [m]": at, "value": middle, "low": low, "high": high, "runs": len(known),
@@ -134,7 +139,7 @@ def held_out(rows):
         known = [row for row in usable(rows, soil) if row.get(name)]
         lengths = column(known, "length [m]")
         others = [row for row, length in zip(known, lengths) if length > lengths.min()]
-        if not others:
+        if not repeated(others):
             continue
         low, middle, high = map(float, np.percentile(of_rows(others, name, [lengths.min()])[:, 0], [2.5, 50.0, 97.5]))
         found.append({"soil": soil, "quantity": name, "length [m]": lengths.min(), "value": middle, "low": low, "high": high,
@@ -155,7 +160,7 @@ def page(rows):
                 cells[3] += f" +- {np.std(column(here, 'mean [m]'), ddof=1):.2f}"
             yield f"| {title} | {length} | {len(here)} | " + " | ".join(cells) + " |"
         extrapolated = {(row["quantity"], row["length [m]"]): row for row in limits(known)}
-        for at in LIMITS if known else []:
+        for at in LIMITS if repeated(known) else []:
             cells = [f"{row['value']:.{n}f} ({row['low']:.{n}f} to {row['high']:.{n}f})" if (row := extrapolated.get((name, at))) else "-"
                      for name, n in zip(shown, digits)]
             yield f"| {title} | {at:g}, extrapolated | - | " + " | ".join(cells) + " |"
@@ -179,6 +184,9 @@ def over_length(rows):
         lengths, throw = column(known, "length [m]"), DEPTH * column(known, "h/H").mean()
         grid = np.geomspace(min(LIMITS), np.unique(lengths)[:4][-1], 40)  # as far as all forms are fitted
         for name, colour in PLACES.items():
+            if not repeated(known):
+                axis.plot(lengths, column(known, name), "o-", color=colour, markersize=3.5, linewidth=0.7)
+                continue
             low, middle, high = np.percentile(of_rows(known, name, grid), [2.5, 50.0, 97.5], axis=0)
             axis.plot(lengths, column(known, name), "o", color=colour, markersize=3.5, alpha=0.7)
             axis.plot(grid, middle, color=colour, label=name.removesuffix(" [m]"))
