@@ -119,6 +119,10 @@ inline std::vector<Observation> targets(std::string const& text, double window) 
     if (equals == std::string::npos) scarp::reject("--target has '{}' (name=VALUE is expected): correct it", item);
     Measure const& measure = measure_named(item.substr(0, equals));
     double const wanted = number_in(item.substr(equals + 1), "target");
+    if (measure.relative && !(wanted > 0.0))
+      scarp::reject("--target {} is {} (above 0 is expected): correct it", measure.name, wanted);
+    if (std::ranges::any_of(all, [&](Observation const& other) { return other.name == measure.name; }))
+      scarp::reject("--target names '{}' twice: leave one out", measure.name);
     double const unit = measure.relative ? std::abs(wanted) : 1.0;
     all.push_back({.name = std::string(measure.name),
                    .group = all.size(),

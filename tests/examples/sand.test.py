@@ -104,6 +104,9 @@ def check_calibration(folder):
                      "--evaluations", "10", "--output", "discs", folder=folder)
     expect(code > 0 and "out of reach: peak-friction 50" in said, f"50 degrees of discs: ended with {code}\n{said}")
     expect("at the upper end of its bounds" in said.split("limited by")[-1], f"50 degrees of discs are limited by what?\n{said}")
+    for target, words in (("e50=0", "--target e50 is 0"), ("void-ratio=0.2,void-ratio=0.3", "names 'void-ratio' twice")):
+        code, said = run(LAB, "calibrate", *FAST, "--free", "friction", "--target", target, "--output", "none", folder=folder)
+        expect(code > 0 and words in said, f"--target {target}: ended with {code}\n{said}")
 
 
 def check_infeasible(folder):

@@ -170,4 +170,6 @@ TEST_CASE("what has no results is rejected, and what a test does not have is no 
   CHECK(std::isnan(isotropic.shear_modulus));
   CHECK(std::isnan(isotropic.secant_modulus));
   CHECK_REFUSED(scarp::mohr_coulomb_of(isotropic), "Young's modulus is nan");
+  CHECK_REFUSED(scarp::mean_rows<2>({}), "no test");
+  CHECK_REFUSED(scarp::mean_rows<2>({rows, {rows.front()}}), "1 rows, the first 2");
 }

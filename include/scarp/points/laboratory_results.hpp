@@ -143,9 +143,15 @@ void read_moduli(std::span<LaboratoryRow<Dim> const> rows, LaboratoryResults<Dim
 
 }  // namespace detail
 
-/// Mean of the rows of several tests, which end at the same lengths.
+/// Mean of the rows of several tests, whose rows end at equal lengths.
+/// \throws InputError without a test, and for tests of different numbers of rows
 template <int Dim>
 std::vector<LaboratoryRow<Dim>> mean_rows(std::vector<std::vector<LaboratoryRow<Dim>>> const& tests) {
+  if (tests.empty()) reject("there is no test to take the mean of: give one at least");
+  for (auto const& own : tests)
+    if (own.size() != tests.front().size())
+      reject("a test has {} rows, the first {} (tests of a mean have equal rows): follow one path", own.size(),
+             tests.front().size());
   std::vector<LaboratoryRow<Dim>> rows(tests.front().size());
   double const share = 1.0 / static_cast<double>(tests.size());
   for (auto const& own : tests) {
