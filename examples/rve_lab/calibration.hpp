@@ -2,16 +2,15 @@
 #pragma once
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "../shared/print.hpp"
 #include "calibration_data.hpp"
 #include "scarp/dem/preparation.hpp"
-#include "scarp/io/csv.hpp"
 #include "scarp/rve/random_packings.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
@@ -68,15 +67,19 @@ inline Evaluation evaluated(Calibration const& calibration, Eigen::VectorXd cons
   auto const seeds = static_cast<std::size_t>(calibration.seeds);
   std::vector<Curve> curves(seeds);
   std::vector<std::string> reasons(seeds);
+  auto const fail = [&](int k, std::exception const& problem) {
+    reasons[static_cast<std::size_t>(k)] =
+        fmt::format("seed {}: {}", seed_of(calibration.start, first + k), problem.what());
+  };
   team.for_each(calibration.seeds, [&](int k) {
     Sand sand = calibration.sand_at(shares);
     sand.seed = seed_of(calibration.start, first + k);
     try {
       curves[static_cast<std::size_t>(k)] = calibration.run(sand, calibration.test);
     } catch (scarp::PreparationError const& problem) {
-      reasons[static_cast<std::size_t>(k)] = fmt::format("seed {}: {}", sand.seed, problem.what());
+      fail(k, problem);
     } catch (scarp::InputError const& problem) {
-      reasons[static_cast<std::size_t>(k)] = fmt::format("seed {}: {}", sand.seed, problem.what());
+      fail(k, problem);
     }
   });
   for (auto const& reason : reasons) {
@@ -142,13 +145,22 @@ inline Eigen::VectorXd residuals(Calibration const& calibration, Eigen::VectorXd
   return residuals;
 }
 
-/// Root mean square over the groups; a void ratio that the grains do not have counts as one more.
+/// Root mean square over the groups. The square of a void ratio that the grains do not have is added in units of its own bound.
 inline double misfit(Calibration const& calibration, Evaluation const& one, Eigen::VectorXd const& units) {
   double const wanted = calibration.sand_at(one.shares).void_ratio;
-  constexpr double allowed = 3e-3;
+  double const allowed = measure_named("void-ratio").reached;
   double const missed = wanted > 0.0 ? (one.void_ratio - wanted) / allowed : 0.0;
   return std::sqrt(residuals(calibration, one.values, units).squaredNorm() +
                    (std::abs(missed) > 1.0 ? missed * missed : 0.0));
+}
+
+/// Slopes of the residuals. slopes: of the values
+inline Eigen::MatrixXd weighted(Calibration const& calibration, Eigen::MatrixXd const& slopes,
+                                Eigen::VectorXd const& units) {
+  Eigen::VectorXd const none = residuals(calibration, Eigen::VectorXd::Zero(units.size()), units);
+  Eigen::MatrixXd found(slopes.rows(), slopes.cols());
+  for (Eigen::Index k = 0; k < slopes.cols(); ++k) found.col(k) = residuals(calibration, slopes.col(k), units) - none;
+  return found;
 }
 
 /// Change of all values from one bound of each parameter to the other, by finite differences about a place.
@@ -165,8 +177,6 @@ Sensitivities sensitivities(Calibration const& calibration, Evaluation const& be
   constexpr double step = 0.1;
   auto const count = static_cast<Eigen::Index>(calibration.free.size());
   Sensitivities found{.slopes = Eigen::MatrixXd::Zero(units.size(), count)};
-  Eigen::MatrixXd weighted(units.size(), count);
-  Eigen::VectorXd const none = residuals(calibration, Eigen::VectorXd::Zero(units.size()), units);
   for (Eigen::Index k = 0; k < count; ++k) {
     auto const at = [&](double share) {
       Eigen::VectorXd shares = best.shares;
@@ -177,10 +187,10 @@ Sensitivities sensitivities(Calibration const& calibration, Evaluation const& be
     Evaluation const above = at(best.shares(k) + step), below = at(best.shares(k) - step);
     if (double const between = above.shares(k) - below.shares(k); between > 0.0)
       found.slopes.col(k) = (above.values - below.values) / between;
-    weighted.col(k) = residuals(calibration, found.slopes.col(k), units) - none;
   }
   // In groups as in the misfit, whose groups share one unit of weight.
-  Eigen::MatrixXd const information = static_cast<double>(calibration.groups()) * weighted.transpose() * weighted;
+  Eigen::MatrixXd const own = weighted(calibration, found.slopes, units);
+  Eigen::MatrixXd const information = static_cast<double>(calibration.groups()) * own.transpose() * own;
   found.covariance = (information + 1e-6 * Eigen::MatrixXd::Identity(count, count)).inverse();
   return found;
 }
@@ -189,11 +199,9 @@ Sensitivities sensitivities(Calibration const& calibration, Evaluation const& be
 inline Eigen::VectorXd improved(Calibration const& calibration, Evaluation const& best, Sensitivities const& found,
                                 Eigen::VectorXd const& units) {
   constexpr double farthest = 0.15;
-  Eigen::VectorXd const none = residuals(calibration, Eigen::VectorXd::Zero(units.size()), units);
-  Eigen::MatrixXd weighted(units.size(), found.slopes.cols());
-  for (Eigen::Index k = 0; k < weighted.cols(); ++k)
-    weighted.col(k) = residuals(calibration, found.slopes.col(k), units) - none;
-  Eigen::VectorXd const move = weighted.colPivHouseholderQr().solve(-residuals(calibration, best.values, units));
+  Eigen::VectorXd const move = weighted(calibration, found.slopes, units)
+                                   .colPivHouseholderQr()
+                                   .solve(-residuals(calibration, best.values, units));
   return (best.shares + move.cwiseMin(farthest).cwiseMax(-farthest)).cwiseMin(1.0).cwiseMax(0.0);
 }
 

@@ -3,10 +3,12 @@
 
 #include <string>
 
+#include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/sand/options.hpp"
 #include "../shared/write_json.hpp"
 #include "calibration.hpp"
+#include "scarp/io/csv.hpp"
 #include "scarp/run/run_folder.hpp"
 
 namespace rve_lab {

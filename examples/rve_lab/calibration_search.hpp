@@ -11,6 +11,7 @@
 #include <nlopt.hpp>
 #endif
 
+#include "../shared/print.hpp"
 #include "evaluation_table.hpp"
 
 namespace rve_lab {

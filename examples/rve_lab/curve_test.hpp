@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mean_curve.hpp"
+#include "preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "specimen.hpp"
 
@@ -26,6 +27,16 @@ Curve tested(PackingType packing, typename PackingType::Law const& law, CurveTes
     curve.add(sum, lab.deformation());
     sum.setZero();
   }
+  return curve;
+}
+
+/// As curve_of, of the kinds of grains that are built.
+template <class BuiltGrains, class PathKind>
+Curve curve_of_built(BuiltGrains grains, Sand const& sand, CurveTest const& test, PathKind const& path) {
+  Curve curve;
+  with_packing(grains, sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
+    curve = tested(Preparation<PackingType>::nearest(sand, law), law, test, path);
+  });
   return curve;
 }
 

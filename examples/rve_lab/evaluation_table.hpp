@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "calibration.hpp"
+#include "scarp/io/csv.hpp"
 
 namespace rve_lab {
 

@@ -9,11 +9,7 @@ namespace rve_lab {
 
 Curve curve_of(Sand const& sand, CurveTest const& test) {
   if (is_in_space(sand)) return curve_of_spheres(sand, test);
-  Curve curve;
-  with_packing(Grains{}, sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    curve = tested(Preparation<PackingType>::nearest(sand, law), law, test, path_named(test.path));
-  });
-  return curve;
+  return curve_of_built(Grains{}, sand, test, path_named(test.path));
 }
 
 }  // namespace rve_lab

@@ -17,11 +17,7 @@ void prepare_spheres(Test const& choice, scarp::RunFolder& own) {
 bool test_spheres(Laboratory const& choice, scarp::RunFolder& own) { return test_packings(Spheres{}, choice, own); }
 
 Curve curve_of_spheres(Sand const& sand, CurveTest const& test) {
-  Curve curve;
-  with_packing(Spheres{}, sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
-    curve = tested(Preparation<PackingType>::nearest(sand, law), law, test, triaxial_path());
-  });
-  return curve;
+  return curve_of_built(Spheres{}, sand, test, triaxial_path());
 }
 
 }  // namespace rve_lab
