@@ -181,7 +181,7 @@ class Total(Incremental):
     strains = "total"
 
 
-# A stub of preCICE's manager: a time step, its repetition from the stored state, the next one; total and incremental strains are one path.
+# Plays preCICE's manager: a time step, its repetition from the stored state, the next one; total and incremental strains are one path.
 step = np.array([[0.0, 1e-3], [0.0, -1e-3]])
 incremental, total = Incremental(5), Total(5)
 expect(np.array_equal(incremental.initialize()["stress"], total.initialize()["stress"]), "one id draws two packings")

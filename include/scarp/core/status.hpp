@@ -49,7 +49,7 @@ struct Verdict {
   friend constexpr bool operator==(Verdict const&, Verdict const&) = default;
 };
 
-/// Name of the enumerator, "unknown" for a number that is none.
+/// Name of the enumerator, "unknown" for any other number.
 constexpr std::string_view name(Status status) {
   switch (status) {
     case Status::ok: return "ok";
@@ -60,7 +60,7 @@ constexpr std::string_view name(Status status) {
   return "unknown";
 }
 
-/// Name of the enumerator, "unknown" for a number that is none.
+/// Name of the enumerator, "unknown" for any other number.
 constexpr std::string_view name(Reason reason) {
   switch (reason) {
     case Reason::none: return "none";
