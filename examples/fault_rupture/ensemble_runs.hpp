@@ -62,9 +62,9 @@ struct EnsembleRuns {
 
     void prepare() { scene = make_scene(choice, 1, true); }
 
-    void run(scarp::ThreadExecutor& threads, Moment started) {
+    void run(scarp::ThreadExecutor& threads, Moment begun) {
       try {
-        Start const start{own.files, own.on_root_rank(), started, {}, &threads, fmt::format("seed {}: ", result.seed)};
+        Start const start{own.files, own.on_root_rank(), begun, {}, &threads, fmt::format("seed {}: ", result.seed)};
         result.code = std::visit([&](auto const& one) { return fault_rupture::run(choice, one, start); }, *scene);
       } catch (std::exception const& problem) {
         result.problem = problem.what();

@@ -225,7 +225,7 @@ inline std::vector<Observation> observations_of(LabTable const& table, std::size
                      .wanted = at_strain(table.strain, *column, strain),
                      .least_scatter = scatter,
                      .strain = strain,
-                     .of = [strain, of](Curve const& curve) { return at_strain(curve, strain, of); }});
+                     .of = [strain, quantity = of](Curve const& curve) { return at_strain(curve, strain, quantity); }});
     }
     ++groups;
   }

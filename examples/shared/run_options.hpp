@@ -81,10 +81,13 @@ inline scarp::RunRecord::Lines default_options(CLI::App const& app) {
 /// Of the source that this was built from; "unknown" outside of a repository.
 std::string_view commit();
 
+/// How the source that includes this was compiled; clang++ 14 accepts no immediate function as a default argument.
+static constexpr scarp::BuildInfo build_of_source = scarp::build_info();
+
 /// Description of a run by the program that begins it.
 /// app: with the run's options
 inline scarp::RunRecord record_of(std::string program, CLI::App const& app,
-                                  scarp::BuildInfo const& build = scarp::build_info()) {
+                                  scarp::BuildInfo const& build = build_of_source) {
   scarp::RunRecord record{.program = std::move(program), .options = all_options(app), .defaults = default_options(app)};
   record.build = {{"version", std::string(scarp::version)},
                   {"commit", std::string(commit())},

@@ -29,6 +29,15 @@ TEST_CASE("principal values come largest first with their directions") {
   CHECK((tensor * found.directions - found.directions * values.asDiagonal()).norm() < 1e-14 * values.norm());
 }
 
+TEST_CASE("principal values in the plane and in space are those of Mohr's circle and of the eigenvectors") {
+  Tensor<2> plane;
+  plane << 5.0, 4.0, 4.0, -1.0;  // centre 2, radius 5
+  CHECK(scarp::principal_values<2>(plane) == Vector<2>(7.0, -3.0));
+  CHECK(scarp::principal_values<2>(Tensor<2>{{0.0, 0.0}, {0.0, -0.3}}) == Vector<2>(0.0, -0.3));
+  Vector<3> const values(4.0, 4.0, -2.0);
+  CHECK((scarp::principal_values<3>(symmetric(values)) - values).norm() < 1e-14 * values.norm());
+}
+
 TEST_CASE("the derivative of an isotropic function follows from its principal values, equal ones included") {
   // Analytic: A^2 + tr(A) A changes by A E + E A + tr(A) E + tr(E) A.
   Tensor<3> change;

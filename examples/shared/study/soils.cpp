@@ -95,7 +95,8 @@ std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<
     depths[Columns::drawn(choice.seed, site.index, images_of(choice) * count) % count].push_back(site.depth);
   for (auto& column : depths) {
     std::ranges::sort(column);
-    column.erase(std::ranges::unique(column, [](double a, double b) { return b - a < 1e-6; }).begin(), column.end());
+    auto const is_same = [](double a, double b) { return b - a < 1e-6; };
+    column.erase(std::unique(column.begin(), column.end(), is_same), column.end());
   }
   return depths;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/tensor/principal.hpp"
 #include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
@@ -25,10 +25,7 @@ struct LaboratoryRow {
   EngineeringStrain<Dim> strain = EngineeringStrain<Dim>::Zero();
 
   /// Principal stresses [Pa], largest first.
-  Vector<Dim> principal_stresses() const {
-    return -Eigen::SelfAdjointEigenSolver<Tensor<Dim>>(from_voigt_stress<Dim, double>(stress), Eigen::EigenvaluesOnly)
-                .eigenvalues();
-  }
+  Vector<Dim> principal_stresses() const { return principal_values<Dim>(-from_voigt_stress<Dim, double>(stress)); }
   /// Mean stress [Pa].
   double p() const { return -stress.template head<Dim>().mean(); }
   /// Difference of the outer principal stresses [Pa].
@@ -58,9 +55,8 @@ template <int Dim>
 double dilation(LaboratoryRow<Dim> const& from, LaboratoryRow<Dim> const& to) {
   EngineeringStrain<Dim> change = to.strain - from.strain;
   change.template tail<voigt_size<Dim> - Dim>() /= 2.0;
-  Eigen::SelfAdjointEigenSolver<Tensor<Dim>> const solver(from_voigt_stress<Dim, double>(change),
-                                                          Eigen::EigenvaluesOnly);
-  double const sine = solver.eigenvalues().sum() / solver.eigenvalues().cwiseAbs().sum();
+  Vector<Dim> const parts = principal_values<Dim>(from_voigt_stress<Dim, double>(change));
+  double const sine = parts.sum() / parts.cwiseAbs().sum();
   return std::abs(sine) < 1.0 - 1e-9 ? std::asin(sine) : std::numeric_limits<double>::quiet_NaN();
 }
 

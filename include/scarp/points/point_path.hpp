@@ -17,6 +17,18 @@
 
 namespace scarp {
 
+namespace detail {
+
+/// Of a system that may be singular; pivots below 1e-9 of the largest count as zero. One size of matrices for all dimensions compiles faster.
+inline Eigen::VectorXd least_norm_solution(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& right) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
+  factors.setThreshold(1e-9);
+  factors.compute(matrix);
+  return factors.solve(right);
+}
+
+}  // namespace detail
+
 /// A linear condition on a point's strain or stress along a path: \f$ a\cdot\varepsilon \f$ or \f$ b\cdot\sigma \f$ changes by `rate` [-, Pa]
 /// per unit of the path, or reaches `target` after one unit. Tension positive.
 template <int Dim>
@@ -193,10 +205,7 @@ class PointPath {
       }
     }
     // Where a stress cannot change, as on an edge of a strength surface, the least correction is as good as any.
-    Eigen::CompleteOrthogonalDecomposition<Matrix> factors;
-    factors.setThreshold(1e-9);
-    factors.compute(matrix);
-    course.step = about + factors.solve(right);
+    course.step = about + detail::least_norm_solution(matrix, right);
     return course.step.norm() <= max_strain;
   }
 

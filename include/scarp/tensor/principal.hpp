@@ -25,6 +25,19 @@ inline Principal principal(Tensor<3> const& symmetric) {
   return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};
 }
 
+/// Principal values of a symmetric tensor, largest first. In the plane by Mohr's circle, which keeps all digits.
+template <int Dim>
+Vector<Dim> principal_values(Tensor<Dim> const& symmetric) {
+  static_assert(Dim == 2 || Dim == 3);
+  if constexpr (Dim == 2) {
+    double const mean = symmetric.trace() / 2.0;
+    double const radius = std::hypot((symmetric(0, 0) - symmetric(1, 1)) / 2.0, symmetric(1, 0));
+    return {mean + radius, mean - radius};
+  } else {
+    return principal(symmetric).values;
+  }
+}
+
 /// Derivative of an isotropic function of a symmetric tensor from the function's principal values.
 /// of_values: derivative of the function's principal values with respect to the argument's, shape (3, 3)
 /// argument, value: principal values of both, in the same order; directions: common, as columns
