@@ -99,6 +99,15 @@ def example(name, *options, target=None):
     return ROOT / "build" / "release" / "examples" / (target or name)
 
 
+def run_lab(program, *arguments):
+    """Runs rve_lab or ends the benchmark. \\return what it printed"""
+    command = [str(part) for part in (program, *arguments)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
 def fault_rupture(element="tri3"):
     return example("fault_rupture", "--element", element, target="fault_rupture" if element == "tri3" else f"fault_rupture_{element}")
 

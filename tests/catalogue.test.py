@@ -21,7 +21,8 @@ HELPERS = {
 TYPES = "double|int|bool|Law|Rule|Damping|Provider|Source|IsotropicElasticity|StrengthType|InitialStress|Boundary|Tangent|Umat\\*|std::string"
 PARAMETER = re.compile(rf"^  (?:\[\[\w+\]\] )?(?:{TYPES}|std::\w+<[^;]*>) (\w+)(?: =\s+([^;]+)|\{{[^;]*\}})?;", re.M)
 faults = []
-checked = 0
+checked = {"parameters": 0, "columns": 0, "messages": 0}
+least = {"parameters": 30, "columns": 200, "messages": 15}  # of each; fewer mean that this test looks in the wrong place
 
 
 def parameters(header, name):
@@ -50,7 +51,7 @@ for page in sorted(set(PAGES.values())):
         if members is None:
             faults.append(f"{where}: the header that it names does not define it")
         for member, default in members or []:
-            checked += 1
+            checked["parameters"] += 1
             default = default.replace("'", "")
             is_set = re.fullmatch(r"[\d.e+-]+|true", default) and default not in ("0", "0.0")
             expected = f"`{member} = {default}`" if is_set else f"`{member}`"
@@ -95,7 +96,7 @@ for (files, sources), names in listed.items():
         faults.append(f"docs/reference/output_columns.csv, {files}: there is no {', '.join(lost)}")
         continue
     made = set().union(*(written(source) for source in sources.split(", ")))
-    checked += len(names)
+    checked["columns"] += len(names)
     for what, difference in (("lacks", made - names), ("has, but the sources do not write,", names - made)):
         if difference:
             faults.append(f"docs/reference/output_columns.csv, {files}: {what} {', '.join(sorted(difference))}")
@@ -113,16 +114,15 @@ code = "".join(path.read_text() for folder in ("include", "examples", ".ci") for
 code = re.sub(r'"\s*(?://[^\n]*\n\s*)?"', "", code)  # strings in several pieces
 messages = [name for line in re.findall(r"^- ((?:`[^`]+`(?:, )?)+): ", page, re.M) for name in re.findall(r"`([^`]+)`", line) if not re.fullmatch(r"[a-z_]+", name)]
 reasons = set(re.findall(r"^  (\w+)(?: = \d+)?,? +///<", re.search(r"enum class Reason.*?\};", code, re.S)[0], re.M)) - {"none"}
-checked += len(messages)
-if len(messages) < 15:
-    faults.append(f"docs/messages.md: only {len(messages)} messages found (15 are expected)")
+checked["messages"] = len(messages)
 for message in messages:
     for piece in (piece.strip(" '(),:") for piece in message.split("...")):
         if len(piece) > 5 and piece not in code and message not in LIBRARY_MESSAGES:
             faults.append(f"docs/messages.md: no source has '{piece}'")
 for reason in sorted(reasons - set(re.findall(r"`(\w+)`", page))):
     faults.append(f"docs/messages.md: there is no remedy for the reason {reason}")
-if checked < 200:
-    faults.append(f"only {checked} parameters found: this test looks in the wrong place")
-print(f"{checked} parameters, {len(faults)} faults")
+for what, count in checked.items():
+    if count < least[what]:
+        faults.append(f"only {count} {what} found ({least[what]} are expected): this test looks in the wrong place")
+print(", ".join(f"{count} {what}" for what, count in checked.items()) + f", {len(faults)} faults")
 sys.exit("\n".join(faults) or None)

@@ -47,11 +47,12 @@ def critical_state(folder):
 
 def columns_of(folder, summary):
     known = {"triangles": summary["elements"], **measures(summary)}
+    known["residual"] = summary["tolerance"]
     if summary["status"] == "ok":
         known |= {"mean [m]": summary["surface_mean"], AREA: summary["dilated_area"] / (DEPTH * summary["throw_over_depth"]),
                   "reaction [MN/m]": 1e-6 * summary["reaction"] if "reaction" in summary else None, "strip margin [m]": summary.get("strip_margin"),
                   **dict(zip(WIDTHS, (band["band_width"] for band in summary["bands"]))), **dict(zip(CRITICAL, critical_state(folder)))}
-    return {name: known.get(name) for name in ("triangles", "h/H", *QUANTITIES, *WIDTHS, "strip margin [m]", *CRITICAL, "steps", "refused", "iterations",
+    return {name: known.get(name) for name in ("triangles", "h/H", *QUANTITIES, *WIDTHS, "strip margin [m]", *CRITICAL, "residual", "steps", "refused", "iterations",
                                                "DEM steps [million]", "CPU time [s]", "memory [MB]", "status", "error budget", "commit")}
 
 
@@ -102,9 +103,10 @@ def usable(rows, soil):
     return [row for row in rows if row["soil"] == soil and row["status"] == "ok"]
 
 
-def repeated(rows):
-    """Whether seeds or meshes are known to scatter; without this there are no intervals."""
-    return len(rows) > len({row["length [m]"] for row in rows})
+def extrapolates(rows):
+    """Whether seeds or meshes are known to scatter, and there are lengths enough for every form."""
+    lengths = {row["length [m]"] for row in rows}
+    return len(rows) > len(lengths) >= max(least for least, _ in TAKEN.values())
 
 
 def column(rows, name):
@@ -123,7 +125,7 @@ def limits(rows):
     found = []
     for soil in SOILS:
         known = usable(rows, soil)
-        for name in QUANTITIES if repeated(known) else []:
+        for name in QUANTITIES if extrapolates(known) else []:
             for at, values in zip(LIMITS, of_rows(known, name, list(LIMITS)).T):
                 low, middle, high = map(float, np.percentile(values, [2.5, 50.0, 97.5]))
                 found.append({"soil": soil, "quantity": name, "length [m]": at, "value": middle, "low": low, "high": high, "runs": len(known),
@@ -139,7 +141,7 @@ def held_out(rows):
         known = [row for row in usable(rows, soil) if row.get(name)]
         lengths = column(known, "length [m]")
         others = [row for row, length in zip(known, lengths) if length > lengths.min()]
-        if not repeated(others):
+        if not extrapolates(others):
             continue
         low, middle, high = map(float, np.percentile(of_rows(others, name, [lengths.min()])[:, 0], [2.5, 50.0, 97.5]))
         found.append({"soil": soil, "quantity": name, "length [m]": lengths.min(), "value": middle, "low": low, "high": high,
@@ -160,7 +162,7 @@ def page(rows):
                 cells[3] += f" +- {np.std(column(here, 'mean [m]'), ddof=1):.2f}"
             yield f"| {title} | {length} | {len(here)} | " + " | ".join(cells) + " |"
         extrapolated = {(row["quantity"], row["length [m]"]): row for row in limits(known)}
-        for at in LIMITS if repeated(known) else []:
+        for at in LIMITS if extrapolates(known) else []:
             cells = [f"{row['value']:.{n}f} ({row['low']:.{n}f} to {row['high']:.{n}f})" if (row := extrapolated.get((name, at))) else "-"
                      for name, n in zip(shown, digits)]
             yield f"| {title} | {at:g}, extrapolated | - | " + " | ".join(cells) + " |"
@@ -184,7 +186,7 @@ def over_length(rows):
         lengths, throw = column(known, "length [m]"), DEPTH * column(known, "h/H").mean()
         grid = np.geomspace(min(LIMITS), np.unique(lengths)[:4][-1], 40)  # as far as all forms are fitted
         for name, colour in PLACES.items():
-            if not repeated(known):
+            if not extrapolates(known):
                 axis.plot(lengths, column(known, name), "o-", color=colour, markersize=3.5, linewidth=0.7)
                 continue
             low, middle, high = np.percentile(of_rows(known, name, grid), [2.5, 50.0, 97.5], axis=0)

@@ -51,6 +51,9 @@ def main():
     parser.add_argument("--of", type=pathlib.Path, metavar="WARNINGS")
     parser.add_argument("--count", action="store_true", help="only the number of each room")
     options = parser.parse_args()
+    for room in options.rooms:
+        if not (ROOT / "include/scarp" / room).is_dir():
+            parser.error(f"there is no room '{room}': name a folder of include/scarp")
     names, others = undocumented(options.of.read_text() if options.of else warnings_of_doxygen())
     counts = collections.Counter()
     for header in sorted(names):

@@ -27,6 +27,7 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   Calibration all{.start = choice.sand,
                   .free = free_parameters(choice.free),
                   .test = choice.test,
+                  .window = choice.window,
                   .seeds = choice.seeds,
                   .evaluations = choice.evaluations,
                   .threads = choice.threads,
@@ -53,7 +54,6 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   if (choice.tables.empty()) examples::reject_unused(app, "triaxial", "without --table");
   bool const windowed = std::ranges::any_of(all.observations, &Observation::windowed);
   if (!windowed) examples::reject_unused(app, "window", "no target is a mean over it");
-  all.test.held = choice.held;
   all.test.strain = choice.strain.value_or(last > 0.0 ? last : 0.1);
   if (double const least = 3.0 * all.test.row_strain; all.test.strain < least)
     scarp::reject("the tests end at an axial strain of {} (at least {} is expected): give --strain", all.test.strain,
@@ -74,8 +74,9 @@ std::string settings_of(Calibration const& calibration) {
   for (auto const& one : calibration.free) text += fmt::format("free {} {} {}\n", one.name, one.least, one.most);
   for (auto const& one : calibration.observations) text += fmt::format("{} {} {}\n", one.name, one.strain, one.wanted);
   auto const& test = calibration.test;
-  return text + fmt::format("{} {} {} {} {} seeds {}\n", test.path, test.held.value_or(0.0), test.strain,
-                            test.strain_step, test.row_strain, calibration.seeds);
+  return text + fmt::format("{} {} {} {} {} window {} seeds {}\n{}\n", test.path, test.held.value_or(0.0), test.strain,
+                            test.strain_step, test.row_strain, calibration.window, calibration.seeds,
+                            examples::commit());
 }
 
 /// \return whether there is anything to resume
@@ -84,8 +85,8 @@ bool resumes(std::filesystem::path const& folder, std::string const& settings) {
   if (!std::filesystem::exists(file) || !std::filesystem::exists(folder / "evaluations.csv")) return false;
   if (scarp::read_file(file) != settings)
     scarp::reject(
-        "'{}' is of another calibration (other sand, bounds, targets or seeds): resume with its options, or calibrate "
-        "into another folder",
+        "'{}' is of another calibration (other sand, bounds, targets, window, seeds or program): resume with its "
+        "options, or calibrate into another folder",
         file.string());
   return true;
 }
@@ -135,7 +136,8 @@ void declare_calibrate(CLI::App& app, CalibrateChoice& choice) {
   app.add_flag("--triaxial", choice.triaxial,
                "the tables are of triaxial tests: p is the mean of three stresses; friction angles are compared");
   app.add_option("--path", choice.test.path, "of the tests")->check(CLI::IsMember({"biaxial", "constant_mean_stress"}));
-  app.add_option("--lateral-stress,--held-stress", choice.held, "of the path [Pa]; that of the sand when not given")
+  app.add_option("--lateral-stress,--held-stress", choice.test.held,
+                 "of the path [Pa]; that of the sand when not given")
       ->check(positive(1e12));
   app.add_option("--strain", choice.strain, "at the end; the last one of the tables, or 0.1")->check(positive(1.0));
   app.add_option("--strain-step", choice.test.strain_step, "strain of one DEM step")

@@ -22,6 +22,7 @@ struct Calibration {
   std::vector<Free> free{};
   std::vector<Observation> observations{};
   CurveTest test{};
+  double window = 0.02;  ///< axial strain over which peaks are means
   int seeds = 4;
   int evaluations = 30;
   int threads = 0;

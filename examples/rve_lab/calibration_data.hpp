@@ -163,8 +163,9 @@ inline double volumetric_strain_of(scarp::LaboratoryRow<2> const& row) { return 
 /// or q and p; columns of path.csv will do.
 struct LabTable {
   std::vector<double> strain;
-  std::vector<double> sine;        ///< of the mobilised friction angle; empty without stresses
-  std::vector<double> volumetric;  ///< empty where it is not given
+  std::vector<double> sine;         ///< of the mobilised friction angle; empty without stresses
+  std::vector<double> sine_strain;  ///< at which the sines are: of means over a row its middle
+  std::vector<double> volumetric;   ///< empty where it is not given
 
   /// triaxial: p is the mean of three principal stresses, q/p becomes \f$ \sin\varphi = 3 (q/p) / (6 + q/p) \f$; else of two,
   /// \f$ \sin\varphi = (q/p) / 2 \f$.
@@ -177,7 +178,8 @@ struct LabTable {
       for (double& value : values) value *= percent ? 0.01 : 1.0;
       return values;
     };
-    LabTable lab{strains("axial_strain"), {}, {}};
+    LabTable lab;
+    lab.strain = lab.sine_strain = strains("axial_strain");
     if (table.has("volumetric_strain") || table.has("volumetric_strain_percent"))
       lab.volumetric = strains("volumetric_strain");
     if (table.has("stress_ratio")) {
@@ -191,6 +193,7 @@ struct LabTable {
           scarp::reject("line {} of '{}': p is {} (a mean stress above 0 is expected): correct it", table.line(row),
                         file, p[row]);
         lab.sine[row] /= p[row];
+        if (means && row > 0) lab.sine_strain[row] = (lab.strain[row - 1] + lab.strain[row]) / 2.0;
       }
     }
     for (double& ratio : lab.sine) ratio = triaxial ? 3.0 * ratio / (6.0 + ratio) : ratio / 2.0;
@@ -213,16 +216,16 @@ inline std::vector<Observation> observations_of(LabTable const& table, std::size
   constexpr int rows = 20;
   std::vector<Observation> all;
   double const last = table.strain.back();
-  for (auto const& [name, column, scatter, of] :
-       {std::tuple{"sine of friction angle", &table.sine, 0.005, &sine_of},
-        std::tuple{"volumetric strain", &table.volumetric, 2e-4, &volumetric_strain_of}}) {
+  for (auto const& [name, strains, column, scatter, of] :
+       {std::tuple{"sine of friction angle", &table.sine_strain, &table.sine, 0.005, &sine_of},
+        std::tuple{"volumetric strain", &table.strain, &table.volumetric, 2e-4, &volumetric_strain_of}}) {
     if (column->empty()) continue;
     for (int row = 1; row <= rows; ++row) {
       double const strain = last * std::pow(row / static_cast<double>(rows), 1.5);
       if (strain < table.strain.front()) continue;
       all.push_back({.name = name,
                      .group = groups,
-                     .wanted = at_strain(table.strain, *column, strain),
+                     .wanted = at_strain(*strains, *column, strain),
                      .least_scatter = scatter,
                      .strain = strain,
                      .of = [strain, quantity = of](Curve const& curve) { return at_strain(curve, strain, quantity); }});

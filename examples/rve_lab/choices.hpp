@@ -59,8 +59,7 @@ struct CalibrateChoice {
   std::string free = "friction,relative-density";
   std::string target{};
   std::vector<std::string> tables{};
-  bool triaxial = false;  ///< data of the tables
-  std::optional<double> held{};
+  bool triaxial = false;  ///< whether the tables are of triaxial tests
   std::optional<double> strain{};
   double window = 0.02;
   CurveTest test{};

@@ -17,14 +17,18 @@ Curve tested(PackingType packing, typename PackingType::Law const& law, CurveTes
   curve.void_ratio = lab.packing().void_ratio();
   curve.add(scarp::balance(lab.packing(), law).stress, lab.deformation());
   long const steps_per_row = steps_of(test.row_strain, test.strain_step);
+  auto const rows =
+      static_cast<long>(std::ceil(test.strain / test.row_strain + 0.5 - 1e-9));  // the last middle is beyond the strain
   scarp::Tensor<PackingType::dim> sum = scarp::Tensor<PackingType::dim>::Zero();
-  for (long step = 1; step <= steps_of(test.strain, test.strain_step); ++step) {
+  auto middle = lab.deformation();
+  for (long step = 1; step <= rows * steps_per_row; ++step) {
     if (auto const verdict = lab.step(); !verdict.acceptable())
       scarp::reject("a packing ended with {} at strain {:.4g}: take a smaller --strain-step, or another stress",
                     scarp::name(verdict.reason), path.strain(lab.deformation()));
     sum += lab.seen().stress / static_cast<double>(steps_per_row);
+    if ((step - 1) % steps_per_row == (steps_per_row - 1) / 2) middle = lab.deformation();
     if (step % steps_per_row != 0) continue;
-    curve.add(sum, lab.deformation());
+    curve.add(sum, middle);
     sum.setZero();
   }
   return curve;

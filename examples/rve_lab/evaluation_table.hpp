@@ -96,6 +96,8 @@ class EvaluationTable {
       auto const k = static_cast<Eigen::Index>(column);
       for (std::size_t row = 0; row < rows_.size(); ++row) {
         auto& one = rows_[row];
+        if (!std::isfinite(values[row]) && (k < free || reasons[row].empty()))
+          table.reject_cell(row, names[column], "it is no number", "calibrate without --resume");
         if (k < free)
           one.shares(k) = values[row];
         else if (k == 2 * free)

@@ -106,10 +106,14 @@ void require_used(CLI::App const& app, Laboratory const& test) {
     if (test.table.empty()) scarp::reject("--path table has no table (its targets are unknown): give --table FILE");
     for (auto const* name : {"strain", "extension", "cycles", "amplitude"})
       examples::reject_unused(app, name, "the table has the targets");
+    examples::reject_unused(app, "window", "results of a table are of single rows");
   } else {
     examples::reject_unused(app, "table", fmt::format("the path is '{}'", test.path));
   }
-  if (test.cycles > 0) examples::reject_unused(app, "strain", "--cycles go to --amplitude");
+  if (test.cycles > 0) {
+    examples::reject_unused(app, "strain", "--cycles go to --amplitude");
+    examples::reject_unused(app, "window", "results of cycles are of single rows");
+  }
   if (test.cycles == 0) examples::reject_unused(app, "amplitude", "without --cycles");
 }
 

@@ -224,6 +224,8 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
   LaboratoryRun<Dim> run(choice, material, count, own.path() / "test.csv");
   scarp::Verdict const verdict = run.run(targets ? &*targets : nullptr);
   auto const& total = run.total();
+  double const window =
+      choice.path == "table" || choice.cycles > 0 || std::abs(run.length()) < choice.window ? 0.0 : choice.window;
   nlohmann::json summary{{"path", choice.path},
                          {"material", described},
                          {"dimension", Dim},
@@ -234,15 +236,13 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
                          {"cut_backs", total.cut_backs},
                          {"iterations", total.iterations},
                          {"largest_missing_stress", total.missing},
-                         {"window", choice.window},
+                         {"window", window},
                          {"overlay", choice.overlays},
                          {"output", own.path().string()},
                          {"run", examples::json_of(own.record())}};
   examples::print(stdout, "{} increments, {} cut back, {} iterations, held stresses within {:.1g}\n", total.increments,
                   total.cut_backs, total.iterations, total.missing);
   if (run.rows().front().size() > 1) {
-    double const window =
-        choice.path == "table" || choice.cycles > 0 || std::abs(run.length()) < choice.window ? 0.0 : choice.window;
     examples::print(stdout, "{:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>10} {:>6}\n", "point",
                     "phi_peak", "at", "e", "psi_peak", "phi_res", "e", "transf.", "E50 [Pa]", "G0 [Pa]", "K0");
     double mean_void_ratio = 0.0;

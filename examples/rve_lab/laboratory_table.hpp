@@ -19,6 +19,7 @@ struct TargetTable {
 
   /// \throws InputError for columns that make no path
   explicit TargetTable(std::string const& file) : table(scarp::read_csv(file)) {
+    if (table.rows() == 0) scarp::reject("'{}' has no rows (a path has one target at least): add them", file);
     std::vector<std::string> known;
     for (auto const& [name, condition] : all()) {
       known.push_back(name);

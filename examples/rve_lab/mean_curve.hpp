@@ -12,8 +12,8 @@
 
 namespace rve_lab {
 
-/// A test on one packing, or the mean of several: the start, then a row for each stretch of the path with its mean stress and the strain at
-/// its end. Stresses are those across the axes, as a laboratory measures them.
+/// A test on one packing, or the mean of several: the start, then a row for each stretch of the path with its mean stress and the strain in
+/// its middle. Stresses are those across the axes, as a laboratory measures them.
 struct Curve {
   std::vector<scarp::LaboratoryRow<2>> rows;
   double void_ratio = 0.0;  ///< at the start
@@ -54,7 +54,7 @@ struct Measure {
   double least_scatter;   ///< differences below this are none
   double reached;         ///< how near a target is to be
   bool windowed = false;  ///< a mean over a window of axial strain
-  bool relative = false;  ///< both of these are shares of the target
+  bool relative = false;  ///< whether `least_scatter` and `reached` are shares of the target
 };
 
 inline std::vector<Measure> const& measures() {

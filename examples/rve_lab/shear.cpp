@@ -116,6 +116,8 @@ void shear(Test& choice, CLI::App const& app) {
   if (!choice.packing.empty())
     choice.sand = examples::sand_of_packing(choice.packing, choice.sand, examples::given_in(app));
   read_sand_file(choice, app);
+  if (is_in_space(choice.sand))
+    scarp::reject("the grains are spheres (shear tests grains in the plane): use rve_lab test");
   with_packing(Grains{}, choice.sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     auto packing = choice.packing.empty() ? Preparation<PackingType>::printed(choice.sand, law)
                                           : scarp::load_packing<PackingType>(choice.packing);

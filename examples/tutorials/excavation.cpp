@@ -90,9 +90,16 @@ int main(int count, char** arguments) try {
     fmt::print("{:9.2f} {:24.2f} {:21.1f} {:6} {:11}\n", run.load, 1e3 * heave,
                1e-3 * reaction(problem, "bottom", after), run.steps, run.iterations);
   }
+  if (!run.verdict.acceptable()) {
+    fmt::print(stderr, "excavation: stopped at load {:.3f} ({}): take smaller load steps\n", run.load,
+               name(run.verdict.reason));
+    return 1;
+  }
   double const share = reaction(problem, "bottom", after) / -after.sum();  // the base carries what is left above it
   fmt::print("base reaction over weight and surcharge: {:.5f}\n", share);
-  return run.verdict.acceptable() && std::abs(share - 1.0) < solver.tolerance ? 0 : 1;
+  if (std::abs(share - 1.0) < solver.tolerance) return 0;
+  fmt::print(stderr, "excavation: the base does not carry what is above it (1 is expected): reduce the tolerance\n");
+  return 1;
 } catch (std::exception const& problem) {
   fmt::print(stderr, "excavation: {}\n", problem.what());
   return 2;

@@ -102,7 +102,11 @@ def check_ends(folder):
     expect(code == 3 and "not_converged" in said and "test.csv" in said, f"beyond the strength: ended with {code}, {said}")
     reached = json.loads((folder / "beyond" / "summary.json").read_text())["length"]
     near("share of the way", reached, (1e5 * (1.0 + SINE) / (1.0 - SINE) - 1e5) / 8e5, 1e-2)
+    (folder / "empty.csv").write_text("sxx,syy\n")
     for arguments, named in ((["--young", "1e6"], "--young is given but not used"), (["--ratio", "1"], "--ratio"),
+                             (["--material", "elastic", "--path", "table", "--table", "empty.csv"], "has no rows"),
+                             (["--material", "elastic", "--path", "table", "--table", "beyond.csv", "--window", "0.01"], "--window is given but not used"),
+                             (["--material", "elastic", "--cycles", "2", "--window", "0.01"], "--window is given but not used"),
                              (["--material", "elastic", "--cohesion", "1"], "--cohesion"),
                              (["--material", "elastic", "--grains", "9"], "--grains"),
                              (["--path", "table"], "no table"), (["--consolidation-k0", "0.5"], "--consolidation-k0"),

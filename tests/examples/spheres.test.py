@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from expectations import example, expect, finish
+from expectations import example, expect, finish, leave_out
 
 LAB = example("rve_lab")
 SPHERES = ["--shape", "sphere", "--grains", "80", "--pressure", "5e4"]
@@ -35,15 +35,17 @@ def check_tests(folder):
     expect(code == 0, f"prepare: ended with {code}\n{said}")
     rows = rows_of(folder, "drained", "--packing", "packing/packing.packing", "--strain", "0.02", *step)
     expect(json.loads((folder / "drained/summary.json").read_text())["dimension"] == 3, "a packing of spheres is in space")
-    expect(all(abs(row["lateral_stress"] - rows[0]["lateral_stress"]) < 5e-3 * row["axial_stress"] for row in rows), "the lateral stress is not held")
-    expect(rows[-1]["q"] > 2e4, f"q is {rows[-1]['q']} Pa after 2 %")
+    # Each row is held within --tolerance times the largest stress, the axial one.
+    expect(all(abs(row["lateral_stress"] - rows[0]["lateral_stress"]) < 4e-3 * row["axial_stress"] for row in rows), "the lateral stress is not held")
+    expect(rows[-1]["q"] > 2e4, f"q is {rows[-1]['q']} Pa after 2 %, less than 10 degrees of friction give")
     again = rows_of(folder, "prepared", *SPHERES, *ROLLING, "--strain", "0.02", *step)
     expect(again == rows, "a packing from its file is tested otherwise than one that is prepared")
     for law in ("linear", "rolling"):
         rows = rows_of(folder, law, *SPHERES, "--law", law, "--path", "oedometer", "--strain", "0.01", *step)
         void_ratio = (1.0 + rows[0]["void_ratio"]) * math.exp(-0.01) - 1.0
         expect(abs(rows[-1]["void_ratio"] - void_ratio) < 1e-9, f"{law}: void ratio {rows[-1]['void_ratio']}, {void_ratio} without lateral strain")
-        expect(0.2 < rows[-1]["lateral_stress"] / rows[-1]["axial_stress"] < 0.9, f"{law}: K0 is out of range")
+        at_rest = rows[-1]["lateral_stress"] / rows[-1]["axial_stress"]
+        expect(0.2 < at_rest < 0.9, f"{law}: K0 is {at_rest}, by Jaky's formula friction of 53 or of 6 degrees")
 
 
 def check_calibration(folder):
@@ -51,7 +53,7 @@ def check_calibration(folder):
     command = ["calibrate", *SPHERES, "--free", "preparation-friction=0:0.5", "--strain", "0.03", "--strain-step", "5e-5", "--seeds", "2", "--evaluations", "10"]
     code, said = run(folder, *command, "--target", "void-ratio=0.72", "--output", "found")
     if "without NLopt" in said:
-        return
+        return leave_out("rve_lab was built without NLopt")
     expect(code == 0, f"calibrate: ended with {code}\n{said}")
     found = json.loads((folder / "found/summary.json").read_text())["void_ratio"]
     expect(abs(found - 0.72) < 0.003, f"void ratio {found} for 0.72")  # the bound of a target that is reached
@@ -61,7 +63,7 @@ def check_calibration(folder):
 
 
 def check_rejections(folder):
-    for command, said in (("shear", "'sphere' grains with law 'linear' are not built"), ("prepare", "only sphere linear, sphere rolling, sphere rolling-hertz")):
+    for command, said in (("shear", "the grains are spheres"), ("prepare", "only sphere linear, sphere rolling, sphere rolling-hertz")):
         more = ["--law", "hertz"] if command == "prepare" else []
         code, answer = run(folder, command, *SPHERES, *more, "--output", "none")
         expect(code == 1 and said in answer, f"{command}: ended with {code}\n{answer}")

@@ -39,6 +39,7 @@ struct LaboratoryRow {
     auto const values = principal_stresses();
     if (values(Dim - 1) < 0.0) return std::numbers::pi / 2.0;
     double const sum = values(0) + values(Dim - 1);
+    if (std::isnan(sum)) return sum;
     return sum > 0.0 ? std::asin((values(0) - values(Dim - 1)) / sum) : 0.0;
   }
   double axial_strain() const { return 0.0 - strain(Dim - 1); }  ///< Along the last axis, compression positive.

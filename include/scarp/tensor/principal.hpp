@@ -25,7 +25,7 @@ inline Principal principal(Tensor<3> const& symmetric) {
   return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};
 }
 
-/// Principal values of a symmetric tensor, largest first. In the plane by Mohr's circle, which keeps all digits.
+/// Principal values of a symmetric tensor, largest first. In the plane by Mohr's circle, to round-off of the largest.
 template <int Dim>
 Vector<Dim> principal_values(Tensor<Dim> const& symmetric) {
   static_assert(Dim == 2 || Dim == 3);
