@@ -111,9 +111,10 @@ LIBRARY_MESSAGES = {"The following arguments were not expected"}  # of CLI11
 page = (ROOT / "docs" / "messages.md").read_text()
 code = "".join(path.read_text() for folder in ("include", "examples", ".ci") for path in sorted((ROOT / folder).rglob("*"))
                if path.suffix in (".hpp", ".cpp", ".sh") and "output" not in path.parts)
-code = re.sub(r'"\s*(?://[^\n]*\n\s*)?"', "", code)  # strings in several pieces
-messages = [name for line in re.findall(r"^- ((?:`[^`]+`(?:, )?)+): ", page, re.M) for name in re.findall(r"`([^`]+)`", line) if not re.fullmatch(r"[a-z_]+", name)]
 reasons = set(re.findall(r"^  (\w+)(?: = \d+)?,? +///<", re.search(r"enum class Reason.*?\};", code, re.S)[0], re.M)) - {"none"}
+code = re.sub(r"(?m)(?:^|(?<=[\s;,(){}]))//[^\n]*", "", code)  # a message that a comment alone has is none
+code = re.sub(r'"\s*"', "", code)  # strings in several pieces
+messages = [name for line in re.findall(r"^- ((?:`[^`]+`(?:, )?)+): ", page, re.M) for name in re.findall(r"`([^`]+)`", line) if not re.fullmatch(r"[a-z_]+", name)]
 checked["messages"] = len(messages)
 for message in messages:
     for piece in (piece.strip(" '(),:") for piece in message.split("...")):
