@@ -80,6 +80,7 @@ checks = convergence.held_out(rows)
 expect([(row["quantity"], row["length [m]"]) for row in checks] == [("mean [m]", 1.0), (AREA, 1.0)], f"what is there, at the shortest length: {checks}")
 of_runs = np.mean([float(row[AREA]) for row in rows if row["length [m]"] == "1"])
 expect(checks[1]["of the runs"] == of_runs and checks[1]["low"] < of_runs < checks[1]["high"], f"{of_runs} is held out and foreseen: {checks[1]}")
+expect(not convergence.limits([row for row in rows if float(row["length [m]"]) > 3.0]), "three lengths are as many as a form has parameters")
 exact = limits_of(table(0.0, 0.0, 0.0, 1))
 expect(np.mean(exact[2] - exact[0]) < 0.8 * np.mean(widths), f"seeds and meshes widen what the forms leave open: {exact} of {widths}")
 expect(np.all(exact[2] - exact[0] > 0.1), "the forms alone leave something open")
@@ -109,7 +110,7 @@ with tempfile.TemporaryDirectory() as scratch:
     run("--quick")
     runs = pathlib.Path(scratch, "output", "length_convergence", "quick")
     ended = {file: file.stat().st_mtime_ns for file in runs.glob("*/summary.json")}
-    expect(len(ended) == 6, f"six runs, not {len(ended)}")
+    expect(len(ended) == 8, f"eight runs, not {len(ended)}")
     lost = runs / "mohr_coulomb-4m-right" / "summary.json"
     lost.unlink(missing_ok=True)
     before = read_table(pathlib.Path(scratch, "output", "quick", "length_convergence.csv"))
@@ -117,7 +118,7 @@ with tempfile.TemporaryDirectory() as scratch:
     expect(lost.is_file(), "a run without a summary is done again")
     expect(all(file.stat().st_mtime_ns == time for file, time in ended.items() if file != lost), "finished runs are kept")
     after = read_table(pathlib.Path(scratch, "output", "quick", "length_convergence.csv"))
-    expect([row["mean [m]"] for row in before] == [row["mean [m]"] for row in after] and len(after) == 6, "and so are the rows")
+    expect([row["mean [m]"] for row in before] == [row["mean [m]"] for row in after] and len(after) == 8, "and so are the rows")
     for row in after:
         expect(abs(float(row["mean [m]"]) - float(row[AREA]) + (25.0 - 25.0 * 0.085 / 2) / np.tan(np.pi / 3)) < 1e-3, f"the balance of areas: {row}")
     shown = [line for line in run("--quick", "--page").splitlines() if line.startswith("| Mohr-Coulomb")]
