@@ -134,6 +134,7 @@ TEST_CASE("a minor stress in tension mobilises a right angle, and no stress mobi
   };
   CHECK(friction(1.0, 3.0) == Approx(30.0 * degree));  // sin 30 = (3 - 1) / (3 + 1)
   CHECK(friction(0.0, 3.0) == Approx(90.0 * degree));
+  CHECK(std::isnan(friction(std::nan(""), 3.0)));
   CHECK(friction(-1.0, 3.0) == Approx(90.0 * degree));
   CHECK(friction(-3.0, 1.0) == Approx(90.0 * degree));
   CHECK(friction(-1.0, -1.0) == Approx(90.0 * degree));

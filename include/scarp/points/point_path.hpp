@@ -12,22 +12,11 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/nan_max.hpp"
+#include "scarp/points/detail/least_norm_solution.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/tensor/finite_strain.hpp"
 
 namespace scarp {
-
-namespace detail {
-
-/// Of a system that may be singular; pivots below 1e-9 of the largest count as zero. One size of matrices for all dimensions compiles faster.
-inline Eigen::VectorXd least_norm_solution(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& right) {
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
-  factors.setThreshold(1e-9);
-  factors.compute(matrix);
-  return factors.solve(right);
-}
-
-}  // namespace detail
 
 /// A linear condition on a point's strain or stress along a path: \f$ a\cdot\varepsilon \f$ or \f$ b\cdot\sigma \f$ changes by `rate` [-, Pa]
 /// per unit of the path, or reaches `target` after one unit. Tension positive.
