@@ -100,6 +100,8 @@ inline std::vector<Free> free_parameters(std::string const& text) {
                     one.least, one.most);
     if (one.begins_above_zero() && !(one.least > 0.0))
       scarp::reject("--free has {} from {} (a bound above 0 is expected): raise it", one.name, one.least);
+    if (std::ranges::find(all, one.name, &Free::name) != all.end())
+      scarp::reject("--free names '{}' twice: leave one out", one.name);
     Sand trial;
     for (double const end : {one.least, one.most}) {
       one.of(trial) = end;

@@ -58,12 +58,14 @@ class Search {
   /// The start itself, else the first feasible place of a sequence that fills the bounds.
   /// \throws InputError where none of them is
   Eigen::VectorXd feasible(Eigen::VectorXd const& start) {
-    constexpr std::array<unsigned, 8> bases{2, 3, 5, 7, 11, 13, 17, 19};
+    // As many as a sand has numbers.
+    constexpr std::array<unsigned, 20> bases{2,  3,  5,  7,  11, 13, 17, 19, 23, 29,
+                                             31, 37, 41, 43, 47, 53, 59, 61, 67, 71};
     if (evaluate(start).feasible()) return start;
     Eigen::VectorXd place = start;
     for (unsigned number = 1; number_ < calibration_.evaluations; ++number) {
       for (Eigen::Index k = 0; k < place.size(); ++k)
-        place(k) = 0.1 + 0.8 * halton(number, bases[static_cast<std::size_t>(k) % bases.size()]);
+        place(k) = 0.1 + 0.8 * halton(number, bases.at(static_cast<std::size_t>(k)));
       if (evaluate(place).feasible()) return place;
     }
     scarp::reject(

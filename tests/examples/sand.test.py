@@ -100,13 +100,18 @@ def check_calibration(folder):
     code, said = run(*far, folder=folder)
     expect(code > 0 and "out of reach" in said and "preparation-friction at the lower end" in said, f"out of reach: ended with {code}\n{said}")
     expect(not (folder / "far/calibrated.sand").exists(), "a sand out of reach was written")
-    code, said = run(LAB, "calibrate", *FAST, "--free", "friction,relative-density", "--target", "peak-friction=50", "--seeds", "2",
-                     "--evaluations", "10", "--output", "discs", folder=folder)
+    discs = [LAB, "calibrate", *FAST, "--free", "friction,relative-density", "--target", "peak-friction=50", "--seeds", "2",
+             "--evaluations", "10", "--output", "discs"]
+    code, said = run(*discs, folder=folder)
     expect(code > 0 and "out of reach: peak-friction 50" in said, f"50 degrees of discs: ended with {code}\n{said}")
     expect("at the upper end of its bounds" in said.split("limited by")[-1], f"50 degrees of discs are limited by what?\n{said}")
-    for target, words in (("e50=0", "--target e50 is 0"), ("void-ratio=0.2,void-ratio=0.3", "names 'void-ratio' twice")):
-        code, said = run(LAB, "calibrate", *FAST, "--free", "friction", "--target", target, "--output", "none", folder=folder)
-        expect(code > 0 and words in said, f"--target {target}: ended with {code}\n{said}")
+    code, said = run(*discs, "--window", "0.01", "--resume", folder=folder)
+    expect(code > 0 and "of another calibration" in said, f"--resume with another window: ended with {code}\n{said}")
+    for free, target, words in (("friction", "e50=0", "--target e50 is 0"),
+                                ("friction", "void-ratio=0.2,void-ratio=0.3", "--target names 'void-ratio' twice"),
+                                ("friction,friction=0.2:0.4", "e50=1e7", "--free names 'friction' twice")):
+        code, said = run(LAB, "calibrate", *FAST, "--free", free, "--target", target, "--output", "none", folder=folder)
+        expect(code > 0 and words in said, f"--free {free} --target {target}: ended with {code}\n{said}")
 
 
 def check_infeasible(folder):
