@@ -98,7 +98,7 @@ class Model:
             for run in self.sand.values():
                 if (length_of(run) == 0.0) != local:
                     continue
-                tolerance = option(run, "--tolerance", 1e-3)
+                tolerance = option(run, "--tolerance", 3e-3)
                 for step in throws(run):
                     if step["max_displacement_gradient"] < 0.3 * tolerance:
                         continue
@@ -112,7 +112,7 @@ class Model:
         ground, share of its run's work."""
         rows = []
         for run in self.sand.values():
-            least, each = option(run, "--min-dem-steps", 20.0), option(run, "--strain-per-dem-step", 1e-5)
+            least, each = option(run, "--min-dem-steps", 20.0), option(run, "--strain-per-dem-step", 1e-5 if "--local" in run["options"] else 2e-5)
             for step in throws(run):
                 answers = step["dem_steps"] / step["iterations"] / run["elements"]
                 if answers > 1.3 * least:

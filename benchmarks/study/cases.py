@@ -21,13 +21,12 @@ CASES = ["free", "heavy", "light"]
 SEEDS = [1, 2, 3]
 # Height of the points A and B above bedrock [m], 4 m below the surface.
 LEVEL = 21.0
-SETS = {"1 m": {"free": "study_free_1"}, "2 m": {case: f"study_{case}_2" for case in CASES},
-        "8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_medium_{case}_5.66" for case in CASES},
-        "4 m": {case: f"study_{case}_4" for case in CASES}}
+SETS = {f"{length} m": {case: f"study_{case}_{length}" for case in CASES} for length in (1, 2, 4)}
+SETS |= {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_medium_{case}_5.66" for case in CASES}}
 SETS |= {f"seed {seed}": {case: f"study_medium_{case}/seed_{seed}" for case in CASES} for seed in SEEDS}
 # The same with a rigid base that may slide and lift in the place of one that sticks.
-FRICTIONAL = {"2 m": {case: f"study_{case}_frictional_2" for case in ("heavy", "light")},
-              "8 m": {case: f"study_{case}_frictional" for case in ("heavy", "light")}}
+FRICTIONAL = {f"{length} m": {case: f"study_{case}_frictional_{length}" for case in ("heavy", "light")} for length in (1, 2)}
+FRICTIONAL["8 m"] = {case: f"study_{case}_frictional" for case in ("heavy", "light")}
 FRICTIONAL |= {f"seed {seed}": {case: f"study_medium_{case}_frictional/seed_{seed}" for case in ("heavy", "light")} for seed in SEEDS}
 
 
@@ -185,7 +184,7 @@ def base_rows(case):
 
 def bases(tied, frictional):
     """Lines of both kinds of bases."""
-    columns = {**{f"{name}{base}": (of_base, [name]) for name in ("2 m", "8 m") for base, of_base in (("", tied), (", frictional", frictional))},
+    columns = {**{f"{name}{base}": (of_base, [name]) for name in ("1 m", "2 m", "8 m") for base, of_base in (("", tied), (", frictional", frictional))},
                "8 m, 1904 triangles: three seeds": (tied, SEED_SETS),
                "8 m, frictional, 1904 triangles: three seeds": (frictional, SEED_SETS)}
     return [{"measure": f"base, {case}: {what}", **{title: column(sets, names, measure, digits)
@@ -202,7 +201,7 @@ def main():
             for name, one in group.items() for case, run in one.runs.items()]
     if runs:
         write_table("study_runs", runs, said, key=("run",))
-    if "free" in sets["2 m"].runs:
+    if "free" in sets[case_figures.SHOWN].runs:
         case_figures.write(FIGURES, sets, LEVEL)
 
 

@@ -154,7 +154,6 @@ int main(int argc, char** argv) {
   try {
     return run_test(choice, output, app);
   } catch (std::exception const& problem) {
-    examples::ended_by(problem, "biaxial_specimen", app);
-    return 2;
+    return examples::ended_by(problem, "biaxial_specimen", app);
   }
 }

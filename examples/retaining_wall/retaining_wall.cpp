@@ -54,7 +54,6 @@ int main(int argc, char** argv) {
     retaining_wall::print_table(outcomes);
     return retaining_wall::judge(outcomes) ? 0 : 1;
   } catch (std::exception const& problem) {
-    examples::ended_by(problem, "retaining_wall", app);
-    return 2;
+    return examples::ended_by(problem, "retaining_wall", app);
   }
 }

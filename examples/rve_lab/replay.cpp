@@ -64,7 +64,7 @@ void relax(PackingType& packing, scarp::LinearFrictional const& law, double pres
                   before);
 }
 
-/// \throws InputError for files that are wrong, and when the packing cannot continue; the rows so far are then on disk
+/// \throws InputError for files that are wrong, std::runtime_error when the packing cannot continue; the rows so far are then on disk
 template <class PackingType>
 void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
                 std::optional<scarp::CsvColumns> const& contacts, Tensor const& cell,
@@ -101,7 +101,7 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
   long const steps_per_row = steps_of(choice.path.row_strain.value_or(path.row_strain), choice.path.strain_step);
   for (long step = 1; step <= steps; ++step) {
     auto const verdict = lab.step();
-    if (!verdict.acceptable()) reject_verdict(verdict, path.strain(lab.deformation()), choice.out);
+    if (!verdict.acceptable()) end_early(verdict, path.strain(lab.deformation()), choice.out);
     if (step % steps_per_row == 0 || step == steps) write(step);
   }
   if (path.held != nullptr) require_held(lab, path);

@@ -43,9 +43,7 @@ int main(int argc, char** argv) {
     constexpr int stopped_early = 3;
     if (test_app->parsed() && !test(tested, *test_app)) return stopped_early;
   } catch (std::exception const& problem) {
-    CLI::App const& command = *app.get_subcommands().front();
-    examples::ended_by(problem, "rve_lab", command);
-    return dynamic_cast<scarp::FolderError const*>(&problem) != nullptr ? 2 : 1;
+    return examples::ended_by(problem, "rve_lab", *app.get_subcommands().front());
   }
   return 0;
 }

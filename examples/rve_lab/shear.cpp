@@ -34,7 +34,7 @@ void print_row(Row const& row) {
 
 /// Sends a packing along the path. In the run's folder: path.csv row by row, the states at the start, at the largest q/p and at
 /// the end, end.packing (with end.sand) to continue from, summary.json last.
-/// \throws InputError when the packing cannot continue; the rows so far are then on disk
+/// \throws std::runtime_error when the packing cannot continue; the rows so far are then on disk
 template <class PackingType>
 void run_path(PackingType start, typename PackingType::Law const& law, Path const& choice, scarp::RunFolder& own,
               Sand const& sand) {
@@ -72,7 +72,7 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   for (long step = 1; step <= steps; ++step) {
     double const volume = lab.packing().volume();
     auto const verdict = lab.step();
-    if (!verdict.acceptable()) reject_verdict(verdict, path.strain(lab.deformation()), (folder / "path.csv").string());
+    if (!verdict.acceptable()) end_early(verdict, path.strain(lab.deformation()), (folder / "path.csv").string());
     recorder.look(lab, volume);
     travelled += sign;
     int const next = cyclic ? cycle.next_sign(static_cast<double>(travelled) * choice.strain_step, sign) : 1;

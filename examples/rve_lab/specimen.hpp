@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "../shared/print.hpp"
@@ -126,22 +127,23 @@ class Specimen {
   double pressure_ = 0.0;
 };
 
-/// \throws InputError always: the path came to an end at a strain
-[[noreturn]] inline void reject_verdict(scarp::Verdict const& verdict, double strain, std::string const& file) {
-  scarp::reject(
-      "the packing ended with {} ({}) beyond strain {:.6g}; the rows so far are in '{}': take smaller steps, or "
-      "check the stress to hold",
-      scarp::name(verdict.status), scarp::name(verdict.reason), strain, file);
+/// \throws std::runtime_error always: the path came to an end at a strain
+[[noreturn]] inline void end_early(scarp::Verdict const& verdict, double strain, std::string const& file) {
+  throw std::runtime_error(
+      fmt::format("the packing ended with {} ({}) beyond strain {:.6g}; the rows so far are in '{}': take smaller "
+                  "steps, or check the stress to hold",
+                  scarp::name(verdict.status), scarp::name(verdict.reason), strain, file));
 }
 
-/// \throws InputError for a specimen that has not got the stress which its path holds
+/// \throws std::runtime_error for a specimen that has not got the stress which its path holds
 template <class Lab>
 void require_held(Lab const& lab, PathKind const& path) {
   constexpr double most = 0.1;  // what steps of an ordinary size are off
   double const found = path.held(scarp::balance(lab.packing(), lab.law()).stress);
   if (std::abs(found - lab.pressure()) <= most * lab.pressure()) return;
-  scarp::reject("the path ended at {:.4g} Pa where {:.4g} Pa were to be held: take smaller steps, or another stress",
-                found, lab.pressure());
+  throw std::runtime_error(
+      fmt::format("the path ended at {:.4g} Pa where {:.4g} Pa were to be held: take smaller steps, or another stress",
+                  found, lab.pressure()));
 }
 
 }  // namespace rve_lab

@@ -79,7 +79,7 @@ def check_table(folder):
                         ("eyy,ev,exx\n1e-3,0,0\n", "4 conditions")):
         (folder / "wrong.csv").write_text(text)
         code, said = run(folder, "wrong", "--material", "elastic", "--path", "table", "--table", "wrong.csv")
-        expect(code == 1 and named in said, f"{text!r}: ended with {code}, {said}")
+        expect(code == 2 and named in said, f"{text!r}: ended with {code}, {said}")
 
 
 def check_packing(folder):
@@ -112,7 +112,7 @@ def check_ends(folder):
                              (["--path", "table"], "no table"), (["--consolidation-k0", "0.5"], "--consolidation-k0"),
                              (["--material", "elastic", "--amplitude", "0.1"], "--amplitude")):
         code, said = run(folder, "rejected", *arguments)
-        expect(code == 1 and named in said, f"{arguments}: ended with {code}, {said}")
+        expect(code == 2 and named in said, f"{arguments}: ended with {code}, {said}")
         expect(not (folder / "rejected" / "test.csv").exists(), f"{arguments}: wrote a table")
 
 

@@ -180,7 +180,7 @@ def check_material(folder):
     (folder / "made/packing.sand").rename(folder / "elsewhere.sand")
     before = contents(folder)
     code, said = run(shear, folder)
-    expect(code == 1 and "packing.sand" in said and "--friction" in said, f"no material: ended with {code}\n{said}")
+    expect(code == 2 and "packing.sand" in said and "--friction" in said, f"no material: ended with {code}\n{said}")
     expect(contents(folder) == before, "a packing without material leaves files")
     material = ["--shape", "disc", "--law", "linear", "--normal-stiffness", "6e6", "--tangential-stiffness", "6e6",
                 "--friction", "0.3"]

@@ -59,14 +59,14 @@ def check_calibration(folder):
     expect(abs(found - 0.72) < 0.003, f"void ratio {found} for 0.72")  # the bound of a target that is reached
     expect("triaxial" in (folder / "found/calibrated.sand").read_text(), "the calibrated sand does not name its test")
     code, said = run(folder, *command, "--path", "constant_mean_stress", "--target", "void-ratio=0.72", "--output", "none")
-    expect(code == 1 and "drained triaxial compression" in said, f"a path that spheres do not have: ended with {code}\n{said}")
+    expect(code == 2 and "drained triaxial compression" in said, f"a path that spheres do not have: ended with {code}\n{said}")
 
 
 def check_rejections(folder):
     for command, said in (("shear", "the grains are spheres"), ("prepare", "only sphere linear, sphere rolling, sphere rolling-hertz")):
         more = ["--law", "hertz"] if command == "prepare" else []
         code, answer = run(folder, command, *SPHERES, *more, "--output", "none")
-        expect(code == 1 and said in answer, f"{command}: ended with {code}\n{answer}")
+        expect(code == 2 and said in answer, f"{command}: ended with {code}\n{answer}")
 
 
 for check in (check_tests, check_calibration, check_rejections):
