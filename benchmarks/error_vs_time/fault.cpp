@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "../../examples/shared/study/typed_scenes.hpp"
+#include "../../examples/shared/study/sand_free_field.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
 #include "scarp/points/nonlocal.hpp"
@@ -65,7 +65,7 @@ SandFreeField const& prepared(FaultSettings const& settings, int seed) {
   choice.packings = 16;
   choice.mirrored_packings = true;
   choice.seed = static_cast<std::uint64_t>(seed);
-  return made.emplace(key, fault_rupture::make<SandFreeField>(choice)).first->second;
+  return made.emplace(key, fault_rupture::make_sand_free_field(choice)).first->second;
 }
 
 /// Settlement over throw at fixed places of the initial surface, between the sides, which are prescribed.

@@ -83,7 +83,7 @@ std::vector<int> equal_states(Points const& points) {
 
 void run(int packings, bool quick, scarp::CsvTable& table) {
   auto const choice = benchmarks::nonlocal_fault(packings, quick);
-  auto const study = fault_rupture::make<fault_rupture::SandFreeField>(choice);
+  auto const study = fault_rupture::make_sand_free_field(choice);
   auto scene = benchmarks::without_provider<Scene>(choice, study);
   scene.soil.provider = study.soil;
   scarp::ThreadExecutor executor;

@@ -109,7 +109,7 @@ void add_tallies(Tallies const& tallies, double all, Table& table) {
 void profile_scene(bool quick) {
   auto const choice = benchmarks::nonlocal_fault(quick ? 2 : 16, quick);
   scarp::CpuTime const preparing;
-  auto const study = fault_rupture::make<fault_rupture::SandFreeField>(choice);
+  auto const study = fault_rupture::make_sand_free_field(choice);
   double const preparation = preparing.seconds();
   auto scene = benchmarks::without_provider<Scene>(choice, study);
   auto& sand = scene.soil.provider;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "../../examples/shared/study/typed_scenes.hpp"
+#include "../../examples/shared/study/sand_free_field.hpp"
 
 namespace benchmarks {
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Figures of several runs that differ in their packings."""
 import json
+import pathlib
 
 import numpy as np
 import scarp_figures as figures
@@ -12,10 +13,12 @@ SHOWN = ("surface_x05", "surface_x50", "surface_x95")
 def ensemble(folder):
     """Settlement of every member at its end, their mean with one standard deviation, and where the rupture comes out."""
     table = figures.read_csv(folder / "surface_mean.csv", ["x_initial", "settlement", "scatter"])
-    measures = json.loads((folder / "ensemble.json").read_text())["measures"]
+    ensemble = json.loads((folder / "ensemble.json").read_text())
+    measures = ensemble["measures"]
     fig, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
-    for k, member in enumerate(sorted(folder.glob("seed_*/surface.csv"))):
-        own = figures.read_csv(member, ["throw_over_depth", "x_initial", "settlement"])
+    tables = [folder / member["folder"] / "surface.csv" for member in ensemble["members"]]
+    for k, table_of_member in enumerate(filter(pathlib.Path.is_file, tables)):
+        own = figures.read_csv(table_of_member, ["throw_over_depth", "x_initial", "settlement"])
         last = own["throw_over_depth"] == own["throw_over_depth"][-1]
         axes.plot(own["x_initial"][last], own["settlement"][last], color=GREY, linewidth=0.7, label=None if k else "members")
     mean, scatter = table["settlement"], np.nan_to_num(table["scatter"])

@@ -15,6 +15,7 @@
 #include "own_folders.hpp"
 #include "run_scene.hpp"
 #include "scarp/io/atomic_file.hpp"
+#include "scarp/io/read_file.hpp"
 
 namespace fault_rupture {
 
@@ -29,14 +30,19 @@ struct EnsembleRuns {
   /// \throws scarp::InputError for seeds that are no ensemble, and what a single run throws before it begins
   int run(Choice const& choice, std::vector<std::uint64_t> const& seeds) const {
     require_ensemble(choice, seeds);
-    // A member that resumes guards its own folder.
     scarp::RunFolder folder({.folder = output.folder,
-                             .overwrite = output.overwrite || choice.resume,
+                             .overwrite = output.overwrite || (choice.resume && is_same_ensemble()),
                              .results = {"ensemble.json", "summary.json"}},
                             examples::record_of("fault_rupture, ensemble", app));
     std::vector<std::unique_ptr<Member>> members;
     for (auto const seed : seeds) members.push_back(std::make_unique<Member>(*this, choice, seed));
+    scarp::require_memory(fmt::format("an ensemble of {} runs", seeds.size()),
+                          static_cast<double>(seeds.size()) * memory_of(choice, size_of_scene(choice), 1),
+                          "name fewer --seeds");
     folder.begin();
+    for (auto const* name :
+         {"ensemble.json", "ensemble.txt", "surface_mean.csv", "summary.json", "summary.txt", "convergence.csv"})
+      std::filesystem::remove(folder.path() / name);
     for (auto& member : members) member->prepare();
     scarp::ThreadExecutor threads(choice.threads);
     {
@@ -96,9 +102,28 @@ struct EnsembleRuns {
       scarp::reject("--seeds names {} twice (the same run counts once): give each seed once", *twice);
     if (choice.soil != Soil::dem)
       scarp::reject("--seeds was given for a soil without packings (all runs would be the same): use --soil dem");
+    if (!choice.sensitivity_file.empty())
+      scarp::reject("--seeds and --sensitivity-file were given (sensitivity runs belong to one run): leave one out");
     if (choice.sensitivity_runs)
       scarp::reject("--seeds and --sensitivity-runs were given (sensitivity runs belong to one run): leave one out");
     if (ranks() > 1) scarp::reject("--seeds was given on {} ranks (members run on one): leave the ranks out", ranks());
+  }
+
+  /// Whether the folder holds an ensemble of the same seeds: its members guard their own folders.
+  bool is_same_ensemble() const {
+    auto const file = std::filesystem::path(output.folder) / "run.json";
+    if (!std::filesystem::exists(file)) return false;
+    auto const seeds = [](scarp::RunRecord const& record) {
+      auto const found = std::ranges::find(record.options, "seeds", [](auto const& line) { return line.first; });
+      return found == record.options.end() ? std::string() : found->second;
+    };
+    try {
+      auto const before = scarp::RunRecord::from(scarp::read_file(file));
+      auto const own = examples::record_of("fault_rupture, ensemble", app);
+      return before.program == own.program && seeds(before) == seeds(own);
+    } catch (scarp::InputError const&) {
+      return false;
+    }
   }
 
   /// With the options that would run the member alone.

@@ -280,6 +280,30 @@ void choose_length_and_sizes(CLI::App& app, Choice& choice) {
   record("--strip-width", choice.strip_width);
 }
 
+/// Names options that were given and that nothing of the scene uses.
+void warn_of_unused(CLI::App const& app, Choice const& choice) {
+  using namespace fault_rupture;
+  auto const unused = [&](bool nothing_uses, char const* why, std::initializer_list<char const*> options) {
+    for (auto const* option : options) {
+      if (nothing_uses && app.count(option) > 0)
+        examples::print(stderr, "warning: {} has no effect ({}): leave it out\n", option, why);
+    }
+  };
+  unused(choice.scene == Case::free, "the free field has no footing: --case",
+         {"--footing", "--footing-centre", "--footing-width", "--bearing-pressure"});
+  unused(choice.scene == Case::free || choice.base == Base::tied, "no frictional footing stands on the ground",
+         {"--base-friction"});
+  unused(choice.soil == Soil::dem, "that of packings follows from their grains", {"--k0", "--young-modulus"});
+  unused(choice.soil != Soil::mohr_coulomb, "the ground is not of --soil mohr_coulomb",
+         {"--peak-friction-angle", "--peak-dilation-angle", "--residual-friction-angle", "--softening-strain"});
+  unused(
+      choice.soil != Soil::dem, "the ground has no packings",
+      {"--grains", "--packings", "--mirrored-packings", "--seed", "--preparation-friction", "--overconsolidation-ratio",
+       "--grain-aspect", "--grain-friction", "--strain-per-dem-step", "--min-dem-steps", "--unbalanced-tolerance"});
+  unused(choice.pattern != MeshPattern::jittered, "the mesh is not of --pattern jittered", {"--mesh-seed"});
+  unused(choice.checkpoint.empty(), "there is no --checkpoint", {"--checkpoint-every"});
+}
+
 double max_displacement_gradient(fault_rupture::AnyScene const& scene) {
   return std::visit([](auto const& chosen) { return chosen.stepping.max_displacement_gradient; }, scene);
 }
@@ -334,6 +358,7 @@ int main(int argc, char** argv) {
   try {
     read_sand(app, choice);
     choose_length_and_sizes(app, choice);
+    if (fault_rupture::rank() == 0) warn_of_unused(app, choice);
     if (choice.strip_width > 0.0) fault_rupture::run_pilot(choice);
     if (app.count("--estimate") > 0) {
       if (fault_rupture::rank() == 0) print_estimate(choice, seeds.size());

@@ -45,8 +45,8 @@ struct Start {
 /// An older, longer series would be mixed up with the new one, and an old summary would speak for it. A run that goes
 /// on keeps its series.
 inline void remove_older_results(std::filesystem::path const& folder, bool goes_on) {
-  std::filesystem::remove(folder / "summary.json");
-  std::filesystem::remove(folder / "summary.txt");
+  for (auto const* name : {"summary.json", "summary.txt", "ensemble.json", "ensemble.txt", "surface_mean.csv"})
+    std::filesystem::remove(folder / name);
   if (goes_on) return;
   for (auto const* name :
        {"fields.pvd", "footing.csv", "footing_base.csv", "packing_grains.csv", "packing_contacts.csv"})
@@ -224,7 +224,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       if (begun.sensitivity) text += sensitivity_lines(sensitivity);
       if (!report.verdict.acceptable()) {
         text = fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last rejected step: {}, point {})\n",
-                           report.load / depth, name(report.verdict.reason), name(report.last_failure),
+                           std::max(report.load, 0.0) / depth, name(report.verdict.reason), name(report.last_failure),
                            report.worst_point) +
                text;
       }

@@ -132,9 +132,8 @@ inline void add_strip(nlohmann::ordered_json& json, scarp::PilotSize const& stri
     auto const [left, right] = strip.edges(band.height);
     bool const has_strip = left < right;
     double const distance =
-        has_strip ? (right - left - band.band_width) / 2.0 - std::abs(band.band_x50 - (left + right) / 2.0)
-                  : -band.band_width;
-    margin = std::min(margin, distance);
+        has_strip ? std::min(band.band_x05 - left, right - band.band_x05 - band.band_width) : -band.band_width;
+    if (!(distance >= margin)) margin = distance;  // also where a level has no band
   }
   json["strip_margin"] = margin;
 }
@@ -165,7 +164,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
     json["grains_per_rve"] = choice.grains;
     json["seed"] = choice.seed;
   }
-  json["throw_over_depth"] = run.load / scene.ground.depth();
+  json["throw_over_depth"] = std::max(run.load, 0.0) / scene.ground.depth();
   json["k0"] = rest.k0;
   json["k0_min"] = rest.k0_min;
   json["k0_max"] = rest.k0_max;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -106,7 +107,6 @@ struct Sand {
   void prepare(int threads, Progress const& progress) {
     auto const& sand = options.sand;
     if (!options.file.empty()) {
-      read_sand_of_file();
       with_packing(examples::Built<Packing>{}, sand, [](auto, auto const&) {});
       packings = {scarp::load_packing<Packing>(options.file)};
       return;
@@ -137,21 +137,22 @@ struct Sand {
                                                              .unbalanced_tolerance = options.unbalanced_tolerance};
   }
 
- private:
-  /// The grains and the law of the packing's file, from the .sand beside it, but for keywords that are not the defaults.
-  /// \throws InputError
-  void read_sand_of_file() {
-    if (!std::filesystem::is_regular_file(examples::sand_path(options.file))) return;
-    auto const values = [](examples::Sand const& sand) {
-      std::map<std::string, std::string> texts;
-      examples::for_each_option(sand, [&](std::string const& name, auto const& value, examples::Range, char const*) {
-        texts[name] = fmt::format("{}", value);
-      });
-      return texts;
+  /// The grains and the law of a packing's file, from the .sand beside it, but for keywords that are given.
+  /// \throws InputError, also for keywords that only a preparation uses
+  void complete(std::set<std::string> const& given) {
+    if (options.file.empty()) return;
+    auto const is_given = [&](std::string name) {
+      std::ranges::replace(name, '-', '_');
+      return given.contains(name);
     };
-    auto const given = values(options.sand), usual = values({.shape = examples::name_in_sand<Shape>});
-    options.sand = examples::sand_of_packing(options.file, options.sand,
-                                             [&](std::string const& name) { return given.at(name) != usual.at(name); });
+    examples::for_each_option(options.sand, [&](char const* name, auto const&, examples::Range, char const*) {
+      if (is_given(name) &&
+          std::ranges::find(examples::grain_options, std::string_view(name)) == std::end(examples::grain_options))
+        scarp::reject("{} is given but not used (the packing of '{}' is there): leave it out", name, options.file);
+    });
+    if (options.packings != 1)
+      scarp::reject("packings is {} (the packing of '{}' is one): leave it out", options.packings, options.file);
+    options.sand = examples::sand_of_packing(options.file, options.sand, is_given, "");
   }
 };
 

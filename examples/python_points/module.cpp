@@ -124,7 +124,10 @@ Material<Dim> made(std::string const& kind, py::dict keywords) {
   int const threads = keywords.attr("pop")("threads", 1).template cast<int>();
   std::string const bits = with_material<Dim>(kind, [&]<class Recipe>(std::type_identity<Recipe>) {
     Recipe recipe;
+    std::set<std::string> given;
+    for (auto const& [name, value] : keywords) given.insert(name.template cast<std::string>());
     take_keywords(keywords, recipe);
+    if constexpr (requires { recipe.complete(given); }) recipe.complete(given);
     return bits_of(recipe);
   });
   py::gil_scoped_release const release;

@@ -191,6 +191,10 @@ def figures(run, known):
     return "\n".join(shown)
 
 
+def member_folders(run):
+    return [run.folder / member["folder"] for member in run.ensemble.get("members", [])]
+
+
 def ensemble(run):
     """Mean and scatter of the measures, and who took part."""
     measures = run.ensemble.get("measures")
@@ -198,8 +202,8 @@ def ensemble(run):
         return ""
     rows = [("", (name, *(said(one.get(key), ".4g") for key in ("mean", "scatter")), one.get("count", "")))
             for name, one in measures.items() if isinstance(one, dict)]
-    links = [element("a", text(path.parent.name), href=f"{path.parent.name}/report.html")
-             for path in sorted(run.folder.glob("seed_*/report.html"))]
+    links = [element("a", text(member.name), href=f"{member.name}/report.html")
+             for member in member_folders(run) if (member / "report.html").is_file()]
     return table(("measure", "mean", "scatter", "runs"), rows, (1, 2, 3)) + \
         (element("p", "Pages of the members: " + ", ".join(links)) if links else "")
 
@@ -266,7 +270,7 @@ def main(words):
         print(f"no page: '{run.folder}' holds no run.json (no run of an example has begun there): give another folder",
               file=sys.stderr)
         sys.exit(1)
-    members = [Run(path.parent) for path in sorted(run.folder.glob("seed_*/run.json"))] if run.ensemble else []
+    members = [Run(folder) for folder in member_folders(run) if (folder / "run.json").is_file()]
     try:
         for one in [*members, run]:
             print(write(one, words))

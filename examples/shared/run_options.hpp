@@ -54,7 +54,7 @@ CLI::Option* add_named(CLI::App& app, std::string const& option, Member& member,
 /// What an option was given or takes by itself.
 inline std::string value_of(CLI::Option const& option) {
   bool const is_flag = option.get_items_expected_max() == 0;
-  if (is_flag) return option.count() > 0 ? "true" : "false";
+  if (is_flag) return option.count() > 0 && option.as<bool>() ? "true" : "false";
   return option.count() > 0 ? CLI::detail::join(option.results(), ",") : option.get_default_str();
 }
 

@@ -82,3 +82,12 @@ TEST_CASE("a rigid footing has a base from left to right, an arm and a thickness
   for (double const arm : {0.0, -1.0, not_a_number}) CHECK_REFUSED(scarp::RigidBody({0.0, 0.0}, arm), "arm is");
   CHECK(footing({-1.0, 0.0}, {1.0, 0.0}).length() == 2.0);
 }
+
+TEST_CASE("a footing of the mesh has a thickness and no upright facets") {
+  std::vector<scarp::Vector<2>> const nodes{{0.0, 1.0}, {1.0, 1.0}, {1.0, 0.5}};
+  scarp::FacetChain const level({{0, 1}});
+  CHECK_REFUSED(scarp::MeshedFooting(level, {}, nodes, -1.0), "thickness is -1");
+  CHECK(scarp::MeshedFooting(level, {}, nodes, 2.0).thickness() == 2.0);
+  CHECK_REFUSED(scarp::MeshedFooting(scarp::FacetChain({{0, 1}, {1, 2}}), {}, nodes, 1.0),
+                "upright facet at (1 m, 1 m)");
+}

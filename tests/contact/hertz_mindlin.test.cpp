@@ -8,6 +8,7 @@
 #include "scarp/contact/hertz_mindlin.hpp"
 
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -70,6 +71,15 @@ TEST_CASE("materials are reduced as Hertz and Mindlin have it") {
   auto const on_rigid = HertzMindlin<>::between(48e9, 0.2, 1e40, 0.2, 0.35);
   CHECK(on_rigid.reduced_modulus == samples::Approx(50e9).epsilon(1e-15));
   CHECK(on_rigid.reduced_shear_modulus == samples::Approx(48e9 / 4.32).epsilon(1e-15));
+  CHECK_REFUSED(HertzMindlin<>::of(48e9, 0.7, 0.35), "Poisson's ratio of a grain is 0.7");
+  CHECK_REFUSED(HertzMindlin<>::between(1e7, 0.3, -1e9, 0.3, 0.5), "Young's modulus of a grain is -1");
+}
+
+TEST_CASE("a restitution that was changed without its damping ratio is refused") {
+  HertzRestitution damping{.restitution = 0.5};
+  CHECK(samples::message_of([&] { damping.validate(); }) == "");
+  damping.restitution = 0.3;
+  CHECK_REFUSED(damping.validate(), "restitution 0.3", "do not fit");
 }
 
 TEST_CASE("the damping ratio agrees with Thornton's fit where that is good") {

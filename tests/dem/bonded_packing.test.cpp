@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/loading.hpp"
 #include "support/packings.hpp"
@@ -71,11 +72,20 @@ TEST_CASE("grains that are bonded in balance stay in balance, with the stress th
 
 TEST_CASE("a gap that is bonded adds bonds") {
   auto const& grains = samples::consolidated<samples::Discs>(80).packing;
-  auto const touching = scarp::bonded(grains, samples::study_law(), cement(1.0));
-  auto const wide = scarp::bonded(grains, samples::study_law(), cement(1.0), 5e-4);
+  auto const touching = scarp::bonded(grains, samples::study_law(), cement(10.0));
+  auto const wide = scarp::bonded(grains, samples::study_law(), cement(10.0), 5e-4);
   REQUIRE(wide.verdict.acceptable());
   CHECK(wide.bonds > touching.bonds + 10);
   CHECK_REFUSED(scarp::bonded(grains, samples::study_law(), cement(1.0), -1.0), "gap", "is -1");
+  CHECK_REFUSED(scarp::bonded(grains, samples::study_law(), cement(1.0), 5e-4), "break beyond", "smaller gap");
+  CHECK_REFUSED(scarp::bonded(samples::Discs{}, samples::study_law(), cement(1.0)), "no population");
+}
+
+TEST_CASE("bonds that resist rolling bond the same contacts") {
+  auto const& grains = samples::consolidated<samples::Discs>(80).packing;
+  scarp::RollingResistance<Bond> const rolling{cement(1.0), 10.0, 0.1};
+  CHECK(scarp::bonded(grains, samples::study_law(), rolling).bonds ==
+        scarp::bonded(grains, samples::study_law(), cement(1.0)).bonds);
 }
 
 TEST_CASE("grains that meet without any overlap are bonded where gaps are, else not") {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/bonded_packing.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
@@ -112,6 +113,14 @@ TEST_CASE("a law that is exchanged for one without sense is refused, too") {
   auto law = samples::study_law();
   law.normal_stiffness = -6e6;
   CHECK_REFUSED(stepper.refresh(packing, law), "normal stiffness of the contact law is -6000000");
+  // What the list does not depend on, too.
+  using Rolling = scarp::Packing<scarp::Disc, scarp::RollingResistance<scarp::LinearFrictional>>;
+  Rolling::Law rolling{samples::study_law(), 10.0, 0.1};
+  auto pair = samples::place<Rolling>(scarp::Tensor<2>::Identity(), {{0.125}, {0.125}}, {{0.25, 0.5}, {0.5, 0.5}});
+  scarp::TimeStepper<Rolling> roller;
+  REQUIRE(roller.refresh(pair, rolling).acceptable());
+  rolling.rolling_friction = -0.1;
+  CHECK_REFUSED(roller.refresh(pair, rolling), "rolling friction of the contact law is -0.1");
 }
 
 TEST_CASE("parameters of a servo and of its loading are refused") {

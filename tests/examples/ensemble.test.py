@@ -53,6 +53,9 @@ with tempfile.TemporaryDirectory() as scratch:
     again = run(scratch, "--seeds", "1,3,2", "--output", "all")
     expect(again.returncode == 2 and "all" in again.stderr, "it keeps an ensemble that is there")
 
+    other = run(scratch, "--seeds", "1,2", "--output", "all", "--checkpoint", "elsewhere", "--resume")
+    expect(other.returncode == 2 and "all" in other.stderr, f"also from one of other seeds that resumes: {other.stderr[-300:]}")
+
     stopped = run(scratch, "--seeds", "1,2", "--output", "parts", "--checkpoint", "states", "--time-limit", "0.01")
     expect(stopped.returncode == 130 and "INCOMPLETE: seed 1" in stopped.stdout, f"stopped members are named: {stopped.stdout[:300]}")
     resumed = run(scratch, "--seeds", "1,2", "--output", "parts", "--checkpoint", "states", "--resume")
@@ -62,8 +65,12 @@ with tempfile.TemporaryDirectory() as scratch:
     for options, named in ((("--seeds", "1"), "--seed 1"), (("--seeds", "1,1"), "twice"), (("--seeds", "1,"), "--seeds"),
                            (("--seeds", "1,x"), "--seeds"), (("--seeds", "1,2", "--seed", "3"), "--seed"),
                            (("--seeds", "1,2", "--soil", "elastic"), "without packings"),
+                           (("--seeds", "1,2", "--sensitivity-file", "known.json"), "--sensitivity-file"),
                            (("--seeds", "1,2", "--sensitivity-runs"), "--sensitivity-runs")):
         refused = run(scratch, *options, "--output", "refused")
         expect(refused.returncode not in (0, 77) and named in refused.stderr and not (scratch / "refused").exists(),
                f"{options} is refused: {refused.stderr[-300:]}")
+
+    single = run(scratch, "--seed", "2", "--output", "all", "--overwrite")
+    expect(single.returncode == 0 and not (scratch / "all" / "ensemble.json").exists(), "a single run leaves no older ensemble")
 finish()

@@ -117,10 +117,14 @@ else:
         subprocess.run([lab, "prepare", "--shape", "ellipse", "--grains", "60", "--friction", "0.3", "--output", "made"], cwd=scratch,
                        check=True, capture_output=True, timeout=100)
         file = str(pathlib.Path(scratch) / "made/packing.packing")
-        beside, given, other = (scarp.MaterialPoints(scarp.ellipses(file=file, **more), np.zeros((1, 2))).respond(gradients(1, -5e-3))[0]
-                                for more in ({}, {"friction": 0.3}, {"friction": 0.5}))
+        beside, given, other, usual = (scarp.MaterialPoints(scarp.ellipses(file=file, **more), np.zeros((1, 2))).respond(gradients(1, -5e-3))[0]
+                                for more in ({}, {"friction": 0.3}, {"friction": 0.5}, {"friction": 0.55}))
+        for more in ({"grains": 100}, {"packings": 2}):
+            refused(ValueError, next(iter(more)), lambda: scarp.ellipses(file=file, **more))
+        (pathlib.Path(scratch) / "made/packing.sand").unlink()
+        refused(ValueError, "is not known", lambda: scarp.ellipses(file=file))
     expect(np.array_equal(beside, given), f"the sand beside the file gives {beside}, its friction as keyword {given}")
-    expect(not np.array_equal(beside, other), f"another friction gives {other} too")
+    expect(not np.array_equal(beside, other) and not np.array_equal(beside, usual), f"other frictions give {other}, {usual}")
 
 # Spheres in space; springs softer than the plane's, for contacts have no thickness.
 state = scarp.MaterialPoints(scarp.spheres(grains=60, normal_stiffness=3e5, tangential_stiffness=3e5), np.zeros((1, 3))).quantities(0)

@@ -80,8 +80,10 @@ TEST_CASE("a rigid footing with friction stands through a rupture: no tension, i
 
 TEST_CASE("a tied footing stands through a rupture with its weight carried to 1e-8") {
   auto const outcome = run(scene(scarp::TiedFooting{}, 1e3));
-  for (auto const& motion : {outcome.placed, outcome.ruptured})
+  for (auto const& motion : {outcome.placed, outcome.ruptured}) {
     CHECK(scarp::support(motion) == samples::Approx(weight).epsilon(1e-8));
+    for (auto const& point : motion.base) CHECK(point.shear == -point.stress.x());  // to the left on a level base
+  }
   CHECK(outcome.ruptured.tilt > outcome.placed.tilt + noticeable);
 }
 

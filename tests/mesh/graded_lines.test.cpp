@@ -3,7 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 TEST_CASE("an even spacing gives even lines") {
   auto const lines = scarp::graded_lines(scarp::Spacing({{0.0, 0.5}, {2.0, 0.5}}), {0.0, 2.0});
@@ -45,4 +48,16 @@ TEST_CASE("every fixed line is met exactly, however short the way to the next") 
 
 TEST_CASE("a least number of cells is kept") {
   CHECK(scarp::graded_lines(scarp::Spacing({{0.0, 5.0}, {1.0, 5.0}}), {0.0, 1.0}, 2).size() == 3);
+}
+
+TEST_CASE("spacings and lines that cannot be are refused") {
+  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  CHECK_REFUSED(scarp::Spacing({{0.0, 5.0}}), "has 1 knots");
+  CHECK_REFUSED(scarp::Spacing({{0.0, 5.0}, {0.0, 5.0}}), "positions must increase");
+  CHECK_REFUSED(scarp::Spacing({{0.0, 5.0}, {1.0, 0.0}}), "size at a knot of a spacing is 0");
+  CHECK_REFUSED(scarp::Spacing({{not_a_number, 5.0}, {1.0, 5.0}}), "position of a knot");
+  scarp::Spacing const spacing({{0.0, 0.1}, {1.0, 1.0}});
+  CHECK_REFUSED(scarp::graded_lines(spacing, {}), "0 positions");
+  CHECK_REFUSED(scarp::graded_lines(spacing, {0.0, 0.0}), "positions must increase");
+  CHECK_REFUSED(scarp::graded_lines(spacing, {-0.2, 1.0}), "within the knots");  // the size falls to zero at -0.11
 }

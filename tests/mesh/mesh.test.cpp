@@ -5,7 +5,10 @@
 
 #include <limits>
 
+#include "scarp/element/hex8.hpp"
+#include "scarp/element/quad8.hpp"
 #include "scarp/element/tri3.hpp"
+#include "scarp/mesh/box_mesh.hpp"
 #include "support/refusals.hpp"
 
 namespace {
@@ -89,6 +92,21 @@ TEST_CASE("a boundary facet that is no element's side is refused") {
   auto mesh = square();
   mesh.boundaries["bottom"] = {{1, 3}};
   CHECK(complaint(mesh) == Naming{"boundary 'bottom' holds the facet (1, 3)"});
+}
+
+TEST_CASE("a boundary facet whose nodes are in another order than its element's is refused") {
+  auto quadratic = scarp::BoxMesh<scarp::Quad8>{}.generate();
+  auto& [first, second, middle] = quadratic.boundaries.begin()->second[0];
+  std::swap(first, second);
+  CHECK(samples::message_of([&] { scarp::validate(quadratic); }) == "");  // the other way round
+  std::swap(second, middle);
+  CHECK(samples::message_of([&] { scarp::validate(quadratic); }) == Naming{"in the order"});
+  auto solid = scarp::BoxMesh<scarp::Hex8>{}.generate();
+  auto& side = solid.boundaries.begin()->second[0];
+  std::rotate(side.begin(), side.begin() + 1, side.end());
+  CHECK(samples::message_of([&] { scarp::validate(solid); }) == "");  // from another corner
+  std::swap(side[0], side[1]);
+  CHECK(samples::message_of([&] { scarp::validate(solid); }) == Naming{"in the order"});
 }
 
 TEST_CASE("boundary nodes come sorted and once each") {

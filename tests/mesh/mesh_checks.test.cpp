@@ -120,6 +120,15 @@ TEST_CASE("the hanging node and the element are the right ones") {
       scarp::InputError);
 }
 
+TEST_CASE("a corner that hangs in a side up to round-off is found at any place") {
+  auto mesh = box<scarp::Quad4>(1, 0.0);
+  scarp::join(mesh, box<scarp::Quad4>(2, 1.0));
+  scarp::Vector<2> const middle(1.0, 0.5);
+  for (auto& node : mesh.nodes)
+    node = (node == middle ? scarp::Vector<2>(-5.5e-17, 0.0) : scarp::Vector<2>(node - middle));
+  CHECK_THROWS_WITH_AS(scarp::require_no_hanging_nodes(mesh), doctest::Contains("hangs"), scarp::InputError);
+}
+
 TEST_CASE("a corner in the middle of a face or of an edge in space hangs") {
   // Two tetrahedra on the ring of a square below, and one element whose face or edge holds their common corner.
   using Place = scarp::Vector<3>;

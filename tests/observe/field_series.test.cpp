@@ -110,6 +110,20 @@ TEST_CASE_TEMPLATE("an own quantity with the name of a field is refused before a
   CHECK_FALSE(std::filesystem::exists(folder / "fields/step_0000.vtu"));
 }
 
+TEST_CASE("a series takes the states at its loads although these are sums of steps, beyond its end too") {
+  scarp::LoadSchedule schedule{1.0, 10};
+  for (int step = 0; step <= 40; ++step) CHECK(schedule.takes(0.05 * step) == (step % 2 == 0));  // 0.30000000000000004
+  scarp::LoadSchedule sums{1.0, 50};
+  double load = 0.0;
+  for (int step = 0; step <= 50; ++step, load += 0.02) CHECK(sums.takes(load));
+  scarp::LoadSchedule coarse{1.0, 2};
+  CHECK(coarse.takes(0.0));
+  CHECK(coarse.takes(0.7));
+  CHECK_FALSE(coarse.takes(0.9));
+  CHECK(coarse.takes(1.2));  // the end is behind it
+  CHECK_FALSE(coarse.takes(1.3));
+}
+
 TEST_CASE("a series' end, number of frames and unit that cannot be are refused") {
   samples::ScratchFolder const folder;
   auto const series = [&](double to, int frames, double unit) {

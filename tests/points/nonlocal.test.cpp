@@ -94,6 +94,10 @@ TEST_CASE("means keep what is even, stay within a region, and are none for a poi
   CHECK(mean.of(3)[0].weight == 1.0);
   lengths[5] = -1.0;
   CHECK_REFUSED(scarp::neighbour_mean<2>(where, volumes(grid), lengths), "length", "is -1");
+  lengths[5] = 0.6;
+  auto negative = volumes(grid);
+  negative[2] = -0.5;
+  CHECK_REFUSED(scarp::neighbour_mean<2>(where, negative, lengths), "volume of a point is -0.5");
 }
 
 TEST_CASE("a length of zero, or one that reaches no neighbour, gives the local answer bit for bit") {

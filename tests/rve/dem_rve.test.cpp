@@ -5,6 +5,8 @@
 
 #include "scarp/constitutive/correlated_field.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
+#include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/dem/bonded_packing.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/points/material_points.hpp"
@@ -336,4 +338,25 @@ TEST_CASE("a packing tells its quantities, its picture and its balance, a loose 
   loose.pressure_floor = -2.0 * state.stress.head<2>().sum();  // four times the pressure
   CHECK(loose.balance(state).unbalanced_ratio == samples::Approx(0.25 * state.unbalanced_ratio));
   CHECK(loose.balance(state).kinetic_share == samples::Approx(0.25 * state.kinetic_share));
+}
+
+TEST_CASE("bonded grains are pulled into tension, and their balance counts there") {
+  using Bond = scarp::CohesiveBond<scarp::LinearFrictional>;
+  Bond const law{.law = samples::study_law(), .tensile_strength = 1e4, .shear_strength = 1e4};
+  auto const made = scarp::bonded(samples::consolidated<samples::Discs>(80).packing, samples::study_law(), law);
+  using Bonded = scarp::Packing<scarp::Disc, Bond>;
+  scarp::DemRve<Bonded, scarp::SamePacking<Bonded>> const provider{.law = law, .source = {made.packing}};
+  auto state = provider.initial_state({});
+  Gradient<2> const step = 5e-4 * Tensor<2>::Identity();
+  for (int k = 0; k < 20; ++k) {
+    auto trial = state;
+    REQUIRE(provider.respond(state, step, trial).verdict.acceptable());
+    state = trial;
+  }
+  CHECK(state.stress.head<2>().minCoeff() > 0.1 * samples::pressure);
+  auto const balance = provider.balance(state);
+  CHECK(balance.unbalanced_ratio > 0.0);
+  CHECK(balance.unbalanced_ratio <= provider.unbalanced_tolerance);
+  CHECK(balance.kinetic_share >= 0.0);
+  CHECK(balance.kinetic_share < 0.01);
 }

@@ -68,6 +68,23 @@ double value_of(std::vector<scarp::PartResidual> const& parts, std::string const
 
 }  // namespace
 
+TEST_CASE("a block whose loads balance each other to round-off has no residual of its own") {
+  scarp::SerialExecutor serial;
+  auto const problem = ground_with_block(samples::elastic_soil(), serial);
+  auto const& mesh = problem.discretisation().mesh();
+  scarp::detail::RegionResiduals<2> const parts(mesh, problem.constraints());
+  REQUIRE(!parts.empty());
+  Eigen::VectorXd loads = Eigen::VectorXd::Zero(problem.dof_count());
+  std::vector<int> top;
+  for (int node = 0; node < scarp::detail::count(mesh.nodes); ++node)
+    if (mesh.nodes[scarp::detail::index(node)].y() == 5.0) top.push_back(node);
+  REQUIRE(top.size() >= 3);
+  loads(2 * top[0]) = 0.1;
+  loads(2 * top[1]) = 0.2;
+  loads(2 * top[2]) = -0.3;  // 0.1 + 0.2 - 0.3 is not zero
+  CHECK(parts.largest(1e-3 * Eigen::VectorXd::Ones(problem.dof_count()), loads) == 0.0);
+}
+
 TEST_CASE("nine hundredths of a light block that nothing carries are no equilibrium, however heavy the ground") {
   scarp::SerialExecutor serial;
   auto problem = ground_with_block(samples::elastic_soil(), serial);

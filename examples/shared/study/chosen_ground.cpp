@@ -70,6 +70,8 @@ ChosenGround<E> ground_of(Choice const& choice) {
   }
   auto const pattern = choice.pattern.value_or(is_triangle ? MeshPattern::crossed : MeshPattern::quads);
   scarp::FaultMesh layer{.tip = choice.tip, .size = choice.size, .row_aspect = choice.aspect};
+  layer.band_left += choice.tip;
+  layer.band_right += choice.tip;
   switch (pattern) {
     case MeshPattern::left: layer.pattern = scarp::Pattern::left; break;
     case MeshPattern::right: layer.pattern = scarp::Pattern::right; break;

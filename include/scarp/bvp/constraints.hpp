@@ -16,7 +16,7 @@
 namespace scarp {
 
 /// Prescribed displacements of nodes: displacement [m] = rate * load factor, in the unit that the load factor has, or rate *
-/// amplitude(load factor). Degree of freedom = dim * node + axis; those of attached bodies follow.
+/// (amplitude(load factor) - amplitude(0)). Degree of freedom = dim * node + axis; those of attached bodies follow.
 class Constraints {
  public:
   /// extra_dofs: degrees of freedom that follow those of the nodes
@@ -35,7 +35,7 @@ class Constraints {
     }
   }
 
-  /// Moves a node along an axis of space by rate [m] times `amplitude` at the load factor.
+  /// Moves a node along an axis of space by rate [m] times the growth of `amplitude` since the load factor 0.
   /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different motion
   void move(int node, int axis, double rate, TimeFunction amplitude = {}) {
     if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
@@ -62,7 +62,7 @@ class Constraints {
   /// Prescribed degrees of freedom in increasing order.
   std::vector<int> const& prescribed_dofs() const { return dofs_; }
 
-  /// Displacement per load factor of each of prescribed_dofs().
+  /// Displacement per unit of its amplitude of each of prescribed_dofs().
   std::vector<double> const& rates() const { return rates_; }
 
   /// Whether a degree of freedom's motion is prescribed, also by zero.

@@ -50,8 +50,14 @@ class Interface {
   using Memory = ContactMemory<2, double>;  ///< shear [Pa] and further numbers of the law at one point
 
   /// nodes [m]: committed places. Laws with bonds begin intact at every point.
+  /// \throws InputError for a body whose degrees of freedom do not follow those of the nodes
   Interface(Law law, Body body, FacetChain ground, std::vector<Vector<2>> const& nodes)
       : law_(std::move(law)), body_(std::move(body)), ground_(std::move(ground)) {
+    if constexpr (requires { body_.first_dof(); }) {
+      if (body_.first_dof() != 2 * detail::count(nodes))
+        reject("the body's degrees of freedom begin at {} (those of {} nodes end before {}): give that as dofs_before",
+               body_.first_dof(), nodes.size(), 2 * nodes.size());
+    }
     committed_.resize(body_.point_count());
     for (std::size_t k = 0; k < committed_.size(); ++k) {
       committed_[k].foot = ground_.nearest(body_.place(k, nodes), nodes);
@@ -63,6 +69,9 @@ class Interface {
   Law const& law() const { return law_; }     ///< stresses [Pa] of relative displacements [m]
   Body const& body() const { return body_; }  ///< the body that stands on the ground, in its committed place
   int extra_dofs() const { return body_.extra_dofs(); }
+  /// Out of the plane, where the body has one [m].
+  double thickness() const requires requires(Body const& body) { body.thickness(); }
+  { return body_.thickness(); }
   /// Of the body, where it has one [m].
   double length() const requires requires(Body const& body) { body.length(); }
   { return body_.length(); }

@@ -46,8 +46,8 @@ class RigidFooting {
       : body_(std::move(body)),
         first_(dofs_before),
         base_((right - left).normalized()),
-        length_((right - left).norm()) {
-    require_positive("thickness", thickness);
+        length_((right - left).norm()),
+        thickness_(require_positive("thickness", thickness)) {
     if (!(left.allFinite() && right.allFinite() && left.x() < right.x())) {
       reject(
           "the base of a footing goes from ({} m, {} m) to ({} m, {} m) (it must go from left to right): give its ends "
@@ -62,8 +62,9 @@ class RigidFooting {
 
   RigidBody const& body() const { return body_; }  ///< committed place and rotation
 
-  /// Width of the base [m].
-  double length() const { return length_; }
+  double length() const { return length_; }        ///< width of the base [m]
+  double thickness() const { return thickness_; }  ///< out of the plane [m]
+  int first_dof() const { return first_; }         ///< first degree of freedom of the body
   static int extra_dofs() { return RigidBody::extra_dofs; }
   std::size_t point_count() const { return own_.size(); }
   double area(std::size_t k) const { return area_[k]; }
@@ -80,13 +81,14 @@ class RigidFooting {
   }
   void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const& increment) { body_.commit(increment, first_); }
 
-  SCARP_MEMBERS_EXCEPT((first_, base_, length_, own_, area_), body_)
+  SCARP_MEMBERS_EXCEPT((first_, base_, length_, thickness_, own_, area_), body_)
 
  private:
   RigidBody body_;
   int first_;
   Vector<2> base_;
   double length_;
+  double thickness_;
   std::vector<Vector<2>> own_;
   std::vector<double> area_;
 };
@@ -95,13 +97,18 @@ class RigidFooting {
 class MeshedFooting {
  public:
   /// base: facets of the standing body with the body on their left; breaks [m]: places of the ground's nodes along x
-  /// \throws InputError for an empty base
+  /// \throws InputError for an empty base, an upright facet of it, or a thickness that is not positive
   MeshedFooting(FacetChain base, std::vector<double> const& breaks, std::vector<Vector<2>> const& nodes,
                 double thickness)
-      : base_(std::move(base)) {
+      : base_(std::move(base)), thickness_(require_positive("thickness", thickness)) {
     for (int f = 0; f < detail::count(base_.facets()); ++f) {
       Vector<2> const from = base_.place({f, 0.0}, nodes);
       Vector<2> const to = base_.place({f, 1.0}, nodes);
+      if (std::abs(to.x() - from.x()) <= 1e-9 * (to - from).norm())
+        reject(
+            "the base of a footing has an upright facet at ({} m, {} m) (the ground below it is looked for): leave it "
+            "out",
+            from.x(), from.y());
       bool const rightward = to.x() > from.x();
       for (auto const& point : base_points(std::min(from.x(), to.x()), std::max(from.x(), to.x()), breaks)) {
         at_.push_back({f, rightward ? point.along : 1.0 - point.along});
@@ -110,6 +117,7 @@ class MeshedFooting {
     }
   }
 
+  double thickness() const { return thickness_; }  ///< out of the plane [m]
   static int extra_dofs() { return 0; }
   std::size_t point_count() const { return at_.size(); }
   double area(std::size_t k) const { return area_[k]; }
@@ -135,10 +143,11 @@ class MeshedFooting {
   static void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const&) {}
 
   /// Nothing: it moves with the mesh.
-  SCARP_MEMBERS_EXCEPT((base_, at_, area_))
+  SCARP_MEMBERS_EXCEPT((base_, thickness_, at_, area_))
 
  private:
   FacetChain base_;
+  double thickness_;
   std::vector<FacetChain::ClosestPoint> at_;
   std::vector<double> area_;
 };

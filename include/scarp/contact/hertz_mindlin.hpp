@@ -68,7 +68,9 @@ struct HertzRestitution {
   void validate() const {
     require_between("restitution of the contact law", require_positive("restitution of the contact law", restitution),
                     0.0, 1.0);
-    require_not_negative("damping ratio of the contact law", damping_ratio);
+    if (double const wanted = damping_ratio_for(restitution); !(std::abs(damping_ratio - wanted) <= 1e-9))
+      reject("the damping ratio is {} and the restitution {} (they do not fit, it would be {}): make the damping anew",
+             damping_ratio, restitution, wanted);
   }
 
   template <int Dim, class T>
@@ -127,8 +129,12 @@ struct HertzMindlin {
   }
 
   /// Spheres of two materials: Young's moduli [Pa], Poisson's ratios.
+  /// \throws InputError for a modulus or a ratio that no material has
   static HertzMindlin between(double modulus_1, double poisson_1, double modulus_2, double poisson_2, double friction,
                               Damping damping = {}) {
+    for (double const modulus : {modulus_1, modulus_2}) require_positive("Young's modulus of a grain", modulus);
+    for (double const poisson : {poisson_1, poisson_2})
+      require_between("Poisson's ratio of a grain", poisson, -1.0, 0.5);
     auto const compliance = [](double modulus, double poisson) { return (1.0 - poisson * poisson) / modulus; };
     auto const shear_compliance = [](double modulus, double poisson) {
       return (2.0 - poisson) * 2.0 * (1.0 + poisson) / modulus;  // G = E / 2(1 + nu)

@@ -33,6 +33,12 @@ struct RollingResistance {
     require_not_negative("rolling friction of the contact law", rolling_friction);
   }
 
+  /// Bonds a contact under the law of the forces.
+  template <int Dim, class T>
+  static void bond(ContactMemory<Dim, T>& memory) requires Bonds<Law> {
+    Law::bond(memory);
+  }
+
   template <int Dim, class T>
   ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
     using std::abs;

@@ -22,15 +22,20 @@ struct BondedPacking {
 
 /// The same grains under a law with bonds: every contact that touches is bonded, and every gap up to `gap` [m] too. Grains
 /// are at rest, contacts retain their shear forces and moments, so that a packing in balance stays so where
-/// both laws have equal springs.
-/// \throws InputError for a gap that is negative or not finite, and for a law that `require_consistent` rejects
+/// both laws have equal springs and no gap is bonded: a bond across a gap pulls.
+/// \throws InputError for a gap that is negative or beyond the law's range, where it breaks at once, for a packing without
+/// grains, and for a law that `require_consistent` rejects
 template <Bonds Law, class PackingType>
 BondedPacking<Packing<typename PackingType::Shape, Law, typename PackingType::Scalar>> bonded(
     PackingType grains, typename PackingType::Law const& former, Law const& law, double gap = 0.0) {
+  require_population(grains);
   require_not_negative("gap that is bonded", gap);
   require_consistent(law, grains.population->largest_radius());
+  if (gap > interaction_range_of(law))
+    reject("gaps up to {} m are to be bonded (these bonds break beyond {} m): give a smaller gap", gap,
+           interaction_range_of(law));
   BondedPacking<Packing<typename PackingType::Shape, Law, typename PackingType::Scalar>> made;
-  if (gap > grains.pairs.skin) grains.pairs.drift = std::numeric_limits<double>::infinity();
+  if (gap > grains.pairs.skin - grains.pairs.drift) grains.pairs.drift = std::numeric_limits<double>::infinity();
   TimeStepper<PackingType> stepper;
   stepper.skin_ratio = std::max(stepper.skin_ratio, gap / grains.population->largest_radius());
   made.verdict = stepper.stop(grains, former);

@@ -61,7 +61,7 @@ double depth_of_contacts(PackingType const& packing) {
 /// A law's springs at an overlap of a thousandth of the radius; which one matters only where the stiffness depends on it.
 template <class PackingType>
 ContactStiffness slight_springs(PackingType const& packing, typename PackingType::Law const& law) {
-  if (!packing.population) reject("a packing without grains was to be moved (it has no population): make or load one");
+  require_population(packing);
   double const radius = packing.population->largest_radius();
   return law.stiffness(1e-3 * radius, radius / 2.0);
 }

@@ -189,6 +189,12 @@ struct Packing {
   friend bool operator==(Packing const&, Packing const&) = default;
 };
 
+/// \throws InputError for a packing without grains
+template <class PackingType>
+void require_population(PackingType const& packing) {
+  if (!packing.population) reject("a packing without grains was to be moved (it has no population): make or load one");
+}
+
 /// What a list with this skin [m] follows from: the springs, summed over species, of smallest and of largest grains at the skin, which is how deep
 /// a near pair may get at least, and at twice the skin.
 template <class PackingType>

@@ -45,6 +45,7 @@ struct IsotropicPreparation {
   Prepared<PackingType> prepare(PackingType cloud, typename PackingType::Law law, Damping const& damping = {},
                                 Boundary const& boundary = {}) const {
     validate();
+    require_population(cloud);
     require_consistent(law, cloud.population->largest_radius());
     constexpr int dim = PackingType::dim;
     VoigtStress<dim> target = VoigtStress<dim>::Zero();

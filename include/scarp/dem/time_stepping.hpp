@@ -132,6 +132,7 @@ class TimeStepper {
     Law own = law;
     for_each_friction(own, [&](double friction) { is_sound = is_sound && std::isfinite(friction) && friction >= 0.0; });
     if (!is_sound) return {Status::failed, Reason::not_finite};
+    detail::validated(law);
     // The first is false also when the drift is no number.
     if (packing.pairs.drift <= packing.pairs.skin &&
         packing.pairs.basis.agrees_with(list_basis(packing, law, packing.pairs.skin)))
@@ -140,8 +141,7 @@ class TimeStepper {
   }
 
   [[gnu::noinline, gnu::cold]] Verdict renew(PackingType& packing, Law const& law) const {
-    if (!packing.population)
-      reject("a packing without grains was to be moved (it has no population): make or load one");
+    require_population(packing);
     double const skin = skin_ratio * packing.population->largest_radius();
     if (!packing.pairs.basis.agrees_with(list_basis(packing, law, packing.pairs.skin)))
       require_consistent(law, packing.population->largest_radius());

@@ -97,9 +97,7 @@ class FootingLog : public NeverStops {
                 start),
         base_(folder / "footing_base.csv", {"throw_over_depth", "x", "y", "area", "pressure", "shear", "gap"}, start),
         structure_(std::move(structure)),
-        between_(require_positive("distance between profiles", to / profiles)),
-        end_(to),
-        load_unit_(load_unit) {}
+        schedule_(detail::validated(LoadSchedule{to, profiles, load_unit})) {}
 
   /// Writes a row for an accepted state, and the base's pressures where a profile is due.
   template <class Problem>
@@ -107,26 +105,32 @@ class FootingLog : public NeverStops {
     if (!report.verdict.acceptable()) return;
     FootingMotion const motion = structure_.motion(problem);
     auto const pressure = base_pressure(motion);
-    double const fault_throw = std::max(report.load, 0.0) / load_unit_;
-    motion_.add(report.load, fault_throw, motion.settlement, motion.horizontal, motion.tilt, support(motion),
+    motion_.add(report.load, throw_at(report.load), motion.settlement, motion.horizontal, motion.tilt, support(motion),
                 pressure.least, pressure.largest, pressure.pressed, motion.horizontal, support(motion),
                 pressure.pressed);
-    if (report.load < next_ && report.load < end_) return;
-    while (next_ <= report.load) next_ += between_;
-    for (auto const& point : motion.base)
-      base_.add(fault_throw, point.place.x(), point.place.y(), point.area, point.pressure, point.shear, point.gap);
+    if (schedule_.takes(report.load)) write_base(motion, report.load);
   }
 
-  SCARP_MEMBERS_EXCEPT((structure_, between_, end_, load_unit_), motion_, base_, next_)
+  /// Writes the pressures of a run that stopped between two profiles.
+  template <class Problem>
+  void ended(Problem const& problem, double load) {
+    if (schedule_.takes_end(load)) write_base(structure_.motion(problem), load);
+  }
+
+  SCARP_MEMBERS_EXCEPT((structure_), motion_, base_, schedule_)
 
  private:
+  double throw_at(double load) const { return std::max(load, 0.0) / schedule_.unit; }
+
+  void write_base(FootingMotion const& motion, double load) {
+    for (auto const& point : motion.base)
+      base_.add(throw_at(load), point.place.x(), point.place.y(), point.area, point.pressure, point.shear, point.gap);
+  }
+
   CsvLog motion_;
   CsvLog base_;
   Structure structure_;
-  double between_;
-  double end_;
-  double load_unit_;
-  double next_ = 0.0;
+  LoadSchedule schedule_;
 };
 
 }  // namespace scarp

@@ -82,7 +82,8 @@ std::vector<SurfacePoint> level_profile(Mesh<Element> const& mesh, std::vector<V
 /// not.
 struct BandAtLevel {
   double height;       ///< above the bottom of the ground [m]
-  double band_x50;     ///< place at rest that has gone half of the offset [m]
+  double band_x05;     ///< place at rest that has gone 5 % of the offset [m], the left end of band_width
+  double band_x50;     ///< place that has gone half of it [m]
   double band_width;   ///< along the level, between 5 and 95 % of the offset [m]
   double band_across;  ///< the same across the band, by its dip here [m]
   double band_dip;     ///< of its middle line from `reach` below to `reach` above, see line_dip [rad]
@@ -100,9 +101,10 @@ BandAtLevel band_at_level(Mesh<Element> const& mesh, std::vector<Vector<2>> cons
     return first_passage(level_profile(mesh, rest, positions, height), fault, 0.5);
   };
   auto const profile = level_profile(mesh, rest, positions, level);
-  double const width = first_passage(profile, fault, 0.95) - first_passage(profile, fault, 0.05);
+  double const left = first_passage(profile, fault, 0.05);
+  double const width = first_passage(profile, fault, 0.95) - left;
   double const dip = line_dip(middle(level - reach) - middle(level + reach), 2.0 * reach);
-  return {level, first_passage(profile, fault, 0.5), width, width * std::sin(dip), dip};
+  return {level, left, first_passage(profile, fault, 0.5), width, width * std::sin(dip), dip};
 }
 
 /// A rupture from bedrock to surface, so that meshes, soils and seeds can be compared.

@@ -69,7 +69,7 @@ struct TiedFooting {
     for (int const node : nodes) {
       double const area = shares(2 * node);
       Vector<2> const stress = forces.segment<2>(2 * node) / area;
-      motion.base.push_back({grid.positions()[index(node)], area, stress, stress.y(), stress.x(), 0.0});
+      motion.base.push_back({grid.positions()[index(node)], area, stress, stress.y(), -stress.x(), 0.0});
     }
     return motion;
   }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/core/error.hpp"
+
 namespace scarp {
 
 /// Wanted distance of grid lines along an axis: linear between knots, so that neighbouring cells differ little.
@@ -19,8 +21,17 @@ class Spacing {
     double size = 1.0;      ///< [m], above zero
   };
 
-  /// knots: at least two, increasing in position
+  /// \throws InputError unless there are two knots and more, increasing in position, with sizes above zero
   explicit Spacing(std::vector<Knot> knots) : knots_(std::move(knots)), cells_before_(knots_.size(), 0.0) {
+    if (knots_.size() < 2)
+      reject("a spacing has {} knots (sizes are linear between two): give two or more", knots_.size());
+    for (std::size_t k = 0; k < knots_.size(); ++k) {
+      require_positive("size at a knot of a spacing", knots_[k].size);
+      require_finite("position of a knot of a spacing", knots_[k].position);
+      if (k > 0 && !(knots_[k].position > knots_[k - 1].position))
+        reject("knots of a spacing lie at {} m and {} m (positions must increase): sort them", knots_[k - 1].position,
+               knots_[k].position);
+    }
     for (std::size_t k = 1; k < knots_.size(); ++k) {
       cells_before_[k] = cells_before_[k - 1] + cells_in(k - 1, knots_[k].position);
     }
@@ -69,7 +80,15 @@ inline int cells_between(Spacing const& spacing, double from, double to, int lea
 
 /// Grid lines [m] that pass exactly through every fixed position.
 /// fixed: increasing positions, the first and the last are the ends
+/// \throws InputError for positions that do not increase, or where the spacing falls to zero outside of its knots
 inline std::vector<double> graded_lines(Spacing const& spacing, std::vector<double> const& fixed, int least = 1) {
+  if (fixed.empty()) reject("grid lines are to pass through 0 positions: give the two ends");
+  for (std::size_t k = 0; k < fixed.size(); ++k) {
+    if (!std::isfinite(spacing.cells_to(fixed[k])) || (k > 0 && !(fixed[k] > fixed[k - 1])))
+      reject(
+          "a grid line is to pass through {} m (positions must increase, within the knots of the spacing): correct it",
+          fixed[k]);
+  }
   std::vector<double> lines{fixed.front()};
   for (std::size_t k = 1; k < fixed.size(); ++k) {
     int const cells = cells_between(spacing, fixed[k - 1], fixed[k], least);

@@ -10,10 +10,12 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scarp/core/error.hpp"
 #include "scarp/element/map.hpp"
+#include "scarp/mesh/windings.hpp"
 
 namespace scarp {
 
@@ -27,7 +29,8 @@ struct Mesh {
   std::vector<std::array<int, Element::nodes>> elements;  ///< node numbers from 0, in the element's own order
   std::vector<int> element_region;                        ///< for each element a number into `regions`
   std::vector<std::string> regions;                       ///< names; elements refer to them by number
-  /// Sides of elements by the name of their set, as node numbers of the mesh.
+  /// Sides of elements by the name of their set, as node numbers of the mesh: corners in turn, from any and either way
+  /// round, then the nodes between them, as `Element::facets()` has them.
   std::map<std::string, std::vector<std::array<int, Element::facet_nodes>>> boundaries;
 };
 
@@ -102,7 +105,8 @@ void validate_jacobians(Mesh<Element> const& mesh) {
 
 template <class Element>
 void validate_boundaries(Mesh<Element> const& mesh) {
-  std::vector<std::array<int, Element::facet_nodes>> sides;
+  using Side = std::array<int, Element::facet_nodes>;
+  std::vector<std::pair<Side, Side>> sides;  // sorted and as it is
   auto const sorted = [](auto facet) {
     std::sort(facet.begin(), facet.end());
     return facet;
@@ -112,16 +116,21 @@ void validate_boundaries(Mesh<Element> const& mesh) {
       for (int& local : facet) {
         local = element[index(local)];
       }
-      sides.push_back(sorted(facet));
+      sides.emplace_back(sorted(facet), facet);
     }
   }
   std::sort(sides.begin(), sides.end());
   for (auto const& [name, facets] : mesh.boundaries) {
-    std::set<std::array<int, Element::facet_nodes>> known;
+    std::set<Side> known;
     for (auto const& facet : facets) {
-      if (!std::binary_search(sides.begin(), sides.end(), sorted(facet))) {
+      auto const side = std::ranges::lower_bound(sides, sorted(facet), {}, &std::pair<Side, Side>::first);
+      if (side == sides.end() || side->first != sorted(facet)) {
         reject("boundary '{}' holds the facet ({}) (no element has this side): check its node numbers", name,
                listed(facet));
+      }
+      if (!is_same_side<typename Element::Facet>(facet, side->second)) {
+        reject("boundary '{}' holds the facet ({}) (its element has these nodes in the order {}): reorder them", name,
+               listed(facet), listed(side->second));
       }
       if (!known.insert(sorted(facet)).second) {
         reject("boundary '{}' holds the facet ({}) twice (loads on it would double): remove one", name, listed(facet));

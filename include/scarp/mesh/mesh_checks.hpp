@@ -107,7 +107,8 @@ void require_no_hanging_nodes(Mesh<Element> const& mesh) {
       high = high.cwiseMax(place);
     }
     double const same = 1e-6 * (high - low).norm();
-    index.near(low, high, [&](Vector<dim> const& place, int node) {
+    Vector<dim> const reach = Vector<dim>::Constant(same);
+    index.near(low - reach, high + reach, [&](Vector<dim> const& place, int node) {
       auto const end = side.nodes.begin() + corners;
       if (std::find(side.nodes.begin(), end, node) != end || !detail::is_inside(place, places, same)) return;
       reject(

@@ -49,7 +49,8 @@ inline GridNumbers add_grid_nodes(std::vector<Vector<2>>& nodes, std::vector<dou
 /// \throws InputError for a pattern that the elements cannot follow
 template <class Element>
 void add_grid_cells(Mesh<Element>& mesh, GridNumbers const& numbers, Pattern pattern, int region) {
-  static_assert(Element::dim == 2 && !HasMidSides<Element>, "a grid becomes straight elements of the plane");
+  static_assert(Element::dim == 2 && (Element::nodes == 3 || Element::nodes == 4),
+                "a grid becomes straight elements of the plane");
   elements_per_cell<Element>(pattern);  // checks whether both fit
   auto const add = [&](std::array<int, Element::nodes> const& element) {
     mesh.elements.push_back(element);

@@ -18,10 +18,10 @@ namespace scarp {
 /// that of the iteration before; times are wall time [s].
 class ConvergenceLog : public NeverStops {
  public:
-  /// \throws FileError when a file cannot be written
+  /// \throws FileError when a file cannot be written, InputError for a table that ends in .jsonl, as the second file does
   ConvergenceLog(std::filesystem::path const& file, LoadMeasure measure, CsvStart start = CsvStart::anew)
       : measure_(detail::validated(std::move(measure))),
-        table_(file,
+        table_(table_file(file),
                {"step", measure_.name, "iteration", "residual", "accepted", "reason", "max_displacement_gradient",
                 "dem_steps", "seconds", "seconds_in_points",
                 "largest_gradient"},  // as before version 0.2, until version 0.3
@@ -49,6 +49,12 @@ class ConvergenceLog : public NeverStops {
   SCARP_MEMBERS_EXCEPT((measure_), table_, lines_, attempt_)
 
  private:
+  static std::filesystem::path const& table_file(std::filesystem::path const& file) {
+    if (file.extension() == ".jsonl")
+      reject("the table '{}' ends in .jsonl (as the second file, which would replace it): name it .csv", file.string());
+    return file;
+  }
+
   JsonObject begun(std::string_view kind, StepReport const& report) const {
     JsonObject line;
     line.add("kind", kind).add("attempt", attempt_).add("step", report.step);

@@ -3,6 +3,7 @@
 
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
+#include <cmath>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -17,6 +18,9 @@ namespace scarp {
 /// \tparam Parts each an `ObservesSteps`
 template <class... Parts>
 struct Observers {
+  static_assert(!((requires { typename Parts::WatchesAll; }) || ...),
+                "scarp: a CheckpointedRun watches all other observers: give it to the run itself");
+
   boost::hana::tuple<Parts...> parts;  ///< in the order in which they are called
 
   /// Takes the observers over; see `ObserverRef` for one that is read later.
@@ -60,6 +64,10 @@ struct Observers {
 /// \tparam Observer an `ObservesSteps`
 template <class Observer>
 struct ObserverRef {
+  static_assert(
+      !requires { typename Observer::WatchesAll; },
+      "scarp: a CheckpointedRun watches all other observers: give it to the run itself");
+
   Observer* observer;  ///< outlives the run
 
   explicit ObserverRef(Observer& lent) : observer(&lent) {}  ///< The observer must outlive this object.
@@ -69,6 +77,12 @@ struct ObserverRef {
   void attempted(Problem const& problem, StepReport const& report) {
     observer->attempted(problem, report);
   }
+  /// Where the observer has it.
+  template <class Problem>
+  void ended(Problem const& problem, double load) requires requires(Observer& one) {
+    one.ended(problem, load);
+  }
+  { observer->ended(problem, load); }
   bool wants_stop() const { return observer->wants_stop(); }  ///< Whether the observer stops the run.
 
   /// Those of the observer, where it has a state.
@@ -88,7 +102,7 @@ struct LoadMeasure {
   double of(double load) const { return load / unit; }  ///< Load in units of the measure.
 };
 
-/// When a series writes: at load 0, whenever the load has grown by to / count, and at the end.
+/// When a series writes: at load 0, whenever the load has passed a further multiple of to / count, and at the end.
 struct LoadSchedule {
   double to = 0.0;     ///< load factor at the end
   int count = 0;       ///< states that are written after that of load 0
@@ -105,8 +119,10 @@ struct LoadSchedule {
 
   /// Whether a state at this load is written; true once for each.
   bool takes(double load) {
-    if (load <= last || (load < next && load < to)) return false;
-    while (next <= load) next += to / count;
+    constexpr double round_off = 1e-9;  // of loads that are sums of steps
+    bool const reaches_end = load >= to && last < to;
+    if (load <= last || (load < next && !reaches_end)) return false;
+    next = to / count * (std::floor(load / to * count + round_off) + 1.0 - round_off);
     last = load;
     return true;
   }

@@ -9,15 +9,22 @@
 
 namespace scarp {
 
-/// Number of the material point nearest to a place in the initial mesh.
+/// Number of the material point nearest to a place [m] in the initial mesh.
+/// \throws InputError for a place that is not finite
 template <class DiscretisationType>
 int nearest_point(DiscretisationType const& discretisation, Vector<DiscretisationType::dim> const& place) {
+  for (double const coordinate : place) require_finite("place whose nearest point is looked for", coordinate);
+  using Element = typename std::remove_cvref_t<decltype(discretisation.mesh())>::ElementType;
+  auto const& mesh = discretisation.mesh();
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int point = 0; point < discretisation.point_count(); ++point) {
-    double const distance = (discretisation.site(point, 0.0).position - place).norm();
-    if (distance < least) {
-      least = distance;
+    auto const shape = Element::shape(discretisation.local_point(point).xi);
+    auto const& nodes = mesh.elements[detail::index(point / DiscretisationType::points_per_element)];
+    Vector<DiscretisationType::dim> distance = -place;
+    for (int k = 0; k < Element::nodes; ++k) distance += shape(k) * mesh.nodes[detail::index(nodes[detail::index(k)])];
+    if (distance.norm() < least) {
+      least = distance.norm();
       nearest = point;
     }
   }

@@ -58,6 +58,7 @@ NeighbourMean neighbour_mean(std::span<Site<Dim> const> sites, std::span<double 
   std::vector<NeighbourMean::Share> shares;
   for (std::size_t i = 0; i < sites.size(); ++i) {
     double const length = require_not_negative("length that increments are averaged over", lengths[i]);
+    require_positive("volume of a point", volumes[i]);
     hits.clear();
     if (length > 0.0) static_cast<void>(tree.radiusSearch(sites[i].position.data(), length * length, hits, unsorted));
     std::erase_if(hits, [&](auto const& hit) {

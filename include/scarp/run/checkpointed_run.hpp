@@ -55,6 +55,8 @@ void with_all_states(Problem& problem, Task const& task) {
 template <class Watched, Described Notes>
 class CheckpointedRun {
  public:
+  using WatchesAll = void;  ///< `Observers` reject it as a part
+
   /// notes: the program's own data of earlier stages
   /// \throws CheckpointError
   CheckpointedRun(CheckpointFiles& files, Watched& watched, Notes& notes)

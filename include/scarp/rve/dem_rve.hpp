@@ -162,10 +162,11 @@ struct DemRve {
             .inertial_number = state.inertial_number};
   }
 
-  /// How much the balance of a packing counts: all, below the pressure floor by its share of that.
+  /// How much the balance of a packing counts: all, below the pressure floor by its share of that. Tension, of bonds, counts as
+  /// much as pressure.
   double weight_of(State const& state) const {
-    double const pressure = mean_pressure(state.stress);
-    return pressure < pressure_floor ? std::max(pressure, 0.0) / pressure_floor : 1.0;
+    double const pressure = mean_stress_size(state.stress);
+    return pressure < pressure_floor ? pressure / pressure_floor : 1.0;
   }
 
   /// Inertial number of a response in so many DEM steps.
@@ -219,14 +220,16 @@ struct DemRve {
   /// \f$ d \sqrt{\rho/p} \f$ [s]: the time in which the pressure moves a grain by its size.
   double inertial_time(State const& state) const {
     auto const& population = *state.packing.population;
-    double const pressure = std::max({mean_pressure(state.stress), pressure_floor, min_pressure(state.packing)});
+    double const pressure = std::max({mean_stress_size(state.stress), pressure_floor, min_pressure(state.packing)});
     return 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
   }
 
   /// Pressure [Pa] that counts as none: 1e-9 for the reference study's sand, and scaled alike in other units.
   double min_pressure(PackingType const& packing) const { return 3e-17 * spring_modulus(packing, law); }
 
-  static double mean_pressure(VoigtStress<dim> const& stress) { return -stress.template head<dim>().sum() / dim; }
+  static double mean_stress_size(VoigtStress<dim> const& stress) {
+    return std::abs(stress.template head<dim>().sum()) / dim;
+  }
 
   Verdict observe(Stepper& stepper, State& state) const {
     StepObservation<dim> seen;
@@ -234,8 +237,8 @@ struct DemRve {
     if (!seen.stress.allFinite()) return {Status::failed, Reason::not_finite};
     state.stress = to_voigt_stress<dim>(seen.stress);
     state.unbalanced_ratio = seen.unbalanced_ratio;
-    state.kinetic_share =
-        kinetic_stress(state.packing).trace() / std::min(seen.stress.trace(), -min_pressure(state.packing) * dim);
+    state.kinetic_share = -kinetic_stress(state.packing).trace() /
+                          std::max(std::abs(seen.stress.trace()), min_pressure(state.packing) * dim);
     if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
     if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
     if (!(weight_of(state) * seen.unbalanced_ratio <= unbalanced_tolerance))

@@ -87,8 +87,14 @@ concept KeepsRuns = ObservesSteps<Observer, Problem> &&
   observer.ends(problem, session, state);
 };
 
-/// Two stages of a run as one: counts and times add up, verdict and load are the later stage's.
+/// Two stages of a run as one: counts and times add up, verdict and load are the later stage's, the last failure is that of the
+/// last stage that had one.
 inline RunReport joined(RunReport const& earlier, RunReport later) {
+  if (later.refused == 0) {
+    later.last_failure = earlier.last_failure;
+    later.worst_point = earlier.worst_point;
+    later.weak_dof = earlier.weak_dof;
+  }
   later.steps += earlier.steps;
   later.refused += earlier.refused;
   later.iterations += earlier.iterations;

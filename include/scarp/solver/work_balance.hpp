@@ -29,7 +29,7 @@ class WorkBalance {
 
   double external() const { return external_; }  ///< [J]
   double internal() const { return internal_; }  ///< [J]
-  /// |external - internal| over the larger of both sums of absolute parts.
+  /// |external - internal| over the larger of |internal| and the sum of the absolute parts of the external work.
   double gap() const {
     double const scale = std::max(turned_over_, std::abs(internal_));
     return scale > 0.0 ? std::abs(external_ - internal_) / scale : 0.0;

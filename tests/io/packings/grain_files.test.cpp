@@ -88,6 +88,7 @@ TEST_CASE("what a file holds beside the grains is told") {
   CHECK(read(yade).notes.empty());
   CHECK(samples::contains(read(mercury).notes.at(0), "6 walls are not read"));
   CHECK(samples::contains(read(dump).notes.at(0), "the last of 2 snapshots"));
+  CHECK(samples::contains(read(with(dump, "yz pp pp pp", "yz pp ff pp")).notes.at(0), "not periodic"));
   CHECK(samples::contains(read(lammps).notes.at(0), "densities"));
 }
 

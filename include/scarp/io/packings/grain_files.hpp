@@ -132,12 +132,18 @@ inline GrainFile read_lammps_data(GrainLines lines) {
 /// The last snapshot of a dump file of LAMMPS, with columns x, y, z and radius or diameter. docs.lammps.org/dump.html
 inline GrainFile read_lammps_dump(GrainLines lines) {
   std::optional<Tensor<3>> cell;
+  std::vector<std::string> notes;
   int snapshots = 0;
   for (std::size_t k = 0; k < lines.count(); ++k) {
     if (lines.word(k, 0) != "ITEM:") continue;
     if (lines.word(k, 1) == "BOX") {
       if (lines.words(k).size() > 3 && lines.word(k, 3) == "abc")
         lines.reject_line(k, "a general triclinic box is not read", "write it with triclinic/general off");
+      auto const& words = lines.words(k);
+      bool const walls =
+          words.size() > 5 && std::any_of(words.end() - 3, words.end(), [](auto const& word) { return word != "pp"; });
+      notes.clear();
+      if (walls) notes.emplace_back("boundaries that are not periodic are read as periodic ones");
       std::array<double, 3> tilts{};
       bool const tilted = lines.words(k).size() > 3 && lines.word(k, 3) == "xy";
       for (std::size_t a = 0; tilted && a < 3; ++a) tilts[a] = lines.number(k + 1 + a, 2);
@@ -162,7 +168,6 @@ inline GrainFile read_lammps_dump(GrainLines lines) {
       while (k + 1 < lines.count() && lines.word(k + 1, 0) != "ITEM:") lines.add(++k, at, radii ? 1.0 : 0.5);
     }
   }
-  std::vector<std::string> notes;
   if (snapshots > 1) notes.push_back(fmt::format("the last of {} snapshots is read", snapshots));
   return {std::move(lines).columns(), cell, notes};
 }

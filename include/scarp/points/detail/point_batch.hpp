@@ -120,7 +120,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     }
   }
   VoigtStress<dim> stress(int k) const override { return provider_->stress(present(k)); }
-  VoigtTangent<dim> tangent(int k) const override { return provider_->tangent(committed_[index(k)]); }
+  VoigtTangent<dim> tangent(int k) const override { return provider_->tangent(present(k)); }
   VoigtTangent<dim> trial_tangent(int k) const override { return provider_->tangent(trial_[index(k)]); }
   VoigtTangent<dim> initial_tangent(int k) const override {
     return provider_->tangent(provider_->initial_state(sites_[index(k)]));
@@ -164,24 +164,24 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
 
   Quantities quantities(int k) const override {
-    return unwrap(*provider_, committed_[index(k)], [](auto const& inner, auto const& own) -> Quantities {
+    return unwrap(*provider_, present(k), [](auto const& inner, auto const& own) -> Quantities {
       if constexpr (requires { inner.quantities(own); }) return inner.quantities(own);
       return {};
     });
   }
   PackingBalance balance(int k) const override {
-    return unwrap(*provider_, committed_[index(k)], [](auto const& inner, auto const& own) -> PackingBalance {
+    return unwrap(*provider_, present(k), [](auto const& inner, auto const& own) -> PackingBalance {
       if constexpr (requires { inner.balance(own); }) return inner.balance(own);
       return {};
     });
   }
   std::any picture(int k) const override {
-    return unwrap(*provider_, committed_[index(k)], [](auto const& inner, auto const& own) -> std::any {
+    return unwrap(*provider_, present(k), [](auto const& inner, auto const& own) -> std::any {
       if constexpr (requires { inner.picture(own); }) return inner.picture(own);
       return {};
     });
   }
-  VoigtStress<dim> floor_stress(int k) const override { return floor_stress_in<dim>(committed_[index(k)]); }
+  VoigtStress<dim> floor_stress(int k) const override { return floor_stress_in<dim>(present(k)); }
 
   DoubledResponse<dim> doubled_response(int k, Gradient<dim> const& increment) const override {
     State trial = trial_[index(k)];
@@ -205,7 +205,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
 
   void const* state(int k, std::type_info const& type) const override {
-    return type == typeid(State) ? &committed_[index(k)] : nullptr;
+    return type == typeid(State) ? &present(k) : nullptr;
   }
   void const* provider(std::type_info const& type) const override {
     return type == typeid(Provider) ? provider_.get() : nullptr;

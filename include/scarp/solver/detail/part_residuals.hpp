@@ -102,10 +102,13 @@ class SCARP_EXPORT RegionResiduals {
     std::vector<Vector<Dim>> arms{};  ///< of these nodes, over the region's radius
     std::size_t own = 0;              ///< how many no other region has
 
-    /// 0 for a region without loads, such as a block before it is placed.
+    /// 0 for a region without loads, such as a block before it is placed, and for one whose loads balance to round-off.
     double residual(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
       double const scale = resultant(loads, own);
-      return scale == 0.0 ? 0.0 : resultant(unbalanced, nodes.size()) / scale;
+      double applied = 0.0;
+      for (std::size_t k = 0; k < own; ++k) applied += loads.template segment<Dim>(Dim * nodes[k]).norm();
+      constexpr double round_off = 1e-12;
+      return scale <= round_off * applied ? 0.0 : resultant(unbalanced, nodes.size()) / scale;
     }
 
     /// Of the first so many nodes' forces: sum and couple, the latter over the region's radius.

@@ -12,47 +12,9 @@
 #include "scarp/element/reference_element.hpp"
 #include "scarp/io/gmsh/detail/gmsh_forms.hpp"
 #include "scarp/mesh/mesh.hpp"
+#include "scarp/mesh/windings.hpp"
 
 namespace scarp::detail {
-
-/// Corners of a plane cell; its nodes are rings of as many: corners, then, if there are any, mid-side nodes.
-template <class Cell>
-inline constexpr int plane_corners = detail::count(Cell::facets());
-
-/// Whether two lists name the nodes of a side in the same sense of rotation, begun at any corner.
-template <class Cell>
-bool same_winding(std::array<int, Cell::nodes> const& a, std::array<int, Cell::nodes> const& b) {
-  if constexpr (Cell::dim == 1) {
-    return a == b;
-  } else {
-    constexpr int corners = plane_corners<Cell>;
-    for (int shift = 0; shift < corners; ++shift) {
-      bool same = true;
-      for (int k = 0; k < Cell::nodes && same; ++k) {
-        int const ring = k / corners * corners;
-        same = a[index(k)] == b[index(ring + (k - ring + shift) % corners)];
-      }
-      if (same) return true;
-    }
-    return false;
-  }
-}
-
-/// The same line or plane cell, run through the other way.
-template <class Cell>
-std::array<int, Cell::nodes> turned_round(std::array<int, Cell::nodes> nodes) {
-  auto turned = nodes;
-  if constexpr (Cell::dim == 1) {
-    std::swap(turned[0], turned[1]);
-  } else if constexpr (Cell::dim == 2) {
-    constexpr int corners = plane_corners<Cell>;
-    for (int k = 0; k < Cell::nodes; ++k) {
-      bool const mid_side = k >= corners;
-      turned[index(k)] = mid_side ? nodes[index(3 * corners - 1 - k)] : nodes[index((corners - k) % corners)];
-    }
-  }
-  return turned;
-}
 
 /// One element of a file.
 struct GmshPick {
