@@ -108,7 +108,11 @@ def over_strain(sets, quantities):
 
 
 def write(folder, sets, level):
-    saved(free_field(sets, level), folder / "study_free.png")
-    if len(sets[SHOWN].runs) > 1:
+    """Those whose runs are there."""
+    runs = sets[SHOWN].runs.keys()
+    if "free" in runs:
+        saved(free_field(sets, level), folder / "study_free.png")
+    if {"heavy", "light"} <= runs:
         saved(footings(sets, level), folder / "study_footings.png")
-    saved(over_strain(sets, [("q", "q [kPa]", 1e-3), ("eps_v", "volumetric strain [%]", 100.0)]), folder / "study_stress.png")
+    if runs == COLOURS.keys():
+        saved(over_strain(sets, [("q", "q [kPa]", 1e-3), ("eps_v", "volumetric strain [%]", 100.0)]), folder / "study_stress.png")

@@ -21,6 +21,7 @@ CASES = ["free", "heavy", "light"]
 SEEDS = [1, 2, 3]
 # Height of the points A and B above bedrock [m], 4 m below the surface.
 LEVEL = 21.0
+DEPTH = 25.0  # of the soil [m]
 SETS = {f"{length} m": {case: f"study_{case}_{length}" for case in CASES} for length in (1, 2, 4)}
 SETS |= {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_medium_{case}_5.66" for case in CASES}}
 SETS |= {f"seed {seed}": {case: f"study_medium_{case}/seed_{seed}" for case in CASES} for seed in SEEDS}
@@ -45,16 +46,33 @@ def run_of(name):
     return Run(summary, ground_points.frames(folder)) if summary["status"] == "ok" else None
 
 
-class CaseSet:
-    """Three cases with the same packings, mesh and length; A and B are those of this set."""
+def number(cell):
+    """Of a cell of a table; NaN for one that is empty or holds a mean with its deviation."""
+    try:
+        return float(cell)
+    except (TypeError, ValueError):
+        return math.nan
 
-    def __init__(self, names):
+
+def crossing(case, height):
+    return f"{case}: the rupture {DEPTH - height:g} m below the surface [m]"
+
+
+class CaseSet:
+    """Three cases with the same packings, mesh and length; A and B are those of this set.
+
+    said: {measure: what the data file has of this set}, for places in runs that are not there
+    """
+
+    def __init__(self, names, said):
         self.cases = names.keys()
+        self.said = said
         self.runs = {case: run for case, name in names.items() if (run := run_of(name)) is not None}
         self.points = {}
         for point, case in (("A", "free"), ("B", "heavy")):
-            if case in self.runs:
-                self.points[point] = self.crossed(case, LEVEL)
+            place = self.crossed(case, LEVEL)
+            if not math.isnan(place):
+                self.points[point] = place
         self.histories = {}
         for case, run in self.runs.items():
             for point, x in self.points.items():
@@ -64,7 +82,7 @@ class CaseSet:
     def crossed(self, case, height):
         """Where the rupture crosses a level [m]."""
         if case not in self.runs:
-            return math.nan
+            return number(self.said.get(crossing(case, height)))
         frames = self.runs[case].frames
         return ground_points.steepest_place(frames[-1], frames[0], height)
 
@@ -109,11 +127,11 @@ def rows():
             yield f"{case}: surface x{share} [m]", said, 1, lambda one, case=case, share=share: one.of(case, lambda summary: summary[f"surface_x{share}"])
     for case, said in (("free", ""), ("heavy", "at the footing's left edge, -15.5"), ("light", "at the footing's left edge, -15.5")):
         for below in (4.0, 1.0):
-            yield f"{case}: the rupture {below:g} m below the surface [m]", said, 1, lambda one, case=case, below=below: one.crossed(case, 25.0 - below)
+            yield crossing(case, DEPTH - below), said, 1, lambda one, case=case, below=below: one.crossed(case, DEPTH - below)
     for case in ("heavy", "light"):
         for below in (4.0, 1.0):
             yield (f"{case}: its diversion there, {below:g} m below [m]", "", 1,
-                   lambda one, case=case, below=below: one.crossed(case, 25.0 - below) - one.crossed("free", 25.0 - below))
+                   lambda one, case=case, below=below: one.crossed(case, DEPTH - below) - one.crossed("free", DEPTH - below))
         yield (f"{case}: diversion of x50 at 3/4 of the depth [m]", "", 1,
                lambda one, case=case: one.of(case, upper_band) - one.of("free", upper_band))
         yield f"{case}: tilt [degrees]", "", 2, lambda one, case=case: one.of(case, degrees("tilt"))
@@ -152,10 +170,11 @@ def kept(lines, before):
 
 
 def column(sets, names, measure, digits):
-    """Mean, and of several sets the deviation, of a measure; None where one of these sets has not run all of its cases."""
-    if not all(sets[name].cases == sets[name].runs.keys() for name in names):
+    """Mean, and of several sets the deviation, of a measure; None where it needs a case that one of these sets has not run."""
+    values = [measure(sets[name]) for name in names]
+    known = [value for value in values if not math.isnan(value)]
+    if len(known) < len(values) and not all(sets[name].cases == sets[name].runs.keys() for name in names):
         return None
-    known = [value for value in (measure(sets[name]) for name in names) if not math.isnan(value)]
     if not known:
         return "-"
     return f"{np.mean(known):.{digits}f}" + (f" +- {np.std(known, ddof=1):.{max(digits, 1)}f}" if len(known) > 1 else "")
@@ -193,16 +212,17 @@ def bases(tied, frictional):
 
 
 def main():
-    sets, frictional = ({name: CaseSet(names) for name, names in named.items()} for named in (SETS, FRICTIONAL))
+    before = read_table(data_folder() / "study_cases.csv")
+    sets = {name: CaseSet(names, {row["measure"]: row.get(name) for row in before}) for name, names in SETS.items()}
+    frictional = {name: CaseSet(names, {}) for name, names in FRICTIONAL.items()}
     said = origin("./benchmarks/study/run cases")
-    write_table("study_cases", kept([*numbers(sets), *bases(sets, frictional)], read_table(data_folder() / "study_cases.csv")), said)
+    write_table("study_cases", kept([*numbers(sets), *bases(sets, frictional)], before), said)
     runs = [{"run": title.format(case=case, name=name), **measures(run.summary)}
             for title, group in (("{case}, {name}", sets), ("{case}, frictional, {name}", frictional))
             for name, one in group.items() for case, run in one.runs.items()]
     if runs:
         write_table("study_runs", runs, said, key=("run",))
-    if "free" in sets[case_figures.SHOWN].runs:
-        case_figures.write(FIGURES, sets, LEVEL)
+    case_figures.write(FIGURES, sets, LEVEL)
 
 
 if __name__ == "__main__":
