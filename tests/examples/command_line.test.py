@@ -148,7 +148,9 @@ def check_warnings():
     """What runs and says little is told before it runs."""
     for title, given, told in (("a handful of grains", {"--grains": "9"}, "no sample of the sand"),
                                ("a length below the mesh's", {"--length": "0.1", "--soil": "mohr_coulomb"}, "reaches no neighbour"),
-                               ("a length", {"--length": "20", "--soil": "mohr_coulomb"}, None)):
+                               ("grains of a soil without", {"--soil": "mohr_coulomb"}, "--grains has no effect"),
+                               ("a footing of the free field", {"--soil": "mohr_coulomb", "--footing-width": "8"}, "--footing-width has no effect"),
+                               ("a length", {"--length": "20", "--grains": "64"}, None)):
         with tempfile.TemporaryDirectory() as scratch:
             code, said = run(FAULT, "--quick", *command(TINY, given), "--output", "out", folder=scratch)
             expect(code == 0, f"{title}: ended with {code}\n{said}")

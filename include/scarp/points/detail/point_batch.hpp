@@ -205,7 +205,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
 
   void const* state(int k, std::type_info const& type) const override {
-    return type == typeid(State) ? &present(k) : nullptr;
+    return type == typeid(State) ? &committed_[index(k)] : nullptr;
   }
   void const* provider(std::type_info const& type) const override {
     return type == typeid(Provider) ? provider_.get() : nullptr;
