@@ -47,8 +47,11 @@ before = [{"measure": "x", "study": "1", "8 m": "2"}, {"measure": "old", "study"
 expect(cases.kept([{"measure": "new", "study": "-", "8 m": None}, {"measure": "x", "study": "-", "8 m": None}], before)
        == [{"measure": "new", "study": "-", "8 m": None}, {"measure": "x", "study": "-", "8 m": "2"}],
        "a value without a run stays as the data file has it, and the rows are the program's")
-empty = {name: cases.CaseSet({case: "no such run" for case in cases.CASES}) for name in cases.SETS}
+NO_RUN = {case: "no such run" for case in cases.CASES}
+empty = {name: cases.CaseSet(NO_RUN, {}) for name in cases.SETS}
 expect(all(set(list(line.values())[2:]) == {None} for line in cases.numbers(empty)), "without runs nothing is told")
+told = cases.CaseSet(NO_RUN, {cases.crossing("free", cases.LEVEL): "-10.7", cases.crossing("heavy", cases.LEVEL): "-13.5 +- 0.4"})
+expect(told.points == {"A": -10.7}, f"a place of a run that is not there is that of the data file, but for a mean: {told.points}")
 
 near = around([rest], np.array([3.0, 5.0]))
 centres = rest.places[rest.cells[near]].mean(axis=1)
