@@ -40,9 +40,8 @@ struct EnsembleRuns {
                           static_cast<double>(seeds.size()) * memory_of(choice, size_of_scene(choice), 1),
                           "name fewer --seeds");
     folder.begin();
-    for (auto const* name :
-         {"ensemble.json", "ensemble.txt", "surface_mean.csv", "summary.json", "summary.txt", "convergence.csv"})
-      std::filesystem::remove(folder.path() / name);
+    remove_older_summaries(folder.path());
+    std::filesystem::remove(folder.path() / "convergence.csv");
     for (auto& member : members) member->prepare();
     scarp::ThreadExecutor threads(choice.threads);
     {

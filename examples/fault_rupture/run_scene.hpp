@@ -42,11 +42,15 @@ struct Start {
   std::string name{};                        ///< of one among several, before its lines on the error stream
 };
 
-/// An older, longer series would be mixed up with the new one, and an old summary would speak for it. A run that goes
-/// on keeps its series.
-inline void remove_older_results(std::filesystem::path const& folder, bool goes_on) {
+/// An old summary, of a run or of an ensemble, would speak for the new one.
+inline void remove_older_summaries(std::filesystem::path const& folder) {
   for (auto const* name : {"summary.json", "summary.txt", "ensemble.json", "ensemble.txt", "surface_mean.csv"})
     std::filesystem::remove(folder / name);
+}
+
+/// An older, longer series would be mixed up with the new one. A run that goes on keeps its series.
+inline void remove_older_results(std::filesystem::path const& folder, bool goes_on) {
+  remove_older_summaries(folder);
   if (goes_on) return;
   for (auto const* name :
        {"fields.pvd", "footing.csv", "footing_base.csv", "packing_grains.csv", "packing_contacts.csv"})
