@@ -246,7 +246,7 @@ inline std::string table(nlohmann::ordered_json const& json) {
   }
   if (json.contains("strip_margin"))
     row("least distance of the band from the strip's edges [m]", fmt::format("{:.1f}", number("strip_margin")),
-        "below 0 the band leaves the strip: give a wider --strip-width");
+        "below 0 the band leaves the strip: compare with a wider --strip-width");
   auto const& distorted = json["distorted_element"];
   row("most distorted element: number, shear [%], mean ratio",
       fmt::format("{}, {:.0f}, {:.2f}", distorted["number"].get<int>(), 100.0 * distorted["shear"].get<double>(),

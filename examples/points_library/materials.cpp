@@ -90,13 +90,7 @@ Material packing(Entries& entries, std::filesystem::path const& folder) {
   entries.take("shape", sand.shape);
   entries.take("law", sand.law);
   auto const is_given = [&](std::string const& name) { return given.contains(name); };
-  auto const of_grains = [](std::string const& name) {
-    return std::ranges::any_of(examples::grain_options, [&](char const* one) { return name == one; });
-  };
-  for (auto const& name : given) {
-    if (!file.empty() && !of_grains(name))
-      scarp::reject("'{}' is given but not used (the packing of '{}' is there): leave it out", name, file);
-  }
+  if (!file.empty()) examples::require_of_grains(sand, is_given, file);
   if (!sand_file.empty()) sand = examples::read_sand(folder / sand_file, sand, is_given);
   if (!file.empty()) sand = examples::sand_of_packing(folder / file, sand, is_given, "");
   if (given.contains("void-ratio") || given.contains("relative-density") || given.contains("preparation-friction"))

@@ -145,11 +145,7 @@ struct Sand {
       std::ranges::replace(name, '-', '_');
       return given.contains(name);
     };
-    examples::for_each_option(options.sand, [&](char const* name, auto const&, examples::Range, char const*) {
-      if (is_given(name) &&
-          std::ranges::find(examples::grain_options, std::string_view(name)) == std::end(examples::grain_options))
-        scarp::reject("{} is given but not used (the packing of '{}' is there): leave it out", name, options.file);
-    });
+    examples::require_of_grains(options.sand, is_given, options.file);
     if (options.packings != 1)
       scarp::reject("packings is {} (the packing of '{}' is one): leave it out", options.packings, options.file);
     options.sand = examples::sand_of_packing(options.file, options.sand, is_given, "");

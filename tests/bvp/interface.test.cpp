@@ -14,6 +14,7 @@
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -34,6 +35,8 @@ struct Bed {
   bool rigid_ground = false;
   int columns = 12;
   double width = 2.0;
+  double thickness = 1.0;
+  int missing_dofs = 0;
   scarp::SerialExecutor executor{};
 
   template <class Law>
@@ -54,8 +57,8 @@ struct Bed {
     std::vector<double> breaks;
     for (int const node : boundary_nodes(mesh, "top")) breaks.push_back(mesh.nodes[static_cast<std::size_t>(node)].x());
     double const arm = width / 2.0;
-    scarp::RigidFooting const footing({{3.0, 2.0}, arm}, {3.0 - arm, 2.0}, {3.0 + arm, 2.0}, breaks, 1.0,
-                                      grid.dof_count());
+    scarp::RigidFooting const footing({{3.0, 2.0}, arm}, {3.0 - arm, 2.0}, {3.0 + arm, 2.0}, breaks, thickness,
+                                      grid.dof_count() - missing_dofs);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(grid.dof_count() + 3);
     load.tail<3>() << force, moment / arm;
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(load.size()));
@@ -72,6 +75,22 @@ struct Bed {
 scarp::LoadStepping one_step() { return {.first = 1.0, .max_displacement_gradient = 1.0}; }
 
 }  // namespace
+
+TEST_CASE("a footing has the thickness of its mesh and follows its degrees of freedom") {
+  scarp::LinearFrictional const springs{.normal_stiffness = 5e7, .tangential_stiffness = 5e7, .friction = 0.5};
+  auto const placed = [&](Bed bed) { return bed.problem(springs, {0.0, -1.0}, 0.0); };
+  CHECK_REFUSED(placed({.thickness = 2.0}), "is 2 m thick out of the plane (the mesh is 1 m)");
+  CHECK_REFUSED(placed({.missing_dofs = 2}), "give that as dofs_before");
+}
+
+TEST_CASE("the points of a footing are at their places before the first step") {
+  scarp::LinearFrictional const springs{.normal_stiffness = 5e7, .tangential_stiffness = 5e7, .friction = 0.5};
+  auto const problem = Bed{}.problem(springs, {0.0, -1.0}, 0.0);
+  for (auto const& point : problem.attached().points()) {
+    CHECK(point.place.y() == doctest::Approx(2.0));
+    CHECK(std::abs(point.place.x() - 3.0) < 1.0);
+  }
+}
 
 TEST_CASE("a rigid footing on springs settles and tilts as Winkler's bed") {
   Bed bed{.rigid_ground = true};

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <string>
+#include <string_view>
 
 #include "../entries.hpp"
 #include "sand.hpp"
@@ -86,6 +89,14 @@ inline constexpr char const* grain_options[] = {"shape",
                                                 "tangential-stiffness",
                                                 "rolling-stiffness",
                                                 "rolling-friction"};
+
+/// \throws InputError for options that only a preparation uses, beside a packing that is there
+inline void require_of_grains(Sand const& sand, IsGiven const& is_given, std::string_view packing) {
+  for_each_option(sand, [&](char const* name, auto const&, Range, char const*) {
+    if (is_given(name) && std::ranges::find(grain_options, std::string_view(name)) == std::end(grain_options))
+      scarp::reject("'{}' is given but not used (the packing of '{}' is there): leave it out", name, packing);
+  });
+}
 
 /// The sand of a packing that rve_lab prepared. prefix: of the names by which values are given
 /// \throws InputError for a packing or a sand that is not there

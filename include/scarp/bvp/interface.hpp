@@ -60,7 +60,8 @@ class Interface {
     }
     committed_.resize(body_.point_count());
     for (std::size_t k = 0; k < committed_.size(); ++k) {
-      committed_[k].foot = ground_.nearest(body_.place(k, nodes), nodes);
+      committed_[k].place = body_.place(k, nodes);
+      committed_[k].foot = ground_.nearest(committed_[k].place, nodes);
       if constexpr (Bonds<Law>) Law::bond(committed_[k].memory);
     }
     trial_ = committed_;

@@ -242,3 +242,13 @@ struct Wrong : Disc {
 };
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_36
+
+// first: a CheckpointedRun watches all other observers
+namespace case_observers {
+struct Notes {
+  int stages = 0;
+  SCARP_MEMBERS(stages)
+};
+Observers<CheckpointedRun<Observers<>, Notes>>* observers = nullptr;
+auto const count = sizeof(*observers);
+}  // namespace case_observers

@@ -12,6 +12,8 @@
 #include "scarp/element/quad4.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "scarp/observe/observers.hpp"
+#include "scarp/run/checkpointed_run.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/random_packings.hpp"
 #include "scarp/shape/disc.hpp"
