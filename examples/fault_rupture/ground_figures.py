@@ -104,20 +104,30 @@ def rupture(folder):
     return figures.Animation(frames, [120] * (len(frames) - 1) + [2500])
 
 
+def areas(corners):
+    """[m2], of polygons"""
+    after = np.roll(corners, -1, axis=1)
+    return 0.5 * np.abs(np.sum(corners[..., 0] * after[..., 1] - after[..., 0] * corners[..., 1], axis=1))
+
+
+def soil_of(grid, path):
+    """Which cells are soil: those of the largest region."""
+    region = figures.field(grid.at_cells, "region", path).astype(int)
+    return region == np.argmax(np.bincount(region, areas(grid.points[grid.cells])))
+
+
 def layer_depth(grid, path):
-    """[m], of the first region before it moved"""
+    """[m], of the soil before it moved"""
     initial = grid.points - figures.field(grid.at_nodes, "displacement", path)[:, :2]
-    soil = grid.cells[figures.field(grid.at_cells, "region", path) == 0]
-    return float(np.ptp(initial[soil, 1]))
+    return float(np.ptp(initial[grid.cells[soil_of(grid, path)], 1]))
 
 
 def mean_stresses(grid, path):
     """Places [m], stresses (xx, yy, xy) [Pa] as means over the cells of a coarse grid, weighted by area, and its width [m]; soil only."""
-    soil = figures.field(grid.at_cells, "region", path) == 0
+    soil = soil_of(grid, path)
     corners = grid.points[grid.cells[soil]]
     stress = figures.field(grid.at_cells, "stress", path)[soil]
-    after = np.roll(corners, -1, axis=1)
-    area = 0.5 * np.abs(np.sum(corners[..., 0] * after[..., 1] - after[..., 0] * corners[..., 1], axis=1))
+    area = areas(corners)
     centre = corners.mean(axis=1)
     low = corners.min(axis=(0, 1))
     width = np.ptp(corners[..., 0]) / MOST_CROSSES

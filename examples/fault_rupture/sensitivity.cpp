@@ -59,7 +59,8 @@ Json content(std::filesystem::path const& path) {
   }
   bool sound = found.is_array();
   for (auto const& entry : found) {
-    sound = sound && entry.is_object() && entry.contains("runs") && entry["runs"].is_object();
+    sound = sound && entry.is_object() && entry.contains("runs") &&
+            (!entry.contains("scene") || entry["scene"].is_string()) && entry["runs"].is_object();
     if (!sound) break;
     for (auto const& [part, result] : entry["runs"].items())
       sound = sound && result.is_object() && result.contains("surface_x50") && result["surface_x50"].is_number();

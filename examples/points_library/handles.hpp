@@ -84,8 +84,10 @@ int guarded(Work const& work) noexcept {
     } catch (scarp::FileError const& error) {
       last_error() = error.what();
       return SCARP_FILE_ERROR;
-    } catch (std::exception const& error) {
+    } catch (std::bad_alloc const& error) {
       last_error() = fmt::format("the work was not done ({}): free memory or use fewer threads", error.what());
+    } catch (std::exception const& error) {
+      last_error() = error.what();
     } catch (...) {
       last_error() = "the work was not done (for an unknown reason): report what led to it";
     }

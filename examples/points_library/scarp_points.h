@@ -30,7 +30,7 @@ typedef enum {
   SCARP_NOT_ACCEPTABLE = 1, /* of respond: a point's response must not be committed; set another increment */
   SCARP_WRONG_INPUT = 2,
   SCARP_FILE_ERROR = 3,
-  SCARP_FAILURE = 4 /* memory, threads */
+  SCARP_FAILURE = 4 /* memory, threads, a packing that cannot be prepared */
 } scarp_status;
 
 /* Of a point's response: number of its status (ok 0, fluid 1, not_converged 2, failed 3), of the reason, both as text. */

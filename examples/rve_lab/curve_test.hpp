@@ -22,11 +22,11 @@ Curve tested(PackingType packing, typename PackingType::Law const& law, CurveTes
   scarp::Tensor<PackingType::dim> sum = scarp::Tensor<PackingType::dim>::Zero();
   auto middle = lab.deformation();
   for (long step = 1; step <= rows * steps_per_row; ++step) {
+    if ((step - 1) % steps_per_row == steps_per_row / 2) middle = lab.deformation();  // seen() is before the move
     if (auto const verdict = lab.step(); !verdict.acceptable())
       scarp::reject("a packing ended with {} at strain {:.4g}: take a smaller --strain-step, or another stress",
                     scarp::name(verdict.reason), path.strain(lab.deformation()));
     sum += lab.seen().stress / static_cast<double>(steps_per_row);
-    if ((step - 1) % steps_per_row == (steps_per_row - 1) / 2) middle = lab.deformation();
     if (step % steps_per_row != 0) continue;
     curve.add(sum, middle);
     sum.setZero();

@@ -90,8 +90,8 @@ class Specimen {
     Tensor const stress = scarp::balance(packing_, law_).stress;
     scarp::Loading<dim> loading;
     for (int axis = 0; axis < dim; ++axis) {
-      double const share = present > 0.0 ? stress(axis, axis) / -present : -1.0;
-      loading.controls.push_back(scarp::component_control<dim>(axis, -pressure_ * (share < 0.0 ? -share : 1.0)));
+      double const share = present > 0.0 ? stress(axis, axis) / -present : 1.0;
+      loading.controls.push_back(scarp::component_control<dim>(axis, -pressure_ * (share > 0.0 ? share : 1.0)));
     }
     double const before = packing_.void_ratio();
     auto verdict = scarp::Servo{}.reach(stepper_, packing_, law_, loading);

@@ -98,7 +98,7 @@ inline void declare_config(CLI::App& app, std::string const& what = "file with l
 }
 
 /// Why a folder cannot take results, or nothing. The folder itself is made when results are written; what it lies in must
-/// exist, unless it is below the default folder "output".
+/// exist.
 inline std::string folder_problem(std::string const& given) {
   std::filesystem::path const folder = given;
   if (given.empty()) return "the name of the output folder is empty";
@@ -108,7 +108,8 @@ inline std::string folder_problem(std::string const& given) {
   if (kind == std::filesystem::file_type::none)
     return "'" + given + "' cannot be reached (" + trouble.message() + "): check the folders that it lies in";
   if (kind != std::filesystem::file_type::not_found) return "'" + given + "' is a file";
-  auto const parent = std::filesystem::absolute(folder, trouble).lexically_normal().parent_path();
+  auto const whole = std::filesystem::absolute(folder, trouble).lexically_normal();
+  auto const parent = (whole.has_filename() ? whole : whole.parent_path()).parent_path();
   if (std::filesystem::is_directory(parent, trouble)) return {};
   return "there is no folder '" + parent.string() + "' (the output folder would lie in it): create it first";
 }

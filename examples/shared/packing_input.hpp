@@ -103,7 +103,12 @@ struct CellClues {
 inline CellClues cell_clues(scarp::CsvColumns const& particles, scarp::CsvColumns const& contacts) {
   std::unordered_map<std::int64_t, std::size_t> row_of;
   if (particles.has("id")) {
-    for (auto const id : particles.column<std::int64_t>("id")) row_of.emplace(id, row_of.size());
+    std::size_t row = 0;
+    for (auto const id : particles.column<std::int64_t>("id")) {
+      if (!row_of.emplace(id, row).second)
+        particles.reject_cell(row, "id", "an earlier line has the same", "give each grain an id of its own");
+      ++row;
+    }
   } else {
     for (std::size_t i = 0; i < particles.rows(); ++i) row_of.emplace(static_cast<std::int64_t>(i), i);
   }
@@ -168,8 +173,8 @@ struct PackingInput {
   Tensor cell;
 };
 
-/// particles, contacts: names of files; cell: a1x,a1y,a2x,a2y. Where the cell is empty the contacts that cross the boundary determine
-/// it, and without contacts the file of the particles does.
+/// particles, contacts: names of files; cell: a1x,a1y,a2x,a2y. Where the cell is empty it is that of the file of the
+/// particles, or what the contacts that cross the boundary determine.
 /// \throws InputError for files that are wrong or do not fit together
 inline PackingInput read_packing_input(std::string const& particles, std::string const& contacts,
                                        std::string const& cell) {
@@ -189,7 +194,7 @@ inline PackingInput read_packing_input(std::string const& particles, std::string
   if (!cell.empty()) {
     input.cell = parse_cell(cell);
   } else {
-    input.cell = input.contacts ? clues.solve(contacts) : Tensor(file.cell->topLeftCorner<2, 2>());
+    input.cell = file.cell ? Tensor(file.cell->topLeftCorner<2, 2>()) : clues.solve(contacts);
   }
   if (input.contacts) clues.check(input.cell, *input.contacts);
   return input;

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <limits>
 
 #include "constitutive/nestings.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -206,6 +207,11 @@ TEST_CASE("a sample counts by the stress that it carries") {
   CHECK(samples.quantile(0.5) == 0.1);
   CHECK(samples.quantile(0.95) == 0.2);
   CHECK(samples.quantile(1.0) == 0.3);
+  // Of a point without stress no share counts, but it is the largest.
+  scarp::SampledDifferences const lost{.differences = {0.01, std::numeric_limits<double>::infinity(), 0.02},
+                                       .carried = {1.0, 0.0, 1.0}};
+  CHECK(lost.quantile(1.0) == 0.02);
+  CHECK(lost.largest() == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("a step has as many samples as it may, none twice, and the most strained point in every other one") {

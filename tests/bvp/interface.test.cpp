@@ -83,11 +83,20 @@ TEST_CASE("a footing has the thickness of its mesh and follows its degrees of fr
   CHECK_REFUSED(placed({.missing_dofs = 2}), "give that as dofs_before");
 }
 
+TEST_CASE("a law that an interface cannot have is refused") {
+  auto const placed = [](double normal, double tangential, double friction) {
+    return Bed{}.problem(scarp::LinearFrictional{normal, tangential, friction}, {0.0, -1.0}, 0.0);
+  };
+  CHECK_REFUSED(placed(0.0, 1e8, 0.5), "normal stiffness of an interface");
+  CHECK_REFUSED(placed(1e8, -1e8, 0.5), "tangential stiffness of an interface");
+  CHECK_REFUSED(placed(1e8, 1e8, -0.5), "friction of an interface");
+}
+
 TEST_CASE("the points of a footing are at their places before the first step") {
   scarp::LinearFrictional const springs{.normal_stiffness = 5e7, .tangential_stiffness = 5e7, .friction = 0.5};
   auto const problem = Bed{}.problem(springs, {0.0, -1.0}, 0.0);
   for (auto const& point : problem.attached().points()) {
-    CHECK(point.place.y() == doctest::Approx(2.0));
+    CHECK(point.place.y() == samples::Approx(2.0));
     CHECK(std::abs(point.place.x() - 3.0) < 1.0);
   }
 }

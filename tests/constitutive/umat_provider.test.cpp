@@ -217,6 +217,18 @@ TEST_CASE("a UMAT receives the total strain in axes that have turned with the in
   CHECK(received(2) == Approx(1e-3 * std::cos(1.0)).epsilon(2e-3));
 }
 
+TEST_CASE("a UMAT receives the number of its increment") {
+  scarp::UmatProvider<2> umat = odd(8.0);
+  umat.time_step = 0.1;
+  auto state = umat.initial_state({});
+  for (int k = 1; k <= 12; ++k) {
+    auto trial = state;
+    CHECK(umat.respond(state, shear<2>(1e-3), trial).stress(0) == k);
+    CHECK(umat.respond(state, shear<2>(2e-3), trial).stress(0) == k);  // a second trial of the same increment
+    state = trial;
+  }
+}
+
 TEST_CASE("a provider without a UMAT, with a name that CMNAME cannot hold, or without time, is rejected") {
   CHECK_REFUSED(scarp::UmatProvider<2>{}.initial_state({}), "no UMAT");
   CHECK_REFUSED((scarp::UmatProvider<2>{.umat = umats::odd, .name = std::string(81, 'a')}.initial_state({})),

@@ -16,13 +16,13 @@ namespace umats {
   double *stress, double *statev, double *ddsdde, double *, double *, double *, double *, double *, double *, \
       double *, double *stran, double *dstran, double *, double *, double *, double *, double *, double *,    \
       char *cmname, int *ndi, int *, int *ntens, int *nstatv, double *props, int *, double *, double *,       \
-      double *pnewdt, double *, double *, double *dfgrd1, int *, int *, int *, int *, int *, int *, std::size_t
+      double *pnewdt, double *, double *, double *dfgrd1, int *, int *, int *, int *, int *, int *kinc, std::size_t
 
 /// Von Mises' plasticity with linear isotropic hardening by radial return (Simo and Hughes 1998, box 3.1).
 /// PROPS: shear modulus, bulk modulus, yield stress (zero: none), hardening modulus [Pa]; STATEV: equivalent plastic strain, calls.
 inline void von_mises(UMAT_ARGUMENTS) {
   static_cast<void>(stran), static_cast<void>(cmname), static_cast<void>(nstatv), static_cast<void>(pnewdt),
-      static_cast<void>(dfgrd1);
+      static_cast<void>(dfgrd1), static_cast<void>(kinc);
   int const n = *ntens, normal = *ndi;
   double const shear = props[0], bulk = props[1], yield = props[2], hardening = props[3];
   double const volume = dstran[0] + dstran[1] + dstran[2];
@@ -60,7 +60,7 @@ inline void von_mises(UMAT_ARGUMENTS) {
 }
 
 /// Does what its PROPS(1) says: 1 writes behind STATEV, 2 before STRESS, 3 behind DDSDDE, 4 requests a smaller step, 5 gives NaN,
-/// 6 returns what it received in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4); 7 returns STRAN.
+/// 6 returns what it received in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4); 7 returns STRAN, 8 KINC.
 inline void odd(UMAT_ARGUMENTS) {
   static_cast<void>(ndi);
   int const n = *ntens;
@@ -77,6 +77,7 @@ inline void odd(UMAT_ARGUMENTS) {
     stress[3] = dstran[3];
   }
   if (wish == 7) std::copy_n(stran, n, stress);
+  if (wish == 8) stress[0] = *kinc;
   statev[0] += 1.0;
 }
 

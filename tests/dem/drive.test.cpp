@@ -63,6 +63,18 @@ TEST_CASE("held stresses stay within one percent along a path") {
   CHECK(worst_miss(scarp::simple_shear_at_stress<2>(1e-5, samples::pressure)) < 0.01);
 }
 
+TEST_CASE("another loading forgets the rates that the one before has learned") {
+  auto packing = samples::consolidated<Ellipses>(80).packing;
+  scarp::TimeStepper<Ellipses> stepper;
+  scarp::CellDriver<Ellipses> drive(packing, samples::study_law(),
+                                    scarp::drained_compression<2>(1e-5, samples::pressure));
+  for (int step = 0; step < 2'000; ++step) REQUIRE(drive.step(stepper).acceptable());
+  auto const held = Loading<2>::stress(scarp::VoigtStress<2>(-samples::pressure, -1.1 * samples::pressure, 0.0));
+  drive.load(held);
+  for (int step = 0; step < 5'000; ++step) REQUIRE(drive.step(stepper).acceptable());
+  CHECK(held.worst_missing(drive.seen().stress) < 1e-3 * samples::pressure);
+}
+
 TEST_CASE("looking at a packing, however often, does not change its way") {
   scarp::TimeStepper<Ellipses> stepper;
   auto const loading = scarp::simple_shear<2>(1e-5);

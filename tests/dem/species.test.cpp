@@ -202,6 +202,26 @@ TEST_CASE("a mixture of sand and rubber is stiffer than rubber, softer than sand
   CHECK(picture.grains[1].a == picture.grains[1].b);
 }
 
+TEST_CASE("stiffnesses that pairs of species exchange make the list and its time step anew") {
+  auto const grains_of = [](double own, double other) {
+    LawPerSpecies<LinearFrictional, 2> law = sand_and_rubber();
+    law.laws[0].normal_stiffness = law.laws[0].tangential_stiffness = own;
+    law.laws[2].normal_stiffness = law.laws[2].tangential_stiffness = other;
+    return law;
+  };
+  using Grains = Mix<Disc, LinearFrictional>;
+  auto grains = with_species<Grains>(samples::consolidated<samples::Discs>(80).packing,
+                                     [](std::size_t i) { return 1.0 + static_cast<double>(i % 2); });
+  scarp::TimeStepper<Grains> stepper;
+  auto const even = grains_of(2e6, 2e6);
+  auto const uneven = grains_of(1e5, 3.9e6);
+  REQUIRE(stepper.refresh(grains, even).acceptable());
+  double const before = grains.pairs.critical_step;
+  REQUIRE(stepper.refresh(grains, uneven).acceptable());
+  CHECK(grains.pairs.critical_step < 0.8 * before);
+  CHECK(grains.pairs.critical_step == scarp::critical_step(grains, uneven));
+}
+
 TEST_CASE("the preparation exchanges the friction of all pairs of species, and each is checked") {
   auto law = sand_and_rubber();
   std::vector<double> found;

@@ -89,6 +89,17 @@ def check_cell(folder):
     code, said = run("replay", *INPUT, "--path", "isotropic", "--strain", "1e-4", "--strain-step", "1e-6", "--out",
                      "x.csv", "--cell", ",".join((a1x, a2x, a1y, a2y)), folder=folder)
     expect(code == 2 and "elsewhere in the cell" in said, f"transposed cell: ended with {code}\n{said}")
+    # A cell in the file of the particles is that of the packing, also beside contacts.
+    grains = read(YADE / "particles.csv")
+    (folder / "boxed.txt").write_text("#PERIODIC:: 0.5 0.5 1\n" + "".join(f"{g['x']} {g['y']} 0 {g['r']}\n" for g in grains))
+    code, said = run("replay", "--particles", "boxed.txt", *INPUT[2:], "--path", "isotropic", "--strain", "1e-4",
+                     "--strain-step", "1e-6", "--out", "x.csv", folder=folder)
+    expect(code == 2 and "elsewhere in the cell 0.5,0,0,0.5" in said, f"a wrong cell in the file: ended with {code}\n{said}")
+    text = (YADE / "particles.csv").read_text().splitlines(keepends=True)
+    (folder / "twice.csv").write_text("".join([*text[:2], text[1], *text[2:]]))
+    code, said = run("replay", "--particles", "twice.csv", *INPUT[2:], "--path", "isotropic", "--strain", "1e-4",
+                     "--strain-step", "1e-6", "--out", "x.csv", folder=folder)
+    expect(code == 2 and "an earlier line has the same" in said, f"an id twice: ended with {code}\n{said}")
 
 
 def check_held_stress(folder):
@@ -109,6 +120,14 @@ def check_other_stress(folder):
             expect(rows and abs(rows[0][column] / -pressure - 1.0) < 1e-3, f"{column} begins at {rows[:1]}")
         for row in rows:
             expect(abs(row["mean_sxx"] / -pressure - 1.0) < 0.05, f"lateral stress {row['mean_sxx']} at {row['strain']}")
+    # A packing under two stresses keeps their proportion.
+    code, said = run("prepare", "--grains", "100", "--vertical-pressure", "3e5", "--k0", "0.5", "--output", "uneven", folder=folder)
+    expect(code == 0, f"prepare with K0: ended with {code}\n{said}")
+    code, said = run("shear", "--packing", "uneven/packing.packing", "--strain", "1e-4", "--strain-step", "1e-5",
+                     "--lateral-stress", "1e5", "--output", "kept/", folder=folder)
+    expect(code == 0, f"two stresses: ended with {code}\n{said}")
+    rows = read(folder / "kept/path.csv") if code == 0 else []
+    expect(rows and abs(rows[0]["sxx"] / -1e5 - 1.0) < 1e-3 and abs(rows[0]["syy"] / -2e5 - 1.0) < 0.02, f"stresses begin at {rows[:1]}")
     code, said = run("shear", "--packing", "made/packing.packing", "--lateral-stress", "1e12", "--output", "crushed",
                      folder=folder)
     expect(code > 0 and "does not come from" in said, f"a stress beyond reach: ended with {code}\n{said}")

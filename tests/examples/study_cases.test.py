@@ -6,14 +6,17 @@ import sys
 
 sys.dont_write_bytecode = True  # the imports below leave no folders in the sources
 root = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(root / "benchmarks" / "study"), str(root / "benchmarks"), str(root / "examples" / "shared")]
+sys.path[:0] = [str(root / "benchmarks" / "study"), str(root / "benchmarks"), str(root / "examples" / "shared"), str(root / "examples" / "fault_rupture")]
 try:
     import cases
+    import ground_figures
     import numpy as np
     from ground_points import Frame, around, history, steepest_place
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
+from types import SimpleNamespace
+
 from expectations import expect, finish
 
 
@@ -62,4 +65,11 @@ moved.fields["void_ratio"] = np.full(len(moved.cells), 0.236)
 series = history([rest, moved], near)
 expect(np.allclose(series["q"], 1e5) and np.allclose(series["p"], 2e5), "q is half of the difference of the principal stresses, p their mean")
 expect(np.allclose(series["eps_v"][-1], -0.03) and np.allclose(series["eps_q"][-1], 0.0), "dilation is negative, strains count from the first frame")
+
+# A file from Gmsh may name the footing before the soil.
+points = np.array([[0.0, 0.0], [40.0, 0.0], [40.0, 25.0], [0.0, 25.0], [10.0, 26.0], [0.0, 26.0]])
+grid = SimpleNamespace(points=points, cells=np.array([[3, 2, 4, 5], [0, 1, 2, 3]]), at_cells={"region": np.array([0.0, 1.0])},
+                       at_nodes={"displacement": np.zeros((6, 3))})
+expect(ground_figures.layer_depth(grid, "fields") == 25.0, "the soil is the largest region, whatever its number is")
+
 finish()

@@ -13,6 +13,23 @@ namespace {
 using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
 using Soil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
 
+/// While a footing is placed the ground carries the share of its weight that is there.
+template <class Structure>
+struct Placing : scarp::NeverStops {
+  Structure structure;
+  int steps = 0;
+
+  explicit Placing(Structure placed) : structure(std::move(placed)) {}
+  template <class Problem>
+  void attempted(Problem const& problem, scarp::StepReport const& report) {
+    if (!report.verdict.acceptable()) return;
+    ++steps;
+    double const weight = structure.footing.bearing * structure.footing.width;
+    double const carried = scarp::support(structure.motion(problem, report.load));
+    CHECK(std::abs(carried - (1.0 + report.load) * weight) < 1e-6 * weight);
+  }
+};
+
 /// Tilt that a small throw gives a footing on elastic ground; what carries it must be its weight.
 template <class Element, class Structure>
 double tilt(Structure const& structure) {
@@ -27,7 +44,9 @@ double tilt(Structure const& structure) {
   scarp::NoObserver no_observer;
   auto problem = scene.problem(executor);
   REQUIRE(scene.settle(problem, no_observer).verdict.acceptable());
-  REQUIRE(scene.place(problem, no_observer).verdict.acceptable());
+  Placing<Structure> placing(structure);
+  REQUIRE(scene.place(problem, placing).verdict.acceptable());
+  CHECK(placing.steps > 1);
   double const placed = structure.motion(problem).tilt;
   REQUIRE(scene.rupture(problem, no_observer).verdict.acceptable());
   auto const motion = structure.motion(problem);

@@ -142,6 +142,12 @@ TEST_CASE("a block that the mesh has is taken as it is, if it is as high as the 
   CHECK_THROWS_WITH_AS(scarp::add_footing_block(mesh, 1.0, 2.0),
                        doctest::Contains("'footing_top' of the mesh is 1.5 m above the base (the footing is 1 m high)"),
                        scarp::InputError);
+  auto pinched = mesh;
+  for (auto& node : pinched.nodes) {
+    if (node.y() > 25.0) node.x() = centre + (node.x() - centre) * (1.0 - 0.5 * (node.y() - 25.0) / height);
+  }
+  CHECK_THROWS_WITH_AS(scarp::add_footing_block(pinched, height, 2.0), doctest::Contains("make it a rectangle"),
+                       scarp::InputError);
   mesh.boundaries.erase("footing_top");
   CHECK_THROWS_WITH_AS(scarp::add_footing_block(mesh, height, 2.0), doctest::Contains("no boundary 'footing_top'"),
                        scarp::InputError);

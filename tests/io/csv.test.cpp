@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "scarp/core/random.hpp"
+#include "scarp/io/csv_reader.hpp"
 #include "scarp/io/state_bits.hpp"
 #include "support/files.hpp"
 #include "support/refusals.hpp"
@@ -57,6 +58,13 @@ TEST_CASE("a table holds text and whole numbers beside numbers, and quotes what 
   CHECK(table.text() ==
         "step,status,\"says \"\"why\"\", in words\",force [N]\n3,ok,\"a,b\",0.5\n4,not_converged,\"he said "
         "\"\"no\"\"\",-2\n");
+}
+
+TEST_CASE("blanks at the ends of a text come back") {
+  scarp::CsvTable table({"soil", "number"});
+  for (char const* text : {" sand ", "\tsilt", "clay ", "two words"}) table.add(text, 1);
+  scarp::CsvColumns const read(table.text(), "soils.csv");
+  CHECK(read.texts("soil") == std::vector<std::string>{" sand ", "\tsilt", "clay ", "two words"});
 }
 
 TEST_CASE("a span of numbers is a row") {

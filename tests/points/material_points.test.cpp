@@ -215,6 +215,27 @@ TEST_CASE("answers that are not finite fail, and increments that are not finite 
   CHECK_REFUSED(points.respond(serial), "displacement gradient of point 2 is not finite");
 }
 
+/// Throws for large increments at its second point.
+struct Throwing : samples::Softening {
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    if (committed.point == 1 && increment.norm() > 0.5) throw std::runtime_error("no answer");
+    return samples::Softening::respond(committed, increment, trial);
+  }
+};
+
+TEST_CASE("answers of which one is missing are not committed") {
+  scarp::SerialExecutor serial;
+  Points points(Throwing{}, numbered(3));
+  auto const pull = [&](double size) {
+    for (int k = 0; k < 3; ++k) points.gradient(k)(0, 0) = size;
+  };
+  pull(1e-3);
+  static_cast<void>(points.respond(serial));
+  pull(1.0);
+  CHECK_THROWS_AS(static_cast<void>(points.respond(serial)), std::runtime_error);
+  CHECK_REFUSED(points.commit(), "respond first");
+}
+
 TEST_CASE("answers are the same bits on any number of threads, of one batch or of several") {
   auto const grid = ground_with_footing();
   auto const stresses = [&](auto&& executor, Points points) {

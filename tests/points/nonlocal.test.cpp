@@ -8,7 +8,9 @@
 
 #include "scarp/io/state_bits.hpp"
 #include "scarp/points/any_provider.hpp"
+#include "scarp/points/laboratory_paths.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/points/point_path.hpp"
 #include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -224,6 +226,21 @@ TEST_CASE("the work of a problem with a length balances, the stress against fluc
   double const coarse = gap(2e-3);
   CHECK(coarse < 2e-3);
   CHECK(gap(5e-4) < 0.3 * coarse);
+}
+
+TEST_CASE("balanced stresses are those of the committed state, whatever was tried since, and a path begins with them") {
+  scarp::SerialExecutor executor;
+  auto problem = block({.length = 0.5, .stiffness = 0.5}, {.reference_strain = 0.02}, executor);
+  auto const moves = uneven(problem.dof_count(), 1e-3);
+  problem.evaluate(moves);
+  problem.commit(moves);
+  auto const before = problem.balanced_stresses();
+  CHECK(before != problem.committed_stresses());
+  problem.evaluate(0.5 * moves);
+  CHECK(problem.balanced_stresses() == before);
+  auto points = problem.points();
+  scarp::PointPath<2> const path(points, scarp::drained_path<2>());
+  CHECK(path.stress(0) == before.front());
 }
 
 TEST_CASE("the means of a region, of a material whose type is hidden and of points of their own are the same bits") {

@@ -310,6 +310,24 @@ TEST_CASE("a checkpoint is refused by a scene of another size and by one whose t
   CHECK_FALSE(std::filesystem::exists(folder / "log.csv"));
 }
 
+TEST_CASE("a stage with two paths of the load factor is refused before it has done harm") {
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({}, serial);
+  scarp::Observers<> observers;
+  Notes notes;
+  scarp::CheckpointFiles files;
+  scarp::CheckpointedRun run(files, observers, notes);
+  scarp::LoadStepping const stepping{.first = 1e-4};
+  auto const path = [&](double from) { return stepping.run(scarp::QuasiNewton<>{}, problem, from, from + 1e-4, run); };
+  run.stage([&] {
+    auto const first = path(0.0);
+    CHECK_THROWS_WITH_AS(path(1e-4), doctest::Contains("a stage has two paths"), scarp::InputError);
+    return first;
+  });
+  run.stage([&] { return path(1e-4); });
+  CHECK(run.report().verdict.acceptable());
+}
+
 TEST_CASE("a checkpoint that holds more than the scene remembers is refused") {
   ScratchFolder const folder;
   static_cast<void>(pull(folder, {{.folder = folder / "states", .every_seconds = 1e9}, scene}, {.stop_after = 6}));

@@ -5,8 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
+#include "support/files.hpp"
 #include "support/refusals.hpp"
 
 TEST_CASE("more memory than is left is refused with both numbers and a way out") {
@@ -50,4 +54,28 @@ TEST_CASE("what is left is known on this machine, and never more than the limit 
   int status = 0;
   REQUIRE(::waitpid(child, &status, 0) == child);
   CHECK(WEXITSTATUS(status) == 7);
+}
+
+TEST_CASE("the least limit of the process's groups counts, of both versions of control groups") {
+  samples::ScratchFolder const folder;
+  auto const write = [&](std::string const& name, std::string const& text) {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name) << text;
+  };
+  auto const left = [&] { return scarp::detail::group_memory((folder / "cgroup").string(), folder.path().string()); };
+  CHECK(std::isinf(left()));
+  write("cgroup", "0::/job/step\n4:cpuset,memory:/batch\n");
+  CHECK(std::isinf(left()));
+  write("job/step/memory.max", "max\n");
+  write("job/step/memory.current", "1000\n");
+  write("job/step/memory.stat", "anon 5\ninactive_file 0\n");
+  CHECK(std::isinf(left()));
+  write("job/memory.max", "9000\n");
+  write("job/memory.current", "3000\n");
+  write("job/memory.stat", "inactive_file 500\n");
+  CHECK(left() == 6500.0);
+  write("memory/memory.limit_in_bytes", "7000\n");
+  write("memory/memory.usage_in_bytes", "3000\n");
+  write("memory/memory.stat", "inactive_file 1\ntotal_inactive_file 100\n");
+  CHECK(left() == 4100.0);
 }

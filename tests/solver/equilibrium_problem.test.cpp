@@ -140,6 +140,12 @@ TEST_CASE("an increment is committed once, after its own evaluation") {
   CHECK_REFUSED(problem.commit(first), "increment", "evaluate");
   problem.evaluate(first);
   CHECK_REFUSED(problem.commit(2.0 * first), "increment", "evaluate");
+  static_cast<void>(problem.plan(2.0 * first));
+  CHECK_REFUSED(problem.commit(first), "increment", "evaluate");
+  problem.evaluate(first);
+  static_cast<void>(problem.evaluate_committed());
+  CHECK_REFUSED(problem.commit(first), "increment", "evaluate");
+  problem.evaluate(first);
   problem.commit(first);
   auto const stresses = problem.committed_stresses();
   CHECK_REFUSED(problem.commit(first), "increment", "evaluate");

@@ -171,6 +171,18 @@ TEST_CASE("threads that cannot be started end in words, not in a wait for ever" 
   CHECK(words.find("could be started") != std::string::npos);
 }
 
+TEST_CASE("more threads than there is memory to list are refused in words" * doctest::skip(sanitized)) {
+  auto const words = within_memory(rlim_t{200} << 20U, [] {
+    try {
+      scarp::ThreadExecutor const executor(std::numeric_limits<int>::max());
+      return std::string("all were started");
+    } catch (scarp::InputError const& error) {
+      return std::string(error.what());
+    }
+  });
+  CHECK(words.find("could be started") != std::string::npos);
+}
+
 TEST_CASE("tasks of one team may call another team, whose tasks call the first") {
   scarp::ThreadExecutor first(3);
   scarp::ThreadExecutor second(2);

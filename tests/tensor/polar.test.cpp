@@ -75,6 +75,13 @@ TEST_CASE("the rotation factor is found in single precision too") {
   CHECK((turn - scarp::rotation(-std::atan(0.25F))).norm() < 1e-6F);  // a few round-offs of float
 }
 
+TEST_CASE("the rotation factor of a deformation of any finite size is a rotation") {
+  for (double const size : {1e-100, 1e40, 1e150}) {
+    scarp::Tensor<2> const deformation = size * scarp::rotation(0.5);
+    CHECK((scarp::rotation_factor<2, double>(deformation) - scarp::rotation(0.5)).norm() < 1e-12);
+  }
+}
+
 TEST_CASE("not a number goes in and comes out, in bounded time") {
   scarp::Tensor<2> deformation = scarp::Tensor<2>::Identity();
   deformation(1, 0) = std::numeric_limits<double>::quiet_NaN();

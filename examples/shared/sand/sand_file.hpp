@@ -65,7 +65,10 @@ inline std::string text_of(Sand const& sand) {
     using Member = std::remove_cvref_t<decltype(member)>;
     if (!why_unused(sand, name).empty() || (bisects && std::string_view(name) == "preparation-friction")) return;
     if constexpr (std::is_same_v<Member, std::string>) {
-      if (!member.empty()) text += fmt::format("{} = {}\n", name, member);
+      auto word = member;
+      std::ranges::replace_if(
+          word, [](char letter) { return letter == '#' || letter == '\n' || letter == '\r'; }, ' ');
+      if (!word.empty()) text += fmt::format("{} = {}\n", name, word);
     } else {
       bool const off =
           sets_density(name) || std::string_view(name) == "vertical-pressure" || std::string_view(name) == "k0";

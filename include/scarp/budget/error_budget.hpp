@@ -122,8 +122,7 @@ class ErrorBudget : public NeverStops {
     if (!samples_.strained.differences.empty()) {
       add("doubling_strained", samples_.strained.quantile(0.95), bounds_.doubling_strained,
           "of the most strained points");
-      add("doubling_largest", std::max(samples_.spread.quantile(1.0), samples_.strained.quantile(1.0)), none,
-          "of one sample");
+      add("doubling_largest", nan_max(samples_.spread.largest(), samples_.strained.largest()), none, "of one sample");
     }
     if (tracked_.any()) {
       add("accumulated", tracked_.together(), bounds_.accumulated,

@@ -45,7 +45,8 @@ class Constraints {
     prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(amplitude));
   }
 
-  /// Moves a degree of freedom of an attached body, counted from 0, by rate [m] times `amplitude` at the load factor.
+  /// Moves a degree of freedom of an attached body, counted from 0, by rate [m] times the growth of `amplitude` since the load
+  /// factor 0.
   /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
   void move_extra(int number, double rate, TimeFunction amplitude = {}) {
     if (number < 0 || number >= extra_dofs_) {

@@ -43,16 +43,23 @@ struct InterfacePoint {
 /// continuously.
 template <CheckedContactLaw Law, StandsOnMesh Body>
 class Interface {
-  static_assert(!Law::inputs.moment && !Law::inputs.radius && !Law::inputs.motion,
-                "an interface has neither rolling nor radii nor dashpots: use a law of springs and sliders");
+  static_assert(
+      !Law::inputs.moment && !Law::inputs.radius && !Law::inputs.motion && Law::inputs.species == 0,
+      "an interface has neither rolling nor radii nor dashpots nor species: use a law of springs and sliders");
 
  public:
   using Memory = ContactMemory<2, double>;  ///< shear [Pa] and further numbers of the law at one point
 
   /// nodes [m]: committed places. Laws with bonds begin intact at every point.
-  /// \throws InputError for a body whose degrees of freedom do not follow those of the nodes
+  /// \throws InputError for a body whose degrees of freedom do not follow those of the nodes, stiffnesses or a friction below 0,
+  /// and a law without normal stiffness
   Interface(Law law, Body body, FacetChain ground, std::vector<Vector<2>> const& nodes)
       : law_(std::move(law)), body_(std::move(body)), ground_(std::move(ground)) {
+    constexpr double slight = 1e-6;  // overlap [m], for laws that have no stiffness in mere touch
+    auto const springs = law_.stiffness(slight, 0.0);
+    require_positive("normal stiffness of an interface [Pa/m]", springs.normal);
+    require_not_negative("tangential stiffness of an interface [Pa/m]", springs.tangential);
+    for_each_friction(law_, [](double friction) { require_not_negative("friction of an interface", friction); });
     if constexpr (requires { body_.first_dof(); }) {
       if (body_.first_dof() != 2 * detail::count(nodes))
         reject("the body's degrees of freedom begin at {} (those of {} nodes end before {}): give that as dofs_before",

@@ -176,7 +176,7 @@ struct UmatProvider {
     int ndi = 3, nshr = components - 3, ntens = components, nstatv = detail::count(state.variables);
     int nprops = detail::count(properties), npt = 1, layer = 1, kspt = 1, noel = state.number;
     std::array<int, 4> kstep{1, 0, 0, 0};
-    int kinc = 1;
+    int kinc = 1 + static_cast<int>(std::lround(state.time / time_step));
     auto props = properties;
     Vector<3> coords = state.position;
     Tensor<3> after = state.deformation;

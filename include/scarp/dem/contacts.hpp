@@ -79,7 +79,8 @@ void for_each_near_pair(PackingType const& packing, typename PackingType::Law co
     carry_to_frame(memory.shear, {}, touch.normal);
     carry_to_frame(memory.moment, {}, touch.normal);
     auto const response = law.respond(still, memory);
-    auto const sideways = as_vector(response.shear, touch.normal);
+    auto const sideways =
+        as_vector(PackingType::Law::inputs.shear ? response.shear : decltype(response.shear){}, touch.normal);
     Contact<dim> contact{p,
                          grain_of_row(packing, detail::index(pairs.first[p])),
                          grain_of_row(packing, detail::index(pairs.second[p])),

@@ -124,8 +124,12 @@ class CellDriver {
     return {};
   }
 
-  /// Another loading from the next step on. \throws InputError for one that its validate() rejects
-  void load(Loading<dim> const& loading) { loading_ = detail::validated(loading); }
+  /// Another loading from the next step on; what was learned of the rates of the former one is forgotten.
+  /// \throws InputError for one that its validate() rejects
+  void load(Loading<dim> const& loading) {
+    loading_ = detail::validated(loading);
+    steady_.clear();
+  }
   /// Of the next step.
   Loading<dim> const& loading() const { return loading_; }
 

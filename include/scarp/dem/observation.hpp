@@ -37,8 +37,9 @@ struct StepObservation {
   double deepest_overlap = 0.0;              ///< over the reduced radius of its contact
 
   // Only with Observe::energy, all in [J].
-  double stored_energy = 0.0;   ///< in the contacts
-  double contact_loss = 0.0;    ///< in sliders and dashpots since the step before
+  double stored_energy = 0.0;  ///< in the contacts
+  double contact_loss =
+      0.0;  ///< in sliders and dashpots since the step before, but for what an observe() in between has seen
   double damping_loss = 0.0;    ///< in damping, during the move
   double kinetic_energy = 0.0;  ///< of fluctuations, mean of before and after the move
 };

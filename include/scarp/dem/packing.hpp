@@ -195,7 +195,7 @@ void require_population(PackingType const& packing) {
   if (!packing.population) reject("a packing without grains was to be moved (it has no population): make or load one");
 }
 
-/// What a list with this skin [m] follows from: the springs, summed over species, of smallest and of largest grains at the skin, which is how deep
+/// What a list with this skin [m] follows from: the springs, in a weighted sum over pairs of species, of smallest and of largest grains at the skin, which is how deep
 /// a near pair may get at least, and at twice the skin.
 template <class PackingType>
 ListBasis list_basis(PackingType const& packing, typename PackingType::Law const& law, double skin) {
@@ -205,11 +205,13 @@ ListBasis list_basis(PackingType const& packing, typename PackingType::Law const
   std::size_t k = 0;
   for (double const radius : {population.smallest_radius(), population.largest_radius()}) {
     for (double const depth : {skin, 2.0 * skin}) {
+      double weight = 1.0;
       for_each_law(law, [&](auto const& one) {
         ContactStiffness const springs = one.stiffness(depth, radius / 2.0);
-        basis.stiffness[k] += springs.normal;
-        basis.stiffness[k + 1] += springs.tangential;
-        basis.stiffness[k + 2] += springs.rolling;
+        basis.stiffness[k] += weight * springs.normal;
+        basis.stiffness[k + 1] += weight * springs.tangential;
+        basis.stiffness[k + 2] += weight * springs.rolling;
+        weight *= 1.37;  // stiffnesses that are exchanged between pairs of species differ in the sum
       });
       k += 3;
     }

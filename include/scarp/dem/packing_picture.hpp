@@ -23,7 +23,7 @@ struct PackingPicture {
   /// A grain as an ellipse.
   struct Grain {
     Vector<2> centre;        ///< [m], perhaps outside of the cell
-    double a = 0.0;          ///< half axis along `axis` [m], the longer one
+    double a = 0.0;          ///< half axis along `axis` [m]
     double b = 0.0;          ///< half axis across [m]
     Vector<2> axis{1.0, 0};  ///< unit vector
   };

@@ -81,7 +81,7 @@ class TimeStepper {
   /// Makes the pair list where there is none, it has become too old or it was made for another law or other masses, and the
   /// critical step with it.
   /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary ones
-  /// \throws InputError for a law that `require_consistent` rejects, when the list is made for it
+  /// \throws InputError for a negative friction, and for a law that `require_consistent` rejects when the list is made for it
   Verdict refresh(PackingType& packing, Law const& law) const {
     if constexpr (in_library) {
       return Library::refresh(*this, packing, law);
@@ -130,7 +130,10 @@ class TimeStepper {
     validate();
     bool is_sound = true;
     Law own = law;
-    for_each_friction(own, [&](double friction) { is_sound = is_sound && std::isfinite(friction) && friction >= 0.0; });
+    for_each_friction(own, [&](double friction) {
+      is_sound = is_sound && std::isfinite(friction);
+      if (friction < 0.0) require_not_negative("friction of the contact law", friction);
+    });
     if (!is_sound) return {Status::failed, Reason::not_finite};
     detail::validated(law);
     // The first is false also when the drift is no number.

@@ -66,7 +66,7 @@ struct FaultMesh {
   SCARP_EXPORT Mesh<Element> generate(std::vector<double> const& edges = {}) const;
 
   /// Number of elements that generate() makes.
-  /// \throws InputError as generate() does
+  /// \throws InputError as generate() does, but for the jitter
   template <ReferenceElement Element = Tri3>
   int element_count(std::vector<double> const& edges = {}) const {
     check<Element>(edges);

@@ -82,7 +82,7 @@ inline BasePressure base_pressure(FootingMotion const& motion) {
 }
 
 /// How a scene's footing moves, a row for each accepted step, and the pressures on its base at every so many of them.
-/// \tparam Structure a `StandsOnGround` whose motion(problem) is a `FootingMotion`
+/// \tparam Structure a `StandsOnGround` whose motion(problem, load) is a `FootingMotion`
 template <class Structure>
 class FootingLog : public NeverStops {
  public:
@@ -103,7 +103,7 @@ class FootingLog : public NeverStops {
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;
-    FootingMotion const motion = structure_.motion(problem);
+    FootingMotion const motion = structure_.motion(problem, report.load);
     auto const pressure = base_pressure(motion);
     motion_.add(report.load, throw_at(report.load), motion.settlement, motion.horizontal, motion.tilt, support(motion),
                 pressure.least, pressure.largest, pressure.pressed, motion.horizontal, support(motion),
@@ -114,7 +114,7 @@ class FootingLog : public NeverStops {
   /// Writes the pressures of a run that stopped between two profiles.
   template <class Problem>
   void ended(Problem const& problem, double load) {
-    if (schedule_.takes_end(load)) write_base(structure_.motion(problem), load);
+    if (schedule_.takes_end(load)) write_base(structure_.motion(problem, load), load);
   }
 
   SCARP_MEMBERS_EXCEPT((structure_), motion_, base_, schedule_)

@@ -61,7 +61,7 @@ struct FrictionalFooting {
 
   /// Motion [m, rad] of the rigid body, and the interface's points.
   template <class Problem>
-  FootingMotion motion(Problem const& problem) const {
+  FootingMotion motion(Problem const& problem, double = 0.0) const {
     auto const& body = problem.attached().body().body();
     auto const& mesh = problem.discretisation().mesh();
     int const node = boundary(mesh, "footing_base").front().front();

@@ -37,7 +37,7 @@ void put_on_base(Mesh<Element>& block, Mesh<Element> const& ground, double same)
   }
 }
 
-/// A block that a file brought along.
+/// A block that a file brought along: a rectangle, as its weight is that of one.
 template <class Element>
 void require_block(Mesh<Element> const& mesh, double level, double height) {
   for (int const node : boundary_nodes(mesh, "footing_top")) {
@@ -48,6 +48,24 @@ void require_block(Mesh<Element> const& mesh, double level, double height) {
           "height, or take the region 'footing' out of the mesh",
           top - level, height);
     }
+  }
+  int const region = region_number(mesh, "footing");
+  double area = 0.0;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (mesh.element_region[e] != region) continue;
+    auto const corner = [&](int k) { return mesh.nodes[index(mesh.elements[e][index(k % LinearOf<Element>::nodes)])]; };
+    for (int k = 0; k < LinearOf<Element>::nodes; ++k) {
+      area += (corner(k).x() * corner(k + 1).y() - corner(k + 1).x() * corner(k).y()) / 2.0;
+    }
+  }
+  auto const base = corners_along(mesh, "footing_base");
+  double const width = base.back() - base.front();
+  if (!(std::abs(area - width * height) <= 1e-5 * width * height)) {
+    reject(
+        "the region 'footing' of the mesh has an area of {:.6g} m2 (a footing of {:.6g} x {:.6g} m has {:.6g}): make "
+        "it a rectangle "
+        "of that size, or take it out of the mesh",
+        area, width, height, width * height);
   }
 }
 

@@ -51,8 +51,9 @@ struct TiedFooting {
   }
 
   /// Stresses on the base are nodal forces between block and ground over each node's share of the base.
+  /// load: factor of the committed state; below 0 a part of the block's weight acts
   template <class Problem>
-  FootingMotion motion(Problem const& problem) const {
+  FootingMotion motion(Problem const& problem, double load = 0.0) const {
     auto const& grid = problem.discretisation();
     auto const& mesh = grid.mesh();
     auto nodes = boundary_nodes(mesh, "footing_base");
@@ -64,7 +65,7 @@ struct TiedFooting {
     Vector<2> const moved =
         (left + right) / 2.0 - (mesh.nodes[index(nodes.front())] + mesh.nodes[index(nodes.back())]) / 2.0;
     FootingMotion motion{-moved.y(), moved.x(), std::atan2(left.y() - right.y(), right.x() - left.x()), {}};
-    Eigen::VectorXd const forces = forces_of_block(problem);
+    Eigen::VectorXd const forces = forces_of_block(problem, load);
     Eigen::VectorXd const shares = traction(grid, "footing_base", Vector<2>(1.0, 0.0));
     for (int const node : nodes) {
       double const area = shares(2 * node);
@@ -82,9 +83,9 @@ struct TiedFooting {
                       [&](int number) { return Vector<2>(0.0, number == region ? -footing.bearing / height : 0.0); });
   }
 
-  /// Forces that the block alone needs at its nodes, its weight included, once it has been placed.
+  /// Forces that the block alone needs at its nodes, its weight included.
   template <class Problem>
-  Eigen::VectorXd forces_of_block(Problem const& problem) const {
+  Eigen::VectorXd forces_of_block(Problem const& problem, double load) const {
     auto const& grid = problem.discretisation();
     std::vector<VoigtStress<2>> stresses(detail::index(grid.point_count()), VoigtStress<2>::Zero());
     int const region = region_number(grid.mesh(), "footing");
@@ -93,7 +94,7 @@ struct TiedFooting {
     }
     Eigen::VectorXd forces;
     grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), stresses, forces);
-    return forces - weight(grid);
+    return forces - std::clamp(load - start(), 0.0, 1.0) * weight(grid);
   }
 };
 

@@ -31,7 +31,8 @@ inline void require_contacts(std::string_view what, std::size_t contacts) {
     reject("{} has 0 contacts (it carries no stress and has no stiffness): compress it until its grains touch", what);
 }
 
-/// Love and Weber's mean stress, with f the force on the second grain and l the branch from first to second.
+/// Love and Weber's mean stress, with f the force on the second grain and l the branch from first to second; forces of dashpots
+/// are not in it.
 template <class PackingType>
 Balance<PackingType::dim> balance(PackingType const& packing, typename PackingType::Law const& law) {
   constexpr int dim = PackingType::dim;

@@ -26,7 +26,7 @@ Fabric<PackingType::dim> contact_fabric(PackingType const& packing, typename Pac
   return sum / static_cast<double>(count);
 }
 
-/// Of the grains' longest axes. Only for shapes that have an orientation.
+/// Of the grains' first axes, which are the longest unless sizes were given otherwise. Only for shapes that have an orientation.
 template <class PackingType>
 Fabric<2> particle_fabric(PackingType const& packing) requires(PackingType::dim == 2 &&
                                                                PackingType::Shape::orientation_count == 2) {

@@ -20,12 +20,16 @@ namespace scarp {
 
 namespace detail {
 
-/// Numbers in the shortest form that reads back to the same bits; text in quotes where RFC 4180 requires it.
+/// Numbers in the shortest form that reads back to the same bits; text in quotes where RFC 4180 requires it, or blanks at
+/// its ends would be lost.
 template <class Value>
 std::string csv_cell(Value const& value) {
   if constexpr (std::convertible_to<Value const&, std::string_view>) {
     std::string_view const text = value;
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    constexpr std::string_view blanks = " \t";
+    bool const blank_ends =
+        !text.empty() && (blanks.find(text.front()) != blanks.npos || blanks.find(text.back()) != blanks.npos);
+    if (!blank_ends && text.find_first_of(",\"\r\n") == std::string_view::npos) {
       return std::string(text);
     }
     std::string quoted = "\"";

@@ -6,8 +6,8 @@
 
 namespace scarp {
 
-/// Work of the reactions at prescribed displacements per unit of their amplitude, the load factor where none is given [N], in the
-/// plane per metre of thickness:
+/// Work of the reactions at prescribed displacements per unit of their amplitude, the load factor where none is given [N], of the
+/// mesh's whole thickness:
 /// \f$ R = \sum_k \dot u_k r_k \f$ with the rate of each prescribed displacement and the nodal force of the stresses in the
 /// committed state. Loads on these nodes are not subtracted: of a fault, whose load factor is the throw, the
 /// difference to the ground at rest is what moving bedrock works against. On all ranks at once.

@@ -139,12 +139,12 @@ class MaterialPoints : public PointStates<Dim> {
     share(values, executor);
     return values;
   }
-  /// Committed stresses with the stabilising stress: those that balance the loads after a commit.
+  /// Committed stresses with the committed stabilising stress: those that balance the loads.
   template <ExecutesTasks Executor>
   Stresses balanced_stresses(Executor& executor) const {
     Stresses values = committed_stresses(executor);
     if (!means_) return values;
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] += means_->added_stresses()[k];
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += means_->committed_tau(static_cast<int>(k));
     return values;
   }
   /// Tangent [Pa] of a point's trial state.
@@ -193,6 +193,7 @@ class MaterialPoints : public PointStates<Dim> {
         first.push_back(k);
     }
     if (!selected.empty()) first.push_back(detail::count(selected));
+    has_trial_ = false;  // until all have responded: one may throw
     together(executor, [&] {
       executor.for_each(detail::count(first) - 1, [&](int task) {
         auto const from = detail::index(first[detail::index(task)]);

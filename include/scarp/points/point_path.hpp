@@ -79,7 +79,9 @@ class PointPath {
   PointPath(MaterialPoints<Dim>& points, PathConditions<Dim> conditions, PathSettings const& settings = {})
       : points_(points), settings_(detail::validated(settings)) {
     for (int k = 0; k < points.size(); ++k) {
-      courses_.push_back({.stress = points.committed_stress(k), .tangent = points.committed_tangent(k)});
+      VoigtStress<Dim> stress = points.committed_stress(k);
+      if (auto const* means = points.means()) stress += means->committed_tau(k);
+      courses_.push_back({.stress = stress, .tangent = points.committed_tangent(k)});
     }
     load(std::move(conditions));
   }

@@ -47,8 +47,8 @@ void with_all_states(Problem& problem, Task const& task) {
 /// run.stage([&] { return scene.rupture(problem, run); });
 /// \endcode
 /// Stages before that of the checkpoint are left out; the problem that it is loaded into is a new one of the same scene. A
-/// checkpoint is made before an attempt when its time has come, where a stage ends, and where it stops, for whatever reason:
-/// with the last accepted state then. When something cannot be written, by an observer or of a checkpoint, the run stops there as
+/// checkpoint is made before an attempt when its time has come, where a stage by run() or advance() ends, and where that stops, for
+/// whatever reason: with the last accepted state then. When something cannot be written, by an observer or of a checkpoint, the run stops there as
 /// when it is interrupted, and trouble() returns the message. Where points are distributed over processes,
 /// the first one writes for all and each reads all: another number of processes may resume.
 /// \tparam Watched an `ObservesSteps` that is `Described`, such as `Observers`
@@ -68,7 +68,7 @@ class CheckpointedRun {
     stage_ = -1;
   }
 
-  /// action() goes through a stage, watched by this object, and returns its RunReport. Left out when a stage before it was
+  /// action() goes through a stage, one path of the load factor, watched by this object, and returns its RunReport. Left out when a stage before it was
   /// not completed, or when a checkpoint lies behind it.
   template <class Action>
   void stage(Action&& action) {
@@ -94,9 +94,11 @@ class CheckpointedRun {
   bool stopped() const { return stopped_; }
 
   /// Loads the checkpoint into the stage that it was made in.
-  /// \throws CheckpointError for a checkpoint of another scene
+  /// \throws CheckpointError for a checkpoint of another scene, InputError for a second path within a stage
   template <class Problem, class Session>
   void begins(Problem& problem, Session& session, RunState& state) {
+    if (std::exchange(begun_, stage_) == stage_)
+      reject("a stage has two paths of the load factor (a checkpoint belongs to one): make each a stage of its own");
     if (!files_.resumes() || stage_ != first_) return;
     files_.load([&](StateReader& reader) {
       read_place(reader);
@@ -147,12 +149,17 @@ class CheckpointedRun {
 
   template <class Problem, class Action>
   void writing(Problem const& problem, Action const& action) {
+    std::exception_ptr elsewhere;
     try {
       action();
     } catch (FileError const& problem_of_file) {
       if (trouble_.empty()) trouble_ = problem_of_file.what();
+    } catch (InputError const&) {  // on other ranks perhaps for a file of the root
+      if (is_root_rank(problem.executor())) throw;
+      elsewhere = std::current_exception();
     }
     stopped_ = broadcast_flag(problem.executor(), !trouble_.empty());
+    if (elsewhere && !stopped_) std::rethrow_exception(elsewhere);
   }
 
   void read_place(StateReader& reader) {
@@ -175,6 +182,7 @@ class CheckpointedRun {
   RunReport report_;  ///< of the stages before the present one
   int stage_ = -1;
   int first_ = 0;     ///< stage to begin with
+  int begun_ = -2;    ///< stage whose path has begun last
   int attempts_ = 0;  ///< since the last checkpoint
   Clock::time_point saved_;
   std::string trouble_;

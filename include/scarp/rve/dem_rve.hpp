@@ -90,8 +90,8 @@ struct DemRve {
       reject("point {} got a packing of zero grains (nothing can carry stress): give the provider's source a packing",
              site.index);
     }
-    require_positive("normal stiffness of the contact law", spring_modulus(state.packing, law));
     require_consistent(law, state.packing.population->largest_radius());
+    require_positive("stiffness scale [Pa] that the contact law gives the packing", spring_modulus(state.packing, law));
     Stepper stepper;
     stepper.boundary = boundary;
     state.verdict = observe(stepper, state);

@@ -93,7 +93,7 @@ class SCARP_EXPORT EquilibriumProblem final
   std::vector<Gradient<dim>> const& own_gradients() const { return points_.own_gradients(); }
   /// Cauchy stress [Pa] of each point, tension positive, without what a field of means adds.
   std::vector<VoigtStress<dim>> committed_stresses() const override { return points_.committed_stresses(executor_); }
-  /// Stresses [Pa] with what a field of means adds: those that balance the loads, after a step has been committed.
+  /// Committed stresses [Pa] with what a field of means adds: those that balance the loads.
   std::vector<VoigtStress<dim>> balanced_stresses() const { return points_.balanced_stresses(executor_); }
 
   /// Largest component of all points' gradients in the last plan or evaluation.
@@ -147,6 +147,7 @@ class SCARP_EXPORT EquilibriumProblem final
   Evaluation evaluate_committed() override {
     points_.evaluate_committed(executor_);
     seen_.resize(0);
+    evaluated_.resize(0);
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
     return evaluation;
@@ -222,7 +223,11 @@ class SCARP_EXPORT EquilibriumProblem final
     visit("materials", self.points_);
     if constexpr (!is_bare) visit("attached", self.attached_);
   }
-  void after_loading() { seen_.resize(0); }  ///< The next evaluation computes all gradients anew.
+  /// The next evaluation computes all gradients anew.
+  void after_loading() {
+    seen_.resize(0);
+    evaluated_.resize(0);
+  }
 
  private:
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {
@@ -244,6 +249,7 @@ class SCARP_EXPORT EquilibriumProblem final
     std::vector<Gradient<dim>> gradients(detail::index(discretisation_.point_count()));
     auto const inverted = discretisation_.gradients(of_nodes(increment), gradients);
     if (inverted) return inverted;
+    evaluated_.resize(0);
     points_.set_gradients(std::move(gradients), executor_);
     seen_ = increment;
     return std::nullopt;

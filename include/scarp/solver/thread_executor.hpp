@@ -27,10 +27,10 @@ class ThreadExecutor {
     if (threads < 0)
       reject("{} threads were requested (at least one must work): give a positive number, or 0 for all", threads);
     if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    team_.reserve(static_cast<std::size_t>(threads - 1));
     try {
+      team_.reserve(static_cast<std::size_t>(threads - 1));
       for (int k = 1; k < threads; ++k) team_.emplace_back([this] { serve(); });
-    } catch (std::system_error const& error) {
+    } catch (std::exception const& error) {  // of the system or of memory
       int const started = this->threads();
       end_service();
       reject(

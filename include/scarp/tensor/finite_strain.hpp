@@ -20,7 +20,7 @@ namespace scarp {
 template <int Dim, class Scalar>
 Tensor<Dim, Scalar> rotation_factor(Tensor<Dim, Scalar> const& deformation) {
   using std::sqrt;
-  constexpr int max_iterations = 100;  // halves the largest singular value at worst: enough for any finite double
+  constexpr int max_iterations = 1100;  // halves the largest singular value at worst: enough for any finite double
   Scalar const close = sqrt(Eigen::NumTraits<Scalar>::epsilon());
   Tensor<Dim, Scalar> turn = deformation;
   for (int k = 0; k < max_iterations; ++k) {

@@ -64,6 +64,12 @@ class GrainLines {
     rows_.push_back(std::move(row));
   }
   void restart() { rows_.clear(); }
+  /// \throws InputError unless there are as many grains as the file says, where it does
+  void require_complete(std::optional<double> announced) const {
+    if (announced && *announced != static_cast<double>(rows_.size()))
+      reject("'{}' says that it has {} grains and has {} (it is cut off or damaged): write or copy it again", file_,
+             *announced, rows_.size());
+  }
   CsvColumns columns() && { return {file_, {0, {"id", "x", "y", "z", "r"}}, std::move(rows_)}; }
 
   [[noreturn]] void reject_line(std::size_t line, std::string_view why, std::string_view suggestion) const {
@@ -108,6 +114,7 @@ inline GrainFile read_yade(GrainLines lines) {
 inline GrainFile read_lammps_data(GrainLines lines) {
   std::array<double, 3> edges{};
   std::array<double, 3> tilts{};
+  std::optional<double> announced;
   bool in_atoms = false;
   for (std::size_t k = 1; k < lines.count(); ++k) {
     auto const& words = lines.words(k);
@@ -120,12 +127,15 @@ inline GrainFile read_lammps_data(GrainLines lines) {
                           "write it with atom_style sphere");
     } else if (in_atoms) {
       lines.add(k, {0, 4, 5, 6, 2}, 0.5);
+    } else if (words.size() == 2 && words[1] == "atoms") {
+      announced = lines.number(k, 0);
     } else if (words.size() >= 4 && (words[2] == "xlo" || words[2] == "ylo" || words[2] == "zlo")) {
       edges[index(words[2][0] - 'x')] = lines.number(k, 1) - lines.number(k, 0);
     } else if (words.size() >= 6 && words[3] == "xy") {
       tilts = {lines.number(k, 0), lines.number(k, 1), lines.number(k, 2)};
     }
   }
+  lines.require_complete(announced);
   return {std::move(lines).columns(), sheared_box(edges, tilts), {"densities of grains are not read"}};
 }
 
@@ -133,9 +143,13 @@ inline GrainFile read_lammps_data(GrainLines lines) {
 inline GrainFile read_lammps_dump(GrainLines lines) {
   std::optional<Tensor<3>> cell;
   std::vector<std::string> notes;
+  std::optional<double> announced;
   int snapshots = 0;
+  std::size_t begun = 0;  // line of the last snapshot's head that no grains have followed yet
   for (std::size_t k = 0; k < lines.count(); ++k) {
     if (lines.word(k, 0) != "ITEM:") continue;
+    if (lines.word(k, 1) == "NUMBER") announced = lines.number(k + 1, 0);
+    begun = lines.word(k, 1) == "ATOMS" ? 0 : k;
     if (lines.word(k, 1) == "BOX") {
       if (lines.words(k).size() > 3 && lines.word(k, 3) == "abc")
         lines.reject_line(k, "a general triclinic box is not read", "write it with triclinic/general off");
@@ -168,6 +182,8 @@ inline GrainFile read_lammps_dump(GrainLines lines) {
       while (k + 1 < lines.count() && lines.word(k + 1, 0) != "ITEM:") lines.add(++k, at, radii ? 1.0 : 0.5);
     }
   }
+  if (begun > 0) lines.reject_line(begun, "no ITEM: ATOMS follows, the file is cut off", "write or copy it again");
+  lines.require_complete(announced);
   if (snapshots > 1) notes.push_back(fmt::format("the last of {} snapshots is read", snapshots));
   return {std::move(lines).columns(), cell, notes};
 }
