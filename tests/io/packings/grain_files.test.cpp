@@ -115,8 +115,8 @@ TEST_CASE("what cannot be read is refused with the line") {
   CHECK(complaint(with(dump, "id type diameter", "id type mass")) == Naming{"line 19 of", "id x y z radius"});
   CHECK(complaint(dump.substr(0, dump.find("0 5.5"))) == Naming{"ends too soon"});
   CHECK(complaint(dump.substr(0, dump.find("ITEM: ATOMS id type"))) == Naming{"line 15 of", "no ITEM: ATOMS follows"});
-  CHECK(complaint(dump.substr(0, dump.find("9 1 0.5"))) == Naming{"says that it has 2 grains and has 1"});
-  CHECK(complaint(with(lammps, "9 1 0.5 2650 1.5 2 3 0 0 0\n", "")) == Naming{"says that it has 2 grains and has 1"});
+  CHECK(complaint(dump.substr(0, dump.find("9 1 0.5"))) == Naming{"announces 2 grains and has 1"});
+  CHECK(complaint(with(lammps, "9 1 0.5 2650 1.5 2 3 0 0 0\n", "")) == Naming{"announces 2 grains and has 1"});
   CHECK(complaint(with(dump, "BOUNDS xy xz yz", "BOUNDS abc origin")) == Naming{"line 15 of", "general triclinic box"});
   CHECK(complaint(with(mercury, "position 1.5 2 3", "place 1.5 2 3")) == Naming{"line 10 of", "has no position"});
   CHECK(complaint(with(mercury, "Particles 2", "Particles 3")) == Naming{"line 11 of", "begins with 'Interactions'"});

@@ -64,10 +64,10 @@ class GrainLines {
     rows_.push_back(std::move(row));
   }
   void restart() { rows_.clear(); }
-  /// \throws InputError unless there are as many grains as the file says, where it does
+  /// \throws InputError unless there are as many grains as the file announces, where it does
   void require_complete(std::optional<double> announced) const {
     if (announced && *announced != static_cast<double>(rows_.size()))
-      reject("'{}' says that it has {} grains and has {} (it is cut off or damaged): write or copy it again", file_,
+      reject("'{}' announces {} grains and has {} (it is cut off or damaged): write or copy it again", file_,
              *announced, rows_.size());
   }
   CsvColumns columns() && { return {file_, {0, {"id", "x", "y", "z", "r"}}, std::move(rows_)}; }
