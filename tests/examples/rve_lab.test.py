@@ -91,7 +91,7 @@ def check_cell(folder):
     expect(code == 2 and "elsewhere in the cell" in said, f"transposed cell: ended with {code}\n{said}")
     # A cell in the file of the particles is that of the packing, also beside contacts.
     grains = read(YADE / "particles.csv")
-    (folder / "boxed.txt").write_text("#PERIODIC:: 0.5 0.5 1\n" + "".join(f"{g['x']} {g['y']} 0 {g['r']}\n" for g in grains))
+    (folder / "boxed.txt").write_text("##PERIODIC:: 0.5 0.5 1\n" + "".join(f"{g['x']} {g['y']} 0 {g['r']}\n" for g in grains))
     code, said = run("replay", "--particles", "boxed.txt", *INPUT[2:], "--path", "isotropic", "--strain", "1e-4",
                      "--strain-step", "1e-6", "--out", "x.csv", folder=folder)
     expect(code == 2 and "elsewhere in the cell 0.5,0,0,0.5" in said, f"a wrong cell in the file: ended with {code}\n{said}")
