@@ -71,6 +71,9 @@ def write_table(name, rows, said, key=()):
     key: columns by which rows of the present file are told apart; those without a new row stay"""
     rows = [{column: cell(value) for column, value in row.items()} for row in rows]
     path = data_folder() / f"{name}.csv"
+    if key and not rows and path.exists():
+        print(f"{path}: nothing new was run")
+        return
     if key:
         new = {tuple(row[column] for column in key) for row in rows}
         rows = [row for row in read_table(path) if tuple(row.get(column, "") for column in key) not in new] + rows

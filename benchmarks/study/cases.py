@@ -86,6 +86,12 @@ class CaseSet:
         frames = self.runs[case].frames
         return ground_points.steepest_place(frames[-1], frames[0], height)
 
+    def diverted(self, case, height):
+        """How far a footing moves the crossing [m]; NaN where neither case has been run: rounded places have no rounded difference."""
+        if not self.runs.keys() & {case, "free"}:
+            return math.nan
+        return self.crossed(case, height) - self.crossed("free", height)
+
     def of(self, case, measure):
         return measure(self.runs[case].summary) if case in self.runs else math.nan
 
@@ -131,7 +137,7 @@ def rows():
     for case in ("heavy", "light"):
         for below in (4.0, 1.0):
             yield (f"{case}: its diversion there, {below:g} m below [m]", "", 1,
-                   lambda one, case=case, below=below: one.crossed(case, DEPTH - below) - one.crossed("free", DEPTH - below))
+                   lambda one, case=case, below=below: one.diverted(case, DEPTH - below))
         yield (f"{case}: diversion of x50 at 3/4 of the depth [m]", "", 1,
                lambda one, case=case: one.of(case, upper_band) - one.of("free", upper_band))
         yield f"{case}: tilt [degrees]", "", 2, lambda one, case=case: one.of(case, degrees("tilt"))
@@ -177,7 +183,8 @@ def column(sets, names, measure, digits):
         return None
     if not known:
         return "-"
-    return f"{np.mean(known):.{digits}f}" + (f" +- {np.std(known, ddof=1):.{max(digits, 1)}f}" if len(known) > 1 else "")
+    told = f"{np.mean(known):.{digits}f}" + (f" +- {np.std(known, ddof=1):.{max(digits, 1)}f}" if len(known) > 1 else "")
+    return told if len(known) == len(values) else f"{told} ({len(known)} of {len(values)})"
 
 
 SEED_SETS = [f"seed {seed}" for seed in SEEDS]
@@ -185,7 +192,7 @@ SEED_SETS = [f"seed {seed}" for seed in SEEDS]
 
 def numbers(sets):
     """Lines of the comparison with the reference study."""
-    columns = {**{name: [name] for name in ("1 m", "2 m", "4 m", "8 m")}, "8 m, 1904 triangles: three seeds": SEED_SETS,
+    columns = {"1 m": ["1 m"], "2 m": ["2 m"], "4 m, uniform, not preloaded": ["4 m"], "8 m": ["8 m"], "8 m, 1904 triangles: three seeds": SEED_SETS,
                "5.66 m, 1904 triangles": ["5.66 m"]}
     return [{"measure": what, "study": said, **{title: column(sets, names, measure, digits) for title, names in columns.items()}}
             for what, said, digits, measure in rows()]
@@ -215,7 +222,9 @@ def main():
     before = read_table(data_folder() / "study_cases.csv")
     sets = {name: CaseSet(names, {row["measure"]: row.get(name) for row in before}) for name, names in SETS.items()}
     frictional = {name: CaseSet(names, {}) for name, names in FRICTIONAL.items()}
-    said = origin("./benchmarks/study/run cases")
+    if not any(one.runs for one in [*sets.values(), *frictional.values()]):
+        sys.exit("no run of the study is in output/ (the data files stay as they are): run one first, ./benchmarks/study/run free_2")
+    said = origin("./benchmarks/study/run cases", ("g++",), "what belongs to runs that were not there is of earlier commits")
     write_table("study_cases", kept([*numbers(sets), *bases(sets, frictional)], before), said)
     runs = [{"run": title.format(case=case, name=name), **measures(run.summary)}
             for title, group in (("{case}, {name}", sets), ("{case}, frictional, {name}", frictional))
