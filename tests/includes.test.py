@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """A program reads only the headers of what it names: linear elasticity no discrete elements, a scene without observer no files (but
-the bits of states, which points that hide their types can always tell). What a compiler reads for them is limited too, so that growth is noticed. Environment: see compiled_symbols.py."""
+the bits of states, which points that hide their types can always tell). What a compiler reads for them is limited too, so that growth is noticed. Environment: see compiler.py."""
 import concurrent.futures
 import pathlib
 import re
@@ -10,7 +10,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent / "examples"), str(pathlib.Path(__file__).resolve().parent)]
-from compiled_symbols import compiler, include_folders
+from compiler import compiler, include_folders
 from expectations import expect, finish
 
 GRAINS = {"scarp/dem/", "scarp/shape/", "scarp/contact/", "scarp/homogenise/", "scarp/rve/", "nanoflann"}

@@ -41,18 +41,28 @@ scarp::AnyProvider<2> prepared(Grains const& grains, double pressure, int points
         "the sand has vertical-pressure {} and k0 {} (the specimen begins under the confining pressure alone): leave "
         "both out",
         sand.vertical_pressure, sand.k0);
+  double const of_density = sand.pressure;  // where void ratio and relative density are those of the sand
+  bool const by_density = (sand.void_ratio > 0.0 || sand.relative_density > 0.0) && of_density != pressure;
   sand.pressure = pressure;
   scarp::AnyProvider<2> made;
   using examples::Linear;
-  with_packing(examples::Built<Linear<scarp::Disc>, Linear<scarp::Ellipse>>{}, sand,
-               [&]<class Packing>(std::type_identity<Packing>, auto const& law) {
-                 auto const recipe = [&](std::uint64_t seed) {
-                   return scarp::Prepared<Packing>{examples::prepared<Packing>(sand, law, seed, {}, off), {}};
-                 };
-                 int const most = std::min(grains.pool, points);
-                 made = rve<typename Packing::Shape>(grains, pressure, law,
-                                                     scarp::RandomPackings{recipe, sand.seed}.pool(most, executor));
-               });
+  with_packing(
+      examples::Built<Linear<scarp::Disc>, Linear<scarp::Ellipse>>{}, sand,
+      [&]<class Packing>(std::type_identity<Packing>, auto const& law) {
+        auto const recipe = [&](std::uint64_t seed) {
+          Sand own = sand;
+          if (by_density) {
+            auto const cloud = examples::cloud_of<typename Packing::Shape>(sand, seed);
+            examples::Consolidation<Packing> const there{cloud.template make<Packing>(), law, of_density, of_density};
+            own.preparation_friction = examples::consolidated(there, sand, off).friction;
+            own.void_ratio = own.relative_density = 0.0;
+          }
+          return scarp::Prepared<Packing>{examples::prepared<Packing>(own, law, seed, {}, off), {}};
+        };
+        int const most = std::min(grains.pool, points);
+        made = rve<typename Packing::Shape>(grains, pressure, law,
+                                            scarp::RandomPackings{recipe, sand.seed}.pool(most, executor));
+      });
   return made;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Does the width of a shear band in softening soil depend on the mesh, and what does an intrinsic length change?
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "../shared/command_line.hpp"
@@ -77,7 +79,8 @@ Outcome print_row(Choice const& choice, int cells, double length) {
   auto const run = stepping.run(newton, problem, 0.0, choice.to, record);
   double peak = 0.0;
   for (auto const& row : record.curve) peak = std::max(peak, row[1]);
-  auto const& last = record.curve.back();
+  double const none = std::nan("");
+  auto const last = record.curve.empty() ? std::array{0.0, none, none} : record.curve.back();
   Outcome outcome{{}, last[1]};
   if (!record.start.empty()) {
     auto const shears = shear_strains(problem, record.start, problem.discretisation().positions());
@@ -161,6 +164,8 @@ int main(int argc, char** argv) {
   packings->add_option("--seed", seed, "of the packing")->check(examples::seed_number());
   if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
+    if (!rupture->parsed() && !packings->parsed() && !(choice.from < choice.to))
+      scarp::reject("--from is {} m (the settlement ends at {} m): choose a smaller one", choice.from, choice.to);
     if (rupture->parsed()) {
       print_fault(fault);
       return 0;

@@ -106,7 +106,8 @@ inline void write_all(Choice const& choice, std::vector<Outcome> const& outcomes
   if (choice.soil == Soil::sand) {
     json["grains"] = choice.sand.grains;
     json["seed"] = choice.sand.seed;
-    json["preparation_friction"] = choice.sand.preparation_friction;
+    if (choice.sand.void_ratio == 0.0 && choice.sand.relative_density == 0.0)
+      json["preparation_friction"] = choice.sand.preparation_friction;
   }
   for (auto const& outcome : outcomes) {
     std::string const movement = name(outcome.movement);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -29,9 +30,10 @@ inline std::vector<std::span<Result const>> by_friction(std::span<Result const> 
   return groups;
 }
 
-/// The row at the middle of the window of 0.5 % axial strain with the largest stress ratio.
+/// The row at the middle of the window of 0.5 % axial strain, or of the whole of a shorter test, with the largest stress ratio.
 inline Row const& peak_row(Result const& result) {
-  double const strain = peak_angles(result.rows, 0.005).friction_strain;
+  double const window = std::min(0.005, result.rows.back().axial_strain - result.rows.front().axial_strain);
+  double const strain = peak_angles(result.rows, window).friction_strain;
   return *std::min_element(result.rows.begin(), result.rows.end(), [&](Row const& a, Row const& b) {
     return std::abs(a.axial_strain - strain) < std::abs(b.axial_strain - strain);
   });

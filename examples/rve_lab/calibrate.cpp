@@ -35,7 +35,14 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   for (auto const& one : all.free) {
     if (is_density(one.name)) all.start.preparation_friction = all.start.void_ratio = all.start.relative_density = 0.0;
   }
-  for (auto const& one : all.free) one.of(all.start) = one.of(choice.sand);
+  for (auto const& one : all.free) {
+    one.of(all.start) = one.of(choice.sand);
+    if (!is_density(one.name)) continue;
+    if (one.begins_above_zero() && one.of(all.start) == 0.0) one.of(all.start) = one.at(0.5);  // 0: not used
+    for (char const* other : {"preparation-friction", "void-ratio", "relative-density"}) {
+      if (one.name != other) examples::reject_unused(app, other, fmt::format("--free names {}", one.name));
+    }
+  }
   if (auto const densities = std::ranges::count_if(all.free, [](Free const& one) { return is_density(one.name); });
       densities > 1)
     scarp::reject("--free names {} parameters that set the density: leave one", densities);

@@ -42,7 +42,7 @@ struct Evaluation {
   Eigen::VectorXd shares{};   ///< of the way between the bounds
   Eigen::VectorXd values{};   ///< of the observations
   Eigen::VectorXd scatter{};  ///< standard error of the values, jackknife over the seeds
-  double void_ratio = 0.0;    ///< at the start of the test
+  double void_ratio = 0.0;    ///< at the isotropic pressure of the preparation
   Curve mean{};               ///< empty where it was read from a file
   std::string reason{};       ///< why there is no such packing or curve; values are then no numbers
 
@@ -106,7 +106,7 @@ inline Evaluation evaluated(Calibration const& calibration, Eigen::VectorXd cons
       return infeasible(calibration, shares,
                         fmt::format("the curve has no {}", calibration.observations[static_cast<std::size_t>(k)].name));
   }
-  evaluation.void_ratio = evaluation.mean.void_ratio;
+  evaluation.void_ratio = evaluation.mean.isotropic_void_ratio;
   Eigen::MatrixXd each(evaluation.values.size(), calibration.seeds);
   for (std::size_t k = 0; k < seeds; ++k) each.col(static_cast<Eigen::Index>(k)) = values_of(mean_without(k));
   Eigen::VectorXd const middle = each.rowwise().mean();

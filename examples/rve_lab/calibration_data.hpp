@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -148,13 +149,15 @@ inline double at_strain(std::vector<double> const& strains, std::vector<double> 
   return column[after - 1] + share * (column[after] - column[after - 1]);
 }
 
-/// A column of a curve at an axial strain. of: a row
+/// A column of a curve at an axial strain; no number beyond its end. of: a row
 inline double at_strain(Curve const& curve, double strain, double (*of)(scarp::LaboratoryRow<2> const&)) {
   std::vector<double> strains, column;
   for (auto const& row : curve.rows) {
     strains.push_back(row.axial_strain());
     column.push_back(of(row));
   }
+  constexpr double slight = 1e-9;
+  if (strain > strains.back() * (1.0 + slight)) return std::numeric_limits<double>::quiet_NaN();
   return at_strain(strains, column, strain);
 }
 

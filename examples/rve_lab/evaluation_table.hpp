@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -52,14 +54,20 @@ class EvaluationTable {
  private:
   static std::string observation(Calibration const& calibration, std::size_t k) {
     auto const& one = calibration.observations[k];
-    return one.strain > 0.0 ? fmt::format("{} at {:.6g}", one.name, one.strain) : one.name;
+    if (one.strain == 0.0) return one.name;
+    auto const end = calibration.observations.begin() + static_cast<std::ptrdiff_t>(k);
+    auto const before = std::count_if(calibration.observations.begin(), end, [&](Observation const& other) {
+      return other.name == one.name && other.strain == one.strain;
+    });
+    return fmt::format("{} at {:.6g}", one.name, one.strain) +
+           (before > 0 ? fmt::format(" of table {}", before + 1) : std::string());
   }
 
   static std::vector<std::string> columns(Calibration const& calibration) {
     std::vector<std::string> names;
     for (auto const& one : calibration.free) names.push_back("share of " + one.name);
     for (auto const& one : calibration.free) names.push_back(one.name);
-    names.emplace_back("void ratio at the start");
+    names.emplace_back("void ratio at the isotropic pressure");
     for (std::size_t k = 0; k < calibration.observations.size(); ++k)
       names.push_back("value of " + observation(calibration, k));
     for (std::size_t k = 0; k < calibration.observations.size(); ++k)

@@ -27,7 +27,8 @@ def read_curves(path):
         known = ", ".join(name for names in NAMES.values() for name in names)
         raise figures.InputError(f"'{path}' has no column of a test (it has: {', '.join(table)}): name some of {known}")
     if is_cyclic(curve) and "shear_stress" in table:  # a deviator that changes sign with the direction
-        axial, shear = table["axial_stress"] - table["lateral_stress"], 2.0 * table["shear_stress"]
+        shear = 2.0 * table["shear_stress"]
+        axial = table["axial_stress"] - table["lateral_stress"] if {"axial_stress", "lateral_stress"} <= set(table) else np.zeros(count)
         curve["q"] = 1e-3 * (axial if np.ptp(axial) > np.ptp(shear) else shear)
     points = table.get("point", np.zeros(count))
     return [{name: values[points == point] for name, values in curve.items()} for point in np.unique(points)]

@@ -255,7 +255,7 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
     auto const mean = scarp::laboratory_results<Dim>(scarp::mean_rows<Dim>(run.rows()), window);
     summary["mean"] = json_of(mean, mean_void_ratio);
     if (count > 1) print_results("mean", summary["mean"]);
-    if (choice.path == "drained") summary["mohr_coulomb"] = read_mohr_coulomb(mean);
+    if (choice.path == "drained" && !std::isnan(mean.peak_dilation)) summary["mohr_coulomb"] = read_mohr_coulomb(mean);
   }
   examples::write_json(own.path() / "summary.json", summary);
   own.end(verdict.acceptable() ? "finished" : std::string(scarp::name(verdict.reason)));

@@ -16,7 +16,8 @@ namespace rve_lab {
 /// its middle. Stresses are those across the axes, as a laboratory measures them.
 struct Curve {
   std::vector<scarp::LaboratoryRow<2>> rows;
-  double void_ratio = 0.0;  ///< at the start
+  double void_ratio = 0.0;            ///< at the start
+  double isotropic_void_ratio = 0.0;  ///< of the preparation, at its isotropic pressure
 
   /// In space with the mean of the lateral stresses and the sum of the lateral strains, from which friction and dilation are as in the plane.
   template <int Dim>
@@ -28,13 +29,14 @@ struct Curve {
   }
 };
 
-/// Mean of curves whose rows end at the same strains.
+/// Mean of curves whose rows end at the same strains, as far as the shortest goes.
 inline Curve mean_of(std::vector<Curve const*> const& curves) {
   Curve mean;
   std::vector<std::vector<scarp::LaboratoryRow<2>>> rows;
   for (auto const* curve : curves) {
     rows.push_back(curve->rows);
     mean.void_ratio += curve->void_ratio / static_cast<double>(curves.size());
+    mean.isotropic_void_ratio += curve->isotropic_void_ratio / static_cast<double>(curves.size());
   }
   mean.rows = scarp::mean_rows<2>(rows);
   return mean;

@@ -28,8 +28,10 @@ struct Preparation {
 
   /// What is done is printed. \throws InputError, PreparationError
   static PackingType printed(Sand const& sand, Law const& law);
-  /// The densest or loosest packing where the sand's void ratio lies beyond it. \throws InputError, PreparationError
-  static PackingType nearest(Sand const& sand, Law const& law);
+  /// The densest or loosest packing where the sand's void ratio lies beyond it.
+  /// isotropic_void_ratio: becomes that at the isotropic pressure
+  /// \throws InputError, PreparationError
+  static PackingType nearest(Sand const& sand, Law const& law, double& isotropic_void_ratio);
 };
 
 /// \throws InputError for grains that are not built

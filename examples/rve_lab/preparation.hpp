@@ -16,8 +16,9 @@ PackingType Preparation<PackingType>::printed(Sand const& sand, Law const& law) 
 }
 
 template <class PackingType>
-PackingType Preparation<PackingType>::nearest(Sand const& sand, Law const& law) {
-  return examples::prepared<PackingType>(sand, law, sand.seed, {}, std::numeric_limits<double>::infinity());
+PackingType Preparation<PackingType>::nearest(Sand const& sand, Law const& law, double& isotropic_void_ratio) {
+  return examples::prepared<PackingType>(sand, law, sand.seed, {}, std::numeric_limits<double>::infinity(),
+                                         &isotropic_void_ratio);
 }
 
 }  // namespace rve_lab

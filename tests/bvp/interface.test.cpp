@@ -249,7 +249,7 @@ TEST_CASE("a bonded interface holds tension up to its strength and has none once
   }
 }
 
-TEST_CASE("a stiff tied interface presses an elastic bed as a rough rigid punch: Newton converges at once") {
+TEST_CASE("a stiff tied interface carries the load of a footing on an elastic bed: Newton converges at once") {
   Bed bed{.columns = 24};
   Tied const tied{{.normal_stiffness = 1e10, .tangential_stiffness = 1e10, .friction = 0.0}, infinity, infinity};
   auto problem = bed.problem(tied, {0.0, -1e3}, 50.0);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""A UMAT in Fortran is a provider: compiled by gfortran, it gives what its twin in C++ gives. Environment: see compiled_symbols.py."""
+"""A UMAT in Fortran is a provider: compiled by gfortran, it gives what its twin in C++ gives. Environment: see compiler.py."""
 import pathlib
 import shutil
 import subprocess
@@ -9,7 +9,7 @@ import tempfile
 sys.dont_write_bytecode = True
 here = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(here.parent / "examples"), str(here.parent)]
-from compiled_symbols import compiler, include_folders
+from compiler import compiler, include_folders
 from expectations import expect, finish
 
 SOURCE = r"""

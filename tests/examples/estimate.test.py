@@ -74,4 +74,8 @@ with tempfile.TemporaryDirectory() as scratch:
     took = json.loads(pathlib.Path(scratch, "out", "summary.json").read_text())
     # How long a step takes hangs on who else uses the machine; how many steps there are does not.
     expect(took["cpu_seconds"] > 0.0 and predicted["CPU time"] > 0.0, f"the run and its estimate have a CPU time: {said}")
+    iterations, million = map(float, re.search(r"with (\d+) iterations and ([\d.]+) million DEM steps", said).groups())
+    for what, found, expected in (("steps", predicted["steps"], took["steps"]), ("iterations", iterations, took["iterations"]),
+                                  ("DEM steps", 1e6 * million, took["dem_steps"])):
+        expect(abs(found - expected) <= 0.3 * expected, f"{what}: {found} are predicted, the run took {expected}")
 finish()

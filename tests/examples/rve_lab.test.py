@@ -139,6 +139,8 @@ def check_other_stress(folder):
             ("an aspect of discs", "--aspect", ["--aspect", "0.5"])):
         code, said = run("shear", "--grains", "60", *arguments, "--output", "unused", folder=folder)
         expect(code > 0 and f"{named} is given but not used" in said, f"{title}: ended with {code}\n{said}")
+    code, said = run("shear", "--grains", "60", "--cycles", "3", "--amplitude", "4e-5", "--strain-step", "1e-4", "--output", "unused", folder=folder)
+    expect(code == 2 and "--amplitude is 4e-05" in said, f"an amplitude below a step: ended with {code}\n{said}")
     expect(not (folder / "unused").exists(), "options that are not used: something was written")
 
 
@@ -180,7 +182,7 @@ def check_round_trip(folder):
     expect(code == 0, f"replay of our own packing: ended with {code}\n{said}")
     exact = read(folder / "made/path.csv")
     expect(abs(exact[0]["void_ratio"] - 0.2) <= 5e-4, f"void ratio {exact[0]['void_ratio']}")
-    worst = max(abs(a[name] - b[name]) for a, b in zip(exact, read(folder / "again.csv")) for name in COMPONENTS)
+    worst = max(abs(a[name] - b[name]) for a, b in zip(exact, read(folder / "again.csv"), strict=True) for name in COMPONENTS)
     expect(worst < 1e-4 * PRESSURE, f"tables and exact file differ by {worst} Pa")
     gap = max(abs(row["energy_gap"]) for row in exact)
     expect(gap < 1e-3 * exact[-1]["work_in"], f"energies: gap {gap} J of {exact[-1]['work_in']}")

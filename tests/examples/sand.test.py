@@ -38,6 +38,12 @@ def check_file(folder):
     for sand in sorted(SANDS.glob("*.sand")):
         jumps = ["--void-ratio-tolerance", "0.02"] if "relative-density" in sand.read_text() else []  # as few grains do
         prepared(folder, sand.stem, "--sand", sand, "--grains", "60", *jumps)
+    # Options count before a complete file, also where its values are of no use then.
+    prepared(folder, "harder", "--sand", folder / "options/packing.sand", "--grains", "60", "--preparation-friction", "0.2")
+    (folder / "linear.sand").write_text("shape = disc\nnormal-stiffness = 5e6\ntangential-stiffness = 4e6\n")
+    prepared(folder, "hertz", "--sand", "linear.sand", "--grains", "60", "--law", "hertz", "--modulus", "1e9")
+    code, said = run(LAB, "prepare", "--grains", "60", "--overconsolidation-ratio", "3", "--output", "none", folder=folder)
+    expect(code == 2 and "without a vertical-pressure" in said, f"overconsolidated by nothing: ended with {code}\n{said}")
     sieved = prepared(folder, "sieved", "--sieve", "0.006 0, 0.010 30, 0.016 100", "--grains", "60")
     expect(sieved is not None, "no packing by a sieve curve")
     with open(folder / "sieved/packing_particles.csv", newline="") as file:
@@ -107,6 +113,13 @@ def check_calibration(folder):
     expect("at the upper end of its bounds" in said.split("limited by")[-1], f"50 degrees of discs are limited by what?\n{said}")
     code, said = run(*discs, "--window", "0.01", "--resume", folder=folder)
     expect(code > 0 and "of another calibration" in said, f"--resume with another window: ended with {code}\n{said}")
+    # A wanted void ratio is that at the isotropic pressure, whatever the path holds.
+    code, said = run(LAB, "calibrate", *FAST, "--shape", "ellipse", "--void-ratio", "0.19", "--lateral-stress", "8e5", "--free", "friction=0.4:0.6",
+                     "--target", "e50=5e7", "--seeds", "2", "--evaluations", "3", "--output", "held", folder=folder)
+    expect("limited by void ratio" not in said, f"a void ratio at another stress: ended with {code}\n{said}")
+    with open(folder / "held/evaluations.csv", newline="") as file:
+        densities = [float(row["void ratio at the isotropic pressure"]) for row in csv.DictReader(file)]
+    expect(densities and all(abs(one - 0.19) < 0.01 for one in densities), f"void ratios {densities} for 0.19")
     for free, target, words in (("friction", "e50=0", "--target e50 is 0"),
                                 ("friction", "void-ratio=0.2,void-ratio=0.3", "--target names 'void-ratio' twice"),
                                 ("friction,friction=0.2:0.4", "e50=1e7", "--free names 'friction' twice")):
@@ -162,6 +175,13 @@ def check_tables(folder):
     ratio = q / (2e5 + q / 3)
     expect(abs(float(last["wanted"]) - 3.0 * ratio / (6.0 + ratio)) < 1e-9, f"sine at the end: {last}")
     expect("a laboratory table" in (folder / "table/calibrated.sand").read_text(), "the sand does not name its table")
+    # Where the path prescribes another strain the tests go on to the axial one of the table.
+    code, said = run(*command, "--table", "drained.csv", "--path", "constant_mean_stress", "--output", "mean_stress", folder=folder)
+    expect(code == 0, f"--path constant_mean_stress: ended with {code}\n{said}")
+    with open(folder / "mean_stress/curve.csv", newline="") as file:
+        expect(float(list(csv.DictReader(file))[-1]["axial_strain"]) >= 0.02, "tests at constant mean stress end before the table")
+    code, said = run(*command, "--table", "drained.csv", "--table", "drained.csv", "--output", "twice", folder=folder)
+    expect(code == 0, f"two tables: ended with {code}\n{said}")
     # Means over the rows of path.csv belong to the middles of these rows: 0.5 % of strain is the end of one row, 0.45 % the middle.
     (folder / "means.csv").write_text("axial_strain,mean_q,mean_p,q,p\n" + "".join(f"{0.001 * k},{1e3 * k},1e4,0,1\n" for k in range(11)))
     code, said = run(*command, "--table", "means.csv", "--output", "means", folder=folder)

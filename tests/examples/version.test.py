@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Every example with options tells its version and how it was compiled, and programs without optimisation say so when they
 start. Environment: SCARP_EXAMPLES, the folder of the built programs (those that are missing are not run); see also
-compiled_symbols.py."""
+compiler.py."""
 import os
 import pathlib
 import re
@@ -11,7 +11,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from compiled_symbols import compiler, root
+from compiler import compiler, root
 from expectations import expect, finish
 
 programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))

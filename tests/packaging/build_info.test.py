@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """`build_info` tells what compilers were told: optimisation and the level of the instruction set, as the System V ABI
-names them. Environment: see compiled_symbols.py."""
+names them. Environment: see compiler.py."""
 import pathlib
 import platform
 import subprocess
@@ -9,7 +9,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from compiled_symbols import compiler, root
+from compiler import compiler, root
 
 # Flags, then what must be true of them.
 CASES = [([], "!build.optimised"), (["-O1"], "build.optimised"), (["-O3"], "build.optimised")]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Sources compiled with two versions of scarp, for registers of different width or with another alignment of Eigen's objects
 stop a program at its start where their functions have been merged, by the linker or by the loader, and nowhere else.
-Whoever includes a room takes part. Environment: see compiled_symbols.py."""
+Whoever includes a room takes part. Environment: see compiler.py."""
 import pathlib
 import platform
 import re
@@ -11,7 +11,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from compiled_symbols import compiler, include_folders, root
+from compiler import compiler, include_folders, root
 
 include = root / "include"
 PART = """

@@ -81,12 +81,18 @@ inline std::string without_times(std::filesystem::path const& file) {
   if (file.extension() == ".jsonl") return std::to_string(std::count(text.begin(), text.end(), '\n')) + " lines";
   if (file.filename() != "convergence.csv") return text;
   std::string kept;
+  std::vector<std::string> names;
   std::size_t at = 0;
   while (at < text.size()) {
     std::size_t const end = std::min(text.find('\n', at), text.size());
     std::string const line = text.substr(at, end - at);
-    std::size_t const cut = line.rfind(',', line.rfind(',') - 1);
-    kept += line.substr(0, cut) + '\n';
+    std::vector<std::string> cells{""};
+    for (char const letter : line) letter == ',' ? void(cells.emplace_back()) : cells.back().push_back(letter);
+    if (at == 0) names = cells;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (!names.at(k).starts_with("seconds")) kept += cells[k] + ',';
+    }
+    kept += '\n';
     at = end + 1;
   }
   return kept;

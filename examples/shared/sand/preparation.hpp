@@ -135,14 +135,21 @@ PackingType brought_to_k0(PackingType packing, typename PackingType::Law const& 
 }
 
 /// A packing of a sand, with a seed of its own. off: how far its void ratio may be off the one that is wanted
+/// isotropic_void_ratio: where given, becomes that at the isotropic pressure
 /// \throws InputError, PreparationError, and what progress throws
 template <class PackingType>
 PackingType prepared(Sand const& sand, typename PackingType::Law const& law, std::uint64_t seed,
-                     Progress const& progress, double off) {
+                     Progress const& progress, double off, double* isotropic_void_ratio = nullptr) {
+  if (sand.overconsolidation_ratio > 1.0 && sand.vertical_pressure == 0.0)
+    scarp::reject(
+        "overconsolidation-ratio is {} without a vertical-pressure (it is a ratio of that): give both, or none",
+        sand.overconsolidation_ratio);
   auto const cloud = cloud_of<typename PackingType::Shape>(sand, seed);
   Consolidation<PackingType> const consolidation{cloud.template make<PackingType>(), law, sand.pressure, sand.pressure,
                                                  progress};
-  auto packing = consolidated(consolidation, sand, off).packing;
+  auto made = consolidated(consolidation, sand, off);
+  if (isotropic_void_ratio) *isotropic_void_ratio = made.void_ratio;
+  auto packing = std::move(made.packing);
   if (sand.vertical_pressure > 0.0) {
     if (progress) progress("compressed without lateral strain");
     std::vector<double> path{sand.overconsolidation_ratio * sand.vertical_pressure};

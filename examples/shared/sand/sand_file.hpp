@@ -28,10 +28,16 @@ inline void take(Entries& entries, Sand& sand, IsGiven const& is_given = {}) {
   });
   std::vector<std::string> names;
   std::string density;
+  Sand of_file = sand;  // with all values of the file: what others replace later was of use there
   for_each_option(sand, [&](char const* name, auto& member, Range, char const*) {
     if (!entries.has(name)) return;
     auto value = member;
     entries.take(name, value);
+    for_each_option(of_file, [&](std::string_view option, auto& same, Range, char const*) {
+      if constexpr (std::is_same_v<decltype(same), decltype(member)>) {
+        if (option == name) same = value;
+      }
+    });
     if (sets_density(name) && !std::exchange(density, name).empty())
       scarp::reject("'{}' stands beside another option that sets the density: leave one out", name);
     if (counts(name) || (sets_density(name) && density_given)) return;
@@ -39,7 +45,7 @@ inline void take(Entries& entries, Sand& sand, IsGiven const& is_given = {}) {
     names.emplace_back(name);
   });
   for (auto const& name : names) {
-    if (auto const why = why_unused(sand, name); !why.empty())
+    if (auto const why = why_unused(of_file, name); !why.empty())
       scarp::reject("'{}' is given but not used ({}): leave it out", name, why);
   }
   validate(sand);

@@ -71,8 +71,9 @@ struct LaboratoryResults {
   Row peak{};      ///< where the mobilised friction is largest; mean over the window, as all rows here
   Row residual{};  ///< over the last window
   std::optional<Row>
-      phase_transformation{};     ///< from contraction to dilation; at constant volume from falling to rising p
-  double peak_dilation = none;    ///< largest where nine tenths of the peak friction are mobilised [rad]
+      phase_transformation{};  ///< from contraction to dilation; at constant volume from falling to rising p
+  double peak_dilation =
+      none;  ///< largest where nine tenths of the peak friction are mobilised [rad]; not of extension
   double secant_dilation = none;  ///< from the largest contraction to the end [rad]; 0 where it contracts to the end
   double shear_modulus = none;    ///< G0 [Pa], over the first row; not of nearly isotropic paths
   double secant_modulus = none;  ///< E50 [Pa], to half of the largest change of q, where the length is the axial strain
@@ -186,7 +187,8 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
   }
   if (means.empty()) reject("the test is shorter than the window {} of its results: take a smaller one", window);
   results.peak = *std::ranges::max_element(means, {}, &Row::friction);
-  for (std::size_t k = 0; k < means.size(); ++k) {
+  bool const extends = rows.back().axial_strain() < rows.front().axial_strain();  // elastic ground swells then
+  for (std::size_t k = 0; k < means.size() && !extends; ++k) {
     constexpr double nearly = 0.9;  // of the peak: before, elastic changes of volume count
     if (means[k].friction() < nearly * results.peak.friction() || angles[k] <= results.peak_dilation) continue;
     if (!std::isnan(angles[k])) results.peak_dilation = angles[k];
