@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,8 +35,10 @@ struct Curve {
 inline Curve mean_of(std::vector<Curve const*> const& curves) {
   Curve mean;
   std::vector<std::vector<scarp::LaboratoryRow<2>>> rows;
+  auto const* const shortest = *std::ranges::min_element(curves, {}, [](Curve const* one) { return one->rows.size(); });
+  auto const count = static_cast<std::ptrdiff_t>(shortest->rows.size());
   for (auto const* curve : curves) {
-    rows.push_back(curve->rows);
+    rows.emplace_back(curve->rows.begin(), curve->rows.begin() + count);
     mean.void_ratio += curve->void_ratio / static_cast<double>(curves.size());
     mean.isotropic_void_ratio += curve->isotropic_void_ratio / static_cast<double>(curves.size());
   }

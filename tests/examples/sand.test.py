@@ -40,7 +40,7 @@ def check_file(folder):
         prepared(folder, sand.stem, "--sand", sand, "--grains", "60", *jumps)
     # Options count before a complete file, also where its values are of no use then.
     prepared(folder, "harder", "--sand", folder / "options/packing.sand", "--grains", "60", "--preparation-friction", "0.2")
-    (folder / "linear.sand").write_text("shape = disc\nnormal-stiffness = 5e6\ntangential-stiffness = 4e6\n")
+    (folder / "linear.sand").write_text("shape = disc\nlaw = linear\nnormal-stiffness = 5e6\ntangential-stiffness = 4e6\n")
     prepared(folder, "hertz", "--sand", "linear.sand", "--grains", "60", "--law", "hertz", "--modulus", "1e9")
     code, said = run(LAB, "prepare", "--grains", "60", "--overconsolidation-ratio", "3", "--output", "none", folder=folder)
     expect(code == 2 and "without a vertical-pressure" in said, f"overconsolidated by nothing: ended with {code}\n{said}")
