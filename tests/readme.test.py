@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """[slow] Every C++ block of README.md is a translation unit that compiles without a warning; one with a `main` is linked and runs to
-exit code 0. Environment: see compiled_symbols.py; SCARP_LIBRARY, scarp::precompiled, which saves half a minute."""
+exit code 0. Environment: see compiler.py; SCARP_LIBRARY, scarp::precompiled, which saves half a minute."""
 import os
 import pathlib
 import re
@@ -10,7 +10,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent / "examples"), str(pathlib.Path(__file__).resolve().parent)]
-from compiled_symbols import compiler, include_folders, root
+from compiler import compiler, include_folders, root
 from expectations import expect, finish
 
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
