@@ -21,7 +21,8 @@ struct FullDisk {
   }
   bool wants_stop() const { return false; }
 
-  SCARP_MEMBERS_EXCEPT(())
+  template <class Self, class Visit>
+  static void members(Self&, Visit&&) {}
 };
 
 void stop_by_file() {
