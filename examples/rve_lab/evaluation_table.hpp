@@ -15,6 +15,7 @@
 
 #include "calibration.hpp"
 #include "scarp/io/csv.hpp"
+#include "scarp/io/read_file.hpp"
 
 namespace rve_lab {
 
@@ -91,7 +92,9 @@ class EvaluationTable {
 
   std::filesystem::path const& read(std::filesystem::path const& file, bool resumes) {
     if (!resumes || !std::filesystem::exists(file)) return file;
-    auto const table = scarp::read_csv(file);
+    auto text = scarp::read_file(file);
+    text.resize(text.rfind('\n') + 1);  // the log replaces a row that was cut off
+    scarp::CsvColumns const table(text, file.string());
     auto const names = columns(calibration_);
     if (table.names() != names)
       scarp::reject("'{}' has other parameters or targets than these: calibrate into another folder", file.string());
