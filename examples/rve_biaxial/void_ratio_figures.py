@@ -57,7 +57,7 @@ def draw_series(axes, packings, values, colour, label):
 def draw_line(axes, summary, name, window, colour):
     """The least-squares line, and a star where it meets the reference study's angle."""
     for line in summary.get("over_void_ratio", []):
-        if line["angle"] != name or line.get("window") != window:
+        if line["angle"] != name or line.get("window") != window or line["slope"] is None:  # tests that are shorter than the window
             continue
         e = np.array(line["void_ratio_range"])
         axes.plot(e, line["at_zero"] + line["slope"] * e, color=colour, linewidth=1.0)
@@ -76,9 +76,9 @@ def draw_study(axes, value=None):
         axes.axhline(value, color=figures.BLACK, linewidth=0.9, linestyle="--", label=f"study: {value}°")
 
 
-def finish(fig, panels):
+def finish(fig, panels, summary):
     panels[0].plot([], [], "D", color="white", markeredgecolor=figures.BLACK, label="SudoDEM, one packing")
-    panels[-1].set_xlabel("void ratio after consolidation at 200 kPa [-]")
+    panels[-1].set_xlabel(f"void ratio after consolidation at {1e-3 * summary['choice']['pressure']:g} kPa [-]")
     for axes in panels:
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
     return fig
@@ -100,7 +100,7 @@ def strength(folder):
         draw_study(axes, value)
     panels[0].set(ylabel="peak friction angle $\\phi_{max}$ [°]", title="Strength and dilation over the void ratio")
     panels[1].set(ylabel="dilation angle $\\psi$ [°]")
-    return finish(fig, panels)
+    return finish(fig, panels, summary)
 
 
 def fabric(folder):
@@ -115,4 +115,4 @@ def fabric(folder):
         axes.set_ylim(bottom=0.0)
     panels[0].set(ylabel="anisotropy of contact normals [-]", title="Fabric over the void ratio")
     panels[1].set(ylabel="anisotropy of long axes [-]")
-    return finish(fig, panels)
+    return finish(fig, panels, summary)
