@@ -59,7 +59,7 @@ struct FrictionalFooting {
     return boost::hana::make_tuple(soil);
   }
 
-  /// Motion [m, rad] of the rigid body, and the interface's points.
+  /// Motion [m, rad] of the rigid body, and the interface's points, whatever part of its weight acts.
   template <class Problem>
   FootingMotion motion(Problem const& problem, double = 0.0) const {
     auto const& body = problem.attached().body().body();

@@ -146,8 +146,7 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Forces of the committed state.
   Evaluation evaluate_committed() override {
     points_.evaluate_committed(executor_);
-    seen_.resize(0);
-    evaluated_.resize(0);
+    forget();
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
     return evaluation;
@@ -209,11 +208,10 @@ class SCARP_EXPORT EquilibriumProblem final
           "the increment to be committed is not the one that was evaluated last (the points' trial states belong to "
           "that one): evaluate it first, and commit it once");
     }
-    evaluated_.resize(0);
+    forget();
     if constexpr (!is_bare) this->attached_.commit(discretisation_.positions(), increment);
     discretisation_.commit(of_nodes(increment));
     points_.commit();
-    seen_.resize(0);
   }
 
   /// What evolves from step to step: a new problem with these resumes as the one that they were saved from.
@@ -223,13 +221,10 @@ class SCARP_EXPORT EquilibriumProblem final
     visit("materials", self.points_);
     if constexpr (!is_bare) visit("attached", self.attached_);
   }
-  /// The next evaluation computes all gradients anew.
-  void after_loading() {
-    seen_.resize(0);
-    evaluated_.resize(0);
-  }
+  void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
 
  private:
+  void forget() { seen_ = evaluated_ = Eigen::VectorXd(); }
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {
     return detail::residual_of_all(unbalanced, load_now_, carried_, free_dofs_, constraints_.prescribed_dofs());
   }
