@@ -12,6 +12,7 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
+#include "scarp/mesh/region_area.hpp"
 #include "support/approx.hpp"
 #include "support/elements.hpp"
 #include "support/refusals.hpp"
@@ -21,17 +22,6 @@ namespace {
 using scarp::FaultMesh;
 using scarp::Pattern;
 using Mesh = scarp::Mesh<scarp::Tri3>;
-
-double area(Mesh const& mesh, int region) {
-  double sum = 0.0;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    if (mesh.element_region[e] == region) {
-      auto const rows = scarp::corners<scarp::Tri3, 2>(mesh.elements[e], mesh.nodes);
-      sum += 0.5 * scarp::measure<scarp::Tri3, 2>(rows, scarp::Vector<2>::Zero());
-    }
-  }
-  return sum;
-}
 
 /// 4 sqrt(3) area / sum of squared edges: 1 for an equilateral triangle, 0 for a flat one.
 double worst_quality(Mesh const& mesh) {
@@ -62,18 +52,6 @@ double length(Mesh const& mesh, char const* name) {
   return sum;
 }
 
-template <class Element>
-double volume(scarp::Mesh<Element> const& mesh) {
-  double sum = 0.0;
-  for (auto const& element : mesh.elements) {
-    auto const rows = scarp::corners<Element, Element::dim>(element, mesh.nodes);
-    for (auto const& point : Element::quadrature()) {
-      sum += scarp::spatial_shape<Element>(rows, point).volume;
-    }
-  }
-  return sum;
-}
-
 /// Largest distance of a boundary's nodes from a place along an axis.
 template <class Element>
 double off(scarp::Mesh<Element> const& mesh, char const* name, int axis, double place) {
@@ -90,7 +68,8 @@ TEST_CASE("the layer has its full area and the announced number of triangles at 
   for (double const size : {0.4, 0.83, 1.25, 2.5, 4.0}) {
     FaultMesh const scene{.size = size};
     auto const mesh = scene.generate();
-    CHECK(area(mesh, 0) == samples::Approx(75.0 * 25.0).epsilon(1e-12));  // analytic; round-off of 1e4 terms
+    CHECK(scarp::region_area(mesh, "soil", mesh.nodes) ==
+          samples::Approx(75.0 * 25.0).epsilon(1e-12));  // analytic; round-off of 1e4 terms
     CHECK(static_cast<int>(mesh.elements.size()) == scene.element_count());
     CHECK(mesh.regions == std::vector<std::string>{"soil"});
   }
@@ -271,7 +250,8 @@ TEST_CASE_TEMPLATE("any element fills the layer once between its boundaries", El
     FaultMesh const scene{.tip = -3.0, .size = 3.0, .row_aspect = 1.73, .jitter = jitter, .seed = 3, .strike = 0.7};
     auto const mesh = scene.generate<Element>({-16.0, -9.0});
     double const thickness = dim == 3 ? 0.7 : 1.0;
-    CHECK(volume(mesh) == samples::Approx(75.0 * 25.0 * thickness).epsilon(1e-12));  // analytic; round-off of 1e4 terms
+    CHECK(scarp::region_area(mesh, "soil", mesh.nodes) ==
+          samples::Approx(75.0 * 25.0 * thickness).epsilon(1e-12));  // analytic; round-off of 1e4 terms
     CHECK(static_cast<int>(mesh.elements.size()) == scene.element_count<Element>({-16.0, -9.0}));
     CHECK(mesh.boundaries.size() == 2 * dim);
     CHECK(off(mesh, "left", 0, -52.0) == 0.0);
@@ -300,7 +280,7 @@ TEST_CASE(
   auto const mesh = three.generate<scarp::Hex8>();
   CHECK(mesh.elements.size() == 3 * one.generate<scarp::Hex8>().elements.size());
   CHECK(static_cast<int>(mesh.elements.size()) == three.element_count<scarp::Hex8>());
-  CHECK(volume(mesh) == samples::Approx(75.0 * 25.0 * 12.0).epsilon(1e-12));
+  CHECK(scarp::region_area(mesh, "soil", mesh.nodes) == samples::Approx(75.0 * 25.0 * 12.0).epsilon(1e-12));
   std::set<double> lines;
   for (int const node : scarp::boundary_nodes(mesh, "surface"))
     lines.insert(mesh.nodes[static_cast<std::size_t>(node)](1));

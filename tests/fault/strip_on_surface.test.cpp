@@ -11,6 +11,7 @@
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/fault/tied_footing.hpp"
+#include "scarp/mesh/region_area.hpp"
 #include "support/approx.hpp"
 #include "support/files.hpp"
 #include "support/refusals.hpp"
@@ -32,17 +33,6 @@ scarp::Mesh<Element> with_block() {
   scarp::mark_footing_base(mesh, centre, width);
   scarp::add_footing_block(mesh, height, 2.0);
   return mesh;
-}
-
-template <class Element>
-double area(scarp::Mesh<Element> const& mesh, char const* region) {
-  double sum = 0.0;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    if (mesh.element_region[e] != scarp::region_number(mesh, region)) continue;
-    auto const rows = scarp::corners<Element, 2>(mesh.elements[e], mesh.nodes);
-    for (auto const& point : Element::quadrature()) sum += scarp::spatial_shape<Element>(rows, point).volume;
-  }
-  return sum;
 }
 
 template <class Element>
@@ -77,8 +67,9 @@ TEST_CASE_TEMPLATE("the surface below a footing becomes its base", Element, PLAN
 TEST_CASE_TEMPLATE("a block on the base shares its nodes", Element, PLANE_ELEMENTS) {
   auto const mesh = with_block<Element>();
   CHECK_NOTHROW(scarp::validate(mesh));
-  CHECK(area(mesh, "footing") == samples::Approx(width * height).epsilon(1e-13));  // analytic
-  CHECK(area(mesh, "soil") == samples::Approx(75.0 * 25.0).epsilon(1e-12));        // analytic; round-off of 1e4 terms
+  CHECK(scarp::region_area(mesh, "footing", mesh.nodes) == samples::Approx(width * height).epsilon(1e-13));  // analytic
+  CHECK(scarp::region_area(mesh, "soil", mesh.nodes) ==
+        samples::Approx(75.0 * 25.0).epsilon(1e-12));  // analytic; round-off of 1e4 terms
   CHECK(length(mesh, "footing_top") == samples::Approx(width).epsilon(1e-13));
   std::set<std::pair<double, double>> places;
   for (auto const& node : mesh.nodes) places.insert({node.x(), node.y()});

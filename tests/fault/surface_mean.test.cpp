@@ -56,7 +56,7 @@ double miss(scarp::Mesh<Element> const& mesh, Motion const& motion, double fault
   }
   auto const found = scarp::surface_mean(mesh, rest, now, scarp::offset_at(motion, fault_throw));
   auto const profile = scarp::surface_profile(mesh, rest, now);
-  double const depth = scarp::detail::soil_area(mesh, rest) / (profile.back().x_initial - profile.front().x_initial);
+  double const depth = scarp::region_area(mesh, "soil", rest) / (profile.back().x_initial - profile.front().x_initial);
   double const slip = right.x() - left.x();
   double const offset = left.y() - right.y();
   CHECK(std::abs(found.dilated_area) > 0.1);  // the term counts

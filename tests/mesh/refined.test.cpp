@@ -11,6 +11,7 @@
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/mesh_checks.hpp"
+#include "scarp/mesh/region_area.hpp"
 #include "support/approx.hpp"
 #include "support/elements.hpp"
 #include "support/refusals.hpp"
@@ -57,21 +58,6 @@ std::vector<Vector<2>> ring_of(scarp::Mesh<Element> const& mesh, std::size_t ele
     ring.push_back(mesh.nodes[static_cast<std::size_t>(mesh.elements[element][k])]);
   }
   return ring;
-}
-
-template <class Element>
-double area_of(scarp::Mesh<Element> const& mesh, int region) {
-  double area = 0.0;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    if (mesh.element_region[e] != region) continue;
-    auto const ring = ring_of(mesh, e);
-    for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
-      Vector<2> const a = ring[k] - ring[0];
-      Vector<2> const b = ring[k + 1] - ring[0];
-      area += 0.5 * (a.x() * b.y() - a.y() * b.x());
-    }
-  }
-  return area;
 }
 
 struct Shapes {
@@ -147,7 +133,8 @@ TEST_CASE_TEMPLATE("a refined mesh fits: two elements at every inner side, one b
     auto const fine = scarp::refined(coarse, Around{});
     CHECK(fine.elements.size() > 2 * coarse.elements.size());
     check_conforming(fine);
-    CHECK(area_of(fine, 0) == samples::Approx(75.0 * 25.0));  // round-off of some thousand terms
+    CHECK(scarp::region_area(fine, "soil", fine.nodes) ==
+          samples::Approx(75.0 * 25.0));  // round-off of some thousand terms
     for (char const* const name : {"left", "right", "bottom", "surface"}) {
       auto const [before, length_before] = way_along(coarse, name);
       auto const [after, length_after] = way_along(fine, name);
@@ -258,8 +245,9 @@ TEST_CASE_TEMPLATE("regions and the boundary between them stay", Element, PLANE_
   scarp::add_footing_block(mesh, 2.0, 1.0);
   auto const fine = scarp::refined(mesh, Around{{-9.0, 25.0}, 0.4});
   CHECK(fine.regions == mesh.regions);
-  for (int region = 0; region < 2; ++region) {
-    CHECK(area_of(fine, region) == samples::Approx(area_of(mesh, region)));
+  for (auto const& region : mesh.regions) {
+    double const area = scarp::region_area(mesh, region, mesh.nodes);
+    CHECK(scarp::region_area(fine, region, fine.nodes) == samples::Approx(area));
   }
   CHECK(way_along(fine, "footing_base").second == samples::Approx(10.0));
   CHECK(scarp::boundary(fine, "footing_base").size() > scarp::boundary(mesh, "footing_base").size());

@@ -9,6 +9,7 @@
 #include "scarp/mesh/graded_lines.hpp"
 #include "scarp/mesh/joined_meshes.hpp"
 #include "scarp/mesh/pattern_grid.hpp"
+#include "scarp/mesh/region_area.hpp"
 
 namespace scarp {
 
@@ -49,15 +50,7 @@ void require_block(Mesh<Element> const& mesh, double level, double height) {
           top - level, height);
     }
   }
-  int const region = region_number(mesh, "footing");
-  double area = 0.0;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    if (mesh.element_region[e] != region) continue;
-    auto const corner = [&](int k) { return mesh.nodes[index(mesh.elements[e][index(k % LinearOf<Element>::nodes)])]; };
-    for (int k = 0; k < LinearOf<Element>::nodes; ++k) {
-      area += (corner(k).x() * corner(k + 1).y() - corner(k + 1).x() * corner(k).y()) / 2.0;
-    }
-  }
+  double const area = region_area(mesh, "footing", mesh.nodes);
   auto const base = corners_along(mesh, "footing_base");
   double const width = base.back() - base.front();
   if (!(std::abs(area - width * height) <= 1e-5 * width * height)) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scarp/fault/rupture_measures.hpp"
+#include "scarp/mesh/region_area.hpp"
 
 namespace scarp {
 
@@ -39,18 +40,6 @@ double area_over(Mesh<Element> const& mesh, std::vector<Vector<2>> const& places
   return area;
 }
 
-template <class Element>
-double soil_area(Mesh<Element> const& mesh, std::vector<Vector<2>> const& places) {
-  int const soil = region_number(mesh, "soil");
-  double area = 0.0;
-  for (int e = 0; e < count(mesh.elements); ++e) {
-    if (mesh.element_region[index(e)] != soil) continue;
-    auto const rows = corners<Element, 2>(mesh.elements[index(e)], places);
-    for (auto const& point : Element::quadrature()) area += point.weight * measure<Element, 2>(rows, point.xi);
-  }
-  return area;
-}
-
 }  // namespace detail
 
 /// rest, positions [m]: of the mesh's nodes when the fault began to move, see GroundAtRest, and now
@@ -66,7 +55,7 @@ SurfaceMean surface_mean(Mesh<Element> const& mesh, std::vector<Vector<2>> const
   double const offset = fault.hanging - fault.foot;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   return {.surface_mean = offset == 0.0 ? none : profile.back().x - missing / offset,
-          .dilated_area = detail::soil_area(mesh, positions) - detail::soil_area(mesh, rest)};
+          .dilated_area = region_area(mesh, "soil", positions) - region_area(mesh, "soil", rest)};
 }
 
 }  // namespace scarp
