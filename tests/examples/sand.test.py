@@ -40,6 +40,9 @@ def check_file(folder):
         prepared(folder, sand.stem, "--sand", sand, "--grains", "60", *jumps)
     # Options count before a complete file, also where its values are of no use then.
     prepared(folder, "harder", "--sand", folder / "options/packing.sand", "--grains", "60", "--preparation-friction", "0.2")
+    (folder / "slight.sand").write_text("shape = ellipse\ngrains = 60\npreparation-friction = 0.02\n")
+    expect(prepared(folder, "off", "--sand", "slight.sand", "--void-ratio", "0") == prepared(folder, "slight", "--sand", "slight.sand"),
+           "--void-ratio 0 drops the preparation friction of a file")
     (folder / "linear.sand").write_text("shape = disc\nlaw = linear\nnormal-stiffness = 5e6\ntangential-stiffness = 4e6\n")
     prepared(folder, "hertz", "--sand", "linear.sand", "--grains", "60", "--law", "hertz", "--modulus", "1e9")
     code, said = run(LAB, "prepare", "--grains", "60", "--overconsolidation-ratio", "3", "--output", "none", folder=folder)

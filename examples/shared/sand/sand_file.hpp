@@ -23,8 +23,10 @@ using IsGiven = std::function<bool(std::string const& name)>;
 inline void take(Entries& entries, Sand& sand, IsGiven const& is_given = {}) {
   auto const counts = [&](std::string const& name) { return is_given && is_given(name); };
   bool density_given = false;
-  for_each_option(sand, [&](char const* name, auto const&, Range, char const*) {
-    if (sets_density(name) && counts(name)) density_given = true;
+  for_each_option(sand, [&](std::string_view name, auto const& member, Range, char const*) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    bool const off = name != "preparation-friction" && member == Member{};
+    if (sets_density(name) && counts(std::string(name)) && !off) density_given = true;
   });
   std::vector<std::string> names;
   std::string density;
