@@ -8,6 +8,9 @@ to h / L, to the critical state. With a volumetric strain that fades as an expon
 linear in L for L << L0, where all of the band is critical, and independent of L for L >> L0. L0 is at least 1 m, where the band, some two lengths wide,
 has a shear strain near 1, more than any soil here needs to become critical. `power`, a + b L^p with p from 0.5 to 1.5, and `line`, a + b L, through the
 shortest lengths alone, assume less. Edges and median of the profile are apart from its mean by widths of the band and have the same forms.
+
+All of it is for small elements: the error of linear triangles is proportional to the square of their size over the length, with a factor that the
+pattern decides and that is either the same for all lengths or proportional to them.
 """
 import itertools
 import math
@@ -33,6 +36,16 @@ FORMS = {"band": lambda x: (u := x / np.geomspace(1.0, 200.0, 93)[:, None]) * (1
 # Least and largest number of the shortest lengths that a form is fitted to: one more than it has parameters, and where it
 # holds for short lengths alone two.
 TAKEN = {"band": (4, 100), "power": (4, 5), "line": (3, 4)}
+SIZE_POWERS = (0.0, 1.0)  # of the length, in the error by the size of elements
+GRADED = 6.0  # [m], below which fault_rupture refines its mesh by itself
+DEFAULT_SIZE = 0.41  # of elements over the length on graded meshes: their longest side
+SIZES = {"finer": 0.31, "finest": 0.205, "quad8": 0.58}  # of others
+UNIFORM_SIZES = {"finer": 1.9}  # [m]
+
+
+def size_of(mesh, length):
+    """Longest side of a triangle in the band, or side of a rectangle [m]."""
+    return SIZES.get(mesh, DEFAULT_SIZE) * length if length < GRADED else UNIFORM_SIZES.get(mesh, 2.5)
 
 
 def critical_state(folder):
@@ -67,34 +80,41 @@ def fit(form, lengths, values, weights):
     return lambda at: mean + slope[best] * (FORMS[form](np.asarray(at, float))[best] - shift[best])
 
 
-def drawn(lengths, values, factors, at):
-    """What the quantity may be at other lengths, shape (draws, lengths). values: of a length, plus deviations by seed and mesh, plus the rest
-    factors: seed and mesh of each run. Each draw takes the values at the lengths by their scatter, a deviation of seeds and meshes that all lengths
-    share (Student's t), one of the forms, and how many of the lengths it is fitted to.
+def drawn(lengths, sizes, values, patterns, seeds, at, size):
+    """What the quantity may be at other lengths, shape (draws, lengths), on elements of a size of the first pattern.
+
+    sizes: of elements, over the length. values: of a length on small elements, plus an error by their size and pattern, plus a deviation by seed, plus
+    the rest. Each draw takes the values at the lengths and the errors by their scatter, a deviation of seeds that all lengths share (Student's t), one
+    of the forms, and how many of the lengths it is fitted to.
     """
     random = np.random.default_rng(SEED)
     there = np.unique(lengths)
-    coded = [np.eye(int(level.max()) + 1)[level] for level in (np.unique(factor, return_inverse=True)[1] for factor in factors)]
-    design = np.hstack([lengths[:, None] == there, *(one[:, :-1] - one[:, -1:] for one in coded)]).astype(float)
-    inverse = np.linalg.pinv(design.T @ design)
-    found = inverse @ design.T @ values
-    free = len(values) - np.linalg.matrix_rank(design)
-    variance = np.sum((values - design @ found) ** 2) / free if free else 0.0
-    start = len(there)
-    scatter = math.sqrt(variance) * np.linalg.cholesky(inverse[:start, :start])
-    taken = found[:start] + random.standard_normal((DRAWS, start)) @ scatter.T
-    for count in (one.shape[1] for one in coded if one.shape[1] > 1):
-        deviations = found[start : start + count - 1]
-        start += count - 1
-        error = np.std([*deviations, -deviations.sum()], ddof=1) / math.sqrt(count)
-        taken += (error * random.standard_t(count - 1, DRAWS))[:, None]
+    of_pattern, of_seed = (np.eye(int(level.max()) + 1)[level] for level in (np.unique(factor, return_inverse=True)[1] for factor in (patterns, seeds)))
+    start, count = len(there) + of_pattern.shape[1], of_seed.shape[1]
+
+    def solved(power):
+        by_size = (sizes**2 * lengths**power)[:, None] * of_pattern
+        design = np.hstack([lengths[:, None] == there, by_size, of_seed[:, :-1] - of_seed[:, -1:]]).astype(float)
+        inverse = np.linalg.pinv(design.T @ design)
+        found = inverse @ design.T @ values
+        free = len(values) - np.linalg.matrix_rank(design)
+        variance = np.sum((values - design @ found) ** 2) / free if free else 0.0
+        return found, math.sqrt(variance) * np.linalg.cholesky(inverse[:start, :start]), 1.0 / np.diag(inverse)
+
+    solutions = {power: solved(power) for power in SIZE_POWERS}
     result = np.full((DRAWS, len(at)), np.nan)
-    for one, values_there in zip(result, taken):
+    for one in result:
+        power = random.choice(SIZE_POWERS)
+        found, scatter, weights = solutions[power]
+        taken = found[:start] + scatter @ random.standard_normal(start)
+        by_size = taken[len(there)]
+        if count > 1:
+            deviations = [*found[start:], -found[start:].sum()]
+            taken += np.std(deviations, ddof=1) / math.sqrt(count) * random.standard_t(count - 1)
         form = random.choice(list(FORMS))
         least, most = (min(bound, len(there)) for bound in TAKEN[form])
         n = int(random.integers(least, most + 1))
-        if n > 2:
-            one[:] = fit(form, there[:n], values_there[:n], 1.0 / np.diag(inverse)[:n])(at)
+        one[:] = fit(form, there[:n], taken[:n], weights[:n])(at) + by_size * size**2 * np.asarray(at) ** power
     return result
 
 
@@ -103,25 +123,38 @@ def usable(rows, soil):
     return [row for row in rows if row["soil"] == soil and row["status"] == "ok"]
 
 
+def triangles(rows):
+    return [row for row in rows if row["mesh"] != "quad8"]
+
+
+def size_over_length(row):
+    length = float(row["length [m]"])
+    return size_of(row["mesh"], length) / length
+
+
 def extrapolates(rows):
-    """Whether seeds or meshes are known to scatter, and there are lengths enough for every form."""
-    lengths = {row["length [m]"] for row in rows}
-    return len(rows) > len(lengths) >= max(least for least, _ in TAKEN.values())
+    """Whether the error by the size of elements is known, and there are lengths enough for every form."""
+    meshes = {(row["length [m]"], size_over_length(row)) for row in triangles(rows)}
+    lengths = {length for length, _ in meshes}
+    return len(meshes) > len(lengths) >= max(least for least, _ in TAKEN.values())
 
 
 def column(rows, name):
     return np.array([figures.number(row.get(name, "")) for row in rows])
 
 
-def of_rows(rows, name, at):
-    rows = [row for row in rows if row.get(name)]
+def of_rows(rows, name, at, size=0.0):
+    """size: of elements, over the length"""
+    rows = [row for row in triangles(rows) if row.get(name)]
     if not rows:
         return np.full((1, len(at)), np.nan)
-    return drawn(column(rows, "length [m]"), column(rows, name), [[row.get(factor, "") for row in rows] for factor in ("seed", "mesh")], at)
+    patterns = ["diagonal" if row["mesh"] in ("right", "left") else "crossed" for row in rows]
+    return drawn(column(rows, "length [m]"), np.array([size_over_length(row) for row in rows]), column(rows, name), patterns,
+                 [row.get("seed", "") for row in rows], at, size)
 
 
 def limits(rows):
-    """Median and 95 % interval of each quantity at the lengths of real bands."""
+    """Median and 95 % interval of each quantity at the lengths of real bands, for small elements."""
     found = []
     for soil in SOILS:
         known = usable(rows, soil)
@@ -134,8 +167,23 @@ def limits(rows):
     return found
 
 
+def of_elements(rows):
+    """What the default's elements change, for the main job and the shortest length: median and 95 % interval."""
+    found = []
+    for soil, name in itertools.product(SOILS, PLACES):
+        known = usable(rows, soil)
+        if not extrapolates(known):
+            continue
+        lengths = [1.0, 2.83]
+        small, usual = (of_rows(known, name, lengths, size) for size in (0.0, DEFAULT_SIZE))  # the same draws
+        for at, errors in zip(lengths, (usual - small).T):
+            low, middle, high = map(float, np.percentile(errors, [2.5, 50.0, 97.5]))
+            found.append({"soil": soil, "quantity": name, "length [m]": at, "size over length": DEFAULT_SIZE, "error": middle, "low": low, "high": high})
+    return found
+
+
 def held_out(rows):
-    """What the fits without the runs of the shortest length give there, beside the mean of these runs."""
+    """What the fits without the runs of the shortest length give there on the crossed mesh, beside the mean of these runs."""
     found = []
     for soil, name in itertools.product(SOILS, [*PLACES, AREA]):
         known = [row for row in usable(rows, soil) if row.get(name)]
@@ -143,9 +191,10 @@ def held_out(rows):
         others = [row for row, length in zip(known, lengths) if length > lengths.min()]
         if not extrapolates(others):
             continue
-        low, middle, high = map(float, np.percentile(of_rows(others, name, [lengths.min()])[:, 0], [2.5, 50.0, 97.5]))
+        runs = [row for row in known if float(row["length [m]"]) == lengths.min() and row["mesh"] == "crossed"]
+        low, middle, high = map(float, np.percentile(of_rows(others, name, [lengths.min()], size_over_length(runs[0]))[:, 0], [2.5, 50.0, 97.5]))
         found.append({"soil": soil, "quantity": name, "length [m]": lengths.min(), "value": middle, "low": low, "high": high,
-                      "of the runs": float(np.mean(column(known, name)[lengths == lengths.min()])), "runs": len(others)})
+                      "of the runs": float(np.mean(column(runs, name))), "runs": len(others)})
     return found
 
 
@@ -207,7 +256,7 @@ def over_length(rows):
         width_axis.set(title=SOILS[soil], xlabel="nonlocal length [m]")
     axes[0][0].set(ylabel="x at the surface [m]; the tip is at 0", ylim=(-27.0, 9.0))
     width_axes[0][0].set(ylabel="width of the band along a level [m]")
-    axes[0][-1].legend(loc="upper left")
+    axes[0][-1].legend(loc="upper left", title="points: runs, lines: limit of small elements")
     width_axes[0][-1].legend(loc="upper left")
     return of_places, of_widths
 

@@ -22,14 +22,18 @@ TEST_CASE("weights are volumes times Wendland's function of the distance") {
   for (std::size_t k = 0; k < weights.size(); ++k) {
     CHECK(mean.of(0)[k].weight == samples::Approx(weights[k] / (weights[0] + weights[1] + weights[2])).epsilon(1e-14));
   }
-  CHECK(mean.mean(0, std::span<double const>(std::array{128.0, 0.0, 0.0, 7.0})) ==
-        samples::Approx(128.0 / (1.0 + 81.0 / 64.0 + 9.0 / 16.0)).epsilon(1e-14));
   std::vector const values{128.0, 0.0, 0.0, 7.0};
+  std::vector const ones(4, 1.0);
+  auto const mean_of = [&](int point, std::vector<double> const& factors) {
+    return mean.mean(point, std::span<double const>(values), factors);
+  };
+  CHECK(mean_of(0, ones) == samples::Approx(128.0 / (1.0 + 81.0 / 64.0 + 9.0 / 16.0)).epsilon(1e-14));
+  CHECK(mean_of(0, {3.0, 2.0, 1.0, 5.0}) ==
+        samples::Approx(3.0 * 128.0 / (3.0 + 81.0 / 32.0 + 9.0 / 16.0)).epsilon(1e-14));
   scarp::SerialExecutor serial;
-  auto const all = mean.means(values, serial);
+  auto const all = mean.means(values, ones, serial);
   REQUIRE(all.size() == 4);
-  for (int point = 0; point < 4; ++point)
-    CHECK(all[static_cast<std::size_t>(point)] == mean.mean(point, std::span<double const>(values)));
+  for (int point = 0; point < 4; ++point) CHECK(all[static_cast<std::size_t>(point)] == mean_of(point, ones));
 }
 
 TEST_CASE("means are local where every point sees itself only") {

@@ -81,7 +81,7 @@ TEST_CASE("means keep what is even, stay within a region, and are none for a poi
   std::vector<double> const even(where.size(), 7.0);
   for (int point = 0; point < mean.size(); ++point) {
     auto const k = static_cast<std::size_t>(point);
-    CHECK(mean.mean(point, std::span<double const>(even)) == samples::Approx(7.0).epsilon(1e-14));
+    CHECK(mean.mean(point, std::span<double const>(even), even) == samples::Approx(7.0).epsilon(1e-14));
     CHECK((mean.of(point).size() == 1) == (point == 3));
     int last = -1;
     for (auto const& share : mean.of(point)) {
@@ -144,6 +144,32 @@ TEST_CASE("points that were saved and loaded go on with the same bits") {
   CHECK(first.points().means()->added_stresses() == second.points().means()->added_stresses());
   CHECK(first.points().means()->added_stresses()[0].norm() > 0.0);
   CHECK(one.unbalanced == other.unbalanced);
+}
+
+TEST_CASE("the volume that points see is that of all of them, whatever each one does") {
+  // Two points that see each other alike; their volumes are exp(x) and exp(-x) times the initial ones, all of it cosh(x).
+  scarp::NeighbourMean const alike({0, 2, 4}, {{0, 0.5}, {1, 0.5}, {0, 0.5}, {1, 0.5}});
+  std::vector const neighbourhoods(2, scarp::Neighbourhood{.length = 1.0});
+  scarp::PointMeans<2> means(alike, neighbourhoods, std::vector(2, scarp::VoigtTangent<2>::Zero().eval()),
+                             scarp::gmres);
+  scarp::SerialExecutor executor;
+  constexpr int steps = 20;
+  constexpr double whole = 0.5;
+  std::array seen{1.0, 1.0};
+  for (int step = 0; step < steps; ++step) {
+    scarp::PointMeans<2>::Gradients own(2, scarp::Gradient<2>::Zero());
+    own[0](0, 0) = std::expm1(whole / steps);
+    own[1](1, 1) = std::expm1(-whole / steps);
+    auto const mean = means.average(own, executor);
+    for (std::size_t k = 0; k < 2; ++k) seen[k] *= 1.0 + mean[k].trace();
+    means.commit();
+  }
+  for (double const volume : seen) CHECK(volume == samples::Approx(std::cosh(whole)).epsilon(1e-13));
+  CHECK(means.committed(0).volume == samples::Approx(std::exp(whole)).epsilon(1e-13));
+  scarp::PointMeans<2>::Gradients inverted(2, scarp::Gradient<2>::Zero());
+  inverted[1](0, 0) = -1.5;
+  means.average(inverted, executor);
+  CHECK_REFUSED(means.commit(), "point 1 has -", "turned inside out");
 }
 
 TEST_CASE("the wide stiffness is the derivative of the forces, fading and points alone included") {

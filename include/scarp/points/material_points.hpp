@@ -109,8 +109,8 @@ class MaterialPoints : public PointStates<Dim> {
   /// \throws InputError where there is no response since the last commit or discard
   void commit() {
     if (!has_trial_) reject("a commit without a response since the last one (nothing would be kept): respond first");
-    for (auto& one : batches_) one->commit();
     if (means_) means_->commit();
+    for (auto& one : batches_) one->commit();
     is_planned_ = has_trial_ = false;
   }
 

@@ -11,7 +11,8 @@
 
 namespace scarp {
 
-/// Weighted means \f$ \bar x_i = \sum_j w_{ij} x_j \f$ over some points around each of many; points/nonlocal.hpp finds neighbours and weights.
+/// Weighted means \f$ \bar x_i = \sum_j w_{ij} f_j x_j / \sum_j w_{ij} f_j \f$ over some points around each of many;
+/// points/nonlocal.hpp finds neighbours and weights.
 class NeighbourMean {
  public:
   /// A neighbour and its weight.
@@ -37,23 +38,30 @@ class NeighbourMean {
   /// Whether every mean is the value itself.
   bool is_local() const { return shares_.size() + 1 == first_.size(); }
 
-  /// The mean around a point; for a point alone its value, bit for bit.
+  /// The mean around a point; for a point alone its value, bit for bit. factors: of all points, more than zero
   template <class Value>
-  Value mean(int point, std::span<Value const> values) const {
+  Value mean(int point, std::span<Value const> values, std::span<double const> factors) const {
     auto const shares = of(point);
-    Value sum = shares[0].weight * values[detail::index(shares[0].point)];
-    for (auto const& share : shares.subspan(1)) sum += share.weight * values[detail::index(share.point)];
-    return sum;
+    if (shares.size() == 1) return values[detail::index(shares[0].point)];
+    double whole = shares[0].weight * factors[detail::index(shares[0].point)];
+    Value sum = whole * values[detail::index(shares[0].point)];
+    for (auto const& share : shares.subspan(1)) {
+      double const weight = share.weight * factors[detail::index(share.point)];
+      whole += weight;
+      sum += weight * values[detail::index(share.point)];
+    }
+    return sum / whole;
   }
 
   /// The means around all points, by an executor's for_each; the same bits for any.
   template <class Value, class Executor>
-  std::vector<Value> means(std::vector<Value> const& values, Executor& executor) const {
+  std::vector<Value> means(std::vector<Value> const& values, std::span<double const> factors,
+                           Executor& executor) const {
     constexpr int block = 64;
     std::vector<Value> all(values.size());
     executor.for_each((size() + block - 1) / block, [&](int part) {
       for (int point = block * part; point < std::min(block * (part + 1), size()); ++point)
-        all[detail::index(point)] = mean(point, std::span<Value const>(values));
+        all[detail::index(point)] = mean(point, std::span<Value const>(values), factors);
     });
     return all;
   }

@@ -11,7 +11,7 @@
 namespace scarp {
 
 namespace detail {
-inline constexpr FileFormat points_format{"SCARPPTS", 1, "file of material points", "save_points"};
+inline constexpr FileFormat points_format{"SCARPPTS", 2, "file of material points", "save_points"};
 
 inline std::vector<int> numbers_to(int count) {
   std::vector<int> numbers(index(count));

@@ -31,6 +31,14 @@ struct Neighbourhood {
   }
 };
 
+/// What means add to the state of a point.
+template <int Dim>
+struct MeanState {
+  VoigtStress<Dim> tau = VoigtStress<Dim>::Zero();  ///< stress against the strain that the mean does not contain [Pa]
+  double volume = 1.0;                              ///< of the point, over its initial one
+  SCARP_MEMBERS(tau, volume)
+};
+
 /// Tangents [Pa] of points whose stress follows from their own strain and from a mean around them.
 template <int Dim>
 struct SplitTangents {
@@ -38,16 +46,17 @@ struct SplitTangents {
   std::vector<VoigtTangent<Dim>> by_mean;  ///< derivative by the mean strain around the point
 };
 
-/// Points that see weighted means of the increments around them instead of their own,
-/// \f$ \bar G_i = \sum_j w_{ij} G_j \f$, with weights of the reference configuration, and a stress that holds what they
-/// do not see:
+/// Points that see means of the increments around them instead of their own,
+/// \f$ \bar G_i = \sum_j w_{ij} J_j G_j / \sum_j w_{ij} J_j \f$, with weights w of the reference configuration and
+/// volumes J over the initial ones, and a stress that holds what they do not see:
 /// \f$ \sigma_i = \sigma_{material}(\bar G_i) + \tau_i,\;
 /// \Delta\tau = s\,C^0 (\Delta\varepsilon - \Delta\bar\varepsilon) - \tau\,|\Delta\bar\varepsilon| / \varepsilon_f \f$
 /// (implicit, turned with the mean's rotation). Without tau waves much shorter than the length cost nothing, and bands
 /// become as thin as the mesh: strain \f$ \varepsilon = W^{-1} \bar\varepsilon \f$ belongs to any
 /// \f$ \bar\varepsilon \f$. A local share of what the material sees would not help, since it softens as well. With s =
 /// 1 a uniform elastic body responds as a local one; a tau that did not fade would lock bands, whose strain is never
-/// that of its mean.
+/// that of its mean. Neighbours fluctuate in volume; with initial volumes as weights the volume of all would grow by more
+/// than the materials dilate, since the mean of J is larger than the exponential of the mean of log J.
 template <int Dim>
 class PointMeans {
  public:
@@ -62,8 +71,10 @@ class PointMeans {
              LinearIteration iteration)
       : mean_(std::move(mean)),
         iterate_(iteration),
-        committed_(neighbourhoods.size(), VoigtStress<Dim>::Zero()),
-        trial_(committed_),
+        tau_(neighbourhoods.size(), VoigtStress<Dim>::Zero()),
+        trial_(tau_),
+        volume_(neighbourhoods.size(), 1.0),
+        trial_volume_(volume_),
         by_own_(neighbourhoods.size(), VoigtTangent<Dim>::Zero()),
         by_mean_(by_own_) {
     if (detail::index(mean_.size()) != neighbourhoods.size() || initial.size() != neighbourhoods.size()) {
@@ -79,11 +90,18 @@ class PointMeans {
   NeighbourMean const& mean() const { return mean_; }   ///< Neighbours and weights in the reference configuration.
   LinearIteration iterate() const { return iterate_; }  ///< Solver for stiffnesses that are not assembled.
 
-  /// What the points see of their own gradients; tau belongs to it from then on. The executor has for_each(count, task).
+  /// Means of the values of all points, with the volumes after the last commit. The executor has for_each(count, task).
+  template <class Value, class Executor>
+  std::vector<Value> means(std::vector<Value> const& values, Executor& executor) const {
+    return mean_.means(values, volume_, executor);
+  }
+
+  /// What the points see of their own gradients; tau belongs to it from then on.
   template <class Executor>
   Gradients average(Gradients const& own, Executor& executor) {
-    Gradients mean = mean_.means(own, executor);
+    Gradients mean = means(own, executor);
     for (std::size_t k = 0; k < own.size(); ++k) {
+      trial_volume_[k] = volume_[k] * (Tensor<Dim>::Identity() + own[k]).determinant();
       if (mean_.of(static_cast<int>(k)).size() > 1) update_tau(k, mean[k], own[k] - mean[k]);
     }
     return mean;
@@ -104,13 +122,26 @@ class PointMeans {
     return parts;
   }
 
-  void commit() { committed_ = trial_; }  ///< Makes the trial tau the committed one.
+  /// Makes the trial states the committed ones.
+  /// \throws InputError for a point that has no volume left, without any change
+  void commit() {
+    for (std::size_t k = 0; k < trial_volume_.size(); ++k) {
+      if (!(trial_volume_[k] > 0.0))
+        reject("point {} has {} of its initial volume (it is turned inside out): take a smaller step", k,
+               trial_volume_[k]);
+    }
+    tau_ = trial_;
+    volume_ = trial_volume_;
+  }
 
-  /// tau [Pa] of a point after the last commit; it belongs to the point's state.
-  VoigtStress<Dim> const& committed_tau(int point) const { return committed_[detail::index(point)]; }
-  /// Sets committed and trial tau [Pa] of a point, as for a state that is copied or loaded.
-  void set_committed_tau(int point, VoigtStress<Dim> const& tau) {
-    committed_[detail::index(point)] = trial_[detail::index(point)] = tau;
+  /// tau [Pa] of a point after the last commit.
+  VoigtStress<Dim> const& committed_tau(int point) const { return tau_[detail::index(point)]; }
+  /// What belongs to the state of a point after the last commit.
+  MeanState<Dim> committed(int point) const { return {tau_[detail::index(point)], volume_[detail::index(point)]}; }
+  /// Sets the committed and trial state of a point, as for one that is copied or loaded.
+  void set_committed(int point, MeanState<Dim> const& state) {
+    tau_[detail::index(point)] = trial_[detail::index(point)] = state.tau;
+    volume_[detail::index(point)] = trial_volume_[detail::index(point)] = state.volume;
   }
 
   /// What tau depends on: neighbours, their weights and the stiffness against fluctuation strain, in numbers that distinguish them from others.
@@ -129,13 +160,18 @@ class PointMeans {
     }
   }
 
-  /// What evolves: tau.
+  /// What evolves: tau and volumes.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
-    SCARP_ALL_MEMBERS(mean_, iterate_, fading_, stiffness_, committed_, trial_, by_own_, by_mean_);
-    visit("tau", std::span(self.committed_));
+    SCARP_ALL_MEMBERS(mean_, iterate_, fading_, stiffness_, tau_, trial_, volume_, trial_volume_, by_own_, by_mean_);
+    visit("tau", std::span(self.tau_));
+    visit("volume", std::span(self.volume_));
   }
-  void after_loading() { trial_ = committed_; }  ///< The trial tau is the one that was loaded.
+  /// The trial states are those that were loaded.
+  void after_loading() {
+    trial_ = tau_;
+    trial_volume_ = volume_;
+  }
 
  private:
   std::array<double, 4> basis() const {
@@ -157,7 +193,7 @@ class PointMeans {
     double const size = strain.norm();
     double const faded = 1.0 + size / fading_[k];
     Tensor<Dim> const turn = rotation_factor<Dim, double>(Tensor<Dim>::Identity() + mean);
-    VoigtStress<Dim> const whole = committed_[k] + stiffness_[k] * to_engineering_strain<Dim, double>(fluctuation);
+    VoigtStress<Dim> const whole = tau_[k] + stiffness_[k] * to_engineering_strain<Dim, double>(fluctuation);
     Tensor<Dim> const turned = turn * from_voigt_stress<Dim, double>(whole) * turn.transpose() / faded;
     trial_[k] = to_voigt_stress<Dim, double>(turned);
     by_own_[k] = stiffness_[k] / faded;
@@ -171,8 +207,10 @@ class PointMeans {
   LinearIteration iterate_;
   std::vector<double> fading_;
   Tangents stiffness_;
-  Stresses committed_;
-  Stresses trial_;
+  Stresses tau_;
+  Stresses trial_;  ///< tau of the last increment
+  std::vector<double> volume_;
+  std::vector<double> trial_volume_;
   Tangents by_own_;
   Tangents by_mean_;
 };

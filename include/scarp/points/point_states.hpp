@@ -120,13 +120,13 @@ class PointStates {
     if (!provider) reject("the provider of point {} is requested as another type: take its own", point);
     return *provider;
   }
-  /// The bits of points' committed states, tau of means included; what states share, such as grains, is in it once.
+  /// The bits of points' committed states, those of means included; what states share, such as grains, is in it once.
   /// \throws InputError for states that name no members
   std::string pack(std::span<int const> points) const {
     StateWriter writer;
     for (int const point : points) {
       batch(point).write(local(point), writer);
-      if (has_tau()) writer("tau", tau_of(point));
+      if (has_means()) writer("means", mean_state(point));
     }
     return std::move(writer.bits());
   }
@@ -136,14 +136,14 @@ class PointStates {
   /// \throws InputError for other bits, and for points that are named twice, without any change
   void unpack(std::span<int const> points, std::string_view bits) {
     StateReader reader(bits, &shared_);
-    std::vector<std::pair<std::any, VoigtStress<Dim>>> states;
+    std::vector<std::pair<std::any, MeanState<Dim>>> states;
     std::vector<int> sorted(points.begin(), points.end());
     std::ranges::sort(sorted);
     if (auto const twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
       reject("point {} is to be unpacked twice: name each point once", *twice);
     for (int const point : points) {
-      states.emplace_back(batch(point).read(local(point), reader), VoigtStress<Dim>::Zero());
-      if (has_tau()) reader("tau", states.back().second);
+      states.emplace_back(batch(point).read(local(point), reader), MeanState<Dim>{});
+      if (has_means()) reader("means", states.back().second);
     }
     if (!reader.at_end())
       reject("it holds more than the states of {} points: unpack what was packed of such points", points.size());
@@ -155,16 +155,16 @@ class PointStates {
   /// of its principal stresses if wanted: the stress stays, and one packing's accidents are not repeated.
   /// \throws InputError for a point of another type of provider, for one with means and one without, and for states that cannot be mirrored
   void copy(int to, PointStates const& from, int point, bool is_mirrored = false) {
-    if (has_tau() != from.has_tau())
+    if (has_means() != from.has_means())
       reject("point {} is to be copied between points with means and points without: take the same material for both",
              point);
-    VoigtStress<Dim> tau = from.tau_of(point);
+    MeanState<Dim> state = from.mean_state(point);
     std::optional<Mirror<Dim>> mirror;
     if (is_mirrored) {
-      mirror = {principal_direction<Dim>(from.committed_stress(point) + tau)};
-      tau = mirrored_stress<Dim>(tau, mirror->normal);
+      mirror = {principal_direction<Dim>(from.committed_stress(point) + state.tau)};
+      state.tau = mirrored_stress<Dim>(state.tau, mirror->normal);
     }
-    put(to, batch(to).state_from(from.batch(point), from.local(point), mirror), tau);
+    put(to, batch(to).state_from(from.batch(point), from.local(point), mirror), state);
   }
   /// The point alone, with the state of these bits and without neighbours.
   PointStates extract(int point, std::string_view bits) const {
@@ -173,15 +173,15 @@ class PointStates {
     one.add(0, batch(point).site(local(point)), false);
     StateReader reader(bits);
     auto state = one.batch(0).read(0, reader);
-    if (VoigtStress<Dim> tau; has_tau()) reader("tau", tau);
+    if (MeanState<Dim> unused; has_means()) reader("means", unused);
     if (!reader.at_end())
       reject("it holds more than the state of point {}: extract what was packed of this point", point);
-    one.put(0, std::move(state), VoigtStress<Dim>::Zero());
+    one.put(0, std::move(state), {});
     return one;
   }
   /// Leaves a point without state, since another process owns it.
   void release(int point) { batch(point).release(local(point)); }
-  /// What evolves: the committed states, and tau of means. Read in, those of all points are here until they are forgotten; only own
+  /// What evolves: the committed states, and those of means. Read in, those of all points are here until they are forgotten; only own
   /// points respond.
   template <class Self, class Visit>
   static void members(Self& points, Visit&& visit) {
@@ -273,17 +273,15 @@ class PointStates {
     }
   }
 
-  void put(int point, std::any state, VoigtStress<Dim> const& tau) {
+  void put(int point, std::any state, MeanState<Dim> const& of_means) {
     batch(point).put(local(point), std::move(state));
-    if (means_) means_->set_committed_tau(point, tau);
+    if (means_) means_->set_committed(point, of_means);
     is_planned_ = has_trial_ = false;
   }
 
   /// Also of points that lie too far apart to see each other: states go between these and closer ones.
-  bool has_tau() const { return search_ || means_; }
-  VoigtStress<Dim> tau_of(int point) const {
-    return means_ ? means_->committed_tau(point) : VoigtStress<Dim>::Zero().eval();
-  }
+  bool has_means() const { return search_ || means_; }
+  MeanState<Dim> mean_state(int point) const { return means_ ? means_->committed(point) : MeanState<Dim>{}; }
 
   void add(int batch, Site<Dim> const& site, bool here) {
     auto& among = batches_[detail::index(batch)];

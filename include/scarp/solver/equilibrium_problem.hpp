@@ -261,7 +261,7 @@ class SCARP_EXPORT EquilibriumProblem final
       };
       std::vector<EngineeringStrain<dim>> means(tangents.size());
       for (std::size_t k = 0; k < tangents.size(); ++k) means[k] = of_point(k);
-      means = points_.means()->mean().means(means, executor_);
+      means = points_.means()->means(means, executor_);
       for (std::size_t k = 0; k < tangents.size(); ++k) of_point(k) = tangents[k] * means[k];
       return Eigen::VectorXd(strains.transpose() * values);
     };
