@@ -200,6 +200,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   stages.stage([&] {
     auto const placed = scene.place(problem, stages);
     rest.ground = scarp::ground_at_rest(problem);  // a checkpoint of this stage comes back here
+    on_root_rank(problem, [&] { rest.solid_volume = scarp::solid_volume(problem); });
     notes.reaction_at_rest = scarp::generalised_reaction(problem);
     return placed;
   });
@@ -219,9 +220,10 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     json["run"] = examples::json_of(begun.folder->record());
     auto const written = [&](SensitivityResults const& sensitivity) {
       auto parts = budget.parts();
-      for (auto& part :
-           sensitivity_parts(sensitivity, json["surface_x50"], depth, examples::error_bounds(choice.budget)))
+      auto const bounds = examples::error_bounds(choice.budget);
+      for (auto& part : sensitivity_parts(sensitivity, json["surface_x50"], depth, bounds))
         parts.push_back(std::move(part));
+      add_volume_part(parts, json, depth, bounds.volume);
       json["error_budget"] = examples::json_of(parts);
       examples::write_json(folder / "summary.json", json);
       std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);

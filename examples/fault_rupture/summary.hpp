@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -9,14 +10,17 @@
 #include "../shared/process_usage.hpp"
 #include "../shared/renamed_keys.hpp"
 #include "any_scene.hpp"
+#include "scarp/budget/budget_part.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
 #include "scarp/fault/surface_mean.hpp"
 #include "scarp/io/atomic_file.hpp"
+#include "scarp/mesh/region_area.hpp"
 #include "scarp/observe/distortion.hpp"
 #include "scarp/observe/floor_share.hpp"
+#include "scarp/observe/solid_volume.hpp"
 #include "team.hpp"
 
 namespace fault_rupture {
@@ -31,8 +35,9 @@ struct AtRest {
   double void_ratio_max = 0.0;
   double vertical_error = 0.0;      ///< largest |vertical stress / overburden - 1|
   scarp::GroundAtRest<2> ground{};  ///< with what stands on it
+  double solid_volume = 0.0;        ///< with it, per metre out of the plane [m2]; 0 without packings
 
-  SCARP_MEMBERS(k0, k0_min, k0_max, void_ratio, void_ratio_min, void_ratio_max, vertical_error, ground)
+  SCARP_MEMBERS(k0, k0_min, k0_max, void_ratio, void_ratio_min, void_ratio_max, vertical_error, ground, solid_volume)
 };
 
 /// Totals of earlier processes in a resumed run.
@@ -47,7 +52,7 @@ struct RunNotes {
 template <class Problem, class SceneType>
 AtRest at_rest(Problem const& problem, SceneType const& scene) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  AtRest rest{0.0, infinity, -infinity, 0.0, infinity, -infinity, 0.0, {}};
+  AtRest rest{0.0, infinity, -infinity, 0.0, infinity, -infinity, 0.0, {}, 0.0};
   auto const& grid = problem.discretisation();
   int const soil = scarp::region_number(grid.mesh(), "soil");
   int points = 0;
@@ -178,6 +183,12 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   auto const mean = scarp::surface_mean(grid.mesh(), ground, grid.positions(), offset);
   json["surface_mean"] = mean.surface_mean;
   json["dilated_area"] = mean.dilated_area;
+  if (rest.solid_volume > 0.0) {
+    // Area that the solids of now fill at the packings' void ratios, less that which those at rest do.
+    double const area = scarp::region_area(grid.mesh(), "soil", grid.positions());
+    double const excess = area * (1.0 - rest.solid_volume / scarp::solid_volume(problem));
+    json["dilated_area_of_packings"] = mean.dilated_area - excess;
+  }
   json["reaction"] = reaction;
   json["settlement_footwall_over_throw"] =
       offset.share(scarp::settlement_at(profile, profile.front().x_initial + from_side));
@@ -201,6 +212,19 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["peak_memory_bytes"] = notes.used.peak_memory_bytes();
   examples::add_keys_from_before(json);
   return json;
+}
+
+/// By how much the mean of the profile is off for volume that the ground has gained and its packings have not; nothing
+/// without packings and before the fault moves. depth: of the ground [m]
+inline void add_volume_part(scarp::BudgetParts& parts, nlohmann::ordered_json const& json, double depth, double bound) {
+  double const offset = depth * json["throw_over_depth"].get<double>();
+  if (!json.contains("dilated_area_of_packings") || !(offset > 0.0)) return;
+  double const excess = json["dilated_area"].get<double>() - json["dilated_area_of_packings"].get<double>();
+  parts.push_back(
+      {.name = "volume",
+       .value = std::abs(excess) / (offset * depth),
+       .bound = bound,
+       .meaning = "dilated area that the packings do not have, over the throw and the depth of the ground"});
 }
 
 /// The run beside the reference study's numbers, as text.
@@ -234,6 +258,9 @@ inline std::string table(nlohmann::ordered_json const& json) {
       "follows from the dilated area (docs/grounds.md)");
   row("dilated_area [m2]: growth of the ground's area", fmt::format("{:.2f}", number("dilated_area")),
       "0 for a rigid hanging wall; over the throw: shift of the mean");
+  if (json.contains("dilated_area_of_packings"))
+    row("dilated_area_of_packings [m2]: by their void ratios",
+        fmt::format("{:.2f}", number("dilated_area_of_packings")), "as the line above");
   row("steepest slope of the surface [degrees]", fmt::format("{:.1f}", degrees(std::atan(number("surface_slope_max")))),
       "not reported");
   row("rupture_dip [degrees]: tip to surface_x50", fmt::format("{:.1f}", degrees(number("rupture_dip"))),

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSL-1.0
-"""[slow] Probes of fault_rupture tell the strain that their packing has, with a length too: its volume grows by what its void ratio says.
+"""[slow] Probes of fault_rupture tell the strain that their packing has, with a length too: its volume grows by what its void ratio says. So does the
+ground: exactly where no means are taken, and within the budget where they are.
 Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
+import json
 import pathlib
 import subprocess
 import sys
@@ -23,4 +25,8 @@ with tempfile.TemporaryDirectory() as scratch:
         # Steps of up to 2 % strain each: their products, and turns between them, are what the two may differ by.
         told = -(rows[-1]["eps_v"] - rows[0]["eps_v"])
         expect(abs(told - grown) < 0.1 * grown, f"length {length}: it has dilated by {grown}, the probe says {told}")
+        summary = json.loads(pathlib.Path(scratch, length, "summary.json").read_text())
+        volume = summary["error_budget"]["parts"]["volume"]
+        expect(volume["value"] < (1e-9 if length == "0" else volume["bound"]), f"length {length}: the ground has grown by more than its packings: {volume}")
+        expect(summary["dilated_area_of_packings"] > 0.1, f"length {length}: the packings have hardly dilated")
 finish()

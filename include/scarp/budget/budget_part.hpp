@@ -81,6 +81,7 @@ struct ErrorBounds {
   double accumulated = 0.05;       ///< of the tracked points together, on their whole paths
   double mesh = 4e-2;              ///< against a sensitivity run on another mesh
   double load_step = 2e-2;         ///< against a sensitivity run with smaller load steps
+  double volume = 1e-2;            ///< that the ground has gained and its packings have not, as a displacement
 
   /// Infinite: no bound. \throws InputError for a bound that is negative or NaN
   void validate() const {
@@ -91,7 +92,7 @@ struct ErrorBounds {
 
   SCARP_MEMBERS(residual, work_gap, linear_residual, iterated_linear_residual, condition, unbalanced_mean,
                 unbalanced_largest, kinetic_share, inertial_number, held_stress, doubling_median, doubling_95,
-                doubling_strained, accumulated, mesh, load_step)
+                doubling_strained, accumulated, mesh, load_step, volume)
 };
 
 /// Points and shares that an error budget samples.
