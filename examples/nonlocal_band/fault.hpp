@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 namespace nonlocal_band {
 
-/// Fault rupture through level ground that softens.
+/// Fault rupture through level ground of Mohr-Coulomb soil that softens.
 struct FaultChoice {
   std::vector<double> sizes{5.0, 3.5, 2.5};  ///< of a mesh cell in the band [m]
   std::vector<double> lengths{0.0, 8.0};     ///< intrinsic [m]
@@ -16,9 +15,7 @@ struct FaultChoice {
   double tolerance = 1e-6;
 };
 
-/// Mohr-Coulomb soil: prints a row for each length and mesh.
+/// Prints a row for each length and mesh.
 void print_fault(FaultChoice const& choice);
-/// The reference study's sand, a packing of so many grains in each triangle.
-void print_sand(FaultChoice const& choice, int grains, std::uint64_t seed);
 
 }  // namespace nonlocal_band

@@ -142,38 +142,24 @@ int main(int argc, char** argv) {
       ->check(length);
   examples::Output output;
   examples::declare_output(app, output, "folder for load curves and shear strains");
-  auto const fault_options = [=](CLI::App& command, FaultChoice& fault) {
-    command.add_option("--sizes", fault.sizes, "of a mesh cell in the band [m]")
-        ->delimiter(',')
-        ->check(number_from(0.0, false, 25.0));
-    command.add_option("--lengths", fault.lengths, "intrinsic lengths [m]")->delimiter(',')->check(length);
-    command.add_option("--stiffness", fault.stiffness, "as above")->check(share);
-    command.add_option("--fading", fault.fading, "as above")->check(positive);
-    command.add_option("--throw-over-depth", fault.throw_over_depth, "at the end")->check(number_from(0.0, false, 1.0));
-    command.add_option("--tolerance", fault.tolerance, "of the force residual")->check(number_from(0.0, false, 1.0));
-  };
   FaultChoice fault;
   auto* const rupture = app.add_subcommand("fault", "fault rupture through level ground of Mohr-Coulomb soil instead");
-  fault_options(*rupture, fault);
-  FaultChoice sand{.tolerance = 3e-3};
-  int grains = 100;
-  std::uint64_t seed = 1;
-  auto* const packings = app.add_subcommand("sand", "fault rupture through level ground of packings instead");
-  fault_options(*packings, sand);
-  packings->add_option("--grains", grains, "in each packing")->check(CLI::Range(1, 100'000));
-  packings->add_option("--seed", seed, "of the packing")->check(examples::seed_number());
+  rupture->add_option("--sizes", fault.sizes, "of a mesh cell in the band [m]")
+      ->delimiter(',')
+      ->check(number_from(0.0, false, 25.0));
+  rupture->add_option("--lengths", fault.lengths, "intrinsic lengths [m]")->delimiter(',')->check(length);
+  rupture->add_option("--stiffness", fault.stiffness, "as above")->check(share);
+  rupture->add_option("--fading", fault.fading, "as above")->check(positive);
+  rupture->add_option("--throw-over-depth", fault.throw_over_depth, "at the end")->check(number_from(0.0, false, 1.0));
+  rupture->add_option("--tolerance", fault.tolerance, "of the force residual")->check(number_from(0.0, false, 1.0));
   if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
-    if (!rupture->parsed() && !packings->parsed() && !(choice.from < choice.to))
-      scarp::reject("--from is {} m (the settlement ends at {} m): choose a smaller one", choice.from, choice.to);
     if (rupture->parsed()) {
       print_fault(fault);
       return 0;
     }
-    if (packings->parsed()) {
-      print_sand(sand, grains, seed);
-      return 0;
-    }
+    if (!(choice.from < choice.to))
+      scarp::reject("--from is {} m (the settlement ends at {} m): choose a smaller one", choice.from, choice.to);
     std::optional<scarp::RunFolder> folder;
     if (!output.folder.empty()) {
       folder.emplace(scarp::RunFolderSettings{.folder = output.folder, .overwrite = output.overwrite},
