@@ -189,9 +189,9 @@ def held_out(rows):
         known = [row for row in usable(rows, soil) if row.get(name)]
         lengths = column(known, "length [m]")
         others = [row for row, length in zip(known, lengths) if length > lengths.min()]
-        if not extrapolates(others):
-            continue
         runs = [row for row in known if float(row["length [m]"]) == lengths.min() and row["mesh"] == "crossed"]
+        if not runs or not extrapolates(others):
+            continue
         low, middle, high = map(float, np.percentile(of_rows(others, name, [lengths.min()], size_over_length(runs[0]))[:, 0], [2.5, 50.0, 97.5]))
         found.append({"soil": soil, "quantity": name, "length [m]": lengths.min(), "value": middle, "low": low, "high": high,
                       "of the runs": float(np.mean(column(runs, name))), "runs": len(others)})

@@ -82,6 +82,8 @@ checks = convergence.held_out(rows)
 expect([(row["quantity"], row["length [m]"]) for row in checks] == [("mean [m]", 1.0), (AREA, 1.0)], f"what is there, at the shortest length: {checks}")
 of_runs = np.mean([float(row[AREA]) for row in rows if row["length [m]"] == "1" and row["mesh"] == "crossed"])
 expect(checks[1]["of the runs"] == of_runs and checks[1]["low"] < of_runs < checks[1]["high"], f"{of_runs} is held out and foreseen: {checks[1]}")
+others = [row for row in rows if row["length [m]"] != "1" or row["mesh"] != "crossed"]
+expect(not convergence.held_out(others), "nothing is foreseen for a mesh that has not run")
 expect(not convergence.limits([row for row in rows if float(row["length [m]"]) > 3.0]), "three lengths are as many as a form has parameters")
 expect(not convergence.limits([row for row in rows if row["mesh"] != "finer" and float(row["length [m]"]) < 6.0]), "one size does not tell its error")
 exact = limits_of(table(0.0, 0.0, 1))
