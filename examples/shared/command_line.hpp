@@ -111,7 +111,8 @@ inline std::string folder_problem(std::string const& given) {
   auto const whole = std::filesystem::absolute(folder, trouble).lexically_normal();
   auto const parent = (whole.has_filename() ? whole : whole.parent_path()).parent_path();
   if (std::filesystem::is_directory(parent, trouble)) return {};
-  return "there is no folder '" + parent.string() + "' (the output folder would lie in it): create it first";
+  return "there is no folder '" + parent.string() +
+         "' (the folder for results or checkpoints would lie in it): create it first";
 }
 
 }  // namespace examples
