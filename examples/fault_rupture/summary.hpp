@@ -35,7 +35,7 @@ struct AtRest {
   double void_ratio_max = 0.0;
   double vertical_error = 0.0;      ///< largest |vertical stress / overburden - 1|
   scarp::GroundAtRest<2> ground{};  ///< with what stands on it
-  double solid_volume = 0.0;        ///< with it, per metre out of the plane [m2]; 0 without packings
+  double solid_volume = 0.0;        ///< of the grains, per metre out of the plane [m2]; 0 without packings
 
   SCARP_MEMBERS(k0, k0_min, k0_max, void_ratio, void_ratio_min, void_ratio_max, vertical_error, ground, solid_volume)
 };
