@@ -19,11 +19,11 @@ namespace {
 
 using fault_rupture::Choice;
 
-constexpr double short_length = 2.83;  ///< [m], where the mesh is made for it
-constexpr double long_length = 8.0;    ///< [m], of coarser meshes
+constexpr double short_length = 2.0;  ///< [m], where the mesh is made for it
+constexpr double long_length = 8.0;   ///< [m], of coarser meshes
 
 /// Beside the reference study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
-/// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and half of the DEM steps, which give the
+/// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and a third of the DEM steps, which give the
 /// same places (docs/notes/performance.md).
 void make_objective(Choice& choice) {
   choice.length = short_length;
@@ -31,6 +31,7 @@ void make_objective(Choice& choice) {
   choice.packings = 16;
   choice.mirrored_packings = true;
   choice.strain_per_step = 2e-5;
+  choice.min_dem_steps = 5;
   choice.unbalanced_tolerance = 0.1;
 }
 
@@ -40,7 +41,9 @@ void make_local(Choice& choice) {
   choice.overconsolidation_ratio = 1.0;
   choice.packings = 1;
   choice.mirrored_packings = false;
+  choice.max_displacement_gradient = 0.005;
   choice.strain_per_step = 1e-5;
+  choice.min_dem_steps = 20;
   choice.unbalanced_tolerance = 0.05;
 }
 
@@ -50,6 +53,7 @@ void make_quick(Choice& choice) {
   choice.grains = 100;
   choice.packings = 1;
   choice.mirrored_packings = false;
+  choice.min_dem_steps = 20;
   choice.quick = true;
 }
 
@@ -211,10 +215,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_flag("--reverse", choice.reverse, "the hanging wall is pushed up the fault plane");
   app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]")->check(number_from(-1e6, true, 1e6));
   app.add_option("--tolerance", choice.tolerance,
-                 "force residual over reactions; packings 3e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10")
+                 "force residual over reactions; packings 1e-2, Mohr-Coulomb 1e-8, else 1e-10")
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--max-displacement-gradient", choice.max_displacement_gradient,
-                 "displacement gradient that limits a load step; 0.005 with packings, else 0.02")
+                 "displacement gradient that limits a load step; 0.0025 with packings, else 0.02")
       ->check(number_from(0.0, false, 0.2));
   app.add_option("--max-iterations", choice.max_iterations, "of a load step")->check(CLI::Range(1, 10'000));
   app.add_option("--strain-per-dem-step", choice.strain_per_step, "strain of one DEM step")

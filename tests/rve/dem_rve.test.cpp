@@ -135,6 +135,23 @@ TEST_CASE("the plan follows strain and rate within its bounds") {
   CHECK(std::abs(provider.plan(committed, gradient) - steps) <= 1.0);
 }
 
+TEST_CASE("an answer at more than twice the inertial number is to be repeated in more steps") {
+  auto provider = rve(80);
+  provider.inertial_number = 1e-5;  // limits the rate alone
+  provider.unbalanced_tolerance = 1.0;
+  auto const committed = provider.initial_state({});
+  auto const increment = shear_increment(1e-5);
+  int const plan = provider.plan(committed, increment);
+  REQUIRE(plan > provider.min_steps);
+  auto const verdict = [&](double growth, int steps) {
+    Rve::State trial;
+    return provider.respond(committed, growth * increment, trial, steps).verdict;
+  };
+  CHECK(verdict(1.9, plan).acceptable());
+  CHECK(verdict(2.1, plan) == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::unbalanced});
+  CHECK(verdict(2.1, provider.refined(plan)).acceptable());
+}
+
 TEST_CASE("the answer is the balance of the trial packing") {
   auto const provider = rve(80);
   auto const committed = provider.initial_state({});

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
+#include <memory>
+#include <vector>
+
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "support/approx.hpp"
@@ -19,8 +22,7 @@ scarp::RunReport pulled(Block::Problem& problem, Solver const& solver) {
 }
 
 /// One step of the load factor, accepted if it ends in equilibrium.
-scarp::StepReport step(Solver::Session<Block::Problem>& session, double from, double to,
-                       scarp::StopCondition const& stop = {}) {
+scarp::StepReport step(auto& session, double from, double to, scarp::StopCondition const& stop = {}) {
   scarp::StepReport report;
   report.verdict = session.begin(from);
   REQUIRE(report.verdict.acceptable());
@@ -29,6 +31,16 @@ scarp::StepReport step(Solver::Session<Block::Problem>& session, double from, do
   if (report.verdict.acceptable()) session.accept(increment);
   return report;
 }
+
+/// Counts how often its tangent is requested.
+struct Counting : samples::Softening {
+  std::shared_ptr<int> tangents = std::make_shared<int>(0);
+
+  scarp::VoigtTangent<2> tangent(State const& state) const {
+    ++*tangents;
+    return samples::Softening::tangent(state);
+  }
+};
 
 }  // namespace
 
@@ -74,4 +86,37 @@ TEST_CASE("a prediction is the last step's motion, scaled by the load, where tha
   // One that was refused is not repeated: the next prediction is linear.
   CHECK_FALSE(step(session, 4e-3, 0.5).verdict.acceptable());
   CHECK_FALSE(repeats());
+}
+
+TEST_CASE("what a step leaves unbalanced is made good by the next one: with one iteration a step it does not add up") {
+  scarp::SerialExecutor serial;
+  auto problem = Block::make({.reference_strain = 0.02}, serial);
+  auto const run = pulled(problem, {.tolerance = 5e-2});
+  REQUIRE(run.verdict.acceptable());
+  CHECK(run.iterations == run.steps);
+  CHECK(run.largest_residual < 1e-2);  // what the curve of one step leaves; that of all steps is 4e-2
+}
+
+TEST_CASE(
+    "some load steps share an evaluation of the provider's tangents; after a refused one they are evaluated anew") {
+  using Counted = samples::Block<Counting>;
+  scarp::SerialExecutor serial;
+  Counting const soil{{.reference_strain = 0.02}};
+  auto problem = Counted::make(soil, serial);
+  Solver const solver{.tolerance = 1e-6, .max_iterations = 8, .tangent_interval = 3};
+  Solver::Session<Counted::Problem> session(solver, problem);
+  int const points = problem.discretisation().point_count();
+  std::vector<int> evaluations;
+  auto const advance = [&](double from, double to) {
+    *soil.tangents = 0;
+    step(session, from, to);
+    CHECK(*soil.tangents % points == 0);
+    evaluations.push_back(*soil.tangents / points);
+  };
+  for (double const load : {0.0, 1e-3, 2e-3, 3e-3}) advance(load, load + 1e-3);
+  CHECK(evaluations == std::vector{1, 0, 0, 1});
+  evaluations.clear();
+  advance(4e-3, 0.5);
+  advance(4e-3, 5e-3);
+  CHECK(evaluations == std::vector{0, 1});
 }

@@ -52,12 +52,11 @@ struct Choice {
   double young_modulus = 25e6;                    ///< [Pa], of ground without packings, as the next one
   double k0 = 0.4;                                ///< horizontal over vertical stress before faulting
   double throw_over_depth = 0.085;
-  double dip = 60.0;     ///< [degrees]
-  bool reverse = false;  ///< the hanging wall goes up
-  double tip = 0.0;      ///< [m]
-  std::optional<double>
-      tolerance;  ///< of the force residual; packings 3e-3, below a footing 5e-3; Mohr-Coulomb 1e-8; else 1e-10
-  std::optional<double> max_displacement_gradient;  ///< of a load step; 0.005 with packings, else 0.02
+  double dip = 60.0;                ///< [degrees]
+  bool reverse = false;             ///< the hanging wall goes up
+  double tip = 0.0;                 ///< [m]
+  std::optional<double> tolerance;  ///< of the force residual; packings 1e-2, Mohr-Coulomb 1e-8, else 1e-10
+  std::optional<double> max_displacement_gradient;  ///< of a load step; 0.0025 with packings, else 0.02
   int max_iterations = 30;
   double strain_per_step = 1e-5;
   int min_dem_steps = 20;

@@ -182,7 +182,8 @@ struct DemRve {
     return respond(committed, increment, trial, plan(committed, increment));
   }
 
-  /// A response that is not balanced to the tolerance is `not_converged`; refined(plan) is a slower one.
+  /// A response that is not balanced to the tolerance, or has more than twice the inertial number, is `not_converged`; refined(plan) is a
+  /// slower one.
   /// Fails with `not_finite` on NaN or an increment beyond the logarithm's range, with `cell_collapsed` when the cell gets
   /// too thin for its grains, with `too_deep` when an overlap exceeds the reduced radius of its contact; `fluid` without
   /// contacts.
@@ -241,7 +242,8 @@ struct DemRve {
                           std::max(std::abs(seen.stress.trace()), min_pressure(state.packing) * dim);
     if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
     if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
-    if (!(weight_of(state) * seen.unbalanced_ratio <= unbalanced_tolerance))
+    bool const is_fast = state.inertial_number > 2.0 * inertial_number;
+    if (is_fast || !(weight_of(state) * seen.unbalanced_ratio <= unbalanced_tolerance))
       return {Status::not_converged, Reason::unbalanced};
     return {};
   }

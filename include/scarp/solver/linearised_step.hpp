@@ -215,27 +215,30 @@ class LinearisedStep {
 };
 
 namespace detail {
-/// How the free degrees of freedom moved in the last accepted load step, for each unit of the load factor.
+/// How the free degrees of freedom moved in the last accepted load step.
 class ExtrapolatedPredictor {
  public:
-  bool known() const { return !rate_.empty(); }
-  void forget() { rate_.clear(); }
+  bool known() const { return !motion_.empty(); }
+  void forget() { motion_.clear(); }
 
-  /// motion [m]: of the free degrees of freedom in a step; growth: of the load factor, positive
+  /// motion [m]: of the free degrees of freedom in a step, less what the step before had left to it; growth: of the load factor, positive
   void remember(Eigen::VectorXd const& motion, double growth) {
-    rate_.resize(static_cast<std::size_t>(motion.size()));
-    rate() = motion / growth;
+    motion_.assign(motion.begin(), motion.end());
+    growth_ = growth;
   }
 
   /// The motion [m] when the load factor grows by as much.
-  Eigen::VectorXd over(double growth) { return growth * rate(); }
+  /// missing [m]: from where the last step ended to equilibrium; it is made good, and the motion was too small by as much
+  Eigen::VectorXd over(double growth, Eigen::VectorXd const& missing) const {
+    Eigen::Map<Eigen::VectorXd const> const last(motion_.data(), missing.size());
+    return growth / growth_ * (last + missing) + missing;
+  }
 
-  SCARP_MEMBERS(rate_)
+  SCARP_MEMBERS(motion_, growth_)
 
  private:
-  Eigen::Map<Eigen::VectorXd> rate() { return {rate_.data(), static_cast<Eigen::Index>(rate_.size())}; }
-
-  std::vector<double> rate_;  ///< [m]
+  std::vector<double> motion_;  ///< [m]
+  double growth_ = 0.0;
 };
 }  // namespace detail
 
@@ -262,6 +265,14 @@ class LinearPredictor {
   void describe(StepReport& report) const {
     report.condition = condition_;
     report.weak_dof = weak_dof_;
+  }
+
+  /// Increment [m] of the free degrees of freedom from the committed state to equilibrium under its own loads; zero where the linear system
+  /// has no solution.
+  Eigen::VectorXd missing() {
+    Eigen::VectorXd increment = Eigen::VectorXd::Zero(problem_.dof_count());
+    linearised_.solve(increment, Eigen::VectorXd::Zero(problem_.dof_count()));
+    return linearised_.system().gather(increment);
   }
 
   /// Displacement increment between two load factors where it is prescribed, zero elsewhere; from then on forces are

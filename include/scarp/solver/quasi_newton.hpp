@@ -33,7 +33,8 @@ class SCARP_EXPORT QuasiNewtonSession {
   Verdict begin(double load);
   /// Adds the condition and the weak degree of freedom that begin() found.
   void describe(StepReport& report) const { start_.describe(report); }
-  /// First guess of the increment [m] between two load factors: the last step's motion where it is known, else a linear solve.
+  /// First guess of the increment [m] between two load factors: the last step's motion where it is known, and what that step left
+  /// unbalanced; else a linear solve.
   Eigen::VectorXd predict(double from, double to);
 
   /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
@@ -43,9 +44,9 @@ class SCARP_EXPORT QuasiNewtonSession {
   void accept(Eigen::VectorXd const& increment);
 
   /// State that persists from step to step.
-  SCARP_MEMBERS_EXCEPT((settings_, problem_, start_, mark_, tangent_seconds_, provider_, working_, last_gradients_,
-                        last_stresses_, growth_),
-                       first_, learned_, motion_)
+  SCARP_MEMBERS_EXCEPT((settings_, problem_, start_, mark_, tangent_seconds_, working_, last_gradients_, last_stresses_,
+                        missing_, growth_),
+                       first_, provider_, steps_of_provider_, learned_, motion_)
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -65,25 +66,31 @@ class SCARP_EXPORT QuasiNewtonSession {
   double tangent_seconds_ = 0.0;                   ///< that no evaluation has counted yet
   std::vector<VoigtTangent<Problem::dim>> first_;  ///< of the state that the session began with
   std::vector<VoigtTangent<Problem::dim>> provider_;
+  int steps_of_provider_ = 0;  ///< accepted since these tangents were evaluated
   std::vector<VoigtTangent<Problem::dim>> working_;
   std::vector<VoigtTangent<Problem::dim>> learned_;
   std::vector<Gradient<dim>> last_gradients_;
   std::vector<VoigtStress<dim>> last_stresses_;
   detail::ExtrapolatedPredictor motion_;
+  Eigen::VectorXd
+      missing_;  ///< free degrees of freedom [m] between the committed state and equilibrium; 0 without a motion
   double growth_ = 0.0;  ///< of the load factor in the last prediction
 };
 
 template <class Settings, class Problem>
 Verdict QuasiNewtonSession<Settings, Problem>::begin(double load) {
   problem_.set_load(load);
-  provider_ = timed_tangents(false);
+  if (steps_of_provider_ == 0) provider_ = timed_tangents(false);
   if (first_.empty()) first_ = provider_;
   if (learned_.empty()) learned_ = provider_;
   working_.resize(provider_.size());
   for (std::size_t k = 0; k < working_.size(); ++k) {
     working_[k] = settings_.rule.template start<dim>(provider_[k], learned_[k]);
   }
-  return start_.linearise(working_);
+  Verdict const verdict = start_.linearise(working_);
+  missing_ = Eigen::VectorXd::Zero(start_.linearised().system().free_count());
+  if (verdict.acceptable() && motion_.known()) missing_ = start_.missing();
+  return verdict;
 }
 
 template <class Settings, class Problem>
@@ -91,7 +98,7 @@ Eigen::VectorXd QuasiNewtonSession<Settings, Problem>::predict(double from, doub
   growth_ = to - from;
   if (!motion_.known() || !(growth_ > 0.0)) return start_.predict(from, to);
   Eigen::VectorXd increment = start_.prescribed(from, to);
-  start_.linearised().system().scatter(motion_.over(growth_), increment);
+  start_.linearised().system().scatter(motion_.over(growth_, missing_), increment);
   return increment;
 }
 
@@ -100,7 +107,9 @@ void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, 
                                                     StopCondition const& stop) {
   iterate(increment, report, stop);
   // What led to a rejected step is not repeated; one that was interrupted counts as never made.
-  if (!report.verdict.acceptable() && !report.interrupted()) motion_.forget();
+  if (report.verdict.acceptable() || report.interrupted()) return;
+  motion_.forget();
+  steps_of_provider_ = 0;
 }
 
 template <class Settings, class Problem>
@@ -151,8 +160,9 @@ template <class Settings, class Problem>
 void QuasiNewtonSession<Settings, Problem>::accept(Eigen::VectorXd const& increment) {
   problem_.commit(increment);
   learned_ = working_;
+  steps_of_provider_ = (steps_of_provider_ + 1) % settings_.tangent_interval;
   if (settings_.repeats_motion && growth_ > 0.0)
-    motion_.remember(start_.linearised().system().gather(increment), growth_);
+    motion_.remember(start_.linearised().system().gather(increment) - missing_, growth_);
 }
 
 /// Evaluates all points and adds the cost to the report.
@@ -223,9 +233,11 @@ struct QuasiNewton {
   int max_iterations = 30;         ///< of a load step; then it is given up
   double divergence_limit = 10.0;  ///< residual beyond which a step is given up
   int max_refinements = 4;         ///< of points that have not converged, in each iteration
-  /// A step's first guess is the motion of the step before, scaled by the load; after a rejected one it is linear.
+  /// A step's first guess is the motion of the step before, scaled by the load, and the correction of what that one left
+  /// unbalanced; after a rejected one it is linear.
   bool repeats_motion = true;
-  Rule rule{};  ///< working tangent of each point
+  int tangent_interval = 4;  ///< load steps that share one evaluation of the provider's tangents
+  Rule rule{};               ///< working tangent of each point
 
   /// \throws InputError for a setting outside of its range
   void validate() const {
@@ -233,6 +245,7 @@ struct QuasiNewton {
     require_at_least("most iterations of a load step", max_iterations, 1);
     require_at_least("residual beyond which a step is given up", divergence_limit, tolerance);
     require_at_least("most refinements of an iteration", max_refinements, 0);
+    require_at_least("load steps that share the provider's tangents", tangent_interval, 1);
     detail::validated(rule);
   }
 
