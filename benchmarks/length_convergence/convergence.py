@@ -29,7 +29,7 @@ QUANTITIES = [*PLACES, AREA, "rupture dip [deg]", "reaction [MN/m]"]
 WIDTHS = [f"width at {level} of the height [m]" for level in ("1/4", "1/2", "3/4")]
 CRITICAL = ["critical strain [%]", "critical volume [%]"]
 SOILS = {"sand": "Sand", "fontainebleau": "Fontainebleau", "mohr_coulomb": "Mohr-Coulomb"}
-SHOWN = {"fontainebleau": ("8", "4", "2.83")}  # lengths of the page's table
+SHOWN = {"fontainebleau": ("8", "4", "2")}  # lengths of the page's table
 FORMS = {"band": lambda x: (u := x / np.geomspace(1.0, 200.0, 93)[:, None]) * (1.0 - np.exp(-1.0 / u)),
          "power": lambda x: x ** np.linspace(0.5, 1.5, 21)[:, None],
          "line": lambda x: x[None, :]}

@@ -103,7 +103,7 @@ with tempfile.TemporaryDirectory() as scratch:
     expect(sum(" done" in line for line in every) == 0 and "hours of CPU are left" in every[-1], "nothing is done in an empty folder")
     for length in ("8", "5.66", "4", "2.83", "2"):
         count = sum(line.startswith(f"sand-{length}m-") for line in every)
-        wanted = 9 + {"2.83": 2, "4": 1}.get(length, 0)  # more meshes of one seed
+        wanted = 9 + {"2": 2, "4": 1}.get(length, 0)  # more meshes of one seed
         expect(count == wanted, f"three seeds on three meshes with {length} m and {wanted - 9} more, not {count}")
     chosen = run("--list", "sand-4m-*", "mohr_coulomb-2m-right").splitlines()
     expect(len(chosen) == 12, f"ten runs of sand, one of Mohr-Coulomb ground and a sum, not {len(chosen)}")
