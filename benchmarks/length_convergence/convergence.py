@@ -174,7 +174,7 @@ def of_elements(rows):
         known = usable(rows, soil)
         if not extrapolates(known):
             continue
-        lengths = [1.0, 2.83]
+        lengths = [1.0, 2.0]
         small, usual = (of_rows(known, name, lengths, size) for size in (0.0, DEFAULT_SIZE))  # the same draws
         for at, errors in zip(lengths, (usual - small).T):
             low, middle, high = map(float, np.percentile(errors, [2.5, 50.0, 97.5]))

@@ -5,7 +5,8 @@ import math
 import numpy as np
 
 WIDTH, DEPTH = 75.0, 25.0  # of the ground [m]
-LIMIT = 0.005  # of a load step's gradient, the usual one for packings
+LIMIT = {True: 0.005, False: 0.0025}  # of a load step's gradient, the usual one for packings, without and with a length
+INTERVAL = 4  # load steps from one evaluation of the tangents to the next
 
 
 def power_law(x, y):
@@ -84,7 +85,7 @@ class Model:
         """From steps that are near the limit of the gradient: bands are wider in the small ones before, and these are few."""
         rows, values = [], []
         for run in self.sand.values():
-            large = [step["load_increment"] / step["max_displacement_gradient"] for step in throws(run) if step["max_displacement_gradient"] > 0.5 * LIMIT]
+            large = [step["load_increment"] / step["max_displacement_gradient"] for step in throws(run) if step["max_displacement_gradient"] > 0.5 * LIMIT[length_of(run) == 0.0]]
             if large:
                 rows.append([WIDTH * DEPTH / run["nodes"], length_of(run) ** 2])
                 values.append(np.median(large) ** 2)
@@ -98,7 +99,7 @@ class Model:
             for run in self.sand.values():
                 if (length_of(run) == 0.0) != local:
                     continue
-                tolerance = option(run, "--tolerance", 3e-3)
+                tolerance = option(run, "--tolerance", 1e-2)
                 for step in throws(run):
                     if step["max_displacement_gradient"] < 0.3 * tolerance:
                         continue
@@ -112,7 +113,7 @@ class Model:
         ground, share of its run's work."""
         rows = []
         for run in self.sand.values():
-            least, each = option(run, "--min-dem-steps", 20.0), option(run, "--strain-per-dem-step", 1e-5 if "--local" in run["options"] else 2e-5)
+            least, each = option(run, "--min-dem-steps", 20.0 if "--local" in run["options"] else 5.0), option(run, "--strain-per-dem-step", 1e-5 if "--local" in run["options"] else 2e-5)
             for step in throws(run):
                 answers = step["dem_steps"] / step["iterations"] / run["elements"]
                 if answers > 1.3 * least:
@@ -142,11 +143,11 @@ class Model:
         then gives the time of a DEM step of each run."""
         ratios = []
         for run in self.sand.values():
-            rows = [[step["dem_steps"], run["elements"]] for step in run["history"]]
+            rows = [[step["dem_steps"], run["elements"] / INTERVAL] for step in run["history"]]
             one, tangent = positive(rows, [self.scaled(run, step["seconds_in_points"]) for step in run["history"]])
             ratios.append(tangent / one)
         tangent = float(np.median(ratios))
-        self.dem_step = {name: self.scaled(run, run["in_points"]) / (run["dem_steps"] + tangent * (run["steps"] + 1.0) * run["elements"])
+        self.dem_step = {name: self.scaled(run, run["in_points"]) / (run["dem_steps"] + tangent * (run["steps"] + 1.0) / INTERVAL * run["elements"])
                          for name, run in self.sand.items()}
         of_grains = [name for name in self.sand if name.startswith("grains")]
         _, exponent, _ = power_law([self.sand[name]["grains"] for name in of_grains], [self.dem_step[name] for name in of_grains])

@@ -14,7 +14,7 @@ SAND = ["--grains", 100, "--overconsolidation-ratio", 1]
 
 
 def of_sizes():
-    """Packings of 100 grains. Fine meshes end after a few load steps, with a quarter of the least DEM steps and fewer columns."""
+    """Packings of 100 grains. Fine meshes end after a few load steps, with few least DEM steps and fewer columns."""
     for triangles in SIZES:
         mesh = ["--elements", triangles] if triangles != 960 else ["--size", 2.5]
         if triangles <= 960:

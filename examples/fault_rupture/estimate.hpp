@@ -23,7 +23,7 @@ struct CostModel {
   /// Strain of a mean point over throw/depth: at_metre width^by_width (1 + by_throw throw/depth).
   double strain_at_metre = 0.0, strain_by_width = 0.0, strain_by_throw = 0.0;
   double dem_step = 0.0, dem_step_by_grains = 0.0;  ///< value grains^power, as the next ones
-  double tangent = 0.0;                             ///< of a point, once in each load step, in DEM steps
+  double tangent = 0.0;                             ///< of a point, in DEM steps
   double column = 0.0, column_by_grains = 0.0;      ///< of a column of packings that is prepared
   double outside = 0.0, outside_by_points = 0.0;    ///< of an iteration, beside the points
   double pair = 0.0;                                ///< what a pair of points within a length adds to that

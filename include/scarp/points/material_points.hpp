@@ -46,7 +46,7 @@ class MaterialPoints : public PointStates<Dim> {
   /// take more, at most max_refinements times, and keep them until the next commit.
   /// \throws InputError for gradients that are not finite
   template <ExecutesTasks Executor>
-  ResponseReport respond(Executor& executor, int max_refinements = 4) {
+  ResponseReport respond(Executor& executor, int max_refinements = 8) {
     for (int point = 0; point < size(); ++point) {
       if (!own_[detail::index(point)].allFinite())
         reject("the displacement gradient of point {} is not finite: take a smaller step", point);

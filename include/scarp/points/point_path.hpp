@@ -40,7 +40,7 @@ struct PathSettings {
   double tolerance = 1e-6;  ///< of controlled stresses, over the point's largest stress component
   int max_iterations = 25;  ///< of an increment, then it is halved
   int max_halvings = 12;    ///< of an increment
-  int max_refinements = 4;  ///< of a response, see MaterialPoints::respond
+  int max_refinements = 8;  ///< of a response, see MaterialPoints::respond
 
   /// \throws InputError
   void validate() const {

@@ -232,7 +232,7 @@ struct QuasiNewton {
   double tolerance = 5e-3;         ///< force residual, see EquilibriumProblem::residuals
   int max_iterations = 30;         ///< of a load step; then it is given up
   double divergence_limit = 10.0;  ///< residual beyond which a step is given up
-  int max_refinements = 4;         ///< of points that have not converged, in each iteration
+  int max_refinements = 8;         ///< of points that have not converged, in each iteration
   /// A step's first guess is the motion of the step before, scaled by the load, and the correction of what that one left
   /// unbalanced; after a rejected one it is linear.
   bool repeats_motion = true;
