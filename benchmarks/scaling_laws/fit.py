@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 WIDTH, DEPTH = 75.0, 25.0  # of the ground [m]
-LIMIT = {True: 0.005, False: 0.0025}  # of a load step's gradient, the usual one for packings, without and with a length
+LIMIT, LOCAL_LIMIT = 0.0025, 0.005  # of a load step's gradient, the usual ones for packings, with a length and without
 INTERVAL = 4  # load steps from one evaluation of the tangents to the next
 
 
@@ -85,7 +85,8 @@ class Model:
         """From steps that are near the limit of the gradient: bands are wider in the small ones before, and these are few."""
         rows, values = [], []
         for run in self.sand.values():
-            large = [step["load_increment"] / step["max_displacement_gradient"] for step in throws(run) if step["max_displacement_gradient"] > 0.5 * LIMIT[length_of(run) == 0.0]]
+            limit = LIMIT if length_of(run) > 0.0 else LOCAL_LIMIT
+            large = [step["load_increment"] / step["max_displacement_gradient"] for step in throws(run) if step["max_displacement_gradient"] > 0.5 * limit]
             if large:
                 rows.append([WIDTH * DEPTH / run["nodes"], length_of(run) ** 2])
                 values.append(np.median(large) ** 2)

@@ -41,9 +41,9 @@ with tempfile.TemporaryDirectory() as scratch:
     small, said = estimate(scratch)
     expect(is_empty(scratch), "an estimate writes nothing")
     expect("commit" in said and "uncertainty" in said, f"it says where its numbers come from, and how wrong they may be: {said}")
-    for options in (["--elements", "4000"], ["--grains", "800"], ["--length", "2"], ["--strain-per-dem-step", "1e-6"], ["--tolerance", "1e-5"], ["--packings", "200"]):
+    for options in (["--elements", "12000"], ["--grains", "800"], ["--length", "1.41"], ["--strain-per-dem-step", "1e-6"], ["--tolerance", "1e-5"], ["--packings", "200"]):
         expect(estimate(scratch, *options)[0]["work"] > small["work"], f"{options} take more time")
-    for options in (["--elements", "4000"], ["--grains", "800"]):
+    for options in (["--elements", "12000"], ["--grains", "800"]):
         expect(estimate(scratch, *options)[0]["memory"] > small["memory"], f"{options} take more memory")
     expect(estimate(scratch, "--throw-over-depth", "0.01")[0]["work"] < 0.5 * small["work"], "a small throw takes less")
     expect(estimate(scratch, "--elements", "200000", "--grains", "2000")[0]["memory"] > 1e5, "a scene that no machine holds is told")

@@ -47,6 +47,7 @@ TEST_CASE("solvers refuse settings with which no step could be accepted") {
   refuses(&Newton::max_iterations, {0, -1}, "most iterations of a load step");
   refuses(&Newton::divergence_limit, {not_a_number, 0.0, 1e-3}, "residual beyond which a step is given up");
   refuses(&Newton::max_refinements, {-1}, "most refinements of an iteration");
+  refuses(&Newton::tangent_interval, {0, -1}, "load steps that share the provider's tangents");
 }
 
 TEST_CASE("tangent rules refuse shares outside of their range, also within a solver") {

@@ -72,9 +72,8 @@ class SCARP_EXPORT QuasiNewtonSession {
   std::vector<Gradient<dim>> last_gradients_;
   std::vector<VoigtStress<dim>> last_stresses_;
   detail::ExtrapolatedPredictor motion_;
-  Eigen::VectorXd
-      missing_;  ///< free degrees of freedom [m] between the committed state and equilibrium; 0 without a motion
-  double growth_ = 0.0;  ///< of the load factor in the last prediction
+  Eigen::VectorXd missing_;  ///< [m] from the committed state to equilibrium; 0 without a motion
+  double growth_ = 0.0;      ///< of the load factor in the last prediction
 };
 
 template <class Settings, class Problem>
