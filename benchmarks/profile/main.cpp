@@ -80,7 +80,7 @@ void add_parts_of_an_iteration(Problem& problem, Table& table) {
   add("GMRES", [&] { equations.solve(force); });
   auto gradients = problem.own_gradients();
   auto const* means = problem.points().means();
-  if (means) add("means of all gradients", [&] { means->mean().means(gradients, problem.executor()); });
+  if (means) add("means of all gradients", [&] { means->means(gradients, problem.executor()); });
   add("sum of forces", [&] { problem.evaluate_committed(); });
   add("tangents of all points", [&] { problem.committed_tangents(); });
 }
