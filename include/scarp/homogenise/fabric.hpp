@@ -12,20 +12,6 @@ namespace scarp {
 template <int Dim>
 using Fabric = Tensor<Dim>;
 
-/// Of the contact normals; isotropic where there is no contact.
-template <class PackingType>
-Fabric<PackingType::dim> contact_fabric(PackingType const& packing, typename PackingType::Law const& law) {
-  constexpr int dim = PackingType::dim;
-  Fabric<dim> sum = Fabric<dim>::Zero();
-  std::size_t count = 0;
-  for_each_contact(packing, law, [&](Contact<dim> const& contact) {
-    sum += contact.normal() * contact.normal().transpose();
-    ++count;
-  });
-  if (count == 0) return Fabric<dim>::Identity() / static_cast<double>(dim);
-  return sum / static_cast<double>(count);
-}
-
 /// Of the grains' first axes, which are the longest unless sizes were given otherwise. Only for shapes that have an orientation.
 template <class PackingType>
 Fabric<2> particle_fabric(PackingType const& packing) requires(PackingType::dim == 2 &&
@@ -55,11 +41,21 @@ struct Coordination {
   double rattlers = 0.0;  ///< share of the grains
 };
 
-/// The mechanical number is Thornton's (2000).
+/// What the contacts of a packing have in common.
+template <int Dim>
+struct ContactNetwork {
+  Fabric<Dim> fabric = Fabric<Dim>::Identity() / Dim;  ///< of the contact normals; isotropic where there is no contact
+  Coordination coordination;                           ///< the mechanical number is Thornton's (2000)
+};
+
+/// In one pass over the contacts.
 template <class PackingType>
-Coordination coordination(PackingType const& packing, typename PackingType::Law const& law) {
+ContactNetwork<PackingType::dim> contact_network(PackingType const& packing, typename PackingType::Law const& law) {
+  constexpr int dim = PackingType::dim;
+  Fabric<dim> normals = Fabric<dim>::Zero();
   std::vector<int> partners(packing.grain_count(), 0);
-  for_each_contact(packing, law, [&](auto const& contact) {
+  for_each_contact(packing, law, [&](Contact<dim> const& contact) {
+    normals += contact.normal() * contact.normal().transpose();
     ++partners[contact.first];
     ++partners[contact.second];
   });
@@ -73,8 +69,23 @@ Coordination coordination(PackingType const& packing, typename PackingType::Law 
   }
   double const grains = static_cast<double>(partners.size());
   double const bearing = grains - rattling;
-  return {
-      .all = sum / grains, .mechanical = bearing > 0.0 ? (sum - single) / bearing : 0.0, .rattlers = rattling / grains};
+  ContactNetwork<dim> network{.coordination = {.all = sum / grains,
+                                               .mechanical = bearing > 0.0 ? (sum - single) / bearing : 0.0,
+                                               .rattlers = rattling / grains}};
+  if (sum > 0.0) network.fabric = normals / (0.5 * sum);
+  return network;
+}
+
+/// Fabric of the contact normals alone.
+template <class PackingType>
+Fabric<PackingType::dim> contact_fabric(PackingType const& packing, typename PackingType::Law const& law) {
+  return contact_network(packing, law).fabric;
+}
+
+/// Mean numbers of contacts of a grain alone.
+template <class PackingType>
+Coordination coordination(PackingType const& packing, typename PackingType::Law const& law) {
+  return contact_network(packing, law).coordination;
 }
 
 }  // namespace scarp

@@ -139,9 +139,9 @@ struct DemRve {
   /// Void ratio, in the plane fabrics, coordination and balance.
   Quantities quantities(State const& state) const {
     Quantities quantities{{"void_ratio", state.packing.void_ratio()}};
-    if constexpr (dim == 2)
-      quantities.emplace_back("contact_fabric", fabric_anisotropy(contact_fabric(state.packing, law)));
-    quantities.emplace_back("coordination", coordination(state.packing, law).all);
+    auto const network = contact_network(state.packing, law);
+    if constexpr (dim == 2) quantities.emplace_back("contact_fabric", fabric_anisotropy(network.fabric));
+    quantities.emplace_back("coordination", network.coordination.all);
     quantities.emplace_back("unbalanced_ratio", state.unbalanced_ratio);
     if constexpr (requires { particle_fabric(state.packing); })
       quantities.emplace_back("particle_fabric", fabric_anisotropy(particle_fabric(state.packing)));
