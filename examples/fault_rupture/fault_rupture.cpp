@@ -23,7 +23,7 @@ constexpr double short_length = 2.0;  ///< [m], where the mesh is made for it
 constexpr double long_length = 8.0;   ///< [m], of coarser meshes
 
 /// Beside the reference study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
-/// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and a third of the DEM steps, which give the
+/// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and fewer DEM steps, which give the
 /// same places (docs/notes/performance.md).
 void make_objective(Choice& choice) {
   choice.length = short_length;

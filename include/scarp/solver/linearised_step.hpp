@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "scarp/core/described.hpp"
 #include "scarp/solver/detail/standing_balance.hpp"
 #include "scarp/solver/free_system.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -213,34 +212,6 @@ class LinearisedStep {
   double linear_residual_ = 0.0;
   bool is_held_ = false;  ///< all bodies, when the system was linearised
 };
-
-namespace detail {
-/// How the free degrees of freedom moved in the last accepted load step.
-class ExtrapolatedPredictor {
- public:
-  bool known() const { return !motion_.empty(); }
-  void forget() { motion_.clear(); }
-
-  /// motion [m]: of the free degrees of freedom in a step, less what the step before had left to it; growth: of the load factor, positive
-  void remember(Eigen::VectorXd const& motion, double growth) {
-    motion_.assign(motion.begin(), motion.end());
-    growth_ = growth;
-  }
-
-  /// The motion [m] when the load factor grows by as much.
-  /// missing [m]: from where the last step ended to equilibrium; it is made good, and the motion was too small by as much
-  Eigen::VectorXd over(double growth, Eigen::VectorXd const& missing) const {
-    Eigen::Map<Eigen::VectorXd const> const last(motion_.data(), missing.size());
-    return growth / growth_ * (last + missing) + missing;
-  }
-
-  SCARP_MEMBERS(motion_, growth_)
-
- private:
-  std::vector<double> motion_;  ///< [m]
-  double growth_ = 0.0;
-};
-}  // namespace detail
 
 /// What a load step begins with: the system linearised about the committed state, what is
 /// known of it, and the first guess that follows from it.

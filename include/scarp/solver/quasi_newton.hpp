@@ -7,6 +7,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/solver/detail/extrapolated_predictor.hpp"
 #include "scarp/solver/incremental_problem.hpp"
 #include "scarp/solver/linearised_step.hpp"
 #include "scarp/solver/sparse_lu.hpp"
