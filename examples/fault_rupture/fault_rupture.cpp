@@ -31,7 +31,7 @@ void make_objective(Choice& choice) {
   choice.packings = 16;
   choice.mirrored_packings = true;
   choice.strain_per_step = 2e-5;
-  choice.min_dem_steps = 5;
+  choice.min_dem_steps = 8;
   choice.unbalanced_tolerance = 0.1;
 }
 

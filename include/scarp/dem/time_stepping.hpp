@@ -66,7 +66,7 @@ class TimeStepper {
   [[no_unique_address]] Boundary boundary{};  ///< what holds grains
   /// Gap up to which pairs are listed, as a share of the largest radius: a wider skin lists more pairs, a thinner one is
   /// rebuilt more often. Of the law only its reach comes on top, so that laws that act in touch share one list.
-  double skin_ratio = 0.1;
+  double skin_ratio = 0.2;
 
   double time_step_share = default_time_step_share;  ///< of the lower bound of the critical step
 
