@@ -11,7 +11,7 @@ DEPTH = 25.0           # [m]
 FOOTING_THROW = 1.99 / DEPTH  # of the reference study's fig. 4
 THROWS = [0.028, 0.057, 0.085]
 SHOWN = "1 m"          # length of the runs in the figures
-OTHERS = {"2 m": "-.", "4 m": ":", "8 m": "--"}  # beside it in the free field
+OTHERS = {"2 m": "--"}  # beside it in the free field
 MOST_STRAIN = 120.0    # of the colours [%]
 
 

@@ -18,17 +18,14 @@ from common import data_folder, measures, origin, read_table, write_table
 OUTPUT = REPOSITORY / "output"
 FIGURES = REPOSITORY / "docs" / "figures"
 CASES = ["free", "heavy", "light"]
-SEEDS = [1, 2, 3]
 # Height of the points A and B above bedrock [m], 4 m below the surface.
 LEVEL = 21.0
 DEPTH = 25.0  # of the soil [m]
-SETS = {f"{length} m": {case: f"study_{case}_{length}" for case in CASES} for length in (1, 2, 4)}
-SETS |= {"8 m": {case: f"study_{case}" for case in CASES}, "5.66 m": {case: f"study_medium_{case}_5.66" for case in CASES}}
-SETS |= {f"seed {seed}": {case: f"study_medium_{case}/seed_{seed}" for case in CASES} for seed in SEEDS}
+SETS = {f"{length} m": {case: f"study_{case}_{length}" for case in CASES} for length in (1, 2)}
+SEED_SETS = ["2 m", "seed 2", "seed 3"]
+SETS |= {name: {case: f"study_{case}_2_{name.replace(' ', '')}" for case in CASES} for name in SEED_SETS[1:]}
 # The same with a rigid base that may slide and lift in the place of one that sticks.
-FRICTIONAL = {f"{length} m": {case: f"study_{case}_frictional_{length}" for case in ("heavy", "light")} for length in (1, 2)}
-FRICTIONAL["8 m"] = {case: f"study_{case}_frictional" for case in ("heavy", "light")}
-FRICTIONAL |= {f"seed {seed}": {case: f"study_medium_{case}_frictional/seed_{seed}" for case in ("heavy", "light")} for seed in SEEDS}
+FRICTIONAL = {f"{length} m": {case: f"study_{case}_{length}_frictional" for case in ("heavy", "light")} for length in (1, 2)}
 
 
 @dataclasses.dataclass
@@ -187,13 +184,9 @@ def column(sets, names, measure, digits):
     return told if len(known) == len(values) else f"{told} ({len(known)} of {len(values)})"
 
 
-SEED_SETS = [f"seed {seed}" for seed in SEEDS]
-
-
 def numbers(sets):
     """Lines of the comparison with the reference study."""
-    columns = {"1 m": ["1 m"], "2 m": ["2 m"], "4 m, uniform, not preloaded": ["4 m"], "8 m": ["8 m"], "8 m, 1904 triangles: three seeds": SEED_SETS,
-               "5.66 m, 1904 triangles": ["5.66 m"]}
+    columns = {"1 m": ["1 m"], "2 m": ["2 m"], "2 m: three seeds": SEED_SETS}
     return [{"measure": what, "study": said, **{title: column(sets, names, measure, digits) for title, names in columns.items()}}
             for what, said, digits, measure in rows()]
 
@@ -210,11 +203,9 @@ def base_rows(case):
 
 def bases(tied, frictional):
     """Lines of both kinds of bases."""
-    columns = {**{f"{name}{base}": (of_base, [name]) for name in ("1 m", "2 m", "8 m") for base, of_base in (("", tied), (", frictional", frictional))},
-               "8 m, 1904 triangles: three seeds": (tied, SEED_SETS),
-               "8 m, frictional, 1904 triangles: three seeds": (frictional, SEED_SETS)}
-    return [{"measure": f"base, {case}: {what}", **{title: column(sets, names, measure, digits)
-                                                    for title, (sets, names) in columns.items()}}
+    columns = {f"{name}{base}": (of_base, name) for name in ("1 m", "2 m") for base, of_base in (("", tied), (", frictional", frictional))}
+    return [{"measure": f"base, {case}: {what}", **{title: column(sets, [name], measure, digits)
+                                                    for title, (sets, name) in columns.items()}}
             for case in ("heavy", "light") for what, digits, measure in base_rows(case)]
 
 
