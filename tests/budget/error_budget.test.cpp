@@ -154,6 +154,22 @@ TEST_CASE("differences of tracked points that cancel are no error of all of them
   CHECK(part(one.parts(), "accumulated") > 1e-4);
 }
 
+TEST_CASE("what tracked points have in common is found whole, and what is apart by chance is left out") {
+  Points alike(Relaxing{}, 50);
+  scarp::ErrorBudget budget(alike, {}, {.points_per_tracked = 100, .tracked = {6, 7, 30}});
+  for (int k = 0; k < 5; ++k) alike.strain(increment, budget);
+  double const own = part(budget.parts(), "accumulated_apart");
+  REQUIRE(own > 1e-4);
+  CHECK(part(budget.parts(), "accumulated") == samples::Approx(own).epsilon(1e-10));
+
+  // Two of one sign and one of the other have a sum, but no pair product on average.
+  Points apart(Relaxing{.alternates = true}, 50);
+  scarp::ErrorBudget mixed(apart, {}, {.points_per_tracked = 100, .tracked = {6, 7, 8}});
+  for (int k = 0; k < 5; ++k) apart.strain(increment, mixed);
+  CHECK(part(mixed.parts(), "accumulated_apart") == samples::Approx(own).epsilon(1e-10));
+  CHECK(part(mixed.parts(), "accumulated") < 1e-12);
+}
+
 TEST_CASE("an elastic law has no error of its steps beyond the third order of the strain") {
   Points points(scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3), 400);
   scarp::ErrorBudget budget(points, {}, {});

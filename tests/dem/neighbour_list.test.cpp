@@ -138,8 +138,8 @@ TEST_CASE_TEMPLATE(
   CHECK(longer.first.size() > listed.first.size());
   // The reach of 0.1 radii is as another skin of that width.
   auto wider = with_law<scarp::LinearFrictional>(grains);
-  REQUIRE(
-      scarp::rebuild_pairs(wider, 0.1 * grains.population->largest_radius() + pulled.interaction_range()).acceptable());
+  double const skin = scarp::TimeStepper<PackingType>{}.skin_ratio * grains.population->largest_radius();
+  REQUIRE(scarp::rebuild_pairs(wider, skin + pulled.interaction_range()).acceptable());
   CHECK(longer == std::pair{wider.pairs.first, wider.pairs.second});
 }
 

@@ -148,12 +148,11 @@ TEST_CASE("pairs that are not listed cannot come into a law's reach before the l
   constexpr double radius = 5e-3;
   constexpr double law_reach = 4.5e-3;
   Bond const law{samples::study_law(), 6e6 * law_reach, 0.0};
+  auto stepper = undamped<Grains>();
   // Two grains side by side, just too far apart to be listed.
-  constexpr double skin = 0.1 * radius;
-  constexpr double distance = 2.0 * radius + law_reach + skin;
+  double const distance = 2.0 * radius + law_reach + stepper.skin_ratio * radius;
   auto packing = samples::place<Grains>(0.2 * Tensor<2>::Identity(), {{radius}, {radius}},
                                         {{0.05, 0.1}, {0.05 + 1.0001 * distance, 0.1}});
-  auto stepper = undamped<Grains>();
   REQUIRE(stepper.refresh(packing, law).acceptable());
   REQUIRE(packing.pairs.count() == 0);
   Tensor<2> closer = Tensor<2>::Zero();

@@ -126,7 +126,7 @@ class ErrorBudget : public NeverStops {
     }
     if (tracked_.any()) {
       add("accumulated", tracked_.together(), bounds_.accumulated,
-          "the same of the sum of points' stresses when all increments take it, root mean square over the steps");
+          "the same when all increments take it: what points have in common, root mean square over the steps");
       add("accumulated_apart", tracked_.apart(), none, "the same of single points");
       add("accumulated_largest", tracked_.farthest(), none, "of one tracked point at any time");
     }

@@ -173,7 +173,7 @@ struct TrackedPoints {
   std::vector<TrackedPoint> points{};  ///< in increasing order of their numbers
   int steps = 0;                       ///< accepted ones that were followed
   long work = 0;                       ///< that they cost
-  double square_sum = 0.0;             ///< over all steps, see together()
+  double square_sum = 0.0;             ///< over all steps, of what is in common; see together()
 
   /// Spread over the points that this process sees, and those that are named.
   /// \throws InputError for points that the problem does not have
@@ -221,13 +221,22 @@ struct TrackedPoints {
     for (long const one : works) work += one;
     ++steps;
     VoigtStress<dim> sum = VoigtStress<dim>::Zero();
-    double all = 0.0;
+    double own = 0.0;
+    double all_carried = 0.0;
+    double own_carried = 0.0;
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (points[k].bits.empty()) continue;
       sum += differences[k];
-      all += carried[k];
+      own += std::pow(stress_size<dim>(differences[k]), 2);
+      all_carried += carried[k];
+      own_carried += carried[k] * carried[k];
     }
-    if (double const apart = stress_size<dim>(sum); apart != 0.0) square_sum += apart * apart / (all * all);
+    if (own == 0.0) return;
+    double const squared = std::pow(stress_size<dim>(sum), 2);
+    double const carried_squared = all_carried * all_carried;
+    bool const is_of_one = !(carried_squared - own_carried > 1e-9 * carried_squared);
+    square_sum += is_of_one || std::isinf(squared) ? squared / carried_squared
+                                                   : (squared - own) / (carried_squared - own_carried);
   }
 
   /// Whether the path of at least one point has been repeated.
@@ -235,9 +244,10 @@ struct TrackedPoints {
     return std::any_of(points.begin(), points.end(), [](auto const& one) { return !one.bits.empty(); });
   }
 
-  /// Size of the sum of the points' differences over the sum of what they carry, root mean square over the steps. What
-  /// differs by chance from point to point, as between two packings of one sand, cancels.
-  double together() const { return steps > 0 ? std::sqrt(square_sum / steps) : 0.0; }
+  /// What the points' differences have in common, over what they carry, root mean square over the steps: the mean over all pairs
+  /// of points of the products of their differences, over that of what they carry. What differs by chance from point to
+  /// point, as between two packings of one sand, has no part in it; of one point alone its own difference.
+  double together() const { return steps > 0 ? std::sqrt(nan_max(0.0, square_sum / steps)) : 0.0; }
 
   /// Root mean square of the differences over points and steps.
   double apart() const {
