@@ -125,13 +125,15 @@ inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const
   }
 }
 
-/// The strip of small elements: its edges, evenly from bedrock to the surface, and the least distance between them and
-/// the band, which has gone from 5 to 95 % of the offset. [m]
-inline void add_strip(nlohmann::ordered_json& json, scarp::PilotSize const& strip, scarp::RuptureSurvey const& survey) {
+/// The strip of small elements: its edges, evenly from bedrock to the surface, and on bare ground the least distance between
+/// them and the band, which has gone from 5 to 95 % of the offset; a footing spreads the settlement beside the band. [m]
+inline void add_strip(nlohmann::ordered_json& json, scarp::PilotSize const& strip, scarp::RuptureSurvey const& survey,
+                      bool is_bare) {
   constexpr int levels = 25;
   json["strip_size"] = strip.fine;
   json["strip_width"] = 2.0 * strip.margin;
   for (int k = 0; k <= levels; ++k) json["strip_edges"].push_back(strip.edges(survey.depth * k / levels));
+  if (!is_bare) return;
   double margin = std::numeric_limits<double>::infinity();
   for (auto const& band : survey.bands) {
     auto const [left, right] = strip.edges(band.height);
@@ -158,7 +160,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
   json["element"] = element_name;
   json["elements"] = grid.mesh().elements.size();
-  if (scene.ground.strip) add_strip(json, *scene.ground.strip, survey);
+  if (scene.ground.strip) add_strip(json, *scene.ground.strip, survey, choice.scene == Case::free);
   auto const distorted = scarp::largest_distortion(grid);
   json["distorted_element"] = {{"number", distorted.element},
                                {"x", distorted.place.x()},

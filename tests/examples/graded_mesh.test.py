@@ -57,6 +57,7 @@ with tempfile.TemporaryDirectory() as scratch:
         found = told(scratch, "--length", "4", *options)
         (left, right), *_, (above_left, above_right) = found["strip_edges"]
         expect(left < 0.0 < right and above_left < found["surface_x50"] < above_right, f"{options}: the strip follows, {found}")
+        expect(("strip_margin" in found) == ("--case" not in options), f"{options}: below a footing there is no margin, {found}")
     # A run that goes on makes the same mesh by a pilot run of its own.
     stopped = run(scratch, "--length", "4", "--checkpoint", "saved", "--checkpoint-every", "0", "--time-limit", "1e-6")
     resumed = subprocess.run([program.resolve(), "--soil", "mohr_coulomb", "--frames", "1", "--output", "out", "--length", "4", "--checkpoint", "saved",
