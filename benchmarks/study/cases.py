@@ -22,8 +22,6 @@ CASES = ["free", "heavy", "light"]
 LEVEL = 21.0
 DEPTH = 25.0  # of the soil [m]
 SETS = {f"{length} m": {case: f"study_{case}_{length}" for case in CASES} for length in (1, 2)}
-SEED_SETS = ["2 m", "seed 2", "seed 3"]
-SETS |= {name: {case: f"study_{case}_2_{name.replace(' ', '')}" for case in CASES} for name in SEED_SETS[1:]}
 # The same with a rigid base that may slide and lift in the place of one that sticks.
 FRICTIONAL = {f"{length} m": {case: f"study_{case}_{length}_frictional" for case in ("heavy", "light")} for length in (1, 2)}
 
@@ -172,23 +170,17 @@ def kept(lines, before):
     return [{column: said.get(line["measure"], {}).get(column) if value is None else value for column, value in line.items()} for line in lines]
 
 
-def column(sets, names, measure, digits):
-    """Mean, and of several sets the deviation, of a measure; None where it needs a case that one of these sets has not run."""
-    values = [measure(sets[name]) for name in names]
-    known = [value for value in values if not math.isnan(value)]
-    if len(known) < len(values) and not all(sets[name].cases == sets[name].runs.keys() for name in names):
-        return None
-    if not known:
-        return "-"
-    told = f"{np.mean(known):.{digits}f}" + (f" +- {np.std(known, ddof=1):.{max(digits, 1)}f}" if len(known) > 1 else "")
-    return told if len(known) == len(values) else f"{told} ({len(known)} of {len(values)})"
+def column(one, measure, digits):
+    """A measure of a set; None where it needs a case that was not run."""
+    value = measure(one)
+    if math.isnan(value):
+        return "-" if one.cases == one.runs.keys() else None
+    return f"{value:.{digits}f}"
 
 
 def numbers(sets):
     """Lines of the comparison with the reference study."""
-    columns = {"1 m": ["1 m"], "2 m": ["2 m"], "2 m: three seeds": SEED_SETS}
-    return [{"measure": what, "study": said, **{title: column(sets, names, measure, digits) for title, names in columns.items()}}
-            for what, said, digits, measure in rows()]
+    return [{"measure": what, "study": said, **{name: column(one, measure, digits) for name, one in sets.items()}} for what, said, digits, measure in rows()]
 
 
 def base_rows(case):
@@ -203,9 +195,8 @@ def base_rows(case):
 
 def bases(tied, frictional):
     """Lines of both kinds of bases."""
-    columns = {f"{name}{base}": (of_base, name) for name in ("1 m", "2 m") for base, of_base in (("", tied), (", frictional", frictional))}
-    return [{"measure": f"base, {case}: {what}", **{title: column(sets, [name], measure, digits)
-                                                    for title, (sets, name) in columns.items()}}
+    columns = {f"{name}{base}": one for name in tied for base, one in (("", tied[name]), (", frictional", frictional[name]))}
+    return [{"measure": f"base, {case}: {what}", **{name: column(one, measure, digits) for name, one in columns.items()}}
             for case in ("heavy", "light") for what, digits, measure in base_rows(case)]
 
 
