@@ -12,9 +12,7 @@ inline fault_rupture::Choice nonlocal_fault(int packings, bool quick) {
   choice.length = 8.0;
   choice.packings = packings;
   choice.mirrored_packings = packings > 1;
-  choice.strain_per_step = 2e-5;
-  choice.min_dem_steps = 8;
-  choice.unbalanced_tolerance = 0.1;
+  fault_rupture::set_few_dem_steps(choice);
   if (quick) {
     choice.elements = 220;
     choice.grains = 60;

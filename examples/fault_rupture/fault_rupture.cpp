@@ -23,16 +23,13 @@ constexpr double short_length = 2.0;  ///< [m], where the mesh is made for it
 constexpr double long_length = 8.0;   ///< [m], of coarser meshes
 
 /// Beside the reference study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
-/// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and fewer DEM steps, which give the
-/// same places (docs/notes/performance.md).
+/// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and fewer DEM steps.
 void make_objective(Choice& choice) {
   choice.length = short_length;
   choice.overconsolidation_ratio = 1.25;
   choice.packings = 16;
   choice.mirrored_packings = true;
-  choice.strain_per_step = 2e-5;
-  choice.min_dem_steps = 8;
-  choice.unbalanced_tolerance = 0.1;
+  fault_rupture::set_few_dem_steps(choice);
 }
 
 /// No length and copies of one packing, as the reference study has it.

@@ -137,4 +137,12 @@ struct Choice {
 /// \throws scarp::InputError for grains that the scenes are not built for
 examples::Sand sand_of(Choice const& choice);
 
+/// DEM steps of scenes with a length: fewer than the reference study's scene has, with the same places
+/// (docs/notes/performance.md).
+inline void set_few_dem_steps(Choice& choice) {
+  choice.strain_per_step = 2e-5;
+  choice.min_dem_steps = 8;
+  choice.unbalanced_tolerance = 0.1;
+}
+
 }  // namespace fault_rupture
