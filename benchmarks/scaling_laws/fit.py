@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Fits of the model of examples/fault_rupture/estimate.hpp to runs, and exponents with their uncertainty."""
+"""Fits of the model of examples/fault_rupture/estimate.hpp to runs."""
 import math
 
 import numpy as np
@@ -10,15 +10,9 @@ INTERVAL = 4  # load steps from one evaluation of the tangents to the next
 
 
 def power_law(x, y):
-    """Least squares of log y over log x: factor, exponent, two standard errors of the exponent (nan for two points)."""
-    x, y = np.log(np.asarray(x, float)), np.log(np.asarray(y, float))
-    design = np.stack([np.ones_like(x), x], axis=1)
-    (at_one, exponent), *_ = np.linalg.lstsq(design, y, rcond=None)
-    error = math.nan
-    if len(x) > 2:
-        rest = y - design @ [at_one, exponent]
-        error = 2.0 * math.sqrt(rest @ rest / (len(x) - 2) / np.sum((x - x.mean()) ** 2))
-    return math.exp(at_one), exponent, error
+    """Least squares of log y over log x: factor and exponent."""
+    exponent, at_one = np.polyfit(np.log(np.asarray(x, float)), np.log(np.asarray(y, float)), 1)
+    return math.exp(at_one), exponent
 
 
 def positive(design, values):
@@ -47,9 +41,25 @@ def length_of(run):
     return option(run, "--length", 0.0 if "--local" in run["options"] else 8.0)
 
 
+def node_distance(run):
+    """Mean distance, on graded meshes that in the strip."""
+    return math.sqrt((run["strip_area"] or WIDTH * DEPTH / run["elements"]) * run["elements"] / run["nodes"])
+
+
+def crowding(run):
+    """Strain of a mean point over that on uniform meshes, as in cost_of()."""
+    return math.sqrt(max(1.0, WIDTH * DEPTH / run["elements"] / run["strip_area"] / 1.25)) if run["strip_area"] else 1.0
+
+
 def throws(run):
     """Accepted load steps of the throw."""
     return [step for step in run["history"] if step["accepted"] and step["load_increment"] > 0.0]
+
+
+def large_throws(run):
+    """Those near the limit of the gradient."""
+    limit = LIMIT if length_of(run) > 0.0 else LOCAL_LIMIT
+    return [step for step in throws(run) if step["max_displacement_gradient"] > 0.5 * limit]
 
 
 def cpu(run, seconds):
@@ -78,32 +88,26 @@ class Model:
         return cpu(run, seconds) * self.kernel / run["kernel"]
 
     def width(self, run):
-        node_distance = math.sqrt(WIDTH * DEPTH / run["nodes"])
-        return math.hypot(self.constants["width_per_node"] * node_distance, self.constants["width_per_length"] * length_of(run))
+        return math.hypot(self.constants["width_per_node"] * node_distance(run), self.constants["width_per_length"] * length_of(run))
 
     def fit_width(self):
-        """From steps that are near the limit of the gradient: bands are wider in the small ones before, and these are few."""
+        """Bands are wider in the small steps before, and these are few."""
         rows, values = [], []
         for run in self.sand.values():
-            limit = LIMIT if length_of(run) > 0.0 else LOCAL_LIMIT
-            large = [step["load_increment"] / step["max_displacement_gradient"] for step in throws(run) if step["max_displacement_gradient"] > 0.5 * limit]
-            if large:
-                rows.append([WIDTH * DEPTH / run["nodes"], length_of(run) ** 2])
+            if large := [step["load_increment"] / step["max_displacement_gradient"] for step in large_throws(run)]:
+                rows.append([node_distance(run) ** 2, length_of(run) ** 2])
                 values.append(np.median(large) ** 2)
         per_node, per_length = np.sqrt(positive(rows, values))
         self.constants.update(width_per_node=per_node, width_per_length=per_length)
 
     def fit_iterations(self):
-        """Steps far below the residual are left out: they take one or two iterations, whatever their size."""
         for key, local in (("iterations", True), ("iterations_with_length", False)):
             decades, counts = [], []
             for run in self.sand.values():
                 if (length_of(run) == 0.0) != local:
                     continue
                 tolerance = option(run, "--tolerance", 1e-2)
-                for step in throws(run):
-                    if step["max_displacement_gradient"] < 0.3 * tolerance:
-                        continue
+                for step in large_throws(run):
                     decades.append(math.log10(step["max_displacement_gradient"] / tolerance))
                     counts.append(step["iterations"])
             slope, at_tolerance = np.polyfit(decades, counts, 1)
@@ -111,7 +115,7 @@ class Model:
 
     def strains(self):
         """Of each step whose answers take more than the least number of DEM steps: width, throw over depth, mean strain over that of the
-        ground, share of its run's work."""
+        ground, time in the points."""
         rows = []
         for run in self.sand.values():
             least, each = option(run, "--min-dem-steps", 20.0 if "--local" in run["options"] else 8.0), option(run, "--strain-per-dem-step", 1e-5 if "--local" in run["options"] else 2e-5)
@@ -119,8 +123,8 @@ class Model:
                 answers = step["dem_steps"] / step["iterations"] / run["elements"]
                 if answers > 1.3 * least:
                     strain = each * math.sqrt(answers ** 2 - least ** 2)
-                    rows.append((self.width(run), step["throw_over_depth"], strain / (step["load_increment"] / DEPTH),
-                                 step["dem_steps"] / run["dem_steps"]))
+                    rows.append((self.width(run), step["throw_over_depth"], strain / crowding(run) / (step["load_increment"] / DEPTH),
+                                 step["seconds_in_points"]))
         return rows
 
     def fit_strain(self):
@@ -151,9 +155,10 @@ class Model:
         self.dem_step = {name: self.scaled(run, run["in_points"]) / (run["dem_steps"] + tangent * (run["steps"] + 1.0) / INTERVAL * run["elements"])
                          for name, run in self.sand.items()}
         of_grains = [name for name in self.sand if name.startswith("grains")]
-        _, exponent, _ = power_law([self.sand[name]["grains"] for name in of_grains], [self.dem_step[name] for name in of_grains])
+        _, exponent = power_law([self.sand[name]["grains"] for name in of_grains], [self.dem_step[name] for name in of_grains])
         logs = [math.log(self.dem_step[name] / run["grains"] ** exponent) for name, run in self.sand.items()]
-        self.constants.update(dem_step=math.exp(np.mean(logs)), dem_step_by_grains=exponent, tangent=tangent)
+        mean = np.average(logs, weights=[run["in_points"] for run in self.sand.values()])
+        self.constants.update(dem_step=math.exp(mean), dem_step_by_grains=exponent, tangent=tangent)
 
     def column(self, run):
         """Time in which a column of packings was prepared: all of the run that is not in load steps."""
@@ -166,39 +171,40 @@ class Model:
             if name.startswith("grains"):
                 grains.append(run["grains"])
                 each.append(self.column(run))
-        factor, exponent, self.column_error = power_law(grains, each)
+        factor, exponent = power_law(grains, each)
         self.constants.update(column=factor, column_by_grains=exponent)
 
-    def outside_rows(self):
-        """Points, pairs, time of an iteration outside of the points."""
-        rows = []
-        for run in (*self.sand.values(), *self.plain.values()):
-            if run["pairs"] == 0:
-                rows.append((run["elements"], 0.0, self.scaled(run, run["in_steps"] - run["in_points"]) / run["iterations"]))
-        return rows
+    def outside(self, run):
+        """Time of an iteration outside of the points."""
+        return self.scaled(run, run["in_steps"] - run["in_points"]) / run["iterations"]
 
     def fit_outside(self):
-        local = self.outside_rows()
-        factor, exponent, self.outside_error = power_law([row[0] for row in local], [row[2] for row in local])
+        """Packings with a length give what a pair takes."""
+        local = [run for run in (*self.sand.values(), *self.plain.values()) if run["pairs"] == 0]
+        factor, exponent = power_law([run["elements"] for run in local], [self.outside(run) for run in local])
         self.constants.update(outside=factor, outside_by_points=exponent)
         pairs, more = [], []
-        for run in (*self.sand.values(), *self.plain.values()):
+        for run in self.sand.values():
             if run["pairs"] > 0:
-                took = self.scaled(run, run["in_steps"] - run["in_points"]) / run["iterations"]
+                took = self.outside(run)
                 pairs.append(run["pairs"] * run["elements"])
                 more.append(max(took - factor * run["elements"] ** exponent, 0.02 * took))
-        _, self.pair_exponent, self.pair_error = power_law(pairs, more)
         self.constants.update(pair=positive([[count] for count in pairs], more)[0])
 
     def fit_plain(self):
-        for key, local in (("plain_iterations", True), ("plain_iterations_with_length", False)):
-            ratios = []
-            for run in self.plain.values():
-                if (length_of(run) == 0.0) == local and run["throw_over_depth"] > 0.05:
-                    ratios.append(run["iterations"] / (run["throw_over_depth"] * DEPTH / self.width(run)))
-            self.constants[key] = math.exp(np.mean(np.log(ratios)))
+        """Of runs far enough for a rupture. Iterations without a length and with one have factors of their own and share the power."""
+        found = self.constants
+        far = [run for run in self.plain.values() if run["throw_over_depth"] > 0.05]
+        widths = [math.log(run["throw_over_depth"] * DEPTH / self.width(run)) for run in far]
+        local = [float(length_of(run) == 0.0) for run in far]
+        design = np.stack([local, 1.0 - np.array(local), widths], axis=1)
+        (without, with_length, by_throw), *_ = np.linalg.lstsq(design, np.log([run["iterations"] for run in far]), rcond=None)
+        found.update(plain_iterations=math.exp(without), plain_iterations_with_length=math.exp(with_length), plain_iterations_by_throw=by_throw)
+        rows = [(math.exp(width), (self.outside(run) - found["pair"] * run["pairs"] * run["elements"]) / (found["outside"] * run["elements"] ** found["outside_by_points"]))
+                for run, width in zip(far, widths) if run["pairs"] > 0]
+        found["plain_outside_with_length"], found["plain_outside_by_throw"] = power_law(*zip(*rows))
         rows, values = [], []
         for run in self.plain.values():
             rows.append([run["iterations"] * run["elements"]])
             values.append(self.scaled(run, run["in_points"]))
-        self.constants["plain_answer"] = positive(rows, values)[0]
+        found["plain_answer"] = positive(rows, values)[0]

@@ -40,6 +40,10 @@ def whole():
     yield "whole-local-220", ["--local", *SAND, "--elements", 220, *half]
     yield "far-local-1900", ["--local", *SAND, "--elements", 1900, *half, "--tolerance", 1e-2, "--min-dem-steps", 5,
                              "--throw-over-depth", 0.008]
+    yield "residual-local-480", ["--local", *SAND, "--elements", 480, *half, "--tolerance", 2e-3, "--throw-over-depth", 0.02]
+    yield "residual-length-480", [*SAND, "--elements", 480, *half, "--tolerance", 2e-3, "--throw-over-depth", 0.02]
+    for length in (8, 5.66, 4):
+        yield f"graded-{length}", ["--length", length]
 
 
 def of_plain_soil():
@@ -48,11 +52,15 @@ def of_plain_soil():
             far = 0.01 if name == "local" and triangles <= 7616 else 0.001 if name == "local" or triangles <= 7616 else 0.0001
             to = [] if triangles <= 1900 else ["--throw-over-depth", far]
             yield f"plain-{name}-{triangles}", ["--soil", "mohr_coulomb", "--length", length, "--elements", triangles, *to]
+    for length, triangles in ((4, 1900), (2.83, 3800), (2, 7616)):
+        yield f"plain-short-{triangles}", ["--soil", "mohr_coulomb", "--length", length, "--elements", triangles]
 
 
 def checks():
     """Not fitted."""
     yield "check-quick", ["--quick"]
+    yield "check-graded", ["--length", 2.83]
+    yield "check-plain-graded", ["--soil", "mohr_coulomb", "--length", 2]
     yield "check-plain-length", ["--soil", "mohr_coulomb", "--length", 5.66, "--elements", 1400]
     yield "check-plain-local", ["--soil", "mohr_coulomb", "--length", 0, "--elements", 1400]
     yield "check-grains", ["--elements", 480, "--packings", 2, "--grains", 200, "--tolerance", 5e-3, "--throw-over-depth", 0.015]
@@ -99,6 +107,12 @@ def pairs_of(text):
     return int(found[1]) if found else 0
 
 
+def strip_area_of(text):
+    """[m2] Of an element in the strip of a graded mesh; 0 on uniform ones."""
+    found = re.search(r"in the strip ([0-9.e+-]+) m2", text)
+    return float(found[1]) if found else 0.0
+
+
 def command_of(build, options):
     """Program of the build that has ranks where they are requested."""
     options = list(map(str, options))
@@ -129,7 +143,7 @@ def one(build, folder, options):
     if done.returncode != 0:
         raise SystemExit(f"benchmarks/scaling_laws/run: {' '.join(options)} ended with {done.returncode}:\n{done.stderr[-2000:]}")
     said = said_by(program, options)
-    record.write_text(json.dumps({"options": options, "nodes": nodes_of(said), "pairs": pairs_of(said), "wall": took,
+    record.write_text(json.dumps({"options": options, "nodes": nodes_of(said), "pairs": pairs_of(said), "strip_area": strip_area_of(said), "wall": took,
                                   "kernel": 0.5e-6 * (kernel_of(before) + kernel_of(said))}))
     return True
 

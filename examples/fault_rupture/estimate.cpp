@@ -103,7 +103,7 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
   bool const packings = choice.soil == Soil::dem;
   bool const has_length = size.pairs > 0.0;
   // More of the points are strained than on the uniform meshes of the model, whose band has 1.25 times the mean number of
-  // elements; the power is that of runs with lengths of 4 and 2 m.
+  // elements; the power is that of runs with lengths from 8 to 1 m.
   double const crowding = size.min_area > 0.0 ? std::sqrt(std::max(1.0, mean_area / size.min_area / 1.25)) : 1.0;
   Cost cost{.steps = 1.0, .iterations = 1.0};
   if (packings) cost.dem_steps = size.points * choice.min_dem_steps;
@@ -115,11 +115,14 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
       cost.dem_steps += steps.count * iterations * size.points * answer_of(choice, size, steps, width, crowding, model);
   };
   for_steps(throw_to, control.max_displacement_gradient * width, step);
-  if (choice.soil == Soil::mohr_coulomb) {
-    double const each = has_length ? model.plain_iterations_with_length : model.plain_iterations;
-    cost.iterations = std::max(cost.steps, each * throw_to / width);
-  }
   auto const power = [](double value, double count, double exponent) { return value * std::pow(count, exponent); };
+  double outside = power(model.outside, size.points, model.outside_by_points);
+  if (choice.soil == Soil::mohr_coulomb) {
+    double const widths = throw_to / width;
+    double const each = has_length ? model.plain_iterations_with_length : model.plain_iterations;
+    cost.iterations = std::max(cost.steps, power(each, widths, model.plain_iterations_by_throw));
+    if (has_length) outside *= power(model.plain_outside_with_length, widths, model.plain_outside_by_throw);
+  }
   double const grains = choice.grains;
   if (packings) {
     cost.preparation = size.columns * power(model.column, grains, model.column_by_grains);
@@ -128,8 +131,7 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
   } else {
     cost.points = cost.iterations * size.points * model.plain_answer;
   }
-  cost.outside =
-      cost.iterations * (power(model.outside, size.points, model.outside_by_points) + model.pair * size.pairs);
+  cost.outside = cost.iterations * (outside + model.pair * size.pairs);
   cost.preparation *= speed;
   cost.points *= speed;
   cost.outside *= speed;
@@ -173,6 +175,7 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
 
   auto text =
       fmt::format("scene: {:.0f} elements, {:.0f} nodes, {:.0f} points", size.elements, size.nodes, size.points);
+  if (size.min_area > 0.0) text += fmt::format(", those in the strip {:.3g} m2", size.min_area);
   if (size.columns > 0.0)
     text += fmt::format(", {} grains in each, {:.0f} columns of packings", choice.grains, size.columns);
   if (size.pairs > 0.0)

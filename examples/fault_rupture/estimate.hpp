@@ -27,8 +27,9 @@ struct CostModel {
   double column = 0.0, column_by_grains = 0.0;      ///< of a column of packings that is prepared
   double outside = 0.0, outside_by_points = 0.0;    ///< of an iteration, beside the points
   double pair = 0.0;                                ///< what a pair of points within a length adds to that
-  /// Iterations on Mohr-Coulomb soil over throw/width.
-  double plain_iterations = 0.0, plain_iterations_with_length = 0.0;
+  /// Iterations on Mohr-Coulomb soil, and with a length the factor of `outside` there: value (throw/width)^by_throw.
+  double plain_iterations = 0.0, plain_iterations_with_length = 0.0, plain_iterations_by_throw = 0.0;
+  double plain_outside_with_length = 0.0, plain_outside_by_throw = 0.0;
   double plain_answer = 0.0;  ///< of a point without packings
   double thread_efficiency = 0.0;
   double largest_error = 0.0;  ///< factor between prediction and measurement, largest over runs that were not fitted
@@ -58,6 +59,9 @@ struct CostModel {
     visit("pair", self.pair);
     visit("plain_iterations", self.plain_iterations);
     visit("plain_iterations_with_length", self.plain_iterations_with_length);
+    visit("plain_iterations_by_throw", self.plain_iterations_by_throw);
+    visit("plain_outside_with_length", self.plain_outside_with_length);
+    visit("plain_outside_by_throw", self.plain_outside_by_throw);
     visit("plain_answer", self.plain_answer);
     visit("thread_efficiency", self.thread_efficiency);
     visit("largest_error", self.largest_error);
