@@ -150,7 +150,8 @@ class Model:
         for run in self.sand.values():
             rows = [[step["dem_steps"], run["elements"] / INTERVAL] for step in run["history"]]
             one, tangent = positive(rows, [self.scaled(run, step["seconds_in_points"]) for step in run["history"]])
-            ratios.append(tangent / one)
+            if one > 0.0:
+                ratios.append(tangent / one)
         tangent = float(np.median(ratios))
         self.dem_step = {name: self.scaled(run, run["in_points"]) / (run["dem_steps"] + tangent * (run["steps"] + 1.0) / INTERVAL * run["elements"])
                          for name, run in self.sand.items()}

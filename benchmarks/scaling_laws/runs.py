@@ -83,7 +83,8 @@ def all_runs():
 
 def quick_runs():
     few = [f"{name}-{triangles}" for name in ("length", "local", "plain-length", "plain-local") for triangles in (220, 480)]
-    return {name: options for name, options in all_runs().items() if name in (*few, "grains-100", "grains-200", "grains-400")}
+    far = [f"{name}-480" for name in ("far-length", "residual-length", "residual-local")] + ["whole-local-220"]
+    return {name: options for name, options in all_runs().items() if name in (*few, *far, "grains-100", "grains-200", "grains-400")}
 
 
 def said_by(program, options):
