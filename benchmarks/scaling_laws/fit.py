@@ -91,7 +91,7 @@ class Model:
         return math.hypot(self.constants["width_per_node"] * node_distance(run), self.constants["width_per_length"] * length_of(run))
 
     def fit_width(self):
-        """Bands are wider in the small steps before, and these are few."""
+        """From large steps: bands are wider in the small ones before, and these are few."""
         rows, values = [], []
         for run in self.sand.values():
             if large := [step["load_increment"] / step["max_displacement_gradient"] for step in large_throws(run)]:
@@ -197,8 +197,8 @@ class Model:
         found = self.constants
         far = [run for run in self.plain.values() if run["throw_over_depth"] > 0.05]
         widths = [math.log(run["throw_over_depth"] * DEPTH / self.width(run)) for run in far]
-        local = [float(length_of(run) == 0.0) for run in far]
-        design = np.stack([local, 1.0 - np.array(local), widths], axis=1)
+        local = np.array([length_of(run) == 0.0 for run in far], float)
+        design = np.stack([local, 1.0 - local, widths], axis=1)
         (without, with_length, by_throw), *_ = np.linalg.lstsq(design, np.log([run["iterations"] for run in far]), rcond=None)
         found.update(plain_iterations=math.exp(without), plain_iterations_with_length=math.exp(with_length), plain_iterations_by_throw=by_throw)
         rows = [(math.exp(width), (self.outside(run) - found["pair"] * run["pairs"] * run["elements"]) / (found["outside"] * run["elements"] ** found["outside_by_points"]))

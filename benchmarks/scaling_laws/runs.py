@@ -60,6 +60,7 @@ def checks():
     """Not fitted."""
     yield "check-quick", ["--quick"]
     yield "check-graded", ["--length", 2.83]
+    yield "check-uniform", ["--length", 4, "--elements", 7616]
     yield "check-plain-graded", ["--soil", "mohr_coulomb", "--length", 2]
     yield "check-plain-length", ["--soil", "mohr_coulomb", "--length", 5.66, "--elements", 1400]
     yield "check-plain-local", ["--soil", "mohr_coulomb", "--length", 0, "--elements", 1400]
