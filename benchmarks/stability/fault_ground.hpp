@@ -6,12 +6,11 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/core/nan_max.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 
 namespace stability {
 
 using FaultSoil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
-using FaultNewton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using FaultNewton = scarp::QuasiNewton<>;
 
 /// Cohesive-frictional ground over a fault, coarse: what the cases change are its members.
 struct FaultGround : scarp::FreeFieldFault<FaultSoil, FaultNewton> {
@@ -24,7 +23,7 @@ struct FaultGround : scarp::FreeFieldFault<FaultSoil, FaultNewton> {
     soil.strength.strength = {.cohesion = 1e3, .friction = 30.8 * degree, .dilation = 6.6 * degree};
     soil.initial.k0 = 0.4;
     solver.tolerance = 1e-10;
-    solver.rule.floor = 1e-4;
+    solver.rule.exact.floor = 1e-4;
     throw_to = 0.01 * layer().depth;
   }
 

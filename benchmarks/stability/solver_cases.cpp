@@ -7,7 +7,6 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "stability/soil_block.hpp"
 #include "stability/stability_case.hpp"
 
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double degree = std::numbers::pi / 180.0;
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 
 std::string words(scarp::RunReport const& run, Watch const& watch) {
   return fmt::format("{} (last rejection {}) at load {:.5g}, {} attempts, {} rejected, {} iterations",
@@ -38,7 +37,7 @@ double base_force(Block::Problem const& problem) {
 /// All of a strain in one macroscopic step, if the solver can, against five hundred.
 Outcome one_increment(double strain) {
   scarp::LoadStepping stepping{.first = 2.0 * strain, .smallest = 1e-8, .max_displacement_gradient = 10.0};
-  Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-4}};
+  Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-4}}};
   auto once = Block{}.make();
   Watch watch;
   auto const run = stepping.run(newton, once, 0.0, 2.0 * strain, watch);
@@ -57,7 +56,7 @@ Outcome one_increment(double strain) {
 Outcome through_the_peak() {
   auto problem = Block{.material = ground(2e3)}.make();
   scarp::LoadStepping const stepping{.first = 1e-3, .smallest = 1e-8, .largest = 4e-3};
-  Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-4}};
+  Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-4}}};
   Newton::Session<Block::Problem> session(newton, problem);
   double peak = 0.0;
   double last = 0.0;
@@ -79,7 +78,7 @@ Outcome through_the_peak() {
 Outcome beyond_the_limit_load(double residual_cohesion, double most) {
   auto problem = Block{.material = ground(residual_cohesion), .top = Block::Top::loaded}.make();
   scarp::LoadStepping const stepping{.first = 5e3, .smallest = 1.0};
-  Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-4}};
+  Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-4}}};
   Watch watch;
   auto const run = stepping.run(newton, problem, 0.0, 1e6, watch);
   // Unconfined strength 2 c cos(phi)/(1 - sin(phi)) = 69.3 kPa; the rough base adds to it.

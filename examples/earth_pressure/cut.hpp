@@ -78,7 +78,7 @@ examples::Outcome load_cut(VerticalCut const& cut, int refinements) {
   scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
   loads.add(body_force(grid, [&](int) { return weight; }), {});
   auto problem = examples::plane_problem(std::move(grid), clay, 1.0, constraints, loads);
-  examples::Newton const newton{.tolerance = 1e-7, .max_iterations = 15, .rule = {.floor = 1e-7}};
+  examples::Newton const newton{.tolerance = 1e-7, .max_iterations = 15, .rule = {.exact = {.floor = 1e-7}}};
   scarp::LoadStepping const stepping{.first = 1.0, .smallest = 2e-3, .largest = 0.4, .max_displacement_gradient = 1.0};
   scarp::NoObserver no_observer;
   auto const run = stepping.run(newton, problem, 0.0, 8.0, no_observer);

@@ -44,7 +44,7 @@ examples::Outcome tilt(EndlessSlope const& slope, int cells) {
   scarp::LoadHistory loads(body_force(grid, [&](int) { return across; }));
   loads.add(body_force(grid, [&](int) { return along; }), {});
   auto problem = examples::plane_problem(std::move(grid), soil, slope.thickness, constraints, loads, ties);
-  examples::Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-8}};
+  examples::Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-8}}};
   scarp::LoadStepping const stepping{
       .first = 0.05, .smallest = 1e-4, .largest = 0.05, .max_displacement_gradient = 1.0};
   scarp::NoObserver no_observer;

@@ -60,7 +60,7 @@ examples::Outcome move_wall(Wall const& wall, int cells) {
   scarp::Vector<2> const weight(0.0, -wall.unit_weight);
   Eigen::VectorXd const loads = body_force(grid, [&](int) { return weight; });
   auto problem = examples::plane_problem(std::move(grid), soil, wall.height, constraints, scarp::LoadHistory(loads));
-  examples::Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-8}};
+  examples::Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-8}}};
   scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-6, .largest = 0.2, .max_displacement_gradient = 1e3};
   scarp::NoObserver no_observer;
   auto const run = stepping.run(newton, problem, 0.0, 1.0, no_observer);

@@ -12,8 +12,8 @@ namespace fault_rupture {
 
 /// A scene of the reference study, compiled once for all soils.
 template <class Structure>
-struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structure, AnySolver, ChosenGround<Element>,
-                                 ChosenFault> {
+struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structure, scarp::QuasiNewton<>,
+                                 ChosenGround<Element>, ChosenFault> {
   double tolerance = 0.0;         ///< of the force residual
   double pressure_floor = 0.0;    ///< [Pa], below which a point's balance counts less
   PackingWriter write_packing{};  ///< nothing for soils without packings

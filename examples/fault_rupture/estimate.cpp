@@ -126,7 +126,7 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
   double const grains = choice.grains;
   if (packings) {
     cost.preparation = size.columns * power(model.column, grains, model.column_by_grains);
-    double const tangents = cost.steps / Sand::Solver{}.tangent_interval * size.points;
+    double const tangents = cost.steps / scarp::QuasiNewton<>{}.tangent_interval * size.points;
     cost.points = (cost.dem_steps + tangents * model.tangent) * power(model.dem_step, grains, model.dem_step_by_grains);
   } else {
     cost.points = cost.iterations * size.points * model.plain_answer;

@@ -17,7 +17,7 @@ namespace {
 using fault_rupture::FrictionalSoil;
 
 struct Ground : scarp::Nonlocal<FrictionalSoil> {};  // a length of zero makes it local, bit for bit
-struct Scene : scarp::FreeFieldFault<Ground, FrictionalSoil::Solver> {};
+struct Scene : scarp::FreeFieldFault<Ground> {};
 
 Scene scene_of(FaultChoice const& choice, double size, double length) {
   Scene scene;
@@ -27,7 +27,7 @@ Scene scene_of(FaultChoice const& choice, double size, double length) {
   scene.soil.fading = choice.fading;
   scene.ground.layer.size = size;
   scene.throw_to = choice.throw_over_depth * scene.ground.layer.depth;
-  scene.solver.rule.floor = 1e-4;
+  scene.solver.rule.exact.floor = 1e-4;
   scene.solver.tolerance = choice.tolerance;
   scene.stepping.max_displacement_gradient = 0.02;
   return scene;

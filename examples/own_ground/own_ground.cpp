@@ -10,7 +10,6 @@
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/mesh_file_ground.hpp"
 #include "scarp/fault/rupture_survey.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 /// Soil whose stiffness grows with the mean pressure, E = E_r (p/p_r)^n (Janbu 1963), elastic within each load step.
@@ -34,7 +33,7 @@ struct PressureStiffened {
   }
 };
 
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 using Ground = scarp::MeshFileGround<scarp::Quad8>;
 
 int main(int count, char** arguments) try {

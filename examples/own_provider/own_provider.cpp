@@ -7,7 +7,6 @@
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 
 /// \f$ \sigma = (K A + G D)\,\varepsilon,\; G = G_0/(1 + \gamma/\gamma_r),\; \gamma^2 = \varepsilon^T D \varepsilon \f$
 /// with A, D for the change of area and of shape. Small strain; the shear stress tends to G_0 gamma_r.
@@ -51,7 +50,7 @@ int main() {
   auto const soils = boost::hana::make_tuple(scarp::Region{"soil", soil});
   auto problem = scarp::make_problem(grid, height, soils, fixed, loads, serial);
   scarp::NoObserver no_observer;
-  scarp::QuasiNewton<scarp::ConsistentTangent> const newton{.tolerance = 1e-10};
+  scarp::QuasiNewton<> const newton{.tolerance = 1e-10};
   bool const done = scarp::LoadStepping{}.settle(newton, problem, 0.0, no_observer).verdict.acceptable();
   double const moved = problem.discretisation().positions().back().x() - mesh.nodes.back().x();
   double const a = push / (soil.shear_modulus * soil.reference_strain);  // gamma = gamma_r a z / (1 - a z), summed up:

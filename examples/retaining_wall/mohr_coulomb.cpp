@@ -3,7 +3,6 @@
 #include "run.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 
 namespace retaining_wall {
 
@@ -18,7 +17,7 @@ std::vector<Outcome> run_mohr_coulomb(Choice const& choice) {
       .elasticity = scarp::IsotropicElasticity::from_young_poisson(25e6, 0.25),
       .strength = {{.friction = friction.angle, .dilation = 6.6 * degree}},
       .initial = {wall.surcharge, wall.unit_weight, 1.0 - std::sin(friction.angle)}};
-  scarp::QuasiNewton<scarp::ConsistentTangent> const newton{.tolerance = tolerance, .rule = {.floor = 1e-6}};
+  scarp::QuasiNewton<> const newton{.tolerance = tolerance, .rule = {.exact = {.floor = 1e-6}}};
   scarp::LoadStepping const stepping{.first = 2e-4, .largest = 1e-3};
   scarp::SerialExecutor executor;
   std::vector<Outcome> outcomes;

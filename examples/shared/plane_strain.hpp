@@ -11,11 +11,10 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 
 namespace examples {
 
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 
 template <class Element, class Scheme>
 using PlaneGrid = scarp::Discretisation<Element, scarp::SmallStrain, Scheme>;

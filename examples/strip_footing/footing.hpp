@@ -108,7 +108,7 @@ examples::Outcome press(Footing const& footing, Grading const& grading) {
   examples::Newton const newton{.tolerance = associated ? 1e-7 : 1e-4,
                                 .max_iterations = associated ? 20 : 60,
                                 .divergence_limit = 1e3,
-                                .rule = {.floor = associated ? 1e-8 : 0.02}};
+                                .rule = {.exact = {.floor = associated ? 1e-8 : 0.02}}};
   scarp::LoadStepping const stepping{.first = 4e-3,
                                      .smallest = 1e-5,
                                      .largest = associated ? 0.04 : 0.01,

@@ -64,7 +64,7 @@ Pressures expand(Cylinder const& cylinder, int cells) {
     for (std::size_t k = 0; k < wall.size(); ++k) sum += forces.segment<2>(2 * wall[k]).dot(outwards[k]);
     return sum / (std::numbers::pi / 2.0 * cylinder.inner);
   };
-  examples::Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-9}};
+  examples::Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-9}}};
   scarp::LoadStepping const stepping{.first = 0.5, .smallest = 1e-5, .max_displacement_gradient = 1e3};
   scarp::NoObserver no_observer;
   int const elements = static_cast<int>(done.mesh().elements.size());

@@ -88,7 +88,7 @@ Excavated excavate(Opening const& opening, int cells) {
   scarp::LoadHistory loads(far);
   loads.add(wall, scarp::TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
   auto problem = examples::plane_problem(std::move(grid), rock, 0.0, constraints, loads);
-  examples::Newton const newton{.tolerance = 1e-8, .rule = {.floor = 1e-9}};
+  examples::Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-9}}};
   scarp::LoadStepping const stepping{.first = 0.1, .smallest = 1e-5, .largest = 0.1, .max_displacement_gradient = 1e3};
   scarp::NoObserver no_observer;
   auto const run = stepping.run(newton, problem, 0.0, 1.0, no_observer);

@@ -8,7 +8,6 @@
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 
 #include "lattice.hpp"
 
@@ -46,7 +45,7 @@ int main() {
   double const whole = pressure * height / modulus;
   SettlementCurve curve{.start = height, .limit = 0.45 * whole};
   static_assert(scarp::ObservesSteps<SettlementCurve, decltype(problem)>);
-  scarp::QuasiNewton<scarp::ConsistentTangent> const newton{.tolerance = 1e-8};
+  scarp::QuasiNewton<> const newton{.tolerance = 1e-8};
   scarp::LoadStepping const steps{.first = 0.1, .largest = 0.1};
   auto const run = steps.run(newton, problem, 0.0, 1.0, curve);
 

@@ -12,7 +12,6 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 
@@ -25,7 +24,7 @@ template <class Law>
 using Footed = scarp::Interface<Law, scarp::RigidFooting>;
 template <class Law>
 using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Footed<Law>>;
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

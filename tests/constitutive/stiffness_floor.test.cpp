@@ -10,7 +10,6 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 
@@ -68,7 +67,7 @@ Problem column(double share, scarp::SerialExecutor& executor) {
 
 scarp::RunReport load(Problem& problem, double to) {
   scarp::NoObserver no_observer;
-  scarp::QuasiNewton<scarp::ConsistentTangent> const solver{.tolerance = 1e-9};
+  scarp::QuasiNewton<> const solver{.tolerance = 1e-9};
   return scarp::LoadStepping{.first = 0.5 * to, .max_displacement_gradient = 1.0}.run(solver, problem, 0.0, to,
                                                                                       no_observer);
 }

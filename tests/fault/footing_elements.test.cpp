@@ -5,12 +5,11 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/tied_footing.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {
 
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 using Soil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
 
 /// While a footing is placed the ground carries the share of its weight that is there.

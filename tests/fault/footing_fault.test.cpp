@@ -8,12 +8,11 @@
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/tied_footing.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {
 
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
 template <class Structure>
 using Scene = scarp::FaultScene<Soil, Structure, Newton>;
@@ -32,7 +31,7 @@ Scene<Structure> scene(Structure const& structure, double cohesion) {
   made.structure = structure;
   made.throw_to = 0.25;
   made.solver.tolerance = 1e-10;
-  made.solver.rule.floor = 1e-4;
+  made.solver.rule.exact.floor = 1e-4;
   made.stepping.max_displacement_gradient = 0.02;
   return made;
 }

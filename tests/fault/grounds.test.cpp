@@ -5,12 +5,11 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "support/elements.hpp"
 
 namespace {
 
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 
 template <int dim>
 using Soil = scarp::LinearElastic<dim, scarp::GeostaticStress<dim>>;

@@ -9,14 +9,12 @@
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/points/nonlocal.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 
 namespace {
 
 using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength>;
 template <class SoilOfScene>
-using Scene =
-    scarp::FreeFieldFault<SoilOfScene, scarp::QuasiNewton<scarp::ConsistentTangent>, mirror::Ground, mirror::Fault>;
+using Scene = scarp::FreeFieldFault<SoilOfScene, scarp::QuasiNewton<>, mirror::Ground, mirror::Fault>;
 
 template <class SoilOfScene>
 std::vector<scarp::Vector<2>> ruptured(SoilOfScene const& soil, bool mirrored) {
@@ -24,7 +22,7 @@ std::vector<scarp::Vector<2>> ruptured(SoilOfScene const& soil, bool mirrored) {
   scene.soil = soil;
   scene.throw_to = 0.75;
   scene.solver.tolerance = 1e-10;
-  scene.solver.rule.floor = 1e-4;
+  scene.solver.rule.exact.floor = 1e-4;
   auto places = mirror::ruptured(scene, mirrored);
   REQUIRE_FALSE(places.empty());
   return places;

@@ -32,9 +32,7 @@ double reaction(Grid grid, scarp::MaterialPoints<2> points, double rate, double 
                                                                  std::move(constraints), {}, serial);
   scarp::NoObserver no_observer;
   CHECK(scarp::generalised_reaction(problem) == 0.0);
-  CHECK(scarp::LoadStepping{}
-            .run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0, load, no_observer)
-            .verdict == scarp::Verdict{});
+  CHECK(scarp::LoadStepping{}.run(scarp::QuasiNewton<>{}, problem, 0.0, load, no_observer).verdict == scarp::Verdict{});
   return scarp::generalised_reaction(problem);
 }
 

@@ -269,6 +269,24 @@ TEST_CASE("points are values: copies have states of their own") {
   CHECK(nothing.worst_point == -1);
 }
 
+TEST_CASE("work that a small first iterate planned grows with the increment, and does not shrink again") {
+  scarp::SerialExecutor serial;
+  Points points(samples::Planning{}, numbered(1));
+  auto const work_at = [&](double strain) {
+    points.gradient(0).setZero();
+    points.gradient(0)(1, 1) = strain;
+    static_cast<void>(points.respond(serial));
+    return points.work(0);
+  };
+  CHECK(work_at(0.0) == 1);
+  CHECK(work_at(4e-6) == 41);
+  CHECK(work_at(6e-6) == 41);  // 61 steps: less than half as many again, for a smooth response
+  CHECK(work_at(7e-6) == 71);
+  CHECK(work_at(1e-6) == 71);
+  points.discard();
+  CHECK(work_at(1e-6) == 11);
+}
+
 TEST_CASE("a process asks its own points only, and has no states of others until they are read") {
   EvenPoints executor;
   samples::Planning const planning{};

@@ -152,6 +152,56 @@ TEST_CASE("an answer at more than twice the inertial number is to be repeated in
   CHECK(verdict(2.1, provider.refined(plan)).acceptable());
 }
 
+TEST_CASE("more DEM steps than are allowed, or planned, do not pass for accurate") {
+  auto provider = rve(80);
+  provider.inertial_number = 1e9;  // no limit of the rate
+  provider.unbalanced_tolerance = 1.0;
+  provider.strain_per_step = 4e-6;
+  auto const committed = provider.initial_state({});
+  Gradient<2> const increment{{-2e-4, 0.0}, {0.0, 0.0}};  // 50 steps
+  auto const verdict = [&](int most) {
+    provider.max_steps = most;
+    provider.min_steps = 1;
+    Rve::State trial;
+    return provider.respond(committed, increment, trial).verdict;
+  };
+  CHECK(verdict(50) == Verdict{});
+  CHECK(verdict(34) == Verdict{});
+  CHECK(verdict(33) == Verdict{Status::not_converged, Reason::too_few_steps});
+  provider.max_steps = 1000;
+  Rve::State trial;
+  CHECK(provider.respond(committed, increment, trial, 20).verdict ==
+        Verdict{Status::not_converged, Reason::too_few_steps});
+}
+
+TEST_CASE("after a first iterate of zero the true increment has the response that it has alone") {
+  auto const provider = rve(80);
+  Gradient<2> const increment = shear_increment(6e-4);
+  scarp::SerialExecutor serial;
+  scarp::MaterialPoints<2> points(provider, std::vector<scarp::Site<2>>(1));
+  auto const stress_after = [&](double first) {
+    points.discard();
+    for (double const share : {first, 1.0}) {
+      points.gradient(0) = share * increment;
+      REQUIRE(points.respond(serial).verdict.acceptable());
+    }
+    return points.stress(0);
+  };
+  VoigtStress<2> const alone = stress_after(1.0);
+  CHECK(stress_after(0.0) == alone);
+  CHECK(stress_after(0.4) == alone);
+}
+
+TEST_CASE("a packing without stress is driven as if it carried a millionth of its stiffness") {
+  scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>> const provider{
+      .law = samples::study_law(),
+      .source = {samples::triangular_lattice<samples::Discs>(4, 5e-3, 1.02e-2)},
+      .fluid_start = true};
+  auto const committed = provider.initial_state({});
+  CHECK(provider.plan(committed, -3e-6 * Gradient<2>::Identity()) == provider.min_steps);
+  CHECK(provider.plan(committed, -1e-3 * Gradient<2>::Identity()) < provider.max_steps / 4);
+}
+
 TEST_CASE("the answer is the balance of the trial packing") {
   auto const provider = rve(80);
   auto const committed = provider.initial_state({});

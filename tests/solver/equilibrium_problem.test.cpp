@@ -17,7 +17,7 @@ using Soil = scarp::LinearElastic<2>;
 using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
 template <class Attached = scarp::NoAttachment>
 using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Attached>;
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 
 constexpr double pressure = 1e4;  // [Pa]
 

@@ -13,7 +13,6 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {
@@ -157,8 +156,7 @@ TEST_CASE("a body that nothing holds is found out: a singular system, and which 
   scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites},
                                                                  constraints, load, executor);
   scarp::NoObserver no_observer;
-  auto const run = scarp::LoadStepping{.first = 1.0}.run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0,
-                                                         1.0, no_observer);
+  auto const run = scarp::LoadStepping{.first = 1.0}.run(scarp::QuasiNewton<>{}, problem, 0.0, 1.0, no_observer);
   CHECK(run.verdict.reason == Reason::singular_system);
   REQUIRE(run.weak_dof >= 0);
   auto const words = describe_dof(grid.mesh(), run.weak_dof);

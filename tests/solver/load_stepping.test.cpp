@@ -274,7 +274,7 @@ TEST_CASE("a step that cannot begin is reported with its load and its reason, an
   scarp::SerialExecutor serial;
   auto problem = Block::make({}, serial);
   auto witness = samples::watch(problem);
-  auto const run = stepping().run(scarp::QuasiNewton<scarp::ConsistentTangent>{}, problem, 0.0, 0.1, witness);
+  auto const run = stepping().run(scarp::QuasiNewton<>{}, problem, 0.0, 0.1, witness);
   CHECK(run.verdict == Verdict{Status::failed, Reason::singular_system});
   REQUIRE(run.steps > 0);
   REQUIRE(run.load > 0.0);

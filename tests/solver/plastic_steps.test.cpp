@@ -7,13 +7,12 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 #include "support/elements.hpp"
 
 namespace {
 
-using Newton = scarp::QuasiNewton<scarp::ConsistentTangent>;
+using Newton = scarp::QuasiNewton<>;
 
 template <int Dim>
 scarp::MohrCoulomb<Dim> clayey_sand(double young = 1e7) {
@@ -56,7 +55,8 @@ void check_plastic_patch() {
   constexpr int steps = 4;
   scarp::LoadStepping const equal{.first = 1.0 / steps, .largest = 1.0 / steps, .max_displacement_gradient = 1.0};
   scarp::NoObserver no_observer;
-  auto const run = equal.run(Newton{.tolerance = 1e-11, .rule = {.floor = 1e-6}}, problem, 0.0, 1.0, no_observer);
+  auto const run =
+      equal.run(Newton{.tolerance = 1e-11, .rule = {.exact = {.floor = 1e-6}}}, problem, 0.0, 1.0, no_observer);
   REQUIRE(run.verdict.acceptable());
   REQUIRE(run.steps == steps);
   // The answer of one point to the same increments: a uniform gradient is in equilibrium on any mesh.
@@ -113,6 +113,38 @@ TEST_CASE_TEMPLATE("a uniform plastic strain is found inside a distorted patch",
                    scarp::Hex8 ALSO_NIGHTLY(scarp::Tri3, scarp::Quad8, scarp::Tet10)) {
   // That a uniform stress is in equilibrium, whatever material it comes from, tests/bvp/patch shows for every element.
   check_plastic_patch<Element>();
+}
+
+TEST_CASE("the default solver of a plastic body is Newton's method to six digits") {
+  scarp::SerialExecutor executor;
+  struct End {
+    std::vector<scarp::Vector<2>> places;
+    long iterations;
+  };
+  auto const pressed = [&](auto const& solver) -> End {
+    auto problem = distorted_body<scarp::Quad4>(3, executor, [](auto const& mesh, scarp::Constraints& constraints) {
+      for (int const node : boundary_nodes(mesh, "bottom")) constraints.fix(node);
+      for (int const node : boundary_nodes(mesh, "top")) constraints.move(node, 1, -4e-3);
+    });
+    scarp::NoObserver no_observer;
+    auto const run = scarp::LoadStepping{.first = 0.1, .largest = 0.1}.run(solver, problem, 0.0, 1.0, no_observer);
+    REQUIRE(run.verdict.acceptable());
+    return {problem.discretisation().positions(), run.iterations};
+  };
+  End const reference = pressed(Newton{.tolerance = 1e-10});
+  auto const apart = [&](End const& end) {
+    double largest = 0.0;
+    for (std::size_t n = 0; n < end.places.size(); ++n)
+      largest = std::max(largest, (end.places[n] - reference.places[n]).norm() / 4e-3);
+    return largest;
+  };
+  End const suited = pressed(Newton{});
+  End const learned = pressed(scarp::QuasiNewton<scarp::PointwiseBroyden>{.tolerance = 5e-3, .max_iterations = 200});
+  MESSAGE("apart " << apart(suited) << ", learned " << apart(learned) << "; iterations " << suited.iterations << ", "
+                   << learned.iterations);
+  CHECK(apart(suited) < 1e-5);  // ten steps of 1e-6
+  CHECK(apart(learned) > 10.0 * apart(suited));
+  CHECK(suited.iterations < learned.iterations);
 }
 
 TEST_CASE("Newton's residuals fall quadratically on smooth plastic steps") {

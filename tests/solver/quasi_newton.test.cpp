@@ -90,6 +90,17 @@ TEST_CASE("large strains converge to the same state with every tangent rule") {
   }
 }
 
+TEST_CASE("materials that say nothing of their tangents are solved by learned ones") {
+  using Block = samples::Block<samples::Softening, scarp::UpdatedLagrangian>;
+  scarp::SerialExecutor serial;
+  auto const pulled = [&](auto const& solver) {
+    auto problem = Block::make({.reference_strain = 5e-3}, serial);
+    REQUIRE(one_step(solver, problem, 2e-3).verdict == Verdict{});
+    return problem.discretisation().positions();
+  };
+  CHECK(pulled(scarp::QuasiNewton<>{}) == pulled(scarp::QuasiNewton<scarp::PointwiseBroyden>{.tolerance = 5e-3}));
+}
+
 TEST_CASE("settling that fails commits nothing and says why") {
   scarp::SerialExecutor serial;
   using Block = samples::Block<samples::Softening>;

@@ -57,6 +57,6 @@ TEST_CASE("tangent rules refuse shares outside of their range, also within a sol
   refuses(&PointwiseBroyden::floor, {not_a_number, 1.1, infinity}, "floor of a learned tangent");
   refuses(&PointwiseBroyden::min_strain_change, {not_a_number, -1e-7, infinity}, "least change of strain");
   refuses(&ConsistentTangent::floor, {not_a_number, -0.1, 1.1}, "share of the first tangent");
-  CHECK_REFUSED(scarp::QuasiNewton<>{.rule = {.provider_share = 2.0}}.validate(),
+  CHECK_REFUSED(scarp::QuasiNewton<>{.rule = {.learned = {.provider_share = 2.0}}}.validate(),
                 "share of the provider's tangent is 2");
 }

@@ -13,7 +13,6 @@
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 #include "support/approx.hpp"
 
 namespace {
@@ -59,7 +58,7 @@ Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion, doub
 /// In one step; a refused one is tried again in smaller ones, down to the smallest.
 scarp::RunReport in_one_step(Problem& problem, double smallest = 0.9) {
   scarp::LoadStepping const stepping{.first = 1.0, .smallest = smallest, .max_displacement_gradient = 1.0};
-  scarp::QuasiNewton<scarp::ConsistentTangent> const newton{.tolerance = 1e-9};
+  scarp::QuasiNewton<> const newton{.tolerance = 1e-9};
   scarp::NoObserver no_observer;
   auto const settled = stepping.settle(newton, problem, 0.0, no_observer);
   REQUIRE(settled.verdict.acceptable());

@@ -7,20 +7,17 @@
 
 #include "choice.hpp"
 #include "scarp/points/any_provider.hpp"
-#include "scarp/solver/one_of.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 
 namespace fault_rupture {
 
-using AnySolver = scarp::OneOf<scarp::QuasiNewton<>, scarp::QuasiNewton<scarp::ConsistentTangent>>;
 /// Writes one of the soil's packings into a folder.
 using PackingWriter = std::function<void(std::filesystem::path const&)>;
 
 /// A soil of the reference study and how its scenes are solved.
 struct AnySoil {
   scarp::AnyProvider<2> provider;
-  AnySolver solver;
+  scarp::QuasiNewton<> solver;
   double tolerance = 0.0;                  ///< of the force residual
   double max_displacement_gradient = 0.0;  ///< of a load step
   double pressure_floor = 0.0;             ///< [Pa], below which a point's balance counts less

@@ -7,7 +7,8 @@
 /// The reference study's free field with the type of its sand, for programs that exchange its parts.
 namespace fault_rupture {
 
-struct SandFreeField : scarp::FaultScene<Sand, scarp::NoStructure, Sand::Solver, ChosenGround<Element>, ChosenFault> {};
+struct SandFreeField
+    : scarp::FaultScene<Sand, scarp::NoStructure, scarp::QuasiNewton<>, ChosenGround<Element>, ChosenFault> {};
 
 /// \throws scarp::InputError for choices that do not make a scene, scarp::PreparationError
 inline SandFreeField make_sand_free_field(Choice const& choice) {

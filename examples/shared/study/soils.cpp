@@ -22,12 +22,12 @@ scarp::GeostaticStress<2> ground_at_rest(Choice const& choice) {
 
 /// What all soils' scenes share.
 template <class Soil>
-AnySoil solved(Choice const& choice, Soil const& soil, typename Soil::Solver solver) {
+AnySoil solved(Choice const& choice, Soil const& soil, scarp::QuasiNewton<> solver = {}) {
   double const tolerance = choice.tolerance.value_or(Soil::tolerance(choice));
   solver.tolerance = tolerance;
   solver.max_iterations = choice.max_iterations;
   return {.provider = soil,
-          .solver = {solver},
+          .solver = solver,
           .tolerance = tolerance,
           .max_displacement_gradient =
               choice.max_displacement_gradient.value_or(Soil::max_displacement_gradient(choice.quick)),
@@ -145,13 +145,13 @@ AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites)
       return soil;
     }
     case Soil::mohr_coulomb: {
-      FrictionalSoil::Solver solver;
-      solver.rule.floor = FrictionalSoil::tangent_floor;
+      scarp::QuasiNewton<> solver;
+      solver.rule.exact.floor = FrictionalSoil::tangent_floor;
       return solved(choice, make_frictional_soil(choice), solver);
     }
     case Soil::elastic: break;
   }
-  return solved(choice, make_elastic_soil(choice), {});
+  return solved(choice, make_elastic_soil(choice));
 }
 
 }  // namespace fault_rupture

@@ -12,7 +12,6 @@
 #include "scarp/rve/random_packings.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/tangent_rules.hpp"
 
 namespace fault_rupture {
 
@@ -24,7 +23,6 @@ using Columns = scarp::RandomChoice<scarp::PackingsByDepth<Grains>>;
 /// The reference study's ellipses, consolidated under the overburden of every depth; the solver learns tangents from responses. Where they lose
 /// all contacts a small stiffness keeps the nodes in place.
 struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, Columns>> {
-  using Solver = scarp::QuasiNewton<>;
   /// The next step corrects what one leaves unbalanced.
   static double tolerance(Choice const&) { return 1e-2; }
   static double max_displacement_gradient(bool quick) { return quick ? 0.02 : 0.0025; }
@@ -33,7 +31,6 @@ struct Sand : scarp::StiffnessFloor<scarp::DemRve<Grains, Columns>> {
 /// Mohr-Coulomb, by default with the reference study's angles at the peak, 30.8 and 6.6 degrees, and Bolton's angle at constant volume, phi - 0.8 psi
 /// (Geotechnique 36, 1986), after 15 % of plastic shear; cohesion of 1 kPa; stiffness near that of the packings.
 struct FrictionalSoil : scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength> {
-  using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
   static constexpr double tangent_floor = 1e-4;  ///< of the solver's rule
   /// Where a point is just at the corner of its yield surface, iterations may go round and round at 1e-10 to 1e-8.
   static double tolerance(Choice const&) { return 1e-8; }
@@ -41,7 +38,6 @@ struct FrictionalSoil : scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::
 };
 
 struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
-  using Solver = scarp::QuasiNewton<scarp::ConsistentTangent>;
   static double tolerance(Choice const&) { return 1e-10; }
   static double max_displacement_gradient(bool) { return 0.02; }
 };

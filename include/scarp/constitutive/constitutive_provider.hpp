@@ -68,9 +68,9 @@ concept GivesTangent = HasState<Model> && HasDimension<Model> &&
 template <class Model>
 concept ConstitutiveProvider = MakesInitialState<Model> && Responds<Model> && HasStress<Model> && GivesTangent<Model>;
 
-/// A provider whose number of inner steps in a load step is fixed once, from the step's first increment, so that its response stays a
-/// smooth function of the increment while the solver iterates: plan(committed, predicted), respond(..., plan). Where a response
-/// is `not_converged` in the end, refined(plan) is a plan with more inner steps.
+/// A provider whose number of inner steps is fixed for a load step, so that its response stays a smooth function of the increment
+/// while the solver iterates: plan(committed, predicted), respond(..., plan). An increment that needs more than `plan_slack` times
+/// the planned steps gets a plan of its own. Where a response is `not_converged` in the end, refined(plan) has more inner steps.
 template <class Model>
 concept HasPlan = ConstitutiveProvider<Model> && requires {
   typename Model::Plan;
@@ -80,6 +80,17 @@ concept HasPlan = ConstitutiveProvider<Model> && requires {
   { model.refined(plan) } -> std::same_as<typename Model::Plan>;
   { model.respond(committed, increment, trial, plan) } -> std::same_as<Response<Model::dim>>;
 };
+
+/// An increment may need so many times the inner steps that were planned for an earlier iterate.
+inline constexpr double plan_slack = 1.5;
+
+/// Whether a provider's tangent of a trial state is the derivative of its response, as Newton's method needs it. A provider says so by
+/// `static constexpr bool exact_tangent = true`.
+template <class Model>
+constexpr bool has_exact_tangent() {
+  if constexpr (requires { Model::exact_tangent; }) return Model::exact_tangent;
+  return false;
+}
 
 /// No inner steps are planned.
 struct NoPlan {

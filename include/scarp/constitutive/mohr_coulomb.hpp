@@ -23,6 +23,7 @@ template <int Dim, class InitialStress = StressFree<Dim>, StrengthLaw StrengthTy
   requires InitialStressField<InitialStress, Dim>
 struct MohrCoulomb {
   static constexpr int dim = Dim;
+  static constexpr bool exact_tangent = true;  ///< of small rotations
 
   /// Stress, hardening variable and tangent of a point.
   struct State {

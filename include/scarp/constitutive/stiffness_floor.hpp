@@ -15,7 +15,8 @@ namespace scarp {
 template <CheckedProvider Provider>
 struct StiffnessFloor {
   static constexpr int dim = Provider::dim;
-  using Plan = PlanOf<Provider>;  ///< of the inner provider
+  static constexpr bool exact_tangent = has_exact_tangent<Provider>();  ///< as the provider inside
+  using Plan = PlanOf<Provider>;                                        ///< of the inner provider
 
   /// State of the inner provider and stress of the elastic floor.
   struct State {

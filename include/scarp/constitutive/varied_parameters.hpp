@@ -22,6 +22,7 @@ namespace scarp {
 template <CheckedProvider Provider>
 struct VariedParameters {
   static constexpr int dim = Provider::dim;
+  static constexpr bool exact_tangent = has_exact_tangent<Provider>();  ///< as the provider inside
 
   /// Of the point's own provider, which also refines it.
   struct Plan {

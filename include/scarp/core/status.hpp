@@ -33,7 +33,8 @@ enum class Reason : std::uint8_t {
   iterations_spent,    ///< the iteration limit was reached above the tolerance
   singular_system,     ///< the linear system could not be factorised
   step_too_small,      ///< cutting the load step went below its smallest size
-  interrupted          ///< stopped from outside
+  interrupted,         ///< stopped from outside
+  too_few_steps  ///< the strain of one DEM step is beyond its limit: the plan, or the largest number of steps, is too small
 };
 
 /// A status and its reason.
@@ -78,6 +79,7 @@ constexpr std::string_view name(Reason reason) {
     case Reason::singular_system: return "singular_system";
     case Reason::step_too_small: return "step_too_small";
     case Reason::interrupted: return "interrupted";
+    case Reason::too_few_steps: return "too_few_steps";
   }
   return "unknown";
 }

@@ -42,8 +42,8 @@ class MaterialPoints : public PointStates<Dim> {
   /// Displacement gradient of a point since the last commit, for `respond`; to be set anew after each commit.
   Gradient<Dim>& gradient(int point) { return own_[detail::index(existing(point))]; }
 
-  /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit; points that do not converge
-  /// take more, at most max_refinements times, and keep them until the next commit.
+  /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit, and anew for gradients that
+  /// need half as many again; points that do not converge take more, at most max_refinements times, and keep them until the next commit.
   /// \throws InputError for gradients that are not finite
   template <ExecutesTasks Executor>
   ResponseReport respond(Executor& executor, int max_refinements = 8) {
@@ -77,7 +77,7 @@ class MaterialPoints : public PointStates<Dim> {
     is_planned_ = true;
   }
 
-  /// All points respond from their committed states to what they see, with the work that is planned.
+  /// All points respond from their committed states to what they see, with the work that is planned, or more where that is far too little.
   template <ExecutesTasks Executor>
   ResponseReport evaluate(Executor& executor) {
     return evaluate(owned_, executor);

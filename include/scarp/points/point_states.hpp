@@ -88,6 +88,10 @@ class PointStates {
   /// Of the committed states, as the next ones: without the stabilising stress.
   VoigtStress<Dim> committed_stress(int point) const { return batch(point).stress(local(point)); }
   VoigtTangent<Dim> committed_tangent(int point) const { return batch(point).tangent(local(point)); }  ///< [Pa]
+  /// Whether the tangents of all points' trial states are derivatives of their responses.
+  bool have_exact_tangents() const {
+    return std::ranges::all_of(batches_, [](auto const& one) { return one->has_exact_tangent(); });
+  }
   /// Tangent [Pa] of the state that a point began with, made anew.
   VoigtTangent<Dim> initial_tangent(int point) const { return batch(point).initial_tangent(local(point)); }
 

@@ -184,6 +184,7 @@ struct DemRve {
 
   /// A response that is not balanced to the tolerance, or has more than twice the inertial number, is `not_converged`; refined(plan) is a
   /// slower one.
+  /// A strain per DEM step of more than `plan_slack` times the limit is `not_converged` with `too_few_steps`.
   /// Fails with `not_finite` on NaN or an increment beyond the logarithm's range, with `cell_collapsed` when the cell gets
   /// too thin for its grains, with `too_deep` when an overlap exceeds the reduced radius of its contact; `fluid` without
   /// contacts.
@@ -201,6 +202,8 @@ struct DemRve {
       trial.verdict = stepper.step(trial.packing, law, strain_step);
     }
     if (trial.verdict.acceptable()) trial.verdict = observe(stepper, trial);
+    if (trial.verdict == Verdict{} && largest_strain(increment) > plan_slack * strain_per_step * steps)
+      trial.verdict = {Status::not_converged, Reason::too_few_steps};
     return {trial.stress, trial.verdict};
   }
 
@@ -221,7 +224,9 @@ struct DemRve {
   /// \f$ d \sqrt{\rho/p} \f$ [s]: the time in which the pressure moves a grain by its size.
   double inertial_time(State const& state) const {
     auto const& population = *state.packing.population;
-    double const pressure = std::max({mean_stress_size(state.stress), pressure_floor, min_pressure(state.packing)});
+    // Packings at less than a millionth of their stiffness are driven as if they carried that.
+    double const pressure =
+        std::max({mean_stress_size(state.stress), pressure_floor, 1e-6 * spring_modulus(state.packing, law)});
     return 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
   }
 

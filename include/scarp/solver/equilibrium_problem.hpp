@@ -195,6 +195,8 @@ class SCARP_EXPORT EquilibriumProblem final
     return detail::residual_beside(unbalanced, load_now_, free_dofs_, discretisation_.dof_count());
   }
 
+  /// Whether all materials' tangents are the derivatives of their responses.
+  bool have_exact_tangents() const override { return points_.have_exact_tangents(); }
   /// Tangents of all points' committed states.
   std::vector<VoigtTangent<dim>> committed_tangents() const override { return points_.committed_tangents(executor_); }
   /// Tangents of all points' trial states, which belong to the last evaluation.

@@ -31,6 +31,8 @@ class IncrementalProblem {
   virtual std::vector<Response<Dim>> const& responses() const = 0;
   /// Cauchy stress [Pa] of each point, tension positive.
   virtual std::vector<VoigtStress<Dim>> committed_stresses() const = 0;
+  virtual bool have_exact_tangents()
+      const = 0;  ///< Whether all points' trial tangents are derivatives of their responses.
   /// Of each point, [Pa] for engineering strain.
   virtual std::vector<VoigtTangent<Dim>> committed_tangents() const = 0;
   virtual std::vector<VoigtTangent<Dim>> trial_tangents() const = 0;  ///< Of each point in the last evaluation, [Pa].

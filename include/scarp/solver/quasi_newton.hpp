@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,7 +29,11 @@ class SCARP_EXPORT QuasiNewtonSession {
   /// The problem must outlive the session.
   /// \throws InputError for a setting outside of its range
   QuasiNewtonSession(Settings const& settings, Problem& problem)
-      : settings_(detail::validated(settings)), problem_(problem), start_(problem, 0.1 * settings.tolerance) {}
+      : settings_(detail::validated(settings)),
+        problem_(problem),
+        exact_(problem.have_exact_tangents()),
+        tolerance_(settings.tolerance.value_or(exact_ ? 1e-6 : 5e-3)),
+        start_(problem, 0.1 * tolerance_) {}
 
   /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
   Verdict begin(double load);
@@ -45,8 +50,8 @@ class SCARP_EXPORT QuasiNewtonSession {
   void accept(Eigen::VectorXd const& increment);
 
   /// State that persists from step to step.
-  SCARP_MEMBERS_EXCEPT((settings_, problem_, start_, mark_, tangent_seconds_, working_, last_gradients_, last_stresses_,
-                        missing_, growth_),
+  SCARP_MEMBERS_EXCEPT((settings_, problem_, exact_, tolerance_, start_, mark_, tangent_seconds_, working_,
+                        last_gradients_, last_stresses_, missing_, growth_),
                        first_, provider_, steps_of_provider_, learned_, motion_)
 
  private:
@@ -58,10 +63,22 @@ class SCARP_EXPORT QuasiNewtonSession {
   Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, bool refine);
   std::vector<VoigtTangent<Problem::dim>> timed_tangents(bool of_trial_states);
   void learn();
-  void learn_from_responses();
+  template <class RuleType>
+  void learn_from_responses(RuleType const& rule);
+  /// Calls act with the rule of this problem's materials.
+  template <class Act>
+  void with_rule(Act const& act) const {
+    if constexpr (ChoosesTangentRule<Rule, dim>) {
+      exact_ ? act(settings_.rule.exact) : act(settings_.rule.learned);
+    } else {
+      act(settings_.rule);
+    }
+  }
 
   Settings settings_;
   Problem& problem_;
+  bool exact_;        ///< whether all tangents of materials are derivatives
+  double tolerance_;  ///< of the residual
   LinearPredictor<Problem, Linear> start_;
   Clock::time_point mark_{};                       ///< end of the last response of the points in this step
   double tangent_seconds_ = 0.0;                   ///< that no evaluation has counted yet
@@ -84,9 +101,9 @@ Verdict QuasiNewtonSession<Settings, Problem>::begin(double load) {
   if (first_.empty()) first_ = provider_;
   if (learned_.empty()) learned_ = provider_;
   working_.resize(provider_.size());
-  for (std::size_t k = 0; k < working_.size(); ++k) {
-    working_[k] = settings_.rule.template start<dim>(provider_[k], learned_[k]);
-  }
+  with_rule([&](auto const& rule) {
+    for (std::size_t k = 0; k < working_.size(); ++k) working_[k] = rule.template start<dim>(provider_[k], learned_[k]);
+  });
   Verdict const verdict = start_.linearise(working_);
   missing_ = Eigen::VectorXd::Zero(start_.linearised().system().free_count());
   if (verdict.acceptable() && motion_.known()) missing_ = start_.missing();
@@ -137,7 +154,7 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
     }
     if (report.verdict.status == Status::failed) return;
     learn();
-    if (evaluation.residual <= settings_.tolerance && report.verdict.acceptable()) return;
+    if (evaluation.residual <= tolerance_ && report.verdict.acceptable()) return;
     if (report.iterations() >= settings_.max_iterations || evaluation.residual > settings_.divergence_limit) {
       if (report.verdict.acceptable()) report.verdict = {Status::not_converged, Reason::iterations_spent};
       return;
@@ -198,38 +215,40 @@ std::vector<VoigtTangent<Problem::dim>> QuasiNewtonSession<Settings, Problem>::t
 
 template <class Settings, class Problem>
 void QuasiNewtonSession<Settings, Problem>::learn() {
-  if constexpr (FollowsTrialTangent<Rule, dim>) {
-    auto const trial = timed_tangents(true);
-    mark_ = Clock::now();
-    for (std::size_t k = 0; k < working_.size(); ++k)
-      working_[k] = settings_.rule.template at_trial<dim>(trial[k], first_[k]);
-  } else {
-    learn_from_responses();
-  }
+  with_rule([&]<class RuleType>(RuleType const& rule) {
+    if constexpr (FollowsTrialTangent<RuleType, dim>) {
+      auto const trial = timed_tangents(true);
+      mark_ = Clock::now();
+      for (std::size_t k = 0; k < working_.size(); ++k) working_[k] = rule.template at_trial<dim>(trial[k], first_[k]);
+    } else {
+      learn_from_responses(rule);
+    }
+  });
 }
 
 template <class Settings, class Problem>
-void QuasiNewtonSession<Settings, Problem>::learn_from_responses() {
-  if constexpr (LearnsFromResponses<Rule, dim>) {
-    for (std::size_t k = 0; k < working_.size(); ++k) {
-      Gradient<dim> const& gradient = problem_.gradients()[k];
-      VoigtStress<dim> const& stress = problem_.responses()[k].stress;
-      auto const change = problem_.turns_stresses()
-                              ? corotated_secant_pair<dim>(last_gradients_[k], gradient, last_stresses_[k], stress)
-                              : SecantPair<dim>{to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
-                                                stress - last_stresses_[k]};
-      working_[k] = settings_.rule.template update<dim>(working_[k], provider_[k], change.strain, change.stress);
-      last_gradients_[k] = gradient;
-      last_stresses_[k] = stress;
-    }
+template <class RuleType>
+void QuasiNewtonSession<Settings, Problem>::learn_from_responses(RuleType const& rule) {
+  for (std::size_t k = 0; k < working_.size(); ++k) {
+    Gradient<dim> const& gradient = problem_.gradients()[k];
+    VoigtStress<dim> const& stress = problem_.responses()[k].stress;
+    auto const change = problem_.turns_stresses()
+                            ? corotated_secant_pair<dim>(last_gradients_[k], gradient, last_stresses_[k], stress)
+                            : SecantPair<dim>{to_engineering_strain<dim, double>(gradient - last_gradients_[k]),
+                                              stress - last_stresses_[k]};
+    working_[k] = rule.template update<dim>(working_[k], provider_[k], change.strain, change.stress);
+    last_gradients_[k] = gradient;
+    last_stresses_[k] = stress;
   }
 }
 
 /// Newton-type iteration for one load step: the tangent rule gives the points' tangents in each iteration. Every iteration
 /// moves the points along the straight path from their committed states to the iterate.
-template <TangentRule<2> Rule = PointwiseBroyden, LinearSolver Linear = SparseLu>
+template <class Rule = MaterialTangent, LinearSolver Linear = SparseLu>
+  requires TangentRule<Rule, 2> || ChoosesTangentRule<Rule, 2>
 struct QuasiNewton {
-  double tolerance = 5e-3;         ///< force residual, see EquilibriumProblem::residuals
+  /// Force residual, see EquilibriumProblem::residuals; without one 1e-6 where all materials have exact tangents, else 5e-3.
+  std::optional<double> tolerance{};
   int max_iterations = 30;         ///< of a load step; then it is given up
   double divergence_limit = 10.0;  ///< residual beyond which a step is given up
   int max_refinements = 8;         ///< of points that have not converged, in each iteration
@@ -241,9 +260,9 @@ struct QuasiNewton {
 
   /// \throws InputError for a setting outside of its range
   void validate() const {
-    require_positive("tolerance of the force residual", tolerance);
+    if (tolerance) require_positive("tolerance of the force residual", *tolerance);
     require_at_least("most iterations of a load step", max_iterations, 1);
-    require_at_least("residual beyond which a step is given up", divergence_limit, tolerance);
+    require_at_least("residual beyond which a step is given up", divergence_limit, tolerance.value_or(0.0));
     require_at_least("most refinements of an iteration", max_refinements, 0);
     require_at_least("load steps that share the provider's tangents", tangent_interval, 1);
     detail::validated(rule);
@@ -259,13 +278,10 @@ struct QuasiNewton {
 
 #ifdef SCARP_PRECOMPILED
 /// DECLARE: `extern template`, or `template` in the library.
-#define SCARP_SESSIONS(DECLARE)                                                            \
-  DECLARE class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<2>>;                  \
-  DECLARE class QuasiNewtonSession<QuasiNewton<>, AttachedProblem<2>>;                     \
-  DECLARE class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<3>>;                  \
-  DECLARE class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<2>>; \
-  DECLARE class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, AttachedProblem<2>>;    \
-  DECLARE class QuasiNewtonSession<QuasiNewton<ConsistentTangent>, IncrementalProblem<3>>;
+#define SCARP_SESSIONS(DECLARE)                                           \
+  DECLARE class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<2>>; \
+  DECLARE class QuasiNewtonSession<QuasiNewton<>, AttachedProblem<2>>;    \
+  DECLARE class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<3>>;
 SCARP_SESSIONS(extern template)
 #endif
 

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
 #include "scarp/core/error.hpp"
 #include "scarp/tensor/finite_strain.hpp"
@@ -33,6 +34,13 @@ concept FollowsTrialTangent = requires(Rule const& rule, VoigtTangent<Dim> const
 /// Which tangent a point has while a step is iterated.
 template <class Rule, int Dim>
 concept TangentRule = StartsTangent<Rule, Dim> &&(LearnsFromResponses<Rule, Dim> || FollowsTrialTangent<Rule, Dim>);
+
+/// Two rules, of which the materials decide: `exact` and `learned`.
+template <class Rule, int Dim>
+concept ChoosesTangentRule = requires(Rule const& rule) {
+  requires TangentRule<std::remove_cvref_t<decltype(rule.exact)>, Dim>;
+  requires TangentRule<std::remove_cvref_t<decltype(rule.learned)>, Dim>;
+};
 
 /// Tangents that learn at every material point: each iteration's change of strain and stress corrects the point's tangent by
 /// Broyden's rank-one update, so that thousands of points gather curvature at once where a global quasi-Newton method gathers
@@ -105,6 +113,18 @@ struct ConsistentTangent {
 };
 
 static_assert(TangentRule<ConsistentTangent, 2> && TangentRule<ConsistentTangent, 3>);
+
+/// The rule that suits the materials: `exact` where all of them have exact tangents (see has_exact_tangent), else `learned`.
+struct MaterialTangent {
+  ConsistentTangent exact{};   ///< of materials like elasticity and Mohr-Coulomb's
+  PointwiseBroyden learned{};  ///< where a material is a packing, or says nothing of its tangent
+
+  /// \throws InputError for a setting of either rule outside of its range
+  void validate() const {
+    exact.validate();
+    learned.validate();
+  }
+};
 
 /// What a tangent can learn from two responses of one point: a strain and the change of stress that it made.
 template <int Dim>

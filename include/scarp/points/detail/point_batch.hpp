@@ -41,7 +41,9 @@ class PointBatch {
   /// \return whether the point has a plan of more work now
   virtual bool refine(int k) = 0;
   virtual long work(int k) const = 0;
-  /// increments and responses: of all points by their numbers among these
+  virtual bool has_exact_tangent() const = 0;
+  /// Points that need more than `plan_slack` times the planned work plan it anew. increments and responses: of all points by
+  /// their numbers among these
   virtual void respond(std::span<int const> own, std::vector<Gradient<Dim>> const& increments,
                        std::vector<Response<Dim>>& responses) = 0;
   virtual VoigtStress<Dim> stress(int k) const = 0;
@@ -110,12 +112,18 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     }
   }
   long work(int k) const override { return static_cast<long>(plans_[index(k)]); }
+  bool has_exact_tangent() const override { return scarp::has_exact_tangent<Provider>(); }
 
   void respond(std::span<int const> own, std::vector<Gradient<dim>> const& increments,
                std::vector<Response<dim>>& responses) override {
     for (int const one : own) {
       std::size_t const k = index(one);
       std::size_t const number = index(numbers_[k]);
+      if constexpr (HasPlan<Provider>) {
+        auto needed = provider_->plan(committed_[k], increments[number]);
+        if (static_cast<double>(static_cast<long>(needed)) > plan_slack * static_cast<double>(work(one)))
+          plans_[k] = std::move(needed);
+      }
       responses[number] = respond_as_planned(*provider_, committed_[k], increments[number], trial_[k], plans_[k]);
     }
   }
