@@ -11,9 +11,14 @@ def rows(name):
     return list(csv.DictReader((DATA / f"peers_{name}.csv").read_text().splitlines()[1:]))
 
 
+def time_of(row):
+    """Median time per grain and step [ns]."""
+    return float(next(value for name, value in row.items() if name.startswith("ns per grain") and "median" in name))
+
+
 def ratios(name, peer, what):
     """[(label, ratio with the machine's own instructions, ratio with AVX2)] for each number of grains."""
-    times = {(row["grains"], row["program"]): float(row["ns per grain-step: median"]) for row in rows(name)}
+    times = {(row["grains"], row["program"]): time_of(row) for row in rows(name)}
     sizes = list(dict.fromkeys(grains for grains, _ in times))
     return [(f"{peer}: DEM step, {grains} {what}",
              *(times[grains, peer] / times[grains, f"scarp, {level}"] for level in ("native", "x86-64-v3"))) for grains in sizes]
