@@ -41,7 +41,7 @@ void require_consistent(Law const& law, double radius) {
         "act): add `.moment = true` to its inputs, or give no rolling stiffness",
         stiffness.rolling);
   }
-  if constexpr (Law::inputs.motion && !HasDampingRatio<Law>) {
+  if (Law::inputs.motion && damping_ratio_of(law) == 0.0) {
     auto const normal_force = [&](double closing) {
       ContactMemory<2, double> memory;
       ContactKinematics<2, double> const closed{.overlap = depth,
@@ -54,7 +54,8 @@ void require_consistent(Law const& law, double radius) {
     };
     if (normal_force(1e-3 * depth) != normal_force(0.0)) {
       reject(
-          "the contact law's normal force depends on how fast the contact closes (it has no damping_ratio(), so the "
+          "the contact law's normal force depends on how fast the contact closes (it has no damping_ratio(), or one of "
+          "0, so the "
           "time step would be that of its springs alone): give it `double damping_ratio() const`, the share of "
           "critical "
           "damping that its dashpots reach");
@@ -64,7 +65,7 @@ void require_consistent(Law const& law, double radius) {
   ContactMemory<2, double> memory;
   if constexpr (Bonds<Law>) Law::bond(memory);
   ContactKinematics<2, double> const apart{
-      .overlap = -depth, .slip_increment = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
+      .overlap = -depth, .slip_increment = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0, .time_step = 1e-6};
   double const force = law.respond(apart, memory).normal;
   if (force != 0.0) {
     reject(
