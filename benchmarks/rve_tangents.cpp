@@ -54,12 +54,9 @@ Packing settled(Packing packing) {
   scarp::StepObservation<2> seen;
   packing.rest();
   for (int step = 0; step < 400'000; ++step) {
-    if (step % 100 != 0) {
-      stepper.step(packing, law, scarp::Tensor<2>::Zero());
-      continue;
-    }
-    stepper.step<scarp::Observe::balance>(packing, law, scarp::Tensor<2>::Zero(), &seen);
-    if (seen.unbalanced_ratio < 1e-7) break;
+    auto const verdict = stepper.step<scarp::Observe::balance>(packing, law, scarp::Tensor<2>::Zero(), &seen);
+    if (!verdict.acceptable()) scarp::reject("a packing does not settle ({})", scarp::name(verdict.reason));
+    if (step % 100 == 0 && seen.unbalanced_ratio < 1e-7) break;
   }
   packing.rest();
   return packing;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """No tolerance of doctest's own Approx, which is absolute for numbers below one; no rejection that is tested by its type alone; no
-everyday word in a comment of include/scarp where the field has a term; a docstring for every public class, enumeration and concept there."""
+everyday word in a comment of include/scarp where the field has a term; a docstring for every public class, enumeration and concept there, and no
+report of a failure that may be dropped."""
 import pathlib
 import re
 import sys
@@ -40,7 +41,9 @@ for path in sorted((ROOT / "include" / "scarp").rglob("*.hpp")):
     for number, line in enumerate(lines):
         if namespace := re.match(r"(\}  // )?namespace .*\bdetail\b", line):
             private = namespace[1] is None
-        kind = re.match(r"(?:template <.*> )?(?:concept|(?:class|struct|enum class)(?!.*;$)) (\w+)\b(?!\s*<)", line)
+        kind = re.match(r"(?:template <.*> )?(?:concept|(?:class|struct|enum class)(?: \[\[nodiscard\]\])?(?!.*;$)) (\w+)\b(?!\s*<)", line)
+        if kind and re.fullmatch(r"Verdict|Evaluation|Response|\w+(?:Report|Result)", kind[1]) and "[[nodiscard]]" not in line:
+            faults.append(f"{path.relative_to(ROOT)}:{number + 1}: {kind[1]} reports failures and may be dropped: make it [[nodiscard]]")
         if kind and not private:
             declared += 1
             first = number

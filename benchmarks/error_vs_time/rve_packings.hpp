@@ -6,8 +6,8 @@
 
 #include "../../examples/shared/study/study_sand.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
+#include "scarp/dem/contacts.hpp"
 #include "scarp/dem/preparation.hpp"
-#include "scarp/homogenise/balance.hpp"
 
 namespace error_vs_time {
 
@@ -75,7 +75,13 @@ inline FloatGrains in_single_precision(Grains const& from) {
 /// Hertz and Mindlin's law with the linear law's stiffnesses at the overlap that the mean contact force makes.
 inline scarp::HertzMindlin<> matched_law(Grains const& packing) {
   auto const linear = examples::study_law();
-  double const overlap = scarp::balance(packing, linear).mean_contact_force / linear.normal_stiffness;
+  double force = 0.0;
+  double contacts = 0.0;
+  scarp::for_each_contact(packing, linear, [&](scarp::Contact<2> const& contact) {
+    force += contact.force.norm();
+    ++contacts;
+  });
+  double const overlap = force / contacts / linear.normal_stiffness;
   double const reduced_radius =
       0.5 * (packing.population->largest_radius() + packing.population->smallest_radius()) / 2;
   double const contact_radius = std::sqrt(reduced_radius * overlap);

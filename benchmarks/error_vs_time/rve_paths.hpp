@@ -46,7 +46,7 @@ class Samples {
 
   template <class PackingType>
   void look(int sample, PackingType const& packing, typename PackingType::Law const& law, double first_area) {
-    auto const fabric = scarp::fabric_deviator(scarp::contact_fabric(packing, law));
+    auto const fabric = scarp::fabric_deviator(scarp::contact_network(packing, law).fabric);
     fabric_.segment<2>(2 * sample) << fabric(0, 0), fabric(0, 1);
     other_(sample) = -std::log(packing.cell.determinant() / first_area);
   }

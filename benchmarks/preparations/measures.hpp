@@ -36,16 +36,16 @@ inline Measures measure(AtDepth const& depth) {
   auto const law = examples::study_law();
   auto const& packing = depth.prepared.packing;
   auto const state = scarp::balance(packing, law);
-  auto const contacts = scarp::coordination(packing, law);
+  auto const [fabric, contacts] = scarp::contact_network(packing, law);
   auto const grains = scarp::particle_fabric(packing);
   return {.k0 = state.stress(0, 0) / state.stress(1, 1),
           .void_ratio = packing.void_ratio(),
           .coordination = contacts.all,
           .mechanical_coordination = contacts.mechanical,
-          .contact_fabric = scarp::fabric_anisotropy(scarp::contact_fabric(packing, law)),
+          .contact_fabric = scarp::fabric_anisotropy(fabric),
           .particle_fabric = scarp::fabric_anisotropy(grains),
           .level_particle_fabric = scarp::fabric_deviator(grains)(0, 0),
-          .sliding_share = state.sliding_share,
+          .sliding_share = scarp::sliding_share(packing, law),
           .lateral_strain = -std::log(packing.cell(0, 0) / depth.first_cell(0, 0)),
           .vertical_strain = -std::log(packing.cell(1, 1) / depth.first_cell(1, 1))};
 }

@@ -7,13 +7,13 @@
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri3.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/linear_solver.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "stability/stability_case.hpp"
+#include "support/crossed_rectangle.hpp"
 
 namespace stability {
 
@@ -50,8 +50,8 @@ Outcome crossed(double poisson) {
     for (int const node : boundary_nodes(mesh, "right")) sum += moved(2 * node + 1);
     return sum / static_cast<double>(boundary_nodes(mesh, "right").size());
   };
-  double const triangles =
-      deflection(scarp::RectangleMesh{.width = 4.0, .columns = 32, .rows = 8}.generate(), scarp::FullIntegration{});
+  double const triangles = deflection(samples::CrossedRectangle{.width = 4.0, .columns = 32, .rows = 8}.generate(),
+                                      scarp::FullIntegration{});
   double const reference = deflection(scarp::BoxMesh<scarp::Quad8>{.lengths = {4.0, 1.0}, .cells = {32, 8}}.generate(),
                                       scarp::ReducedIntegration{});
   double const share = triangles / reference;
@@ -109,7 +109,7 @@ struct Pressed {
   using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
 
   static Problem make(scarp::SerialExecutor& executor) {
-    Grid grid(scarp::RectangleMesh{.columns = 2, .rows = 2}.generate());
+    Grid grid(samples::CrossedRectangle{.columns = 2, .rows = 2}.generate());
     scarp::Constraints constraints(grid.mesh());
     for (int const node : boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node);
     for (int const node : boundary_nodes(grid.mesh(), "top")) {

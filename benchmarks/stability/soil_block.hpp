@@ -9,9 +9,9 @@
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/element/tri3.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
+#include "support/crossed_rectangle.hpp"
 
 namespace stability {
 
@@ -42,7 +42,8 @@ struct Block {
 
   Problem make() const {
     static scarp::SerialExecutor executor;
-    Grid grid(scarp::RectangleMesh{.width = 1.0, .height = 2.0, .columns = columns, .rows = 2 * columns}.generate());
+    Grid grid(
+        samples::CrossedRectangle{.width = 1.0, .height = 2.0, .columns = columns, .rows = 2 * columns}.generate());
     scarp::Constraints constraints(grid.mesh());
     for (int const node : boundary_nodes(grid.mesh(), "bottom")) {
       constraints.fix(node, 1);

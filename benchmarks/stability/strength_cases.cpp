@@ -114,10 +114,11 @@ Outcome faint_pressure() {
 Outcome tiny_cycles(double pressure, double amplitude, bool yielding, Size size) {
   auto const law = soil({.cohesion = 1e3, .friction = 30.0 * degree, .dilation = 5.0 * degree});
   State state = under(law, pressure);
+  bool all_found = true;
   if (yielding) {
     State next;
     for (int k = 0; k < 100; ++k) {
-      law.respond(state, diagonal(3e-4, -4e-4), next);
+      all_found = all_found && law.respond(state, diagonal(3e-4, -4e-4), next).verdict.acceptable();
       state = next;
     }
   }
@@ -127,10 +128,10 @@ Outcome tiny_cycles(double pressure, double amplitude, bool yielding, Size size)
   int const cycles = size == Size::quick ? 1000 : 100000;
   for (int k = 0; k < cycles; ++k) {
     State next;
-    law.respond(state, there, next);
-    state = next;
-    law.respond(state, back, next);
-    state = next;
+    for (auto const& increment : {there, back}) {
+      all_found = all_found && law.respond(state, increment, next).verdict.acceptable();
+      state = next;
+    }
   }
   Worst worst;
   worst.see((state.stress - start.stress).norm() / start.stress.norm());

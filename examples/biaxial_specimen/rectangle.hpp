@@ -5,10 +5,25 @@
 #include <limits>
 #include <map>
 
+#include "scarp/element/tri3.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
+#include "scarp/mesh/pattern_grid.hpp"
 
 namespace biaxial_specimen {
+
+/// A rectangle of crossed triangles, four in each of the equal cells.
+inline scarp::Mesh<scarp::Tri3> crossed_rectangle(double width, double height, int columns, int rows) {
+  auto const lines = [](double length, int cells) {
+    std::vector<double> positions;
+    for (int i = 0; i <= cells; ++i) positions.push_back(length * i / cells);
+    return positions;
+  };
+  scarp::Mesh<scarp::Tri3> mesh;
+  mesh.regions = {"soil"};
+  auto const numbers = scarp::add_grid_nodes(mesh.nodes, lines(width, columns), lines(height, rows));
+  scarp::add_grid_cells(mesh, numbers, scarp::Pattern::crossed, 0);
+  return mesh;
+}
 
 /// What a test needs of a rectangular mesh, found from where its nodes are: meshes come with any names or none.
 template <class Element>

@@ -154,9 +154,7 @@ template <class Element>
 scarp::Mesh<Element> make_mesh(Choice const& choice) {
   if constexpr (std::is_same_v<Element, scarp::Tri3>) {
     if (choice.mesh.empty()) {
-      return scarp::RectangleMesh{
-          .width = choice.width, .height = choice.height, .columns = choice.columns, .rows = choice.rows}
-          .generate();
+      return crossed_rectangle(choice.width, choice.height, choice.columns, choice.rows);
     }
   }
   return choice.mesh_file->mesh<Element>();

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "../shared/study/study_sand.hpp"
-#include "scarp/dem/halved_path.hpp"
+#include "halved_path.hpp"
 #include "scarp/dem/loading.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/fabric.hpp"
+#include "scarp/homogenise/sliding_contacts.hpp"
 
 namespace rve_biaxial {
 
@@ -63,18 +64,18 @@ inline scarp::Prepared<Packing> consolidated_packing(Choice const& choice, std::
 inline Row describe(Packing const& packing, double axial_strain, double volumetric_strain,
                     scarp::Tensor<2> const& stress) {
   auto const law = study_law();
-  auto const state = scarp::balance(packing, law);
+  auto const network = scarp::contact_network(packing, law);
   return {.axial_strain = axial_strain,
           .lateral_strain = volumetric_strain - axial_strain,
           .volumetric_strain = volumetric_strain,
           .axial_stress = -stress(1, 1),
           .lateral_stress = -stress(0, 0),
           .void_ratio = packing.void_ratio(),
-          .coordination = scarp::coordination(packing, law).all,
-          .contact_fabric = scarp::fabric_anisotropy(scarp::contact_fabric(packing, law)),
+          .coordination = network.coordination.all,
+          .contact_fabric = scarp::fabric_anisotropy(network.fabric),
           .particle_fabric = scarp::fabric_anisotropy(scarp::particle_fabric(packing)),
-          .unbalanced_ratio = state.unbalanced_ratio,
-          .sliding_share = state.sliding_share};
+          .unbalanced_ratio = scarp::balance(packing, law).unbalanced_ratio,
+          .sliding_share = scarp::sliding_share(packing, law)};
 }
 
 /// Of compression at a constant rate.
@@ -97,7 +98,7 @@ inline void compress(Packing packing, Choice const& choice, Result& result) {
   long const steps_per_row = std::max(1L, std::lround(strain_per_row / choice.strain_per_step));
   // One row of a hundred is gone through again in halved steps: two hundredths of the work.
   constexpr long rows_per_sample = 100;
-  std::optional<scarp::HalvedPath<Packing>> sample;
+  std::optional<HalvedPath<Packing>> sample;
   scarp::Tensor<2> sum = scarp::Tensor<2>::Zero();
   for (long step = 1; step <= steps; ++step) {
     if ((step - 1) % (rows_per_sample * steps_per_row) == rows_per_sample * steps_per_row / 2) sample.emplace(packing);

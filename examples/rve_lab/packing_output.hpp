@@ -23,8 +23,8 @@ void write_packing(Test const& choice, scarp::RunFolder& own, PackingType const&
   scarp::save_packing(file, packing);
   scarp::write_file(examples::sand_path(file), examples::text_of(choice.sand));
   auto const state = scarp::balance(packing, law);
-  examples::print(stdout, "{}: void ratio {:.6f}, {} contacts, coordination {:.3f}, stress [Pa] ", file.string(),
-                  packing.void_ratio(), state.contacts, scarp::coordination(packing, law).all);
+  examples::print(stdout, "{}: void ratio {:.6f}, {:.0f} contacts, coordination {:.3f}, stress [Pa] ", file.string(),
+                  packing.void_ratio(), state.contacts, scarp::contact_network(packing, law).coordination.all);
   if constexpr (PackingType::dim == 2) {
     write_state(folder, "packing", packing, law);
     if constexpr (requires { write_for_code(choice.format, folder, packing); }) {

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "non_affine.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/energy_ledger.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/homogenise/non_affine.hpp"
+#include "scarp/homogenise/sliding_contacts.hpp"
 #include "specimen.hpp"
 
 namespace rve_lab {
@@ -79,7 +80,7 @@ class Recorder {
                            {"mean_p", mean_pressure(mean)},
                            {"mean_q", deviator(mean)},
                            {"void_ratio", packing.void_ratio()},
-                           {"n_contacts", static_cast<double>(state.contacts)}});
+                           {"n_contacts", state.contacts}});
     add_structure(row, lab);
     row.insert(row.end(),
                {{"work_in", ledger_.work_in},
@@ -91,7 +92,7 @@ class Recorder {
                 {"unbalanced_ratio", state.unbalanced_ratio},
                 {"kinetic_share", mean_pressure(scarp::kinetic_stress(packing)) / mean_pressure(state.stress)}});
     add_motion(row, lab);
-    row.emplace_back("sliding_share", state.sliding_share);
+    row.emplace_back("sliding_share", scarp::sliding_share(packing, lab.law()));
     row.emplace_back("max_overlap_over_rmin", deepest_overlap(packing, lab.law()));
     return row;
   }
@@ -105,8 +106,7 @@ class Recorder {
   }
 
   static void add_structure(Row& row, Lab const& lab) {
-    auto const number = scarp::coordination(lab.packing(), lab.law());
-    auto const contacts = scarp::contact_fabric(lab.packing(), lab.law());
+    auto const [contacts, number] = scarp::contact_network(lab.packing(), lab.law());
     row.insert(row.end(), {{"coordination", number.all},
                            {"mechanical_coordination", number.mechanical},
                            {"rattlers", number.rattlers},
@@ -120,14 +120,14 @@ class Recorder {
   }
 
   void add_motion(Row& row, Lab const& lab) const {
-    auto const motion = scarp::non_affine_motion(start_, lab.packing(), lab.deformation());
+    auto const motion = non_affine_motion(start_, lab.packing(), lab.deformation());
     double mean = 0.0;
     double square = 0.0;
     for (double const angle : rotation_) {
       mean += angle / static_cast<double>(rotation_.size());
       square += angle * angle / static_cast<double>(rotation_.size());
     }
-    row.insert(row.end(), {{"non_affine_motion", scarp::root_mean_square<2>(motion) / radius_},
+    row.insert(row.end(), {{"non_affine_motion", root_mean_square<2>(motion) / radius_},
                            {"grain_rotation", mean},
                            {"grain_rotation_rms", std::sqrt(square)}});
   }

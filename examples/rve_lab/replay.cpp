@@ -41,7 +41,7 @@ std::vector<double> replay_row(Lab const& lab, PathKind const& path, long step) 
           stress(1, 0),
           stress(1, 1),
           lab.packing().void_ratio(),
-          static_cast<double>(state.contacts),
+          state.contacts,
           deepest_overlap(lab.packing(), lab.law())};
 }
 
@@ -76,21 +76,21 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
   PathKind const& path = path_named(choice.path.name);
   Lab lab(std::move(named.packing), law, path, choice.path.strain_step, choice.path.held);
   auto const first = scarp::balance(lab.packing(), law);
-  examples::print(stdout, "{} grains, {} contacts, void ratio {:.8f}\n", lab.packing().grain_count(), first.contacts,
-                  lab.packing().void_ratio());
+  examples::print(stdout, "{} grains, {:.0f} contacts, void ratio {:.8f}\n", lab.packing().grain_count(),
+                  first.contacts, lab.packing().void_ratio());
   examples::print(stdout, "cell {:.12g},{:.12g},{:.12g},{:.12g} m\n", cell(0, 0), cell(1, 0), cell(0, 1), cell(1, 1));
   examples::print(stdout, "law: normal stiffness {} N/m, tangential {} N/m, friction {}\n", law.normal_stiffness,
                   law.tangential_stiffness, law.friction);
   examples::print(stdout, "stress [Pa]: xx {:.6f}, xy {:.6f}, yx {:.6f}, yy {:.6f}\n", first.stress(0, 0),
                   first.stress(0, 1), first.stress(1, 0), first.stress(1, 1));
-  if (first.contacts == 0) {
+  if (first.contacts == 0.0) {
     examples::print(
         stderr,
         "warning: no grains of '{}' touch, so that the stress is zero until the path brings them together: check units "
         "and cell, or compress it first\n",
         choice.particles);
   }
-  auto const fabric = scarp::contact_fabric(lab.packing(), law);
+  auto const fabric = scarp::contact_network(lab.packing(), law).fabric;
   examples::print(stdout, "fabric of the contacts: xx {:.10f}, xy {:.10f}, yy {:.10f}\n", fabric(0, 0), fabric(0, 1),
                   fabric(1, 1));
   scarp::CsvLog log(choice.out, {"step", "strain", "Fxx", "Fxy", "Fyx", "Fyy", "sxx", "sxy", "syx", "syy", "void_ratio",

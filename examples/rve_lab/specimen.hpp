@@ -17,11 +17,14 @@ namespace rve_lab {
 /// Deepest overlap over the smallest contact radius of the packing.
 template <class PackingType>
 double deepest_overlap(PackingType const& packing, typename PackingType::Law const& law) {
+  double deepest = 0.0;
+  scarp::for_each_contact(packing, law,
+                          [&](auto const& contact) { deepest = std::max(deepest, contact.touch.overlap); });
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < packing.grain_count(); ++i) {
     smallest = std::min(smallest, PackingType::Shape::contact_radius(scarp::row_pose(packing, i)));
   }
-  return scarp::balance(packing, law).deepest_overlap / smallest;
+  return deepest / smallest;
 }
 
 /// A packing on its way along a path. Its list of pairs is renewed at once when it gets old, so that the contacts can

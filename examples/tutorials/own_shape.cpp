@@ -28,7 +28,6 @@ struct Oval {
   }
   static double bounding_radius(Size const& size) { return size[0] * (1.0 + size[1]); }
   static double eccentricity(Size const& size) { return 2.0 * size[0] * size[1]; }  // largest |h'|
-  static double min_curvature_radius(Size const& size) { return size[0] * (1.0 - 3.0 * size[1]); }
 
   // From here on T is a double or a pack of several grains.
   template <class T>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scarp/bvp/constraints.hpp"
+#include "support/crossed_rectangle.hpp"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "support/refusals.hpp"
 
 namespace {
 
-scarp::Constraints on_square() { return scarp::Constraints(scarp::RectangleMesh{}.generate()); }  // five nodes
+scarp::Constraints on_square() { return scarp::Constraints(samples::CrossedRectangle{}.generate()); }  // five nodes
 
 }  // namespace
 

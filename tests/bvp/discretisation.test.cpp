@@ -121,7 +121,7 @@ TEST_CASE("internal forces are in balance for any stress, in sum and in moment")
 }
 
 TEST_CASE("the first element that an increment turns inside out is named, and the others still get gradients") {
-  scarp::Discretisation<scarp::Tri3> const disc(scarp::RectangleMesh{}.generate());
+  scarp::Discretisation<scarp::Tri3> const disc(samples::CrossedRectangle{}.generate());
   Eigen::VectorXd increment = Eigen::VectorXd::Zero(disc.dof_count());
   std::vector<scarp::Gradient<2>> gradients(4);
   CHECK_FALSE(disc.gradients(increment, gradients).has_value());
@@ -134,13 +134,13 @@ TEST_CASE("the first element that an increment turns inside out is named, and th
   CHECK(gradients[3](0, 0) == samples::Approx(1.2).epsilon(1e-14));
   increment(2 * centre) = std::numeric_limits<double>::quiet_NaN();
   CHECK(disc.gradients(increment, gradients) == std::optional<int>(0));
-  scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> const small(scarp::RectangleMesh{}.generate());
+  scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> const small(samples::CrossedRectangle{}.generate());
   increment(2 * centre) = 0.6;
   CHECK_FALSE(small.gradients(increment, gradients).has_value());  // no configuration moves there
 }
 
 TEST_CASE("small strain drives the material by the symmetric part only and balances on the initial mesh") {
-  scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> disc(scarp::RectangleMesh{}.generate());
+  scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> disc(samples::CrossedRectangle{}.generate());
   scarp::Gradient<2> gradient;
   gradient << 0.1, 0.3, -0.1, 0.2;
   Eigen::VectorXd const increment = samples::affine<2>(disc.mesh().nodes, gradient);
@@ -193,7 +193,7 @@ TEST_CASE("volumes follow the motion and contain the thickness") {
 }
 
 TEST_CASE("a site tells where its point is and how deep") {
-  auto mesh = scarp::RectangleMesh{.width = 2.0, .height = 3.0}.generate();
+  auto mesh = samples::CrossedRectangle{.width = 2.0, .height = 3.0}.generate();
   mesh.regions.emplace_back("clay");
   mesh.element_region[2] = 1;
   scarp::Discretisation<scarp::Tri3> const disc(mesh);
@@ -223,7 +223,7 @@ TEST_CASE("the stiffness matrix keeps its memory from call to call and has the s
 }
 
 TEST_CASE("an increment that is not finite cannot be committed") {
-  scarp::Discretisation<scarp::Tri3> disc(scarp::RectangleMesh{}.generate());
+  scarp::Discretisation<scarp::Tri3> disc(samples::CrossedRectangle{}.generate());
   auto const saved = disc.positions();
   Eigen::VectorXd increment = Eigen::VectorXd::Constant(disc.dof_count(), 0.5);
   disc.commit(increment);
@@ -235,12 +235,12 @@ TEST_CASE("an increment that is not finite cannot be committed") {
 }
 
 TEST_CASE("arrays of the wrong length and wrong thicknesses are refused") {
-  scarp::Discretisation<scarp::Tri3> const disc(scarp::RectangleMesh{}.generate());
+  scarp::Discretisation<scarp::Tri3> const disc(samples::CrossedRectangle{}.generate());
   std::vector<scarp::Gradient<2>> gradients(3);
   CHECK_REFUSED(disc.gradients(Eigen::VectorXd::Zero(disc.dof_count()), gradients), "3 entries", "4 are needed");
   gradients.resize(4);
   CHECK_REFUSED(disc.gradients(Eigen::VectorXd::Zero(3), gradients), "3 entries", "are needed");
-  CHECK_REFUSED(scarp::Discretisation<scarp::Tri3>(scarp::RectangleMesh{}.generate(), 0.0), "thickness is 0");
+  CHECK_REFUSED(scarp::Discretisation<scarp::Tri3>(samples::CrossedRectangle{}.generate(), 0.0), "thickness is 0");
   CHECK_REFUSED(scarp::Discretisation<scarp::Tet4>(samples::distorted_block<scarp::Tet4>(1), 0.2), "thickness is 0.2");
   CHECK_REFUSED(scarp::Discretisation<scarp::Tri3>(scarp::Mesh<scarp::Tri3>{}), "0 nodes", "empty");
 }

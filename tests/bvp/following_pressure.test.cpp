@@ -6,8 +6,8 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/element/line.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/make_problem.hpp"
+#include "support/crossed_rectangle.hpp"
 #include "support/refusals.hpp"
 
 namespace {
@@ -119,7 +119,7 @@ TEST_CASE("A pressure that is not finite and a thickness of zero are refused") {
 TEST_CASE("A pressure on a mesh of another thickness is refused") {
   scarp::SerialExecutor serial;
   auto const made = [&](double of_mesh, double of_pressure) {
-    scarp::Discretisation<scarp::Tri3> grid(scarp::RectangleMesh{.columns = 1, .rows = 1}.generate(), of_mesh);
+    scarp::Discretisation<scarp::Tri3> grid(samples::CrossedRectangle{.columns = 1, .rows = 1}.generate(), of_mesh);
     scarp::Constraints constraints(grid.mesh());
     auto const region = grid.mesh().regions.front();
     return scarp::make_problem(

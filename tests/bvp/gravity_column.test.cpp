@@ -14,7 +14,7 @@ constexpr double unit_weight = 18e3;
 
 /// Elastic soil between smooth walls on a smooth bottom under its own weight, 4 m wide and 6 m high, 4 x 5 cells.
 struct Column {
-  scarp::RectangleMesh grid{.width = 4.0, .height = 6.0, .columns = 4, .rows = 5};
+  samples::CrossedRectangle grid{.width = 4.0, .height = 6.0, .columns = 4, .rows = 5};
   scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> disc{grid.generate(), 0.2};
   scarp::LinearElastic<2> soil = scarp::LinearElastic<2>::from_young_poisson(young, poisson);
   Eigen::VectorXd weight = scarp::body_force(disc, [](int) { return scarp::Vector<2>(0.0, -unit_weight); });

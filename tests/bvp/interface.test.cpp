@@ -8,11 +8,11 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "support/approx.hpp"
+#include "support/crossed_rectangle.hpp"
 #include "support/refusals.hpp"
 
 namespace {
@@ -41,7 +41,7 @@ struct Bed {
   template <class Law>
   Problem<Law> problem(Law const& law, scarp::Vector<2> const& force, double moment,
                        scarp::TimeFunction const& amplitude = {}) {
-    scarp::RectangleMesh const shape{.width = 6.0, .height = 2.0, .columns = columns, .rows = columns / 3};
+    samples::CrossedRectangle const shape{.width = 6.0, .height = 2.0, .columns = columns, .rows = columns / 3};
     Grid grid(shape.generate());
     auto const& mesh = grid.mesh();
     scarp::Constraints constraints(mesh, scarp::RigidBody::extra_dofs);
@@ -269,9 +269,10 @@ TEST_CASE("a stiff tied interface carries the load of a footing on an elastic be
 TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whether or not their nodes meet") {
   // The contact patch test: block 1 m x 1 m on block 1 m x 1 m, different numbers of columns.
   for (int const upper_columns : {4, 7}) {
-    auto lower = scarp::RectangleMesh{.width = 1.0, .height = 1.0, .columns = 4, .rows = 4}.generate();
+    auto lower = samples::CrossedRectangle{.width = 1.0, .height = 1.0, .columns = 4, .rows = 4}.generate();
     auto const upper =
-        scarp::RectangleMesh{.width = 1.0, .height = 1.0, .columns = upper_columns, .rows = upper_columns}.generate();
+        samples::CrossedRectangle{.width = 1.0, .height = 1.0, .columns = upper_columns, .rows = upper_columns}
+            .generate();
     int const offset = static_cast<int>(lower.nodes.size());
     for (auto const& node : upper.nodes) lower.nodes.emplace_back(node + scarp::Vector<2>::UnitY());
     auto const shifted = [&](auto numbers) {

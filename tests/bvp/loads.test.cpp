@@ -75,7 +75,7 @@ TEST_CASE_TEMPLATE("a traction on a quadratic side does the work of its resultan
 
 TEST_CASE("a traction adds up to its resultant and is shared by length") {
   scarp::Discretisation<scarp::Tri3> const disc(
-      scarp::RectangleMesh{.width = 3.0, .height = 2.0, .columns = 3, .rows = 2}.generate(), 0.5);
+      samples::CrossedRectangle{.width = 3.0, .height = 2.0, .columns = 3, .rows = 2}.generate(), 0.5);
   auto const forces = scarp::traction(disc, "top", {1e3, -2e3});
   CHECK((sum<2>(forces) - scarp::Vector<2>(1e3 * 3.0 * 0.5, -2e3 * 3.0 * 0.5)).norm() < 1e-9);
   for (int const node : scarp::boundary_nodes(disc.mesh(), "top")) {
@@ -91,7 +91,7 @@ TEST_CASE("a pressure on the side of a block in space adds up to its area") {
 }
 
 TEST_CASE("loads stay when the mesh moves") {
-  scarp::Discretisation<scarp::Tri3> disc(scarp::RectangleMesh{.columns = 2, .rows = 2}.generate());
+  scarp::Discretisation<scarp::Tri3> disc(samples::CrossedRectangle{.columns = 2, .rows = 2}.generate());
   auto const weight = [](int) { return scarp::Vector<2>(0.0, -1.0); };
   auto const before = scarp::body_force(disc, weight);
   auto const pressed_before = scarp::traction(disc, "top", {0.0, -1.0});
@@ -101,7 +101,7 @@ TEST_CASE("loads stay when the mesh moves") {
 }
 
 TEST_CASE("a traction on an unknown boundary is refused") {
-  scarp::Discretisation<scarp::Tri3> const disc(scarp::RectangleMesh{}.generate());
+  scarp::Discretisation<scarp::Tri3> const disc(samples::CrossedRectangle{}.generate());
   CHECK_REFUSED(scarp::traction(disc, "roof", {0.0, -1.0}), "'roof'", "top");
 }
 

@@ -11,8 +11,8 @@
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/bvp/loads.hpp"
 #include "scarp/bvp/standing_body.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "support/approx.hpp"
+#include "support/crossed_rectangle.hpp"
 
 namespace {
 
@@ -28,7 +28,7 @@ scarp::RigidFooting footing(scarp::Vector<2> const& left, scarp::Vector<2> const
 }  // namespace
 
 TEST_CASE("prescriptions that do not exist or contradict each other are refused") {
-  scarp::Constraints constraints(scarp::RectangleMesh{}.generate(), 3);
+  scarp::Constraints constraints(samples::CrossedRectangle{}.generate(), 3);
   CHECK_REFUSED(constraints.move_extra(3, 0.0), "extra degree of freedom 3", "there are 3");
   CHECK_REFUSED(constraints.move_extra(-1, 0.0), "extra degree of freedom -1");
   CHECK_REFUSED(constraints.move_extra(0, not_a_number), "rate of a prescribed displacement", "nan");
@@ -53,7 +53,7 @@ TEST_CASE("loads that are no numbers or have another size are refused") {
 }
 
 TEST_CASE("a force per volume is given for each region of the mesh") {
-  auto mesh = scarp::RectangleMesh{}.generate();
+  auto mesh = samples::CrossedRectangle{}.generate();
   mesh.regions = {"sand", "clay"};
   scarp::Discretisation<scarp::Tri3> const grid(mesh);
   using Forces = std::vector<scarp::Vector<2>>;

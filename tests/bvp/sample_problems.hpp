@@ -12,9 +12,9 @@
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/free_system.hpp"
 #include "scarp/solver/sparse_lu.hpp"
+#include "support/crossed_rectangle.hpp"
 
 /// Small distorted meshes for every element, and what the tests of the finite-element side do with them.
 namespace samples {
@@ -28,7 +28,7 @@ scarp::Mesh<Element> distorted_block(int cells) {
 
 template <>
 inline scarp::Mesh<scarp::Tri3> distorted_block<scarp::Tri3>(int cells) {
-  return scarp::RectangleMesh{.columns = cells, .rows = cells, .distortion = 0.2, .seed = 5}.generate();
+  return samples::CrossedRectangle{.columns = cells, .rows = cells, .distortion = 0.2, .seed = 5}.generate();
 }
 
 /// Increment of every node by a displacement gradient: u = G X.

@@ -74,10 +74,10 @@ TEST_CASE_TEMPLATE("an open contact without a bond has no force and forgets shea
     approach.overlap_increment = -std::abs(approach.overlap_increment);
     auto const force = law.respond(approach, memory);
     CHECK(force.normal == 0.0);  // exact: every limit is zero
-    CHECK(scarp::squared_size(force.shear) == 0.0);
-    CHECK(scarp::squared_size(force.moment) == 0.0);
-    CHECK(scarp::squared_size(memory.shear) == 0.0);
-    CHECK(scarp::squared_size(memory.moment) == 0.0);
+    CHECK(scarp::dot(force.shear, force.shear) == 0.0);
+    CHECK(scarp::dot(force.moment, force.moment) == 0.0);
+    CHECK(scarp::dot(memory.shear, memory.shear) == 0.0);
+    CHECK(scarp::dot(memory.moment, memory.moment) == 0.0);
   }
 }
 
@@ -127,7 +127,8 @@ TEST_CASE_TEMPLATE("without a bond shear stays inside Coulomb's limit", Law, EVE
       law.friction_coefficient() = 0.1 * (n % 7);  // the coefficient that is exchanged is the one that acts
       auto const force = law.respond(approaches.next(), memory);
       // Analytic: mu F_n; the square root and the scaling round.
-      CHECK(std::sqrt(scarp::squared_size(force.shear)) <= law.friction_coefficient() * force.normal * (1.0 + 1e-14));
+      CHECK(std::sqrt(scarp::dot(force.shear, force.shear)) <=
+            law.friction_coefficient() * force.normal * (1.0 + 1e-14));
     }
   }
 }
@@ -147,7 +148,9 @@ TEST_CASE_TEMPLATE("packs give lane by lane what single numbers give", Law, EVER
       std::array<ContactKinematics<3, double>, Lanes::size()> lanes;
       for (auto& lane : lanes) lane = approaches.next();
       auto const gather = [&](auto const& number_of) {
-        return Lanes([&](auto lane) { return number_of(lanes[lane]); });
+        Lanes values(0);
+        for (std::size_t lane = 0; lane < lanes.size(); ++lane) values.vector[lane] = number_of(lanes[lane]);
+        return values;
       };
       ContactKinematics<3, Lanes> approach{
           .overlap = gather([](auto const& a) { return a.overlap; }),

@@ -172,8 +172,8 @@ TEST_CASE("the dissipated energy closes the tangential balance of a random path 
     approach.overlap = 0.4 + 0.5 * spread(random);  // opens now and then
     for (double& component : approach.slip_increment) component = 0.1 * spread(random);
     auto const force = law.respond(approach, memory);
-    double const done = -0.5 * (scarp::inner_product(before, approach.slip_increment) +
-                                scarp::inner_product(force.shear, approach.slip_increment));
+    double const done =
+        -0.5 * (scarp::dot(before, approach.slip_increment) + scarp::dot(force.shear, approach.slip_increment));
     work += done;
     turnover += std::abs(done);
     dissipated += force.dissipated;

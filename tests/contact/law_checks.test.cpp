@@ -57,6 +57,22 @@ struct DampedSpeltRight : Damped {
   double damping_ratio() const { return damping; }
 };
 
+/// Its dashpot divides by the time step.
+struct DividesByTime : scarp::Frictionless {
+  static constexpr scarp::ContactInputs inputs{.motion = true};
+
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>&) const {
+    auto const closed = approach.overlap > scarp::broadcast<T>(0);
+    T const push = scarp::broadcast<T>(normal_stiffness) * approach.overlap +
+                   scarp::broadcast<T>(10.0) * approach.overlap_increment / approach.time_step;
+    // An open contact has no force, but what is not finite stays.
+    return {.normal = push * scarp::lanes::select(closed, scarp::broadcast<T>(1), scarp::broadcast<T>(0))};
+  }
+  double damping_ratio() const { return 0.1; }
+};
+
 static_assert(scarp::ContactLaw<Sticky> && !scarp::HasInteractionRange<Sticky> &&
               scarp::HasInteractionRange<StickySpeltRight>);
 
@@ -95,6 +111,10 @@ TEST_CASE("a law with a dashpot must tell its damping ratio, which shortens the 
   CHECK_THROWS_WITH_AS(scarp::require_consistent(Damped{{1e6}}, radius), doctest::Contains("damping_ratio()"),
                        scarp::InputError);
   CHECK_NOTHROW(scarp::require_consistent(DampedSpeltRight{{{1e6}}}, radius));
+  CHECK_NOTHROW(scarp::require_consistent(DividesByTime{{1e6}}, radius));
+  // A law that is wrapped has the damping ratio of the one inside.
+  CHECK_THROWS_WITH_AS(scarp::require_consistent(scarp::RollingResistance<Damped>{Damped{{1e6}}, 1.0, 0.1}, radius),
+                       doctest::Contains("damping_ratio()"), scarp::InputError);
 }
 
 TEST_CASE_TEMPLATE("every law of the library is consistent", Law, EVERY_CONTACT_LAW) {

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "scarp/dem/halved_path.hpp"
+#include "../../examples/rve_biaxial/halved_path.hpp"
 #include "scarp/dem/loading.hpp"
 #include "support/packings.hpp"
 
@@ -100,7 +100,7 @@ TEST_CASE("a path in halved steps changes the stress less the smaller its steps 
   auto const difference = [&](double strain_per_step) {
     auto packing = samples::consolidated<Ellipses>(80).packing;
     scarp::TimeStepper<Ellipses> stepper;
-    scarp::HalvedPath<Ellipses> again(packing);
+    rve_biaxial::HalvedPath<Ellipses> again(packing);
     scarp::CellDriver<Ellipses> drive(packing, law, scarp::drained_compression<2>(strain_per_step, samples::pressure));
     for (double strain = 0.0; strain < 1e-3; strain += strain_per_step) {
       REQUIRE(drive.step(stepper).acceptable());

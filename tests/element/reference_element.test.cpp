@@ -24,7 +24,7 @@ struct WithoutQuadrature {
     return scarp::Tri3::shape_gradients(xi);
   }
 };
-static_assert(scarp::GivesShapes<WithoutQuadrature>);
+static_assert(scarp::GivesShapeValues<WithoutQuadrature>);
 static_assert(!scarp::GivesQuadrature<WithoutQuadrature> && !scarp::ReferenceElement<WithoutQuadrature>);
 
 struct WrongFacet : scarp::Tri3 {

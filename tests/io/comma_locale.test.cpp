@@ -12,7 +12,7 @@
 #include "scarp/io/gmsh/gmsh_reader.hpp"
 #include "scarp/io/json.hpp"
 #include "scarp/io/vtu.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
+#include "support/crossed_rectangle.hpp"
 #include "support/files.hpp"
 #include "support/gmsh_writer.hpp"
 
@@ -44,7 +44,7 @@ constexpr double number = 12345.678;
 
 /// Every kind of text file that the library writes.
 void write_all(samples::ScratchFolder const& folder) {
-  auto const mesh = scarp::RectangleMesh{.width = 1234.5, .height = 0.5}.generate();
+  auto const mesh = samples::CrossedRectangle{.width = 1234.5, .height = 0.5}.generate();
   scarp::CsvTable table({"count", "x"});
   table.add(12345, number);
   table.write(folder / "table.csv");
@@ -79,6 +79,6 @@ TEST_CASE("files are written and read with a decimal point where the locale want
   for (char const* const name : {"22.msh", "41.msh"}) {
     CAPTURE(name);
     auto const mesh = scarp::read_gmsh<scarp::Tri3>(folder / name);
-    CHECK(mesh.nodes == scarp::RectangleMesh{.width = 1234.5, .height = 0.5}.generate().nodes);
+    CHECK(mesh.nodes == samples::CrossedRectangle{.width = 1234.5, .height = 0.5}.generate().nodes);
   }
 }

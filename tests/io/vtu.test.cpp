@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "scarp/element/tet4.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
+#include "support/crossed_rectangle.hpp"
 #include "support/files.hpp"
 #include "support/refusals.hpp"
 
@@ -82,7 +82,7 @@ TEST_CASE("base64 gives the texts of its standard") {
 TEST_CASE("a mesh comes back from its file with every bit") {
   ScratchFolder const folder;
   auto const mesh =
-      scarp::RectangleMesh{.width = 3.0, .height = 1.0, .columns = 3, .rows = 2, .distortion = 0.1}.generate();
+      samples::CrossedRectangle{.width = 3.0, .height = 1.0, .columns = 3, .rows = 2, .distortion = 0.1}.generate();
   auto positions = mesh.nodes;
   positions[2] += scarp::Vector<2>(0.1, -0.2);
   scarp::write_vtu(folder / "m.vtu", mesh, positions);
@@ -109,7 +109,7 @@ TEST_CASE("a mesh comes back from its file with every bit") {
 
 TEST_CASE("vectors and tensors are filled up to three dimensions, other fields are written as they are") {
   ScratchFolder const folder;
-  auto const mesh = scarp::RectangleMesh{}.generate();  // five nodes, four elements
+  auto const mesh = samples::CrossedRectangle{}.generate();  // five nodes, four elements
   std::vector<double> displacement;
   for (int k = 0; k < 10; ++k) {
     displacement.push_back(0.1 * k);
@@ -159,7 +159,7 @@ TEST_CASE("a mesh in space keeps its three coordinates") {
 
 TEST_CASE("fields and positions of the wrong length are refused and an older file stays") {
   ScratchFolder const folder;
-  auto const mesh = scarp::RectangleMesh{}.generate();
+  auto const mesh = samples::CrossedRectangle{}.generate();
   auto const path = folder / "m.vtu";
   scarp::write_file(path, "older");
   std::vector<double> const values(7);
@@ -179,7 +179,7 @@ TEST_CASE(
     "names of fields that are no text of XML or are there already are refused, all others are written so that XML has "
     "them") {
   ScratchFolder const folder;
-  auto const mesh = scarp::RectangleMesh{}.generate();
+  auto const mesh = samples::CrossedRectangle{}.generate();
   std::vector<int> const numbers(mesh.elements.size(), 1);
   auto const write = [&](std::vector<std::string> const& names) {
     scarp::VtuFields fields;

@@ -9,9 +9,9 @@
 
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/mesh/region_area.hpp"
 #include "support/approx.hpp"
+#include "support/crossed_rectangle.hpp"
 #include "support/elements.hpp"
 #include "support/refusals.hpp"
 
@@ -132,8 +132,8 @@ TEST_CASE_TEMPLATE("a map to a ring sector bends quadratic sides", Element, scar
 }
 
 TEST_CASE("a mesh of straight triangles gets nodes on its edges and keeps its boundaries") {
-  auto const linear = scarp::RectangleMesh{.columns = 2, .rows = 1}.generate();
-  auto const mesh = scarp::with_mid_side_nodes<scarp::Tri6>(linear);
+  auto const linear = samples::CrossedRectangle{.columns = 2, .rows = 1}.generate();
+  auto const mesh = scarp::with_nodes_of<scarp::Tri6>(linear);
   CHECK_NOTHROW(scarp::validate(mesh));
   CHECK(mesh.nodes.size() == linear.nodes.size() + 15);  // counted: 7 sides of cells, 8 half diagonals
   for (auto const& [name, facets] : linear.boundaries) {

@@ -7,7 +7,6 @@
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/tet4.hpp"
 #include "scarp/element/tri6.hpp"
-#include "scarp/mesh/jittered_grid.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 
@@ -25,10 +24,8 @@ scarp::Mesh<Element> grid(Pattern pattern, double jitter = 0.0, std::uint64_t se
   auto const numbers = scarp::add_grid_nodes(mesh.nodes, xs, ys);
   scarp::jitter_grid(mesh.nodes, numbers, jitter, seed);
   scarp::add_grid_cells(mesh, numbers, pattern, 0);
-  mesh.boundaries["left"] = scarp::left_facets(numbers, numbers.rows());
-  mesh.boundaries["right"] = scarp::right_facets(numbers, numbers.columns(), numbers.rows());
-  mesh.boundaries["bottom"] = scarp::lower_facets(numbers, 0, numbers.columns());
-  mesh.boundaries["top"] = scarp::upper_facets(numbers, 0, numbers.columns(), numbers.rows());
+  scarp::GridSides const sides(numbers);
+  mesh.boundaries = {{"left", sides.left}, {"right", sides.right}, {"bottom", sides.lower}, {"top", sides.upper}};
   return mesh;
 }
 

@@ -7,11 +7,11 @@
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/tri3.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "support/crossed_rectangle.hpp"
 
 namespace {
 
@@ -40,7 +40,7 @@ double reaction(Grid grid, scarp::MaterialPoints<2> points, double rate, double 
 
 TEST_CASE("the generalised reaction of a pressed square is modulus times strain, as work per unit of the load factor") {
   auto const soil = Soil::from_young_poisson(20e6, 0.3);
-  Grid const grid(scarp::RectangleMesh{.columns = 3, .rows = 3}.generate());
+  Grid const grid(samples::CrossedRectangle{.columns = 3, .rows = 3}.generate());
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
   scarp::MaterialPoints<2> const points(soil, sites);

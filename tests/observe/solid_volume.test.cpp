@@ -30,7 +30,7 @@ TEST_CASE("solids neither come nor go with packings that deform as their element
       Eigen::VectorXd moves = Eigen::VectorXd::Zero(problem.dof_count());
       for (Eigen::Index k = 0; k < moves.size(); ++k) moves(k) = 0.01 * static_cast<double>((3 + k * k) % 5);
       problem.plan(moves);
-      problem.evaluate(moves);
+      REQUIRE(problem.evaluate(moves).verdict.acceptable());
       problem.commit(moves);
     }
     return scarp::solid_volume(problem) / whole - 1.0;

@@ -71,7 +71,7 @@ Eigen::VectorXd uneven(Eigen::Index size, double largest) {
 }  // namespace
 
 TEST_CASE("means keep what is even, stay within a region, and are none for a point alone") {
-  Local::Grid const grid(scarp::RectangleMesh{.columns = 3, .rows = 2}.generate());
+  Local::Grid const grid(samples::CrossedRectangle{.columns = 3, .rows = 2}.generate());
   auto where = sites(grid);
   for (auto& site : where) site.region = site.position.x() < 0.5 ? 0 : 1;
   std::vector<double> lengths(where.size(), 0.6);
@@ -130,7 +130,7 @@ TEST_CASE("points that were saved and loaded go on with the same bits") {
   Problem first = block({.length = 0.6}, soil, executor);
   Eigen::VectorXd const moves = uneven(first.dof_count(), 0.01);
   first.plan(moves);
-  first.evaluate(moves);
+  REQUIRE(first.evaluate(moves).verdict.acceptable());
   first.commit(moves);
   scarp::StateWriter writer;
   writer("problem", std::as_const(first));
@@ -177,10 +177,10 @@ TEST_CASE("the wide stiffness is the derivative of the forces, fading and points
   auto problem = block({.length = 0.6, .stiffness = 0.7, .fading = 2e-4}, {}, executor, 5);
   // Small enough that the configuration's own change, of which the spin counts as local, stays below the tolerance.
   Eigen::VectorXd const start = uneven(problem.dof_count(), 1e-5);
-  problem.evaluate(start);
+  REQUIRE(problem.evaluate(start).verdict.acceptable());
   problem.commit(start);
   Eigen::VectorXd const at = uneven(problem.dof_count(), 1e-5);
-  problem.evaluate(at);
+  REQUIRE(problem.evaluate(at).verdict.acceptable());
   scarp::GroundStiffness matrix;
   problem.ground_stiffness(at, problem.trial_tangents(), matrix);
   Eigen::VectorXd const direction = uneven(problem.dof_count(), 1.0).reverse();
@@ -200,7 +200,7 @@ TEST_CASE("equations of a wide stiffness are solved as those of its matrix") {
   auto problem = block({.length = 0.6}, {.reference_strain = 5e-3}, executor);
   Eigen::VectorXd const at = uneven(problem.dof_count(), 2e-3);
   problem.plan(at);
-  problem.evaluate(at);
+  REQUIRE(problem.evaluate(at).verdict.acceptable());
   scarp::GroundStiffness stiffness;
   problem.ground_stiffness(at, problem.trial_tangents(), stiffness);
   scarp::FreeSystem const system(problem.constraints());
@@ -258,11 +258,11 @@ TEST_CASE("balanced stresses are those of the committed state, whatever was trie
   scarp::SerialExecutor executor;
   auto problem = block({.length = 0.5, .stiffness = 0.5}, {.reference_strain = 0.02}, executor);
   auto const moves = uneven(problem.dof_count(), 1e-3);
-  problem.evaluate(moves);
+  REQUIRE(problem.evaluate(moves).verdict.acceptable());
   problem.commit(moves);
   auto const before = problem.balanced_stresses();
   CHECK(before != problem.committed_stresses());
-  problem.evaluate(0.5 * moves);
+  REQUIRE(problem.evaluate(0.5 * moves).verdict.acceptable());
   CHECK(problem.balanced_stresses() == before);
   auto points = problem.points();
   scarp::PointPath<2> const path(points, scarp::drained_path<2>());

@@ -12,7 +12,6 @@
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/fault/surface_log.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/field_series.hpp"
 #include "scarp/observe/observers.hpp"
@@ -23,6 +22,7 @@
 #include "scarp/run/checkpointed_run.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "support/crossed_rectangle.hpp"
 #include "support/files.hpp"
 
 /// A block whose top is pulled until it is fluid, seen by all observers that remember something, on one process or several.
@@ -33,7 +33,7 @@ using Problem = scarp::EquilibriumProblem<scarp::Discretisation<scarp::Tri3, sca
 
 template <class Provider, class Executor>
 Problem<Executor> block(Provider const& provider, Executor& executor) {
-  auto mesh = scarp::RectangleMesh{.columns = 2, .rows = 2}.generate();
+  auto mesh = samples::CrossedRectangle{.columns = 2, .rows = 2}.generate();
   mesh.boundaries["surface"] = mesh.boundaries.at("top");
   scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> grid(std::move(mesh));
   scarp::Constraints constraints(grid.mesh());

@@ -25,7 +25,6 @@ struct Oval {
   static double gyration_squared(Size const& s) { return s[0] * s[0] / 2.0; }
   static double bounding_radius(Size const& s) { return s[0] * (1.0 + s[1]); }
   static double eccentricity(Size const& s) { return 2.0 * s[0] * s[1]; }
-  static double min_curvature_radius(Size const& s) { return s[0] * (1.0 - 3.0 * s[1]); }
   template <class T>
   static std::array<T, 3> pose(std::array<T, 2> const& size, std::array<T, 2> const& axis) {
     T const excess = size[0] * size[1];

@@ -158,7 +158,7 @@ TEST_CASE_TEMPLATE("lanes meet as single numbers do", T, scarp::lanes::Pack<doub
                                     normal[0] * std::sin(off) + normal[1] * std::cos(off)};
       single[lane] = pair.touch(turned);
       auto const spread = [lane](auto const& values, auto& to) {
-        for (std::size_t k = 0; k < values.size(); ++k) to[k][lane] = static_cast<Scalar>(values[k]);
+        for (std::size_t k = 0; k < values.size(); ++k) to[k].vector[lane] = static_cast<Scalar>(values[k]);
       };
       spread(pair.first.pose(), first);
       spread(pair.second.pose(), second);
@@ -201,14 +201,14 @@ TEST_CASE("an ellipse of aspect one is a disc") {
   CHECK(Ellipse::content({0.7, 0.7}) == samples::Approx(Disc::content({0.7})).epsilon(1e-15));
   CHECK(Ellipse::gyration_squared({0.7, 0.7}) == samples::Approx(Disc::gyration_squared({0.7})).epsilon(1e-15));
   CHECK(Ellipse::eccentricity({0.7, 0.7}) == Disc::eccentricity({0.7}));
-  CHECK(Ellipse::min_curvature_radius({0.7, 0.7}) == samples::Approx(0.7).epsilon(1e-15));
+  CHECK(Ellipse::inner_radius(Placed{0.7, 0.7, 0.0}.pose()) == samples::Approx(0.7).epsilon(1e-15));
 }
 
 TEST_CASE("area, inertia and curvature of an ellipse follow its axes") {
   // Analytic: area pi a b, second moment (a^2 + b^2)/4 per area, least radius of curvature b^2/a.
   CHECK(Ellipse::content({2.0, 1.5}) == samples::Approx(3.0 * std::numbers::pi).epsilon(1e-15));
   CHECK(Ellipse::gyration_squared({2.0, 1.5}) == samples::Approx(6.25 / 4.0).epsilon(1e-15));
-  CHECK(Ellipse::min_curvature_radius({2.0, 1.5}) == samples::Approx(2.25 / 2.0).epsilon(1e-15));
+  CHECK(Ellipse::inner_radius(Placed{2.0, 1.5, 0.4}.pose()) == samples::Approx(2.25 / 2.0).epsilon(1e-14));
   CHECK(Ellipse::bounding_radius({1.5, 2.0}) == 2.0);
   auto const tip = Ellipse::support(Placed{2.0, 1.5, 0.0}.pose(), Point<2, double>{1.0, 0.0});
   CHECK(tip.value == samples::Approx(2.0).epsilon(1e-15));

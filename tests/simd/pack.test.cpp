@@ -44,8 +44,12 @@ struct EveryPair {
   static void check(Check const& check) {
     constexpr std::size_t count = kinds.size() * kinds.size();
     for (std::size_t start = 0; start < count; start += Pack::size()) {
-      Pack const a([&](std::size_t lane) { return kinds[(start + lane) % count / kinds.size()]; });
-      Pack const b([&](std::size_t lane) { return kinds[(start + lane) % kinds.size()]; });
+      Pack a(0);
+      Pack b(0);
+      for (std::size_t lane = 0; lane < Pack::size(); ++lane) {
+        a.vector[lane] = kinds[(start + lane) % count / kinds.size()];
+        b.vector[lane] = kinds[(start + lane) % kinds.size()];
+      }
       check(a, b);
     }
   }
@@ -162,7 +166,7 @@ TEST_CASE_TEMPLATE("packs are made, read and written lane by lane", Pack, EVERY_
   Pack assigned(0);
   for (std::size_t lane = 0; lane < width; ++lane) {
     CHECK(loaded[lane] == numbers[lane + 1]);
-    assigned[lane] = numbers[lane + 1];
+    assigned.vector[lane] = numbers[lane + 1];
   }
   CHECK(all_of(assigned == loaded));
   lanes::store(loaded * Pack(10), numbers.data() + 1);
@@ -197,7 +201,8 @@ TEST_CASE_TEMPLATE("quads are rows of four numbers, read and written for all lan
   constexpr std::size_t width = Pack::size();
   std::array<Scalar, 4 * width> rows;
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = static_cast<Scalar>(k);
-  auto const columns = lanes::load_quads<Scalar, width>([&](std::size_t lane) { return rows.data() + 4 * lane; });
+  auto const columns = lanes::from_quads<Scalar, width>(
+      [&](std::size_t lane) { return lanes::FourScalars<Scalar>::read(rows.data() + 4 * lane); });
   auto const quads = lanes::to_quads<Scalar, width>(columns);
   for (std::size_t lane = 0; lane < width; ++lane) {
     for (std::size_t c = 0; c < 4; ++c) {

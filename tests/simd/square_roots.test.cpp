@@ -27,7 +27,7 @@ void check_square_roots() {
       asked = {number(), number()};
     } else {
       for (T& values : asked) {
-        for (std::size_t lane = 0; lane < T::size(); ++lane) values[lane] = number();
+        for (std::size_t lane = 0; lane < T::size(); ++lane) values.vector[lane] = number();
       }
     }
     auto const found = scarp::lanes::square_roots(asked[0], asked[1]);

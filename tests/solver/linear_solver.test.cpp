@@ -9,11 +9,11 @@
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/random.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "support/approx.hpp"
+#include "support/crossed_rectangle.hpp"
 
 namespace {
 
@@ -47,7 +47,7 @@ using Soil = scarp::LinearElastic<2>;
 
 /// A block of two regions side by side that do not share nodes; only the left one is held.
 Grid two_blocks() {
-  auto mesh = scarp::RectangleMesh{.width = 1.0, .height = 1.0, .columns = 3, .rows = 3}.generate();
+  auto mesh = samples::CrossedRectangle{.width = 1.0, .height = 1.0, .columns = 3, .rows = 3}.generate();
   int const offset = static_cast<int>(mesh.nodes.size());
   auto const single = mesh;
   mesh.regions = {"held", "adrift"};
@@ -109,7 +109,7 @@ TEST_CASE_TEMPLATE("every linear solver says that a singular or not finite matri
 }
 
 TEST_CASE("the free part of a system is the full one without prescribed rows and columns") {
-  auto const mesh = scarp::RectangleMesh{.columns = 2, .rows = 1}.generate();
+  auto const mesh = samples::CrossedRectangle{.columns = 2, .rows = 1}.generate();
   scarp::Constraints constraints(mesh);
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) constraints.fix(node);
   constraints.move(3, 1, -2.0);

@@ -17,7 +17,7 @@ constexpr double footing_weight = 0.1e3 * 4.0 * 1.0;
 /// the block.
 template <class Provider>
 Problem ground_with_block(Provider const& provider, scarp::SerialExecutor& executor) {
-  auto mesh = scarp::RectangleMesh{.width = 4.0, .height = 5.0, .columns = 4, .rows = 5}.generate();
+  auto mesh = samples::CrossedRectangle{.width = 4.0, .height = 5.0, .columns = 4, .rows = 5}.generate();
   mesh.regions.emplace_back("footing");
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     double height = 0.0;

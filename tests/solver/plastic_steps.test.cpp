@@ -64,7 +64,8 @@ void check_plastic_patch() {
   auto state = soil.initial_state({});
   for (int step = 0; step < steps; ++step) {
     auto const before = state;
-    soil.respond(before, scarp::SmallStrain::material_gradient<dim>(gradient / steps), state);
+    auto const increment = scarp::SmallStrain::material_gradient<dim>(gradient / steps);
+    REQUIRE(soil.respond(before, increment, state).verdict.acceptable());
   }
   REQUIRE(state.plastic_shear > 1e-3);
   for (int point = 0; point < problem.points().size(); ++point) {

@@ -9,11 +9,11 @@
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/linear_frictional.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "support/approx.hpp"
+#include "support/crossed_rectangle.hpp"
 
 namespace {
 
@@ -31,7 +31,8 @@ constexpr double weight = 74e3;    // [N]: 37 kPa on 2 m, so that 0.2 mm of slip
 /// motion is given for the scale 1
 template <class Motion>
 Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion, double above = 0.0, double scale = 1.0) {
-  Grid grid(scarp::RectangleMesh{.width = 6.0 * scale, .height = 2.0 * scale, .columns = 12, .rows = 4}.generate());
+  Grid grid(
+      samples::CrossedRectangle{.width = 6.0 * scale, .height = 2.0 * scale, .columns = 12, .rows = 4}.generate());
   auto const& mesh = grid.mesh();
   scarp::Constraints constraints(mesh, scarp::RigidBody::extra_dofs);
   for (int n = 0; n < grid.node_count(); ++n) {

@@ -9,10 +9,10 @@
 
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
-#include "scarp/mesh/rectangle_mesh.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "support/crossed_rectangle.hpp"
 
 /// A block that is pulled or pressed, and materials with every bad habit that a solver must survive.
 namespace samples {
@@ -126,7 +126,7 @@ struct Block {
   using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
 
   static Problem make(Provider provider, scarp::SerialExecutor& executor, bool moved_top = true) {
-    Grid grid(scarp::RectangleMesh{.columns = 3, .rows = 2}.generate());
+    Grid grid(samples::CrossedRectangle{.columns = 3, .rows = 2}.generate());
     scarp::Constraints constraints(grid.mesh());
     for (int const node : scarp::boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node);
     for (int const node : scarp::boundary_nodes(grid.mesh(), "top")) {

@@ -4,8 +4,13 @@
 #include <concepts>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/named_member.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/tensor/voigt.hpp"
+
+SCARP_NAMED_MEMBER(empty_state)
+SCARP_NAMED_MEMBER(quantities)
+SCARP_NAMED_MEMBER(balance)
 
 namespace scarp {
 
@@ -20,7 +25,7 @@ struct Site {
 
 /// Stress and verdict of a material point for an increment.
 template <int Dim>
-struct Response {
+struct [[nodiscard]] Response {
   VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy [Pa] at the end of the increment, tension positive
   Verdict verdict;                                     ///< whether the response may be committed, and why not
 };
@@ -128,29 +133,40 @@ Response<Model::dim> respond_as_planned(Model const& model, typename Model::Stat
 
 namespace detail {
 
-/// What of a provider is missing, in words.
-template <class Model, bool grounded = HasState<Model>&& HasDimension<Model>>
-struct MissingOfProvider {
+/// Names the missing member of a type that is no `ConstitutiveProvider`.
+template <class Model>
+consteval bool check_provider() {
   static_assert(HasDimension<Model>, "scarp: a provider needs `static constexpr int dim`, 2 or 3");
   static_assert(HasState<Model>, "scarp: a provider needs a type `State` that can be copied");
-  static constexpr bool nothing = false;
-};
-template <class Model>
-struct MissingOfProvider<Model, true> {
-  static_assert(MakesInitialState<Model>, "scarp: a provider needs `State initial_state(Site<dim> const&) const`");
-  static_assert(Responds<Model>,
-                "scarp: a provider needs `Response<dim> respond(State const& committed, Gradient<dim> const& "
-                "increment, State& trial) const`");
-  static_assert(HasStress<Model>, "scarp: a provider needs `VoigtStress<dim> stress(State const&) const` [Pa]");
-  static_assert(GivesTangent<Model>, "scarp: a provider needs `VoigtTangent<dim> tangent(State const&) const` [Pa]");
-  static constexpr bool nothing = false;
-};
+  if constexpr (HasState<Model> && HasDimension<Model>) {
+    static_assert(MakesInitialState<Model>, "scarp: a provider needs `State initial_state(Site<dim> const&) const`");
+    static_assert(Responds<Model>,
+                  "scarp: a provider needs `Response<dim> respond(State const& committed, Gradient<dim> const& "
+                  "increment, State& trial) const`");
+    static_assert(HasStress<Model>, "scarp: a provider needs `VoigtStress<dim> stress(State const&) const` [Pa]");
+    static_assert(GivesTangent<Model>, "scarp: a provider needs `VoigtTangent<dim> tangent(State const&) const` [Pa]");
+  }
+  if constexpr (ConstitutiveProvider<Model>) {
+    using State = typename Model::State;
+    static_assert(
+        requires(Model const& model, State const& state) { model.quantities(state); } || !names_quantities<Model>,
+        "scarp: quantities of a provider is never called: it needs `Quantities quantities(State const&) const`");
+    static_assert(
+        requires(Model const& model, State const& state) { model.balance(state); } || !names_balance<Model>,
+        "scarp: balance of a provider is never called: it needs `PackingBalance balance(State const&) const`");
+    static_assert(
+        requires(Model const& model, Site<Model::dim> const& site) { model.empty_state(site); } ||
+            !names_empty_state<Model>,
+        "scarp: empty_state of a provider is never called: it needs `State empty_state(Site<dim> const&) const`");
+  }
+  return ConstitutiveProvider<Model>;
+}
 
 }  // namespace detail
 
 /// A `ConstitutiveProvider`; for another type the compiler names the missing member.
 template <class Model>
-concept CheckedProvider = ConstitutiveProvider<Model> || detail::MissingOfProvider<Model>::nothing;
+concept CheckedProvider = detail::check_provider<Model>();
 
 /// A state that a saved one can be read into, with all that is not saved because it follows from the provider and the site. Providers
 /// whose states contain such data return it by `State empty_state(Site<dim> const&) const`, and so do adaptors, for the provider inside.

@@ -72,8 +72,7 @@ struct CohesiveBond {
     Tangential<Dim, T> const shear = stretched<Dim, T>(memory.shear, approach.slip_increment);
     T const strength = lanes::at_least(broadcast<T>(shear_strength) + broadcast<T>(law.friction) * normal, zero);
     auto const bonded = is_intact(memory);
-    auto const holds =
-        bonded && normal >= broadcast<T>(-tensile_strength) && squared_size(shear) <= strength * strength;
+    auto const holds = bonded && normal >= broadcast<T>(-tensile_strength) && dot(shear, shear) <= strength * strength;
 
     T const state_after =
         lanes::select(holds, broadcast<T>(intact), lanes::select(bonded, broadcast<T>(broken), memory.scalars[state]));

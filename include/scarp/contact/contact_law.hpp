@@ -7,8 +7,16 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/named_member.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/simd/pack.hpp"
+#include "scarp/simd/vectors.hpp"
+
+SCARP_NAMED_MEMBER(friction_coefficient)
+SCARP_NAMED_MEMBER(stored_energy)
+SCARP_NAMED_MEMBER(interaction_range)
+SCARP_NAMED_MEMBER(damping_ratio)
+SCARP_NAMED_MEMBER(bond)
 
 namespace scarp {
 
@@ -201,39 +209,34 @@ double damping_ratio_of(Law const& law) {
   }
 }
 
-/// Inner product of two tangential or turning quantities, numbers in the plane.
-template <class T>
-T inner_product(T const& a, T const& b) {
-  return a * b;
-}
-/// Inner product of two tangential or turning quantities, vectors in space.
-template <class T>
-T inner_product(std::array<T, 3> const& a, std::array<T, 3> const& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// Square of a tangential or turning quantity.
-template <class T>
-auto squared_size(T const& value) {
-  return inner_product(value, value);
-}
-
-/// A tangential or turning quantity times a number, in the plane.
-template <class T>
-T scaled(T const& value, T const& factor) {
-  return value * factor;
-}
-/// A tangential or turning quantity times a number, in space.
-template <class T>
-std::array<T, 3> scaled(std::array<T, 3> const& value, T const& factor) {
-  return {value[0] * factor, value[1] * factor, value[2] * factor};
-}
-
 namespace detail {
 
-/// What of a contact law is missing, in words.
+/// Names an optional member of a law that cannot be called. Laws that are made of others offer what these offer.
 template <class Law>
-struct MissingOfContactLaw {
+consteval void check_options_of_law() {
+  if constexpr (requires { &Law::law; }) {
+    check_options_of_law<decltype(Law::law)>();
+  } else if constexpr (requires { &Law::laws; }) {
+    check_options_of_law<typename decltype(Law::laws)::value_type>();
+  } else {
+    static_assert(Frictional<Law> || !names_friction_coefficient<Law>,
+                  "scarp: friction_coefficient of a law is never called: it needs `double& friction_coefficient()`");
+    static_assert(HasStoredEnergy<Law> || !names_stored_energy<Law>,
+                  "scarp: stored_energy of a law is never called: it needs `template <int Dim, class T> T "
+                  "stored_energy(ContactKinematics<Dim, T> const&, ContactMemory<Dim, T> const&) const` [J]");
+    static_assert(HasInteractionRange<Law> || !names_interaction_range<Law>,
+                  "scarp: interaction_range of a law is never called: it needs `double interaction_range() const` [m]");
+    static_assert(HasDampingRatio<Law> || !names_damping_ratio<Law>,
+                  "scarp: damping_ratio of a law is never called: it needs `double damping_ratio() const`");
+    static_assert(Bonds<Law> || !names_bond<Law>,
+                  "scarp: bond of a law is never called: it needs `template <int Dim, class T> static void "
+                  "bond(ContactMemory<Dim, T>&)`");
+  }
+}
+
+/// Names the missing member of a type that is no `ContactLaw`.
+template <class Law>
+consteval bool check_contact_law() {
   static_assert(std::is_aggregate_v<Law>,
                 "scarp: a contact law is an aggregate of parameters: no constructors, no private or virtual members");
   static_assert(NamesContactInputs<Law>,
@@ -252,8 +255,9 @@ struct MissingOfContactLaw {
   static_assert(
       HasContactStiffness<Law>,
       "scarp: a contact law needs `ContactStiffness stiffness(double overlap, double reduced_radius) const` [N/m]");
-  static constexpr bool nothing = false;
-};
+  if constexpr (ContactLaw<Law>) check_options_of_law<Law>();
+  return ContactLaw<Law>;
+}
 
 /// Compiles the law's response for several contacts at once, before the pair loop does: what cannot be compiled, an `if`
 /// on an overlap for example, is then reported with this short name, by clang with the comment below, and not from within the loop.
@@ -273,7 +277,7 @@ constexpr bool a_law_responds_to_many_contacts_at_once_so_it_takes_lanes_select_
 
 /// A `ContactLaw`; for another type the compiler names the missing member.
 template <class Law>
-concept CheckedContactLaw = (ContactLaw<Law> || detail::MissingOfContactLaw<Law>::nothing) &&
-                            detail::a_law_responds_to_many_contacts_at_once_so_it_takes_lanes_select_for_if<Law>();
+concept CheckedContactLaw = detail::check_contact_law<Law>() &&
+    detail::a_law_responds_to_many_contacts_at_once_so_it_takes_lanes_select_for_if<Law>();
 
 }  // namespace scarp

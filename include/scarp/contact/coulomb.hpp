@@ -26,7 +26,7 @@ T coulomb_slide(Tangential<Dim, T>& force, Tangential<Dim, T> const& slip, T con
     std::array<T, 3> trial;
     for (std::size_t k = 0; k < 3; ++k) trial[k] = force[k] - stiffness * slip[k];
     T const scale =
-        lanes::at_most(limit / sqrt(lanes::at_least(squared_size(trial), smallest_normal<T>())), broadcast<T>(1));
+        lanes::at_most(limit / sqrt(lanes::at_least(dot(trial, trial), smallest_normal<T>())), broadcast<T>(1));
     T lost = broadcast<T>(0);
     for (std::size_t k = 0; k < 3; ++k) {
       T const limited = trial[k] * scale;

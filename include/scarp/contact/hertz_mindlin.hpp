@@ -81,9 +81,9 @@ struct HertzRestitution {
   template <int Dim, class T>
   T drag(Tangential<Dim, T>& shear, T const& stiffness, T const& limit,
          ContactKinematics<Dim, T> const& approach) const {
-    T const work_of_spring = inner_product(shear, approach.tangential_increment);
+    T const work_of_spring = dot(shear, approach.tangential_increment);
     coulomb_slide<Dim, T>(shear, approach.tangential_increment, stiffness_of_step(stiffness, approach), limit);
-    return work_of_spring - inner_product(shear, approach.tangential_increment);
+    return work_of_spring - dot(shear, approach.tangential_increment);
   }
 
  private:
@@ -175,8 +175,10 @@ struct HertzMindlin {
 
   double& friction_coefficient() { return friction; }
 
-  double damping_ratio() const requires requires(Damping const& dashpots) { dashpots.damping_ratio; }
-  { return damping.damping_ratio; }
+  double damping_ratio() const {
+    if constexpr (requires { damping.damping_ratio; }) return damping.damping_ratio;
+    return 0.0;
+  }
 
   /// \f$ \tfrac{8}{15} E^* a\,u^2 + F_t^2 / 16 G^* a \f$
   template <int Dim, class T>
@@ -192,7 +194,7 @@ struct HertzMindlin {
   template <int Dim, class T>
   T shear_energy(Tangential<Dim, T> const& shear, T const& contact_radius) const {
     // An open contact has neither force nor stiffness.
-    return squared_size(shear) /
+    return dot(shear, shear) /
            lanes::at_least(broadcast<T>(16.0 * reduced_shear_modulus) * contact_radius, smallest_normal<T>());
   }
 
@@ -204,7 +206,7 @@ struct HertzMindlin {
     T const former_energy = shear_energy<Dim, T>(memory.shear, former_radius);
     T const kept =
         lanes::at_most(contact_radius / lanes::at_least(former_radius, smallest_normal<T>()), broadcast<T>(1));
-    T const work_of_former = inner_product(memory.shear, slip);
+    T const work_of_former = dot(memory.shear, slip);
     memory.shear = scaled(memory.shear, kept);
     memory.scalars[0] = contact_radius;
     return former_energy - shear_energy<Dim, T>(memory.shear, contact_radius) -

@@ -41,31 +41,28 @@ void require_consistent(Law const& law, double radius) {
         "act): add `.moment = true` to its inputs, or give no rolling stiffness",
         stiffness.rolling);
   }
-  if constexpr (Law::inputs.motion && !HasDampingRatio<Law>) {
-    auto const normal_force = [&](double closing) {
-      ContactMemory<2, double> memory;
-      ContactKinematics<2, double> const closed{.overlap = depth,
+  auto const normal_force = [&](double overlap, double closing) {
+    ContactMemory<2, double> memory;
+    if constexpr (Bonds<Law>) {
+      if (overlap < 0.0) Law::bond(memory);
+    }
+    ContactKinematics<2, double> const approach{.overlap = overlap,
                                                 .slip_increment = 0.0,
                                                 .reduced_radius = radius / 2.0,
                                                 .overlap_increment = closing,
                                                 .reduced_mass = 1.0,
                                                 .time_step = 1e-6};
-      return law.respond(closed, memory).normal;
-    };
-    if (normal_force(1e-3 * depth) != normal_force(0.0)) {
-      reject(
-          "the contact law's normal force depends on how fast the contact closes (it has no damping_ratio(), so the "
-          "time step would be that of its springs alone): give it `double damping_ratio() const`, the share of "
-          "critical "
-          "damping that its dashpots reach");
-    }
+    return law.respond(approach, memory).normal;
+  };
+  if (Law::inputs.motion && damping_ratio_of(law) == 0.0 &&
+      normal_force(depth, 1e-3 * depth) != normal_force(depth, 0.0)) {
+    reject(
+        "the contact law's normal force depends on how fast the contact closes (it has no damping_ratio(), or one of "
+        "0, so the time step would be that of its springs alone): give it `double damping_ratio() const`, the share of "
+        "critical damping that its dashpots reach");
   }
   if (reach > 0.0) return;
-  ContactMemory<2, double> memory;
-  if constexpr (Bonds<Law>) Law::bond(memory);
-  ContactKinematics<2, double> const apart{
-      .overlap = -depth, .slip_increment = 0.0, .reduced_radius = radius / 2.0, .reduced_mass = 1.0};
-  double const force = law.respond(apart, memory).normal;
+  double const force = normal_force(-depth, 0.0);
   if (force != 0.0) {
     reject(
         "the contact law has a force of {} N across a gap of {} m (it has no interaction_range(), so pairs that far "

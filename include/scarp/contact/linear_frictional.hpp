@@ -44,7 +44,7 @@ struct LinearFrictional {
     T const closed = lanes::at_least(approach.overlap, broadcast<T>(0));
     T const normal = broadcast<T>(normal_stiffness / 2.0) * closed * closed;
     if (tangential_stiffness == 0.0) return normal;
-    return normal + broadcast<T>(0.5 / tangential_stiffness) * squared_size(memory.shear);
+    return normal + broadcast<T>(0.5 / tangential_stiffness) * dot(memory.shear, memory.shear);
   }
 };
 

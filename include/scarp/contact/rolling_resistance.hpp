@@ -65,7 +65,7 @@ struct RollingResistance {
   const {
     T const base = law.stored_energy(approach, memory);
     if (rolling_stiffness == 0.0) return base;
-    return base + broadcast<T>(0.5 / rolling_stiffness) * squared_size(memory.moment);
+    return base + broadcast<T>(0.5 / rolling_stiffness) * dot(memory.moment, memory.moment);
   }
 
   double interaction_range() const { return interaction_range_of(law); }

@@ -8,7 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "scarp/core/named_member.hpp"
 #include "scarp/core/one_version.hpp"
+
+SCARP_NAMED_MEMBER(validate)
 
 namespace scarp {
 
@@ -92,7 +95,11 @@ namespace detail {
 /// Settings after a check by their own `void validate() const`, where they have one.
 template <class Settings>
 Settings const& validated(Settings const& settings) {
-  if constexpr (requires { settings.validate(); }) settings.validate();
+  if constexpr (requires { settings.validate(); }) {
+    settings.validate();
+  } else {
+    static_assert(!names_validate<Settings>, "scarp: validate is never called: it needs `void validate() const`");
+  }
   return settings;
 }
 }  // namespace detail

@@ -38,7 +38,7 @@ enum class Reason : std::uint8_t {
 };
 
 /// A status and its reason.
-struct Verdict {
+struct [[nodiscard]] Verdict {
   Status status = Status::ok;    ///< how the response was reached
   Reason reason = Reason::none;  ///< why the status is not `ok`
 

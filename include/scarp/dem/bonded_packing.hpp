@@ -14,7 +14,7 @@ namespace scarp {
 /// Grains that have been cemented.
 /// \tparam PackingType a `Packing`
 template <class PackingType>
-struct BondedPacking {
+struct [[nodiscard]] BondedPacking {
   PackingType packing;    ///< under the law with bonds, at rest
   Verdict verdict{};      ///< of the list of near pairs; the packing is of use only where it is acceptable
   std::size_t bonds = 0;  ///< contacts that were bonded

@@ -9,28 +9,6 @@
 
 namespace scarp {
 
-/// Scalar product in the plane.
-template <class T>
-T dot(std::array<T, 2> const& a, std::array<T, 2> const& b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-/// Scalar product in space.
-template <class T>
-T dot(std::array<T, 3> const& a, std::array<T, 3> const& b) {
-  return inner_product(a, b);
-}
-
-/// Vector product; in the plane the number along its normal.
-template <class T>
-T cross(std::array<T, 2> const& a, std::array<T, 2> const& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-/// Vector product in space.
-template <class T>
-std::array<T, 3> cross(std::array<T, 3> const& a, std::array<T, 3> const& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Motion of a point at `arm` from the centre of a grain that turns by a small `turn`.
 template <class T>
 std::array<T, 2> turned_motion(T const& turn, std::array<T, 2> const& arm) {
@@ -85,13 +63,9 @@ template <class T>
 void carry_to_frame(std::array<T, 3>& remembered, std::array<T, 3> const& mean_turn, std::array<T, 3> const& normal) {
   using std::sqrt;
   T const twist = dot(mean_turn, normal);
-  auto const turned = cross(normal, remembered);
-  auto const laid =
-      tangential_part(std::array<T, 3>{remembered[0] + twist * turned[0], remembered[1] + twist * turned[1],
-                                       remembered[2] + twist * turned[2]},
-                      normal);
-  T const scale = sqrt(squared_size(remembered) / lanes::at_least(squared_size(laid), smallest_normal<T>()));
-  for (std::size_t k = 0; k < 3; ++k) remembered[k] = laid[k] * scale;
+  auto const laid = tangential_part(sum(remembered, scaled(cross(normal, remembered), twist)), normal);
+  T const scale = sqrt(dot(remembered, remembered) / lanes::at_least(dot(laid, laid), smallest_normal<T>()));
+  remembered = scaled(laid, scale);
 }
 
 }  // namespace scarp

@@ -27,7 +27,7 @@ std::array<Point<Dim, double>, static_cast<std::size_t>(Dim)> contact_axes(Point
     Point<3, double> helper{};
     helper[std::abs(axes[0][0]) < 0.6 ? 0 : 1] = 1.0;
     axes[1] = cross(axes[0], helper);
-    double const size = std::sqrt(squared_size(axes[1]));
+    double const size = std::sqrt(dot(axes[1], axes[1]));
     for (double& component : axes[1]) component /= size;
     axes[2] = cross(axes[0], axes[1]);
   }
@@ -61,10 +61,9 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
       double const springs = std::sqrt((k == 0 ? stiffness.normal : stiffness.tangential) *
                                        (l == 0 ? stiffness.normal : stiffness.tangential));
       modes(k, l) =
-          springs *
-          ((k == l ? centres : 0.0) +
-           spin_first * inner_product(cross(contact.touch.arm_first, e), cross(contact.touch.arm_first, f)) +
-           spin_second * inner_product(cross(contact.touch.arm_second, e), cross(contact.touch.arm_second, f)));
+          springs * ((k == l ? centres : 0.0) +
+                     spin_first * dot(cross(contact.touch.arm_first, e), cross(contact.touch.arm_first, f)) +
+                     spin_second * dot(cross(contact.touch.arm_second, e), cross(contact.touch.arm_second, f)));
       modes(l, k) = modes(k, l);
     }
   }

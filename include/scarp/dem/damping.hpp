@@ -5,10 +5,13 @@
 #include <concepts>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/named_member.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/dem/critical_step.hpp"
 #include "scarp/dem/grain_rows.hpp"
 #include "scarp/simd/pack.hpp"
+
+SCARP_NAMED_MEMBER(before_move)
 
 namespace scarp {
 

@@ -130,7 +130,7 @@ class CellDriver {
     loading_ = detail::validated(loading);
     steady_.clear();
   }
-  /// Of the next step.
+  /// The loading that the next step follows.
   Loading<dim> const& loading() const { return loading_; }
 
   /// The packing as it was before the last move, and the cell's displacement gradient during that move.

@@ -197,6 +197,7 @@ class PairResponse {
 
   /// Rotation during the last move; grains turn with the cell, their spin is a fluctuation about the affine one.
   Turning<dim, Lanes> turn(Block const& block, std::size_t field, std::size_t at) const {
+    if constexpr (!Block::has_spins) return affine_turn_;
     auto const spin = block.template read<Block::turns>(field, at);
     if constexpr (dim == 2) {
       return spin[0] * step_ + affine_turn_;

@@ -44,7 +44,7 @@ class Population {
       for (int k = 0; k < Shape::size_count; ++k) {
         size_(i, k) = static_cast<Scalar>(require_positive("grain size", sizes[i][detail::index(k)]));
       }
-      if constexpr (requires { Shape::check(sizes[i]); }) Shape::check(sizes[i]);
+      if constexpr (ChecksSizes<Shape>) Shape::check(sizes[i]);
       Size const grain = size(i);  // as stored: a population made from another one's sizes has the same bits
       double const content = Shape::content(grain);
       double const mass = density * content * thickness;
@@ -68,8 +68,14 @@ class Population {
     }
     // In a loop of its own: a product that is used twice is fused with no sum, which would change an inertia's last digit.
     if constexpr (HasInnerRadius<Shape>) {
-      for (std::size_t i = 0; i < sizes.size(); ++i)
-        unique_minimum_depth_ = std::min(unique_minimum_depth_, 2.0 * Shape::min_curvature_radius(size(i)));
+      std::array<double, static_cast<std::size_t>(Shape::orientation_count)> axis{};
+      if (!axis.empty()) axis.front() = 1.0;
+      for (std::size_t i = 0; i < sizes.size(); ++i) {
+        for (int part = 0; part < part_count<Shape>(); ++part) {
+          double const radius = Shape::inner_radius(part_pose<Shape>(size(i), axis, part));
+          unique_minimum_depth_ = std::min(unique_minimum_depth_, 2.0 * radius);
+        }
+      }
     }
   }
 
@@ -81,7 +87,7 @@ class Population {
   double thickness() const { return thickness_; }
   /// Sum of the grains' areas (2D) [m2] or volumes (3D) [m3].
   double content() const { return content_; }
-  /// Of all grains [kg].
+  /// Mass of all grains together [kg].
   double mass() const { return mass_; }
   /// Least bounding radius of a grain [m].
   double smallest_radius() const { return smallest_radius_; }

@@ -49,10 +49,9 @@ inline constexpr bool kernel_is_precompiled =
 /// \tparam Boundary a `ConstrainsGrains`
 template <class PackingOf, DampsMotion Damping = LocalDamping, ConstrainsGrains<PackingOf> Boundary = Periodic>
 class TimeStepper {
-  static_assert(
-      SeesAllGrains<Damping, PackingOf> || !requires { &Damping::before_move; },
-      "scarp: this damping's before_move is never called: it needs (PackingType const& packing, "
-      "NetForces<PackingType> const& forces, double time_step)");
+  static_assert(SeesAllGrains<Damping, PackingOf> || !detail::names_before_move<Damping>,
+                "scarp: before_move of a damping is never called: it needs (PackingType const& packing, "
+                "NetForces<PackingType> const& forces, double time_step)");
 
  public:
   using PackingType = PackingOf;                ///< type of the packings that it moves
@@ -233,8 +232,9 @@ class TimeStepper {
       Lanes const inverse_inertia = lanes::load(population.inverse_inertia() + start);
       std::array<std::array<Lanes, 4>, force_size / 4> force;
       for (std::size_t quad = 0; quad < force.size(); ++quad) {
-        force[quad] = lanes::load_quads<Scalar>(
-            [&](std::size_t lane) { return scratch_.forces.data() + (start + lane) * force_size + 4 * quad; });
+        force[quad] = lanes::from_quads<Scalar>([&](std::size_t lane) {
+          return lanes::FourScalars<Scalar>::read(scratch_.forces.data() + (start + lane) * force_size + 4 * quad);
+        });
       }
       Point<dim, Lanes> place;
       for (int a = 0; a < dim; ++a) place[detail::index(a)] = lanes::load(packing.position.column(a) + start);

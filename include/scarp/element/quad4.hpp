@@ -46,7 +46,7 @@ struct Quad4 : detail::OnCube<2> {
   static constexpr std::array<std::array<int, 2>, 4> facets() { return {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}; }
 
  private:
-  /// Of the nodes' coordinates.
+  /// Signs of the nodes' coordinates.
   static constexpr std::array<std::array<double, 2>, 4> signs{{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
 };
 

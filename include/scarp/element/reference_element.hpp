@@ -5,7 +5,10 @@
 #include <concepts>
 #include <tuple>
 
+#include "scarp/core/named_member.hpp"
 #include "scarp/tensor/tensor.hpp"
+
+SCARP_NAMED_MEMBER(reduced_quadrature)
 
 namespace scarp {
 
@@ -31,10 +34,15 @@ concept HasNodes = requires {
   requires Element::nodes > Element::dim;
 };
 
-/// shape(xi), shape_gradients(xi): values of the shape functions and their derivatives by the local coordinates.
+/// shape(xi): values of the shape functions.
 template <class Element>
-concept GivesShapes = HasNodes<Element> && requires(Vector<Element::dim> const& xi) {
+concept GivesShapeValues = HasNodes<Element> && requires(Vector<Element::dim> const& xi) {
   { Element::shape(xi) } -> std::same_as<ShapeValues<Element>>;
+};
+
+/// shape_gradients(xi): derivatives of the shape functions by the local coordinates.
+template <class Element>
+concept GivesShapeGradients = HasNodes<Element> && requires(Vector<Element::dim> const& xi) {
   { Element::shape_gradients(xi) } -> std::same_as<ShapeGradients<Element>>;
 };
 
@@ -48,14 +56,19 @@ concept GivesQuadrature = HasNodes<Element> && requires {
 
 /// Anything that can be integrated over: an element, or the side of one.
 template <class Element>
-concept ReferenceCell = GivesShapes<Element> && GivesQuadrature<Element>;
+concept ReferenceCell = GivesShapeValues<Element> && GivesShapeGradients<Element> && GivesQuadrature<Element>;
+
+/// An element names the element that its sides are, of one dimension less.
+template <class Element>
+concept NamesFacet = HasNodes<Element> && ReferenceCell<typename Element::Facet> && requires {
+  requires Element::Facet::dim == Element::dim - 1;
+  requires Element::facet_nodes == Element::Facet::nodes;
+};
 
 /// facets(): the local nodes of each side, in an order that runs with the outward normal's right-hand rule
 /// (in 2D counter-clockwise around the element).
 template <class Element>
-concept HasFacets = HasNodes<Element> && ReferenceCell<typename Element::Facet> && requires {
-  requires Element::Facet::dim == Element::dim - 1;
-  requires Element::facet_nodes == Element::Facet::nodes;
+concept HasFacets = NamesFacet<Element> && requires {
   { Element::facets()[0] } -> std::convertible_to<std::array<int, Element::facet_nodes>>;
 };
 
@@ -97,49 +110,37 @@ inline constexpr int quadrature_size = static_cast<int>(std::tuple_size_v<declty
 
 namespace detail {
 
+/// Names the missing member of a type that is no `ReferenceElement`.
 template <class Element>
-concept GivesShapeValues = requires(Vector<Element::dim> const& xi) {
-  { Element::shape(xi) } -> std::same_as<ShapeValues<Element>>;
-};
-template <class Element>
-concept GivesShapeGradients = requires(Vector<Element::dim> const& xi) {
-  { Element::shape_gradients(xi) } -> std::same_as<ShapeGradients<Element>>;
-};
-template <class Element>
-concept NamesFacet = ReferenceCell<typename Element::Facet> && requires {
-  requires Element::Facet::dim == Element::dim - 1;
-  requires Element::facet_nodes == Element::Facet::nodes;
-};
-
-/// What of an element is missing, in words.
-template <class Element, bool counted = HasNodes<Element>>
-struct MissingOfElement {
-  static_assert(counted, "scarp: an element needs `static constexpr int` dim (1 to 3) and nodes (more than dim)");
-  static constexpr bool nothing = false;
-};
-template <class Element>
-struct MissingOfElement<Element, true> {
-  static_assert(GivesShapeValues<Element>,
-                "scarp: an element needs `static ShapeValues<Element> shape(Vector<dim> const& xi)`");
-  static_assert(GivesShapeGradients<Element>,
-                "scarp: an element needs `static ShapeGradients<Element> shape_gradients(Vector<dim> const& xi)`, "
-                "shape (nodes, dim)");
-  static_assert(GivesQuadrature<Element>,
-                "scarp: an element needs `static std::array<QuadraturePoint<dim>, n> quadrature()`");
-  static_assert(NamesFacet<Element>,
-                "scarp: an element needs `using Facet = ...`, an element of one dimension less, and `facet_nodes`, its "
-                "number of nodes");
-  static_assert(
-      !NamesFacet<Element> || HasFacets<Element>,
-      "scarp: an element needs `static constexpr facets()`: arrays of its facets' local nodes, facet_nodes each");
-  static_assert(HasVtkCellType<Element>, "scarp: an element needs `static constexpr int vtk_cell_type`, for output");
-  static constexpr bool nothing = false;
-};
+consteval bool check_element() {
+  static_assert(HasNodes<Element>,
+                "scarp: an element needs `static constexpr int` dim (1 to 3) and nodes (more than dim)");
+  if constexpr (HasNodes<Element>) {
+    static_assert(GivesShapeValues<Element>,
+                  "scarp: an element needs `static ShapeValues<Element> shape(Vector<dim> const& xi)`");
+    static_assert(GivesShapeGradients<Element>,
+                  "scarp: an element needs `static ShapeGradients<Element> shape_gradients(Vector<dim> const& xi)`, "
+                  "shape (nodes, dim)");
+    static_assert(GivesQuadrature<Element>,
+                  "scarp: an element needs `static std::array<QuadraturePoint<dim>, n> quadrature()`");
+    static_assert(NamesFacet<Element>,
+                  "scarp: an element needs `using Facet = ...`, an element of one dimension less, and `facet_nodes`, "
+                  "its number of nodes");
+    static_assert(
+        !NamesFacet<Element> || HasFacets<Element>,
+        "scarp: an element needs `static constexpr facets()`: arrays of its facets' local nodes, facet_nodes each");
+    static_assert(GivesReducedQuadrature<Element> || !names_reduced_quadrature<Element>,
+                  "scarp: reduced_quadrature of an element is never called: it needs `static "
+                  "std::array<QuadraturePoint<dim>, n> reduced_quadrature()` of fewer points than quadrature()");
+    static_assert(HasVtkCellType<Element>, "scarp: an element needs `static constexpr int vtk_cell_type`, for output");
+  }
+  return ReferenceElement<Element>;
+}
 
 }  // namespace detail
 
 /// A `ReferenceElement`; for another type the compiler names the missing member.
 template <class Element>
-concept CheckedElement = ReferenceElement<Element> || detail::MissingOfElement<Element>::nothing;
+concept CheckedElement = detail::check_element<Element>();
 
 }  // namespace scarp

@@ -12,7 +12,6 @@
 #include "scarp/fault/detail/layer_checks.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/mesh/graded_lines.hpp"
-#include "scarp/mesh/jittered_grid.hpp"
 #include "scarp/mesh/pattern_grid.hpp"
 
 namespace scarp {
@@ -165,10 +164,9 @@ struct FaultMesh {
     } else {
       Mesh<Element> mesh{std::move(nodes), {}, {}, {"soil"}, {}};
       add_grid_cells(mesh, numbers, pattern, 0);
-      mesh.boundaries["left"] = left_facets(numbers, numbers.rows());
-      mesh.boundaries["right"] = right_facets(numbers, numbers.columns(), numbers.rows());
-      mesh.boundaries["bottom"] = lower_facets(numbers, 0, numbers.columns());
-      mesh.boundaries["surface"] = upper_facets(numbers, 0, numbers.columns(), numbers.rows());
+      GridSides const sides(numbers);
+      mesh.boundaries = {
+          {"left", sides.left}, {"right", sides.right}, {"bottom", sides.lower}, {"surface", sides.upper}};
       return mesh;
     }
   }

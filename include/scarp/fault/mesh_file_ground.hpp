@@ -129,7 +129,7 @@ MeshFileGround<E> ground_from_file(std::filesystem::path const& path, std::vecto
   auto const read = [&]() -> Mesh<E> {
     if constexpr (HasMidSides<E>) {
       if (file.element_type() == E::Linear::gmsh_type) {
-        return with_mid_side_nodes<E>(file.mesh<typename E::Linear>());
+        return with_nodes_of<E>(file.mesh<typename E::Linear>());
       }
     }
     return file.mesh<E>();

@@ -133,8 +133,8 @@ void add_footing_block(Mesh<Element>& mesh, double height, double size) {
   auto const numbers =
       add_grid_nodes(grid.nodes, columns, graded_lines(Spacing({{level, size}, {top, size}}), {level, top}, min_rows));
   add_grid_cells(grid, numbers, Pattern::crossed, 0);
-  grid.boundaries["footing_base"] = lower_facets(numbers, 0, numbers.columns());
-  grid.boundaries["footing_top"] = upper_facets(numbers, 0, numbers.columns(), numbers.rows());
+  GridSides const sides(numbers);
+  grid.boundaries = {{"footing_base", sides.lower}, {"footing_top", sides.upper}};
   auto block = with_nodes_of<Element>(std::move(grid));
   detail::put_on_base(block, mesh, 1e-6 * (columns.back() - columns.front()));
   block.boundaries.erase("footing_base");

@@ -15,7 +15,7 @@ namespace scarp {
 
 /// A tangent whose evaluation can fail, with its verdict. `tangent` [Pa] is usable whatever the verdict.
 template <int Dim>
-struct TangentResult {
+struct [[nodiscard]] TangentResult {
   VoigtTangent<Dim> tangent;  ///< [Pa], for engineering strain
   Verdict verdict;            ///< ok, or why the tangent was replaced
 };

@@ -12,7 +12,7 @@ namespace scarp {
 template <int Dim>
 using Fabric = Tensor<Dim>;
 
-/// Of the grains' first axes, which are the longest unless sizes were given otherwise. Only for shapes that have an orientation.
+/// Fabric of the grains' first axes, which are the longest unless sizes were given otherwise; for shapes with an orientation.
 template <class PackingType>
 Fabric<2> particle_fabric(PackingType const& packing) requires(PackingType::dim == 2 &&
                                                                PackingType::Shape::orientation_count == 2) {
@@ -74,18 +74,6 @@ ContactNetwork<PackingType::dim> contact_network(PackingType const& packing, typ
                                                .rattlers = rattling / grains}};
   if (sum > 0.0) network.fabric = normals / (0.5 * sum);
   return network;
-}
-
-/// Fabric of the contact normals alone.
-template <class PackingType>
-Fabric<PackingType::dim> contact_fabric(PackingType const& packing, typename PackingType::Law const& law) {
-  return contact_network(packing, law).fabric;
-}
-
-/// Mean numbers of contacts of a grain alone.
-template <class PackingType>
-Coordination coordination(PackingType const& packing, typename PackingType::Law const& law) {
-  return contact_network(packing, law).coordination;
 }
 
 }  // namespace scarp

@@ -80,4 +80,16 @@ struct SlidingContacts {
   }
 };
 
+/// Contacts at their shear limit as a share of all contacts of a packing; zero without contacts.
+template <class PackingType>
+double sliding_share(PackingType const& packing, typename PackingType::Law const& law) {
+  double sliding = 0.0;
+  double contacts = 0.0;
+  for_each_contact(packing, law, [&](Contact<PackingType::dim> const& contact) {
+    ++contacts;
+    if (SlidingContacts{}.slides(contact, law)) ++sliding;
+  });
+  return contacts > 0.0 ? sliding / contacts : 0.0;
+}
+
 }  // namespace scarp

@@ -21,28 +21,12 @@ struct ElementSide {
 /// the elements.
 template <ReferenceElement Element>
 std::vector<ElementSide<Element>> outer_facets(Mesh<Element> const& mesh) {
-  using Nodes = std::array<int, Element::facet_nodes>;
-  struct Entry {
-    Nodes key;
-    ElementSide<Element> side;
-  };
-  std::vector<Entry> entries;
-  for (int e = 0; e < detail::count(mesh.elements); ++e) {
-    for (auto facet : Element::facets()) {
-      for (int& node : facet) node = mesh.elements[detail::index(e)][detail::index(node)];
-      Nodes key = facet;
-      std::sort(key.begin(), key.end());
-      entries.push_back({key, {e, facet}});
-    }
-  }
-  std::stable_sort(entries.begin(), entries.end(), [](Entry const& a, Entry const& b) { return a.key < b.key; });
+  auto const sides = detail::sorted_sides(mesh);
   std::vector<ElementSide<Element>> outer;
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    bool const like_last = k > 0 && entries[k].key == entries[k - 1].key;
-    bool const like_next = k + 1 < entries.size() && entries[k].key == entries[k + 1].key;
-    if (!like_last && !like_next) outer.push_back(entries[k].side);
+  for (auto const& side : sides) {
+    if (detail::sides_with(sides, side.nodes).size() == 1) outer.push_back({side.element, side.nodes});
   }
-  std::stable_sort(outer.begin(), outer.end(), [](auto const& a, auto const& b) { return a.element < b.element; });
+  std::ranges::stable_sort(outer, {}, &ElementSide<Element>::element);
   return outer;
 }
 

@@ -43,14 +43,10 @@ void join(Mesh<Element>& mesh, Mesh<Element> const& part) {
   }
   for (auto const& [name, facets] : part.boundaries) {
     auto& united = mesh.boundaries[name];
-    auto const sorted = [](auto facet) {
-      std::sort(facet.begin(), facet.end());
-      return facet;
-    };
     std::set<std::array<int, Element::facet_nodes>> known;
-    for (auto const& facet : united) known.insert(sorted(facet));
+    for (auto const& facet : united) known.insert(detail::sorted_nodes(facet));
     for (auto const& facet : facets) {
-      if (known.insert(sorted(renumbered(facet))).second) united.push_back(renumbered(facet));
+      if (known.insert(detail::sorted_nodes(renumbered(facet))).second) united.push_back(renumbered(facet));
     }
   }
 }

@@ -103,36 +103,65 @@ void validate_jacobians(Mesh<Element> const& mesh) {
   }
 }
 
+template <class Nodes>
+Nodes sorted_nodes(Nodes nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+/// Numbers of the nodes of one of an element's facets, in the sense of the outward normal.
 template <class Element>
-void validate_boundaries(Mesh<Element> const& mesh) {
-  using Side = std::array<int, Element::facet_nodes>;
-  std::vector<std::pair<Side, Side>> sides;  // sorted and as it is
-  auto const sorted = [](auto facet) {
-    std::sort(facet.begin(), facet.end());
-    return facet;
-  };
-  for (auto const& element : mesh.elements) {
-    for (auto facet : Element::facets()) {
-      for (int& local : facet) {
-        local = element[index(local)];
-      }
-      sides.emplace_back(sorted(facet), facet);
+std::array<int, Element::facet_nodes> side_nodes(Mesh<Element> const& mesh, int element, int facet) {
+  auto nodes = Element::facets()[index(facet)];
+  for (int& node : nodes) node = mesh.elements[index(element)][index(node)];
+  return nodes;
+}
+
+/// A side of an element of a mesh.
+template <class Element>
+struct MeshSide {
+  std::array<int, Element::facet_nodes> nodes;   ///< in the sense of the outward normal
+  std::array<int, Element::facet_nodes> sorted;  ///< the same nodes
+  int element;
+  int facet;  ///< number of the side among `Element::facets()`
+};
+
+/// The sides of all elements by their sorted nodes; of those with the same nodes the first element's comes first.
+template <class Element>
+std::vector<MeshSide<Element>> sorted_sides(Mesh<Element> const& mesh) {
+  std::vector<MeshSide<Element>> sides;
+  for (int e = 0; e < count(mesh.elements); ++e) {
+    for (int f = 0; f < count(Element::facets()); ++f) {
+      auto const nodes = side_nodes(mesh, e, f);
+      sides.push_back({nodes, sorted_nodes(nodes), e, f});
     }
   }
-  std::sort(sides.begin(), sides.end());
+  std::ranges::stable_sort(sides, {}, &MeshSide<Element>::sorted);
+  return sides;
+}
+
+/// Those of the sorted sides that have these nodes, in whatever order: none, one or, between two elements, two.
+template <class Element>
+auto sides_with(std::vector<MeshSide<Element>> const& sides, decltype(MeshSide<Element>::nodes) const& nodes) {
+  return std::ranges::equal_range(sides, sorted_nodes(nodes), {}, &MeshSide<Element>::sorted);
+}
+
+template <class Element>
+void validate_boundaries(Mesh<Element> const& mesh) {
+  auto const sides = sorted_sides(mesh);
   for (auto const& [name, facets] : mesh.boundaries) {
-    std::set<Side> known;
+    std::set<std::array<int, Element::facet_nodes>> known;
     for (auto const& facet : facets) {
-      auto const side = std::ranges::lower_bound(sides, sorted(facet), {}, &std::pair<Side, Side>::first);
-      if (side == sides.end() || side->first != sorted(facet)) {
+      auto const found = sides_with(sides, facet);
+      if (found.empty()) {
         reject("boundary '{}' holds the facet ({}) (no element has this side): check its node numbers", name,
                listed(facet));
       }
-      if (!is_same_side<typename Element::Facet>(facet, side->second)) {
+      if (!is_same_side<typename Element::Facet>(facet, found.front().nodes)) {
         reject("boundary '{}' holds the facet ({}) (its element has these nodes in the order {}): reorder them", name,
-               listed(facet), listed(side->second));
+               listed(facet), listed(found.front().nodes));
       }
-      if (!known.insert(sorted(facet)).second) {
+      if (!known.insert(found.front().sorted).second) {
         reject("boundary '{}' holds the facet ({}) twice (loads on it would double): remove one", name, listed(facet));
       }
     }

@@ -31,13 +31,21 @@ bool same_winding(std::array<int, Cell::nodes> const& a, std::array<int, Cell::n
   }
 }
 
-/// The same line or plane cell, run through the other way.
+/// The same cell run through the other way, in space with the other handedness: its first two local axes are exchanged.
 template <class Cell>
 std::array<int, Cell::nodes> turned_round(std::array<int, Cell::nodes> nodes) {
   auto turned = nodes;
   if constexpr (Cell::dim == 1) {
     std::swap(turned[0], turned[1]);
-  } else if constexpr (Cell::dim == 2) {
+  } else if constexpr (Cell::dim == 3) {
+    auto const here = Cell::shape({0.11, 0.23, 0.37});  // where no two shape functions have one value
+    auto const there = Cell::shape({0.23, 0.11, 0.37});
+    for (int k = 0; k < Cell::nodes; ++k) {
+      int image = 0;
+      (here.array() - there(k)).abs().minCoeff(&image);
+      turned[index(k)] = nodes[index(image)];
+    }
+  } else {
     constexpr int corners = plane_corners<Cell>;
     for (int k = 0; k < Cell::nodes; ++k) {
       bool const mid_side = k >= corners;

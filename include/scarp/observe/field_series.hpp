@@ -49,7 +49,7 @@ ElementFields element_fields(Problem const& problem) {
   auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
   for (std::size_t e = 0; e < elements; ++e) {
     VoigtStress<Grid::dim> stress = VoigtStress<Grid::dim>::Zero();
-    geo::PlaneStrain strain{};
+    geo::Strain strain{};
     std::map<std::string, Mean> means;  // of the points that have the quantity
     Status worst = Status::ok;
     double whole = 0.0;
@@ -57,14 +57,7 @@ ElementFields element_fields(Problem const& problem) {
       int const point = Grid::points_per_element * static_cast<int>(e) + k;
       double const volume = volumes[static_cast<std::size_t>(point)];
       whole += volume;
-      auto const here = [&] {
-        auto const deformation = total_deformation(grid, point);
-        if constexpr (Grid::dim == 2) {
-          return geo::plane_strain(deformation);
-        } else {
-          return geo::space_strain(deformation);
-        }
-      }();
+      auto const here = geo::strain<Grid::dim>(total_deformation(grid, point));
       strain.volumetric += volume * here.volumetric;
       strain.deviatoric += volume * here.deviatoric;
       worst = std::max(worst, problem.responses()[static_cast<std::size_t>(point)].verdict.status);

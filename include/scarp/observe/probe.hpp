@@ -51,7 +51,7 @@ class RveProbe : public NeverStops {
     if (!report.verdict.acceptable()) return;
     auto const stress = committed_stress(problem, detail::require_point(problem, point_));
     auto const geo_stress = geo::plane_stress(stress);
-    auto const strain = geo::plane_strain(seen_deformation(problem, point_));
+    auto const strain = geo::strain<2>(seen_deformation(problem, point_));
     double fabric_of_contacts = std::numeric_limits<double>::quiet_NaN();
     double fabric_of_particles = fabric_of_contacts;
     double void_ratio = fabric_of_contacts;

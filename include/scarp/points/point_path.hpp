@@ -52,7 +52,7 @@ struct PathSettings {
 };
 
 /// What an `advance` along a path came to.
-struct PathReport {
+struct [[nodiscard]] PathReport {
   Verdict verdict{};     ///< why the path ended early
   double done = 0.0;     ///< share of the requested length that is committed
   int increments = 0;    ///< committed

@@ -38,7 +38,7 @@ struct PointSurvey {
 };
 
 /// Outcome of a response of all points.
-struct ResponseReport {
+struct [[nodiscard]] ResponseReport {
   Verdict verdict{};     ///< of the worst point
   int worst_point = -1;  ///< that is not acceptable, -1 for none
   long inner_steps = 0;  ///< DEM steps of all points

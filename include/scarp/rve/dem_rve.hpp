@@ -99,7 +99,10 @@ struct DemRve {
       reject("the packing of point {} cannot be used ({}): give the provider's source another one", site.index,
              name(state.verdict.reason));
     if (state.verdict.status == Status::fluid && !fluid_start)
-      require_contacts(fmt::format("the packing of point {}", site.index), 0);
+      reject(
+          "the packing of point {} has 0 contacts (it carries no stress and has no stiffness): compress it until its "
+          "grains touch",
+          site.index);
     return state;
   }
 

@@ -125,8 +125,6 @@ struct Clump {
   static double bounding_radius(Size<double> const& size) { return unit().bounding_radius * size[0]; }
   /// Distance of the centroid from the farthest centre of a disc [m].
   static double eccentricity(Size<double> const& size) { return unit().largest_offset * size[0]; }
-  /// Radius of the smallest disc [m].
-  static double min_curvature_radius(Size<double> const& size) { return unit().smallest_radius * size[0]; }
 
   /// Offset (x, y) of disc `part` from the grain's centre in the frame of space, and its radius [m].
   template <class T>
@@ -138,7 +136,7 @@ struct Clump {
             broadcast<T>(member.radius) * size[0]};
   }
 
-  /// Of the disc of a part [m].
+  /// Radius of the disc that a part is [m].
   template <class T>
   static T contact_radius(std::array<T, 3> const& pose) {
     return pose[2];
@@ -165,7 +163,6 @@ struct Clump {
     double gyration_squared = 0.0;
     double bounding_radius = 0.0;
     double largest_offset = 0.0;
-    double smallest_radius = Template::members.front().radius;
 
     Unit() {
       DiscUnion const whole = disc_union(Template::members);
@@ -177,7 +174,6 @@ struct Clump {
         double const offset = member.centre().norm();
         largest_offset = std::max(largest_offset, offset);
         bounding_radius = std::max(bounding_radius, offset + member.radius);
-        smallest_radius = std::min(smallest_radius, member.radius);
       }
     }
   };

@@ -32,12 +32,6 @@ struct Ellipse {
   static double bounding_radius(Size<double> const& size) { return std::max(size[0], size[1]); }
   /// Largest slope of the support function, \f$ |a - b| \f$ [m] per radian.
   static double eccentricity(Size<double> const& size) { return std::abs(size[0] - size[1]); }
-  /// At the ends of the major axis, \f$ b^2/a \f$ [m].
-  static double min_curvature_radius(Size<double> const& size) {
-    double const longer = std::max(size[0], size[1]);
-    double const shorter = std::min(size[0], size[1]);
-    return shorter * shorter / longer;
-  }
 
   /// (m, p, q) [m2]; the deviator (p, q) turns by twice the angle of the major axis.
   template <class T>
@@ -63,7 +57,7 @@ struct Ellipse {
     return (pose[0] - deviator) / std::sqrt(pose[0] + deviator);
   }
 
-  /// Of one grain along a unit normal: value, slope and radius of curvature [m].
+  /// Support function of one grain along a unit normal: value, slope and radius of curvature [m].
   template <class T>
   static Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& normal) {
     return supports(pose, pose, normal)[0];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scarp/shape/support_contact.hpp"
+#include "scarp/simd/vectors.hpp"
 
 namespace scarp {
 
@@ -44,8 +45,6 @@ struct OverlapProbe {
   bool is_finite() const { return std::isfinite(value + slope); }
 };
 
-inline double across(Point<2, double> const& a, Point<2, double> const& b) { return a[0] * b[1] - a[1] * b[0]; }
-inline double along(Point<2, double> const& a, Point<2, double> const& b) { return a[0] * b[0] + a[1] * b[1]; }
 inline Point<2, double> unit(Point<2, double> const& a) {
   double const length = std::hypot(a[0], a[1]);
   return {a[0] / length, a[1] / length};
@@ -67,7 +66,7 @@ class MinimumTranslation {
 
   /// From directions all round. \return whether no other direction can be better by more than 1e-10 of the grains' size
   bool search() {
-    bool const apart = along(branch_, branch_) > 0.0;
+    bool const apart = dot(branch_, branch_) > 0.0;
     return search_from(apart ? unit(branch_) : Point<2, double>{1.0, 0.0},
                        {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75});
   }
@@ -144,8 +143,8 @@ class MinimumTranslation {
       made.second = Shape::support(second_, n);
     }
     Point<2, double> const t{-n[1], n[0]};
-    made.value = made.size() - along(branch_, n);
-    made.slope = made.first.slope + made.second.slope - along(branch_, t);
+    made.value = made.size() - dot(branch_, n);
+    made.slope = made.first.slope + made.second.slope - dot(branch_, t);
     made.corner = {made.value * n[0] + made.slope * t[0], made.value * n[1] + made.slope * t[1]};
     return made;
   }
@@ -155,7 +154,7 @@ class MinimumTranslation {
     auto const& a = probes_[from];
     auto const& b = probes_[to];
     auto const inside = [](Point<2, double> const& left, Point<2, double> const& n, Point<2, double> const& right) {
-      return across(left, n) > 0.0 && across(n, right) > 0.0;
+      return cross(left, n) > 0.0 && cross(n, right) > 0.0;
     };
     // Along the edge's normal both are equal.
     Point<2, double> const edge{b.corner[0] - a.corner[0], b.corner[1] - a.corner[1]};
@@ -165,7 +164,7 @@ class MinimumTranslation {
     if (!is_corner) crossing = {crossing[0] / length, crossing[1] / length};
     Point<2, double> const middle = unit({a.normal[0] + b.normal[0], a.normal[1] + b.normal[1]});
     if (is_corner || !inside(a.normal, crossing, b.normal)) crossing = middle;
-    DirectionArc arc{from, to, std::max(along(crossing, a.corner), along(crossing, b.corner)), crossing};
+    DirectionArc arc{from, to, std::max(dot(crossing, a.corner), dot(crossing, b.corner)), crossing};
     for (auto const* end : {&a, &b}) {
       double const distance = std::hypot(end->corner[0], end->corner[1]);
       if (!(distance > 0.0)) continue;
@@ -176,7 +175,7 @@ class MinimumTranslation {
         arc.split = away;
       }
     }
-    if (!(across(a.normal, b.normal) > 1e-14)) arc.bound = std::min(a.value, b.value);  // as fine as directions are
+    if (!(cross(a.normal, b.normal) > 1e-14)) arc.bound = std::min(a.value, b.value);  // as fine as directions are
     arcs_.push_back(arc);
   }
 
@@ -186,7 +185,7 @@ class MinimumTranslation {
     for (auto const& arc : arcs_) {
       if ((to_the_left ? arc.from : arc.to) != best_) continue;
       auto const& other = probes_[to_the_left ? arc.to : arc.from].normal;
-      angle = std::atan2(std::abs(across(start.normal, other)), along(start.normal, other));
+      angle = std::atan2(std::abs(cross(start.normal, other)), dot(start.normal, other));
     }
     return angle;
   }

@@ -5,8 +5,12 @@
 #include <concepts>
 #include <cstddef>
 
+#include "scarp/core/named_member.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/simd/pack.hpp"
+
+SCARP_NAMED_MEMBER(inner_radius)
+SCARP_NAMED_MEMBER(check)
 
 namespace scarp {
 
@@ -38,15 +42,25 @@ struct ContactGeometry {
 template <class Shape, class T = double>
 using SizeOf = std::array<T, static_cast<std::size_t>(Shape::size_count)>;
 
-/// Everything in the same file and frame: `size` are the shape's parameters of one grain [m], `pose` what the contact
-/// search needs of a grain at its present orientation.
+/// content(size): area [m2] or volume [m3] of a grain, whose parameters are `size`.
 template <class Shape>
-concept HasGrainSize = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size) {
-  { Shape::content(size) } -> std::same_as<double>;           // area (2D) [m2] or volume [m3]
-  { Shape::gyration_squared(size) } -> std::same_as<double>;  // second moment about the centre / content [m2]
-  { Shape::bounding_radius(size) } -> std::same_as<double>;   // [m]
-  { Shape::eccentricity(size) } -> std::same_as<double>;      // largest change of the support function per radian [m]
-  { Shape::min_curvature_radius(size) } -> std::same_as<double>;  // [m]
+concept HasContent = requires(SizeOf<Shape> const& size) {
+  { Shape::content(size) } -> std::same_as<double>;
+};
+/// gyration_squared(size): second moment about the centre over the content [m2].
+template <class Shape>
+concept HasGyration = requires(SizeOf<Shape> const& size) {
+  { Shape::gyration_squared(size) } -> std::same_as<double>;
+};
+/// bounding_radius(size) [m].
+template <class Shape>
+concept HasBoundingRadius = requires(SizeOf<Shape> const& size) {
+  { Shape::bounding_radius(size) } -> std::same_as<double>;
+};
+/// eccentricity(size): largest change of the support function per radian [m].
+template <class Shape>
+concept HasEccentricity = requires(SizeOf<Shape> const& size) {
+  { Shape::eccentricity(size) } -> std::same_as<double>;
 };
 
 /// Number of convex parts that a grain is composed of; one where the shape does not declare it.
@@ -92,13 +106,21 @@ auto part_pose(Size const& size, Orientation const& orientation, int part) {
   }
 }
 
-/// A shape makes poses from sizes and orientation, and has a contact radius.
+/// A shape makes poses, what the contact search needs of grains at their present orientation, from sizes and orientations.
 template <class Shape>
-concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::size_count)> const& size,
-                           std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation,
-                           PoseOf<Shape> const& pose) {
+concept HasPose = requires(SizeOf<Shape> const& size,
+                           std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation) {
   { part_pose<Shape>(size, orientation, 0) } -> std::same_as<PoseOf<Shape>>;
-  { Shape::contact_radius(pose) } -> std::same_as<double>;  // of the sphere or disc that curved contact laws see [m]
+};
+/// contact_radius(pose): radius [m] of the sphere or disc that curved contact laws see.
+template <class Shape>
+concept HasContactRadius = requires(PoseOf<Shape> const& pose) {
+  { Shape::contact_radius(pose) } -> std::same_as<double>;
+};
+/// A shape names whether its search starts from the last normal.
+template <class Shape>
+concept NamesItsStart = requires {
+  { Shape::warm_starts_normal } -> std::convertible_to<bool>;
 };
 
 /// touch(first, second, branch, normal): `branch` from the first grain's centre to the second's; `normal` a unit vector to
@@ -107,7 +129,6 @@ concept HasPose = requires(std::array<double, static_cast<std::size_t>(Shape::si
 template <class Shape>
 concept Touches = requires(PoseOf<Shape> const& pose, Point<Shape::dim, double> const& branch) {
   { Shape::touch(pose, pose, branch, branch) } -> std::same_as<ContactGeometry<Shape::dim, double>>;
-  { Shape::warm_starts_normal } -> std::convertible_to<bool>;
 };
 
 /// pose, contact_radius and touch accept packs too: the pair loop evaluates several pairs at once.
@@ -121,92 +142,84 @@ concept TouchesInPacks =
   { Shape::touch(pose, pose, branch, branch) } -> std::same_as<ContactGeometry<Shape::dim, lanes::Pack<double>>>;
 };
 
-/// A grain shape: static functions only, templates over the scalar so that packs of lanes pass through.
-template <class Shape>
-concept ParticleShape = HasGrainSize<Shape> && HasPose<Shape> && Touches<Shape> && TouchesInPacks<Shape>;
-
-/// inner_radius(pose): of a disc [m] that rolls along the inside of the boundary everywhere (Blaschke); its least over
-/// all poses is min_curvature_radius(size).
+/// inner_radius(pose): of a disc [m] that rolls along the inside of the boundary everywhere (Blaschke), the same in all
+/// orientations.
 template <class Shape>
 concept HasInnerRadius = requires(PoseOf<Shape> const& pose) {
   { Shape::inner_radius(pose) } -> std::same_as<double>;
 };
 
-namespace detail {
-
+/// check(size): rejects sizes that make no grain.
 template <class Shape>
-concept HasShapeCounts = requires {
+concept ChecksSizes = requires(SizeOf<Shape> const& size) {
+  Shape::check(size);
+};
+
+/// A shape counts its dimensions and the numbers of a grain. Packings turn the axes (cos, sin) of plane grains; grains in
+/// space are the same all round.
+template <class Shape>
+concept CountsNumbers = requires {
   requires Shape::dim == 2 || Shape::dim == 3;
   requires Shape::size_count >= 1 && Shape::orientation_count >= 0 && Shape::pose_count >= 1;
 };
-/// Packings turn the axes (cos, sin) of plane grains; grains in space are the same all round.
+/// The orientation of a shape is one that packings turn.
 template <class Shape>
 concept HasAxesOfItsSpace = Shape::orientation_count == 0 || (Shape::dim == 2 && Shape::orientation_count == 2);
-/// What of a shape is missing, in words.
-template <class Shape, bool counted = HasShapeCounts<Shape>>
-struct MissingOfShape {
-  static_assert(counted,
+
+/// A grain shape: static functions only, templates over the scalar so that packs of lanes pass through.
+template <class Shape>
+concept ParticleShape = CountsNumbers<Shape> && HasAxesOfItsSpace<Shape> && HasContent<Shape> && HasGyration<Shape> &&
+    HasBoundingRadius<Shape> && HasEccentricity<Shape> && HasPose<Shape> && HasContactRadius<Shape> &&
+    NamesItsStart<Shape> && Touches<Shape> && TouchesInPacks<Shape>;
+
+namespace detail {
+
+/// Names the missing member of a type that is no `ParticleShape`.
+template <class Shape>
+consteval bool check_shape() {
+  static_assert(CountsNumbers<Shape>,
                 "scarp: a shape needs `static constexpr int` dim (2 or 3), size_count, orientation_count and "
                 "pose_count");
-  static constexpr bool nothing = false;
-};
-template <class Shape>
-struct MissingOfShape<Shape, true> {
-  static_assert(
-      HasAxesOfItsSpace<Shape>,
-      "scarp: a shape's orientation_count is 2 (cos, sin of its axis) for plane grains with axes, 0 for round "
-      "ones and in space");
-  static_assert(
-      requires(SizeOf<Shape> const& size) {
-        { Shape::content(size) } -> std::same_as<double>;
-      },
-      "scarp: a shape needs `static double content(SizeOf<Shape> const&)`: area [m2] or volume [m3] of a grain");
-  static_assert(
-      requires(SizeOf<Shape> const& size) {
-        { Shape::gyration_squared(size) } -> std::same_as<double>;
-      },
-      "scarp: a shape needs `static double gyration_squared(SizeOf<Shape> const&)` [m2]: second moment over content");
-  static_assert(
-      requires(SizeOf<Shape> const& size) {
-        { Shape::bounding_radius(size) } -> std::same_as<double>;
-      },
-      "scarp: a shape needs `static double bounding_radius(SizeOf<Shape> const&)` [m]");
-  static_assert(
-      requires(SizeOf<Shape> const& size) {
-        { Shape::eccentricity(size) } -> std::same_as<double>;
-      },
-      "scarp: a shape needs `static double eccentricity(SizeOf<Shape> const&)` [m]: largest change of its support per "
-      "radian");
-  static_assert(
-      requires(SizeOf<Shape> const& size) {
-        { Shape::min_curvature_radius(size) } -> std::same_as<double>;
-      },
-      "scarp: a shape needs `static double min_curvature_radius(SizeOf<Shape> const&)` [m]");
-  static_assert(
-      requires(SizeOf<Shape> const& size,
-               std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation) {
-        { part_pose<Shape>(size, orientation, 0) } -> std::same_as<PoseOf<Shape>>;
-      },
-      "scarp: a shape needs `static std::array<T, pose_count> pose(size, orientation)`, of arrays of T");
-  static_assert(
-      requires(PoseOf<Shape> const& pose) {
-        { Shape::contact_radius(pose) } -> std::same_as<double>;
-      },
-      "scarp: a shape needs `static T contact_radius(pose)` [m], of an std::array<T, pose_count>");
-  static constexpr bool remembers = requires {
-    { Shape::warm_starts_normal } -> std::convertible_to<bool>;
-  };
-  static_assert(remembers,
-                "scarp: a shape needs `static constexpr bool warm_starts_normal`: whether its search starts from the "
-                "last normal");
-  static_assert(!remembers || Touches<Shape>,
-                "scarp: a shape needs `static ContactGeometry<dim, T> "
-                "touch(pose, pose, branch, normal)`");
-  static_assert(!(HasPose<Shape> && Touches<Shape>) || TouchesInPacks<Shape>,
-                "scarp: a shape is evaluated for several "
-                "pairs at once: make pose, contact_radius and touch templates over the scalar");
-  static constexpr bool nothing = false;
-};
+  if constexpr (CountsNumbers<Shape>) {
+    static_assert(
+        HasAxesOfItsSpace<Shape>,
+        "scarp: a shape's orientation_count is 2 (cos, sin of its axis) for plane grains with axes, 0 for round "
+        "ones and in space");
+    static_assert(
+        HasContent<Shape>,
+        "scarp: a shape needs `static double content(SizeOf<Shape> const&)`: area [m2] or volume [m3] of a grain");
+    static_assert(
+        HasGyration<Shape>,
+        "scarp: a shape needs `static double gyration_squared(SizeOf<Shape> const&)` [m2]: second moment over content");
+    static_assert(HasBoundingRadius<Shape>,
+                  "scarp: a shape needs `static double bounding_radius(SizeOf<Shape> const&)` [m]");
+    static_assert(HasEccentricity<Shape>,
+                  "scarp: a shape needs `static double eccentricity(SizeOf<Shape> const&)` [m]: largest change of its "
+                  "support per "
+                  "radian");
+    static_assert(HasPose<Shape>,
+                  "scarp: a shape needs `static std::array<T, pose_count> pose(size, orientation)`, of arrays of T");
+    static_assert(HasContactRadius<Shape>,
+                  "scarp: a shape needs `static T contact_radius(pose)` [m], of an std::array<T, pose_count>");
+    static_assert(NamesItsStart<Shape>,
+                  "scarp: a shape needs `static constexpr bool warm_starts_normal`: whether its search starts from the "
+                  "last normal");
+    static_assert(!NamesItsStart<Shape> || Touches<Shape>,
+                  "scarp: a shape needs `static ContactGeometry<dim, T> touch(pose, pose, branch, normal)`");
+    static_assert(
+        !(HasPose<Shape> && HasContactRadius<Shape> && Touches<Shape>) || TouchesInPacks<Shape>,
+        "scarp: a shape is evaluated for several pairs at once: make pose, contact_radius and touch templates "
+        "over the scalar");
+  }
+  if constexpr (ParticleShape<Shape> && !requires { typename Shape::Bare; }) {
+    static_assert(HasInnerRadius<Shape> || !names_inner_radius<Shape>,
+                  "scarp: inner_radius of a shape is never called: it needs `static double "
+                  "inner_radius(std::array<double, pose_count> const& pose)` [m]");
+    static_assert(ChecksSizes<Shape> || !names_check<Shape>,
+                  "scarp: check of a shape is never called: it needs `static void check(SizeOf<Shape> const&)`");
+  }
+  return ParticleShape<Shape>;
+}
 
 /// Compiles the shape for several pairs at once, before the pair loop does: what cannot be compiled, an `if` on a distance
 /// for example, is then reported with this short name, by clang with the comment below, and not from within the loop.
@@ -225,8 +238,7 @@ constexpr bool a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if(
 
 /// A `ParticleShape`; for another type the compiler names the missing member.
 template <class Shape>
-concept CheckedShape = ((ParticleShape<Shape> && detail::HasAxesOfItsSpace<Shape>) ||
-                        detail::MissingOfShape<Shape>::nothing) &&
-                       detail::a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if<Shape>();
+concept CheckedShape =
+    detail::check_shape<Shape>() && detail::a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if<Shape>();
 
 }  // namespace scarp

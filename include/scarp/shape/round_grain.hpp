@@ -47,7 +47,6 @@ struct RoundGrain {
 
   static double bounding_radius(Size<double> const& size) { return size[0]; }  ///< The radius [m].
   static double eccentricity(Size<double> const&) { return 0.0; }  ///< Zero: the support function is constant.
-  static double min_curvature_radius(Size<double> const& size) { return size[0]; }  ///< The radius [m].
 
   /// The radius [m]; there is no orientation.
   template <class T>

@@ -66,16 +66,6 @@ struct Superellipse {
     return largest_of(size, [](Support<double> const& support) { return std::abs(support.slope); });
   }
 
-  /// Above an exponent of one the true value is zero, at the tips; a stand-in replaces it that shrinks from that of
-  /// the ellipse to zero at exponent two.
-  static double min_curvature_radius(Size<double> const& size) {
-    if (size[2] < 1.0) {
-      return 1.0 / largest_of(size, [](Support<double> const& support) { return 1.0 / support.curvature_radius; });
-    }
-    double const shorter = std::min(size[0], size[1]);
-    return (2.0 - size[2]) * shorter * shorter / std::max(size[0], size[1]);
-  }
-
   /// From half axes [m], exponent and axis of one grain; `q` follows from the exponent.
   template <class T>
   static Pose<T> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
@@ -91,7 +81,7 @@ struct Superellipse {
     return sqrt(pose[2] * pose[3]);
   }
 
-  /// Of one grain along a unit normal: value, slope and radius of curvature [m].
+  /// Support function of one grain along a unit normal: value, slope and radius of curvature [m].
   template <class T>
   static SuperellipseSupport<T> support(Pose<T> const& pose, Point<2, T> const& normal) {
     return superellipse_supports<T, 1>({pose}, normal)[0];

@@ -12,8 +12,9 @@
 namespace scarp {
 
 /// Grains of one shape and of several species, for `LawPerSpecies`: size is that of the shape, then the species 1 to `Species`.
-template <ParticleShape Shape, int Species>
+template <CheckedShape Shape, int Species>
 struct WithSpecies {
+  using Bare = Shape;                                                    ///< grains without species
   static constexpr int dim = Shape::dim;                                 ///< of `Shape`
   static constexpr int size_count = Shape::size_count + 1;               ///< those of `Shape`, then the species
   static constexpr int orientation_count = Shape::orientation_count;     ///< of `Shape`
@@ -32,7 +33,7 @@ struct WithSpecies {
     double const species = size.back();
     if (!(species >= 1.0 && species <= Species && species == std::floor(species)))
       reject("a grain is of species {} (there are 1 to {}): give the last number of its size", species, Species);
-    if constexpr (requires { Shape::check(bare(size)); }) Shape::check(bare(size));
+    if constexpr (ChecksSizes<Shape>) Shape::check(bare(size));
   }
 
   /// Area [m2] or volume [m3] by `Shape`.
@@ -43,8 +44,6 @@ struct WithSpecies {
   static double bounding_radius(Size<double> const& size) { return Shape::bounding_radius(bare(size)); }
   /// Largest change of the support function per radian by `Shape` [m].
   static double eccentricity(Size<double> const& size) { return Shape::eccentricity(bare(size)); }
-  /// By `Shape` [m].
-  static double min_curvature_radius(Size<double> const& size) { return Shape::min_curvature_radius(bare(size)); }
 
   /// Pose of a grain by `Shape`, or of its part `part`, with the species as last number.
   template <class T, class Orientation, class... Part>

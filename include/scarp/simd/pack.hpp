@@ -47,7 +47,7 @@ constexpr T smallest_normal() {
 
 namespace scarp::lanes {
 
-/// Of one vector register of the instruction set that a source is compiled for.
+/// Size of one vector register of the instruction set that a source is compiled for.
 inline constexpr std::size_t register_bytes = static_cast<std::size_t>(scarp::detail::bytes_of_register());
 
 namespace detail {
@@ -145,26 +145,6 @@ struct BasicPack {
 
   Vector vector;  ///< one scalar for each lane
 
-  /// One scalar of a pack that may be assigned to.
-  class Lane {
-   public:
-    /// Of a pack, which must outlive this reference.
-    [[gnu::always_inline]] Lane(BasicPack& pack, std::size_t lane) : pack_(pack), lane_(lane) {}
-    Lane(Lane const&) = default;
-    [[gnu::always_inline]] operator Scalar() const { return pack_.vector[lane_]; }  ///< The lane's value.
-    /// Writes the lane.
-    [[gnu::always_inline]] Lane& operator=(Scalar value) {
-      pack_.vector[lane_] = value;
-      return *this;
-    }
-    /// Copies the value of another lane.
-    [[gnu::always_inline]] Lane& operator=(Lane const& other) { return *this = Scalar(other); }
-
-   private:
-    BasicPack& pack_;
-    std::size_t lane_;
-  };
-
   static constexpr std::size_t size() { return Width; }  ///< Number of lanes.
 
   BasicPack() = default;
@@ -173,16 +153,8 @@ struct BasicPack {
   template <FitsInto<Scalar> Number>
   [[gnu::always_inline]] BasicPack(Number number)
       : vector(filled(static_cast<Scalar>(number), std::make_index_sequence<Width>())) {}
-  /// generator(lane) in each lane, whose number is a constant that converts to std::size_t.
-  template <class Generator>
-    requires std::is_invocable_r_v<Scalar, Generator&, std::integral_constant<std::size_t, 0>>
-  [[gnu::always_inline]] explicit BasicPack(Generator&& generator)
-      : vector(generated(generator, std::make_index_sequence<Width>())) {}
-
-  /// Value of one lane, counted from zero.
+  /// Value of one lane, counted from zero; `vector[lane]` may be assigned to.
   [[gnu::always_inline]] Scalar operator[](std::size_t lane) const { return vector[lane]; }
-  /// Reference to one lane, counted from zero.
-  [[gnu::always_inline]] Lane operator[](std::size_t lane) { return {*this, lane}; }
 
   [[gnu::always_inline]] BasicPack operator+() const { return *this; }
   [[gnu::always_inline]] BasicPack operator-() const { return BasicPack(-vector); }
@@ -227,10 +199,6 @@ struct BasicPack {
   template <std::size_t... Lanes>
   [[gnu::always_inline]] static Vector filled(Scalar value, std::index_sequence<Lanes...>) {
     return Vector{(static_cast<void>(Lanes), value)...};
-  }
-  template <class Generator, std::size_t... Lanes>
-  [[gnu::always_inline]] static Vector generated(Generator& generator, std::index_sequence<Lanes...>) {
-    return Vector{static_cast<Scalar>(generator(std::integral_constant<std::size_t, Lanes>()))...};
   }
 };
 

@@ -73,16 +73,10 @@ std::array<BasicPack<Scalar, Width>, 4> from_quads(QuadOf const& quad_of) {
   } else {
     for (std::size_t lane = 0; lane < Width; ++lane) {
       auto const quad = quad_of(lane);
-      for (std::size_t c = 0; c < 4; ++c) packs[c][lane] = quad.value[c];
+      for (std::size_t c = 0; c < 4; ++c) packs[c].vector[lane] = quad.value[c];
     }
   }
   return packs;
-}
-
-/// Four neighbouring numbers of one row per lane, as four packs: pack c holds row_of(lane)[c].
-template <class Scalar, std::size_t Width = lane_count<Scalar>, class RowOf>
-std::array<BasicPack<Scalar, Width>, 4> load_quads(RowOf const& row_of) {
-  return from_quads<Scalar, Width>([&](std::size_t lane) { return FourScalars<Scalar>::read(row_of(lane)); });
 }
 
 /// The reverse in registers: quad k holds lane k of the four packs.

@@ -242,7 +242,7 @@ class LinearPredictor {
   /// has no solution.
   Eigen::VectorXd missing() {
     Eigen::VectorXd increment = Eigen::VectorXd::Zero(problem_.dof_count());
-    linearised_.solve(increment, Eigen::VectorXd::Zero(problem_.dof_count()));
+    static_cast<void>(linearised_.solve(increment, Eigen::VectorXd::Zero(problem_.dof_count())));
     return linearised_.system().gather(increment);
   }
 
@@ -258,7 +258,7 @@ class LinearPredictor {
     Eigen::VectorXd increment = prescribed(from, to);
     Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
     // A prediction that fails is no more than a poor first guess.
-    linearised_.solve(increment, more_load);
+    static_cast<void>(linearised_.solve(increment, more_load));
     return increment;
   }
 

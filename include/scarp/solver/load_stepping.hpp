@@ -51,7 +51,7 @@ struct NoObserver {
 };
 
 /// How far a run came.
-struct RunReport {
+struct [[nodiscard]] RunReport {
   Verdict verdict;                     ///< acceptable where the run reached its last load factor
   Reason last_failure = Reason::none;  ///< why the last rejected attempt was rejected
   int worst_point = -1;                ///< material point of that attempt, -1 for none

@@ -19,7 +19,7 @@ struct PartResidual {
 };
 
 /// Forces and residuals of an increment of displacement, with the points' report.
-struct Evaluation : ResponseReport {
+struct [[nodiscard]] Evaluation : ResponseReport {
   Eigen::VectorXd unbalanced{};       ///< internal minus external force of all degrees of freedom [N]
   double residual = 0.0;              ///< see EquilibriumProblem::residual
   std::vector<PartResidual> parts{};  ///< see EquilibriumProblem::residuals; empty where the whole is the only one
@@ -41,7 +41,7 @@ struct IterationRecord {
 using StopCondition = std::function<bool()>;
 
 /// How one attempt at a load step went.
-struct StepReport {
+struct [[nodiscard]] StepReport {
   int step = 0;                            ///< number of the accepted step it was to become, from 1
   double load = 0.0;                       ///< load factor at its end
   double load_increment = 0.0;             ///< growth of the load factor

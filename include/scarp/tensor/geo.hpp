@@ -15,34 +15,27 @@ struct PlaneStress {
   double q;  ///< [Pa]
 };
 
-/// Of a Cauchy stress [Pa], tension positive: p is its mean in the plane, compression positive.
+/// Views of a Cauchy stress [Pa], tension positive: p is its mean in the plane, compression positive.
 inline PlaneStress plane_stress(VoigtStress<2> const& stress) {
   double const half_difference = (stress(0) - stress(1)) / 2.0;
   return {-(stress(0) + stress(1)) / 2.0, std::hypot(half_difference, stress(2))};
 }
 
-/// Of the logarithmic strain: \f$ \varepsilon_v = -\ln\det F,\; \varepsilon_q = \sqrt{2 e_{ij} e_{ij}} \f$ (difference of the
-/// principal strains).
-struct PlaneStrain {
+/// Measures of the logarithmic strain, \f$ \varepsilon_v = -\ln\det F,\; \varepsilon_q = \varepsilon_1 - \varepsilon_3 \f$: the difference
+/// of the outer principal strains, in the plane \f$ \sqrt{2 e_{ij} e_{ij}} \f$.
+struct Strain {
   double volumetric;  ///< contraction positive
   double deviatoric;  ///< at least zero
 };
 
 /// deformation: gradient of the present with respect to the initial position
-inline PlaneStrain plane_strain(Tensor<2> const& deformation) {
-  Eigen::SelfAdjointEigenSolver<Tensor<2>> solver;
+template <int Dim>
+Strain strain(Tensor<Dim> const& deformation) {
+  Eigen::SelfAdjointEigenSolver<Tensor<Dim>> solver;
   solver.computeDirect(deformation.transpose() * deformation, Eigen::EigenvaluesOnly);
-  double const smaller = std::log(solver.eigenvalues()(0)) / 2.0;
-  double const larger = std::log(solver.eigenvalues()(1)) / 2.0;
-  return {-(smaller + larger), larger - smaller};
-}
-
-/// The same in space: the deviatoric part is the difference of the outer principal strains.
-inline PlaneStrain space_strain(Tensor<3> const& deformation) {
-  Eigen::SelfAdjointEigenSolver<Tensor<3>> solver;
-  solver.computeDirect(deformation.transpose() * deformation, Eigen::EigenvaluesOnly);
-  Vector<3> const strains = solver.eigenvalues().array().log() / 2.0;
-  return {-strains.sum(), strains(2) - strains(0)};
+  Vector<Dim> principal;
+  for (int k = 0; k < Dim; ++k) principal(k) = std::log(solver.eigenvalues()(k)) / 2.0;
+  return {-principal.sum(), principal(Dim - 1) - principal(0)};
 }
 
 }  // namespace scarp::geo

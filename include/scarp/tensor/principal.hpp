@@ -19,7 +19,7 @@ struct Principal {
   Tensor<3> directions;  ///< unit vectors, one in each column
 };
 
-/// Of a symmetric tensor, of which only the lower triangle is read.
+/// Principal values and directions of a symmetric tensor, of which only the lower triangle is read.
 inline Principal principal(Tensor<3> const& symmetric) {
   Eigen::SelfAdjointEigenSolver<Tensor<3>> const solver(symmetric);
   return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};

@@ -195,7 +195,7 @@ TEST_CASE("a mesh of other elements is refused and the right element named") {
 }
 
 TEST_CASE("types of elements have the numbers of Gmsh's manual, each once") {
-  for (int type = 1; type <= 31; ++type) {
+  for (int type = 1; type <= 19; ++type) {
     CAPTURE(type);
     auto const* const found = scarp::detail::find_gmsh_type(type);
     REQUIRE(found != nullptr);

@@ -2,6 +2,9 @@
 #include "support/gmsh_writer.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <sstream>
 
 #include "io/mesh_samples.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
@@ -47,6 +50,39 @@ TEST_CASE("a mesh of any element comes back from any format as it was") {
       CAPTURE(static_cast<int>(format.encoding));
       scarp::write_gmsh(folder / "m.msh", mesh, format);
       check_same(scarp::read_gmsh<Element>(folder / "m.msh"), mesh);
+    }
+  });
+}
+
+TEST_CASE("a mesh seen in a mirror is turned") {
+  ScratchFolder const folder;
+  samples::for_each_element([&](char const* name, auto element) {
+    using Element = decltype(element);
+    CAPTURE(name);
+    auto const mesh = samples::mesh_sample<Element>(samples::bent);
+    scarp::write_gmsh(folder / "m.msh", mesh, {GmshVersion::v2_2, GmshEncoding::text});
+    std::istringstream lines(content(folder / "m.msh"));
+    std::string mirrored;
+    bool at_nodes = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with('$')) at_nodes = line == "$Nodes";
+      std::istringstream words(line);
+      std::string tag, x, y, z;
+      if (at_nodes && words >> tag >> x >> y >> z) line = fmt::format("{} {} {} {}", tag, y, x, z);
+      mirrored += line + '\n';
+    }
+    scarp::GmshFile const file(mirrored, "m.msh");
+    auto const turned = file.mesh<Element>();
+    CHECK_NOTHROW(scarp::validate(turned));
+    CHECK(samples::volume(turned) == samples::Approx(samples::volume(mesh)).epsilon(1e-14));
+    CHECK(file.notes() == std::vector{fmt::format("'m.msh': {} elements run {}: they are turned", mesh.elements.size(),
+                                                  Element::dim == 2 ? "clockwise" : "left-handed")});
+    CHECK(turned.boundaries.size() == mesh.boundaries.size());
+    for (auto const& boundary : mesh.boundaries) {
+      CHECK(scarp::boundary_nodes(turned, boundary.first) == scarp::boundary_nodes(mesh, boundary.first));
+    }
+    for (auto const& nodes : mesh.elements) {
+      CHECK(scarp::detail::turned_round<Element>(scarp::detail::turned_round<Element>(nodes)) == nodes);
     }
   });
 }

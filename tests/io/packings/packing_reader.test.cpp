@@ -107,7 +107,7 @@ TEST_CASE("a packing of Yade's with its shear forces has Yade's stress, tangent,
   CHECK(tangent(1, 2) == near(19979.81861718862));
   CHECK(std::abs(tangent(0, 1)) < relative * tangent(2, 2));  // equal stiffnesses cancel
 
-  auto const fabric = scarp::contact_fabric(packing, law());
+  auto const fabric = scarp::contact_network(packing, law()).fabric;
   CHECK(fabric(0, 0) == near(0.5010209421012718));
   CHECK(fabric(0, 1) == near(0.00042532993014984105));
   CHECK(packing.void_ratio() == near(0.16638427244932621));

@@ -20,7 +20,6 @@ Packing<Wrong, Frictionless> packing;
 // also: gyration_squared(
 // also: bounding_radius(
 // also: eccentricity(
-// also: min_curvature_radius(
 // also: contact_radius(
 // also: warm_starts_normal
 // also: a shape needs `static std::array<T, pose_count> pose(
@@ -202,13 +201,81 @@ struct Wrong {
 TimeStepper<Discs, Wrong> stepper;
 }  // namespace case_29
 
-// first: this damping's before_move is never called
+// first: before_move of a damping is never called
 namespace case_hook {
 struct Wrong : LocalDamping {
   void before_move(Discs& packing, NetForces<Discs> const&, double) { packing.rest(); }
 };
 TimeStepper<Discs, Wrong> stepper;
 }  // namespace case_hook
+
+// Optional members of another form than is called, templates among them.
+// first: before_move of a damping is never called
+namespace case_hook_of_two {
+struct Wrong : LocalDamping {
+  template <class PackingType, class Forces>
+  void before_move(PackingType const&, Forces const&) {}
+};
+TimeStepper<Discs, Wrong> stepper;
+}  // namespace case_hook_of_two
+
+// first: interaction_range of a law is never called
+// also: damping_ratio of a law is never called
+// also: bond of a law is never called
+namespace case_options_of_law {
+struct Wrong : Frictionless {
+  template <class T>
+  T interaction_range() const {
+    return T(1e-3);
+  }
+  double damping_ratio(double speed) const { return speed; }
+  static constexpr bool bond = true;
+};
+Packing<Disc, Wrong> packing;
+}  // namespace case_options_of_law
+
+// first: friction_coefficient of a law is never called
+// also: stored_energy of a law is never called
+namespace case_options_of_wrapped_law {
+struct Wrong : LinearFrictional {
+  double friction_coefficient() const { return friction; }
+  double stored_energy(double overlap) const { return overlap; }
+};
+Packing<WithSpecies<Disc, 2>, LawPerSpecies<Wrong, 2>> packing;
+}  // namespace case_options_of_wrapped_law
+
+// first: inner_radius of a shape is never called
+// also: check of a shape is never called
+namespace case_options_of_shape {
+struct Wrong : Disc {
+  static double inner_radius(double radius) { return radius; }
+  void check(std::array<double, 1> const&) const {}
+};
+Packing<Wrong, Frictionless> packing;
+}  // namespace case_options_of_shape
+
+// first: quantities of a provider is never called
+// also: balance of a provider is never called
+// also: empty_state of a provider is never called
+namespace case_options_of_provider {
+struct Wrong : Elastic {
+  int quantities(State const&) { return 0; }
+  template <class T>
+  int balance(State const&) const {
+    return 0;
+  }
+  State empty_state() const { return {}; }
+};
+StiffnessFloor<Wrong> soil;
+}  // namespace case_options_of_provider
+
+// first: validate is never called
+namespace case_validate {
+struct Wrong : LocalDamping {
+  void validate(double) const {}
+};
+Verdict refreshed(TimeStepper<Discs, Wrong> const& stepper, Discs& packing) { return stepper.refresh(packing, {}); }
+}  // namespace case_validate
 
 // within: PreparesFromSeed
 namespace case_30 {

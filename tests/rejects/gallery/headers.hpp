@@ -5,6 +5,7 @@
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/law_per_species.hpp"
 #include "scarp/contact/linear_frictional.hpp"

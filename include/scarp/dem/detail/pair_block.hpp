@@ -10,7 +10,7 @@
 
 namespace scarp::detail {
 
-/// Rows of columns as lanes, one number or several.
+/// Loads neighbouring rows of all columns, a lane for each row.
 template <class Scalar, int Count, std::size_t Size>
 void load_rows(SoaArray<Scalar, Count> const& columns, std::size_t start, std::array<lanes::Pack<Scalar>, Size>& to) {
   for (int k = 0; k < Count; ++k) to[detail::index(k)] = lanes::load(columns.column(k) + start);
@@ -73,23 +73,6 @@ class PairSides {
   std::array<std::array<Lanes, 4>, Layout::size / 4> second_;  // before `apart_` the differences
 };
 
-template <class Lanes>
-Lanes difference(Lanes const& a, Lanes const& b) {
-  return a - b;
-}
-template <class Lanes>
-std::array<Lanes, 3> difference(std::array<Lanes, 3> const& a, std::array<Lanes, 3> const& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-template <class Lanes>
-Lanes sum(Lanes const& a, Lanes const& b) {
-  return a + b;
-}
-template <class Lanes>
-std::array<Lanes, 3> sum(std::array<Lanes, 3> const& a, std::array<Lanes, 3> const& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
 /// Adds a force on the second grains, and torques on both, to the rows of forces of a pack of pairs.
 template <class Layout, class Scalar, class Lanes>
 void scatter_plane(Point<2, Lanes> const& force, Lanes const& torque_first, Lanes const& torque_second,
@@ -140,6 +123,8 @@ struct PairBlock {
   static constexpr auto axes = static_cast<std::size_t>(Shape::dim);
   static constexpr std::size_t turns = Layout::turns;
   static constexpr std::size_t pose_size = Layout::pose_size;
+  /// Whether spins are gathered, which the law needs for motions at the contact.
+  static constexpr bool has_spins = Law::inputs.shear || Law::inputs.motion || Law::inputs.moment;
 
   // Fields: from grains to the law.
   static constexpr std::size_t branch = 0;
@@ -193,7 +178,7 @@ struct PairBlock {
     if constexpr (Law::inputs.shear || Law::inputs.motion) {
       for (std::size_t a = 0; a < axes; ++a) write(velocity + a, at, sides.difference(Layout::velocity + a));
     }
-    if constexpr (Law::inputs.shear || Law::inputs.motion || Law::inputs.moment) {
+    if constexpr (has_spins) {
       for (std::size_t k = 0; k < turns; ++k) {
         write(spin_first + k, at, sides.first(Layout::spin + k));
         write(spin_second + k, at, sides.second(Layout::spin + k));

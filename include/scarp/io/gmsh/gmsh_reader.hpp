@@ -121,9 +121,7 @@ void reject_repeated_elements(GmshContent const& content, std::vector<GmshPick> 
   using Entry = std::pair<std::array<int, Element::nodes>, std::int64_t>;
   std::vector<Entry> entries;
   for (std::size_t e = 0; e < picks.size(); ++e) {
-    entries.emplace_back(mesh.elements[e], picks[e].tag);
-    auto& nodes = entries.back().first;
-    std::sort(nodes.begin(), nodes.end());
+    auto const& nodes = entries.emplace_back(sorted_nodes(mesh.elements[e]), picks[e].tag).first;
     if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) {
       reject("element {} of '{}' names a node twice (it has collapsed): mesh the geometry again", picks[e].tag,
              content.file);

@@ -87,48 +87,15 @@ class GmshNumbering {
   std::vector<GmshNode> nodes_;
 };
 
-/// All sides of all elements, to be found by their nodes in any order.
+/// Turns the nodes of a side so that the outward normal of an element is theirs; between two elements the given sense stays.
+/// \return false when no element has such a side
 template <class Element>
-class ElementSides {
- public:
-  using Side = std::array<int, Element::facet_nodes>;
-
-  explicit ElementSides(Mesh<Element> const& mesh) {
-    for (auto const& element : mesh.elements) {
-      for (auto side : Element::facets()) {
-        for (int& node : side) node = element[index(node)];
-        sides_.push_back({sorted(side), side});
-      }
-    }
-    std::ranges::sort(sides_, {}, &Entry::key);
-  }
-
-  /// Turns the nodes so that the outward normal of an element is theirs; between two elements the given sense stays.
-  /// \return false when no element has such a side
-  bool orient(Side& side) const {
-    auto const key = sorted(side);
-    auto const first = std::ranges::lower_bound(sides_, key, {}, &Entry::key);
-    bool const is_side = first != sides_.end() && first->key == key;
-    for (auto entry = first; entry != sides_.end() && entry->key == key; ++entry) {
-      if (same_winding<typename Element::Facet>(side, entry->nodes)) return true;
-    }
-    if (is_side) side = first->nodes;
-    return is_side;
-  }
-
- private:
-  struct Entry {
-    Side key;
-    Side nodes;
-  };
-
-  static Side sorted(Side side) {
-    std::sort(side.begin(), side.end());
-    return side;
-  }
-
-  std::vector<Entry> sides_;
-};
+bool orient(std::array<int, Element::facet_nodes>& side, std::vector<MeshSide<Element>> const& sides) {
+  auto const found = sides_with(sides, side);
+  auto const has_sense = [&](auto const& other) { return same_winding<typename Element::Facet>(side, other.nodes); };
+  if (!found.empty() && std::ranges::none_of(found, has_sense)) side = found.front().nodes;
+  return !found.empty();
+}
 
 /// Physical groups of sides of another kind than the elements have.
 template <class Element>
@@ -155,19 +122,17 @@ void read_gmsh_boundaries(GmshContent const& content, GmshNumbering const& numbe
   auto picks = pick_gmsh_elements(content, Element::Facet::gmsh_type);
   std::erase_if(picks, [](GmshPick const& pick) { return pick.groups.empty(); });
   if (picks.empty()) return;
-  ElementSides<Element> const sides(mesh);
+  auto const sides = sorted_sides(mesh);
   std::set<std::pair<std::string, std::array<int, Element::facet_nodes>>> known;  // with sorted nodes
   for (auto const& pick : picks) {
     auto side = numbering.template numbers<typename Element::Facet>(pick);
-    if (!sides.orient(side)) {
+    if (!orient(side, sides)) {
       reject("element {} of '{}' in the physical group '{}' lies on no side of an element: mesh the geometry again",
              pick.tag, content.file, gmsh_group_name(content, {dim, pick.groups.front()}));
     }
-    auto key = side;
-    std::sort(key.begin(), key.end());
     for (int const group : pick.groups) {
       auto const name = gmsh_group_name(content, {dim, group});
-      if (known.emplace(name, key).second) mesh.boundaries[name].push_back(side);
+      if (known.emplace(name, sorted_nodes(side)).second) mesh.boundaries[name].push_back(side);
     }
   }
 }

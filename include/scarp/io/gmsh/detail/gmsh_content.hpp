@@ -16,7 +16,7 @@
 
 namespace scarp::detail {
 
-/// An element type of Gmsh's file formats. Gmsh 4.8 Reference Manual, section 9.1
+/// An element type of the first or second order of Gmsh's file formats. Gmsh 4.8 Reference Manual, section 9.1
 struct GmshType {
   int type;
   int dim;
@@ -45,23 +45,6 @@ inline constexpr std::array gmsh_types{
     GmshType{17, 3, 20, "20-node hexahedron", "Hex20"},
     GmshType{18, 3, 15, "15-node prism"},
     GmshType{19, 3, 13, "13-node pyramid"},
-    GmshType{20, 2, 9, "9-node triangle"},
-    GmshType{21, 2, 10, "10-node triangle"},
-    GmshType{22, 2, 12, "12-node triangle"},
-    GmshType{23, 2, 15, "15-node triangle"},
-    GmshType{24, 2, 15, "incomplete 15-node triangle"},
-    GmshType{25, 2, 21, "21-node triangle"},
-    GmshType{26, 1, 4, "4-node line"},
-    GmshType{27, 1, 5, "5-node line"},
-    GmshType{28, 1, 6, "6-node line"},
-    GmshType{29, 3, 20, "20-node tetrahedron"},
-    GmshType{30, 3, 35, "35-node tetrahedron"},
-    GmshType{31, 3, 56, "56-node tetrahedron"},
-    GmshType{36, 2, 16, "16-node quadrangle"},
-    GmshType{37, 2, 25, "25-node quadrangle"},
-    GmshType{39, 2, 12, "12-node quadrangle"},
-    GmshType{92, 3, 64, "64-node hexahedron"},
-    GmshType{93, 3, 125, "125-node hexahedron"},
 };
 
 /// \return null for a type that is not listed
@@ -108,7 +91,8 @@ inline void add_group(std::vector<int>& groups, int tag) {
 inline GmshType known_gmsh_type(GmshStream const& stream, int type) {
   auto const* const found = find_gmsh_type(type);
   if (!found) {
-    reject("{} has elements of type {} (not known here): leave them out of the mesh", stream.place(), type);
+    reject("{} has elements of type {} (first and second order are read): mesh with `-order 2`, or leave them out",
+           stream.place(), type);
   }
   return *found;
 }

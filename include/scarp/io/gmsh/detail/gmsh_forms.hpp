@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -15,10 +16,11 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/io/gmsh/detail/gmsh_content.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp::detail {
 
-/// Of the elements, of those that have any.
+/// Highest dimension of the elements of a file.
 inline int gmsh_dimension(GmshContent const& content) {
   int dim = 0;
   for (auto const& block : content.blocks) dim = std::max(dim, block.tags.empty() ? 0 : block.type.dim);
@@ -145,7 +147,7 @@ struct GmshGroupSizes {
   std::size_t of(std::string const& a, std::string const& b) const { return common.at({a, b}); }
 };
 
-/// Of several groups of an element the smallest counts, as its material; the others are noted.
+/// The smallest of an element's groups counts, as its material; the others are noted.
 /// wanted: names of groups that count before others
 /// \throws InputError where a group neither holds another one nor lies in it
 inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::string> const& wanted) {
@@ -209,26 +211,29 @@ inline void drop_gmsh_nodes(GmshContent& content, int highest_order) {
   }
 }
 
-/// Plane elements get the sense of rotation that their corners have.
-inline void turn_clockwise_gmsh(GmshContent& content) {
+/// Elements are turned that run clockwise in the plane or left-handed in space.
+inline void turn_gmsh_elements(GmshContent& content, int dim) {
   std::map<std::int64_t, std::array<double, 3>> places;
   for (auto const& node : content.nodes) places.emplace(node.tag, node.position);
   std::size_t turned = 0;
   rearrange_gmsh(content, [&](GmshBlock const& block, std::int64_t, GmshNodes nodes) {
-    double area = 0.0;
-    auto const corners = index(block.type.dim == 2 ? without_gmsh_nodes(block.type, 1).nodes : 0);
-    for (std::size_t a = 2; a < corners; ++a) {
-      auto const side = [&](std::size_t b, std::size_t axis) {
-        return places[nodes[b]][axis] - places[nodes[0]][axis];
-      };
-      area += side(a - 1, 0) * side(a, 1) - side(a - 1, 1) * side(a, 0);
+    double size = 0.0;  // twice the area, or six times the volume between the edges of the first corner
+    auto const corners = block.type.dim == dim ? index(without_gmsh_nodes(block.type, 1).nodes) : 0;
+    auto const place = [&](std::size_t corner) { return Eigen::Map<Vector<3> const>(places[nodes[corner]].data()); };
+    auto const side = [&](std::size_t corner) -> Vector<3> { return place(corner) - place(0); };
+    if (dim == 2) {
+      for (std::size_t a = 2; a < corners; ++a) size += side(a - 1).cross(side(a)).z();
+    } else if (corners > 0) {
+      bool const on_triangle = corners == 4 || corners == 6;  // its first side: of tetrahedra and prisms
+      size = side(1).cross(side(on_triangle ? 2 : 3)).dot(side(on_triangle ? 3 : 4));
     }
-    bool const clockwise = area == 0.0 ? block.turned : area < 0.0;
-    if (clockwise != block.turned) ++turned;
-    return GmshPlace(block.type.type, block.groups, clockwise);
+    bool const turn = size == 0.0 ? block.turned : size < 0.0;
+    if (turn != (dim == 2 && block.turned)) ++turned;
+    return GmshPlace(block.type.type, block.groups, turn);
   });
   if (turned > 0)
-    content.notes.push_back(fmt::format("'{}': {} elements run clockwise: they are turned", content.file, turned));
+    content.notes.push_back(fmt::format("'{}': {} elements run {}: they are turned", content.file, turned,
+                                        dim == 2 ? "clockwise" : "left-handed"));
 }
 
 /// Brings what a file may write in several ways into one form.
@@ -239,7 +244,7 @@ inline void normalise_gmsh(GmshContent& content, int highest_order, std::vector<
   note_gmsh_rest(content, dim);
   choose_gmsh_regions(content, dim, regions);
   drop_gmsh_nodes(content, highest_order);
-  if (dim == 2) turn_clockwise_gmsh(content);
+  turn_gmsh_elements(content, dim);
 }
 
 }  // namespace scarp::detail

@@ -143,8 +143,11 @@ class GmshSections4 {
     if (!entities_) return {};
     auto const found = entities_->find(entity);
     if (found == entities_->end()) {
-      reject("{} names entity {} of dimension {} (it is not listed in $Entities): write it again", stream.place(),
-             entity.second, entity.first);
+      reject(
+          "{} names entity {} of dimension {} (it is listed neither in $Entities nor in $PartitionedEntities): write "
+          "it "
+          "again, as one file and not by partitions",
+          stream.place(), entity.second, entity.first);
     }
     return found->second;
   }
