@@ -89,7 +89,7 @@ concept HasPlan = ConstitutiveProvider<Model> && requires {
 /// An increment may need so many times the inner steps that were planned for an earlier iterate.
 inline constexpr double plan_slack = 1.5;
 
-/// Whether a provider's tangent of a trial state is the derivative of its response, as Newton's method needs it. A provider says so by
+/// Whether a provider's tangent of a trial state is the derivative of its response, as Newton's method needs it. A provider states it by
 /// `static constexpr bool exact_tangent = true`.
 template <class Model>
 constexpr bool has_exact_tangent() {

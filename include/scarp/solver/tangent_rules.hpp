@@ -117,7 +117,7 @@ static_assert(TangentRule<ConsistentTangent, 2> && TangentRule<ConsistentTangent
 /// The rule that suits the materials: `exact` where all of them have exact tangents (see has_exact_tangent), else `learned`.
 struct MaterialTangent {
   ConsistentTangent exact{};   ///< of materials like elasticity and Mohr-Coulomb's
-  PointwiseBroyden learned{};  ///< where a material is a packing, or says nothing of its tangent
+  PointwiseBroyden learned{};  ///< where a material is a packing, or states nothing of its tangent
 
   /// \throws InputError for a setting of either rule outside of its range
   void validate() const {
