@@ -100,7 +100,7 @@ TEST_CASE("a pack of sphere pairs gives what each pair gives alone") {
   for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {
     for (Lanes& value : in) value.vector[lane] = random.uniform(0.5, 1.5);
   }
-  for (std::size_t a = 2; a < 5; ++a) in[a][0] = 0.0;  // one pair with coincident centres
+  for (std::size_t a = 2; a < 5; ++a) in[a].vector[0] = 0.0;  // one pair with coincident centres
   auto const touch = Sphere::touch<Lanes>({in[0]}, {in[1]}, {in[2], in[3], in[4]}, {});
   for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {
     auto const alone = Sphere::touch<double>({in[0][lane]}, {in[1][lane]}, {in[2][lane], in[3][lane], in[4][lane]}, {});

@@ -174,7 +174,7 @@ TEST_CASE_TEMPLATE("packs are made, read and written lane by lane", Pack, EVERY_
   for (std::size_t lane = 0; lane < width; ++lane) CHECK(numbers[lane + 1] == 10 * loaded[lane]);
   CHECK(numbers.back() == static_cast<Scalar>(width + 2));
 
-  assigned[0] = assigned[width - 1];
+  assigned.vector[0] = assigned[width - 1];
   CHECK(assigned[0] == static_cast<Scalar>(width + 1));
 }
 
@@ -187,7 +187,7 @@ TEST_CASE_TEMPLATE("masks tell of any, all and none, and packs their greatest la
   CHECK(all_of(!never));
   for (std::size_t at = 0; at < Pack::size(); ++at) {
     Pack one_lane(-1);
-    one_lane[at] = Scalar(3);
+    one_lane.vector[at] = Scalar(3);
     CHECK(hmax(one_lane) == Scalar(3));
     CHECK(any_of(one_lane > Pack(0)));
     CHECK(!none_of(one_lane > Pack(0)));
