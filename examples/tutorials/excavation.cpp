@@ -41,17 +41,18 @@ int main(int count, char** arguments) try {
                               : std::filesystem::path(__FILE__).replace_filename("excavation.msh");
   double const unit_weight = 16e3, cover = 4e3;  // [N/m3], [Pa]
   Grid grid(scarp::read_gmsh<scarp::Tri6>(file));
+  double const level = grid.mesh().nodes[static_cast<std::size_t>(boundary_nodes(grid.mesh(), "surface").front())].y();
   // Materials: elastic rock, and for every depth of the sand a packing that was compressed to the overburden.
   auto const rock = scarp::LinearElastic<2, scarp::GeostaticStress<2>>::from_young_poisson(
       500e6, 0.25, {.surcharge = cover, .unit_weight = unit_weight, .k0 = 0.5});
   scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};  // [N/m]
-  scarp::LevelGround<scarp::EllipseGrading> const level{
+  scarp::LevelGround<scarp::EllipseGrading> const column{
       .cloud = {.grading = {4e-3, 6e-3, 0.6}, .grains = 200, .density = 2650.0, .thickness = 0.2},
       .unit_weight = unit_weight,
       .surcharge = cover};
   std::vector<double> depths;
-  for (int point = 0; point < grid.point_count(); ++point) depths.push_back(grid.site(point, 0.0).depth);
-  Sand const sand{.provider = {.law = law, .source = level.make<Grains>(law, depths), .pressure_floor = cover / 2.0}};
+  for (int point = 0; point < grid.point_count(); ++point) depths.push_back(grid.site(point, level).depth);
+  Sand const sand{.provider = {.law = law, .source = column.make<Grains>(law, depths), .pressure_floor = cover / 2.0}};
   auto const regions = boost::hana::make_tuple(scarp::Region{"sand", sand}, scarp::Region{"rock", rock});
   // Boundary conditions by the names of groups: rollers.
   scarp::Constraints constraints(grid.mesh());
@@ -60,7 +61,7 @@ int main(int count, char** arguments) try {
   for (int const node : boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node, 1);
   // Loads: the forces that hold the ground as it was, which fade, and those that act on it in the end, which grow.
   scarp::ThreadExecutor executor;
-  auto points = make_points(grid, 0.0, regions, executor);  // 0: height of the surface
+  auto points = make_points(grid, level, regions, executor);
   Eigen::VectorXd before;
   grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), points.committed_stresses(executor), before);
   Eigen::VectorXd after = body_force(grid, [&](int) { return scarp::Vector<2>(0.0, -unit_weight); });

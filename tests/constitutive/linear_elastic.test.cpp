@@ -149,8 +149,10 @@ TEST_CASE("points start with the stress of their depth") {
   site.depth = 10.0;
   // Analytic: vertical -(1e4 + 2e4 * 10), horizontal half of it, no shear; exact in binary.
   CHECK(soil.stress(soil.initial_state(site)) == VoigtStress<2>(-1.05e5, -2.1e5, 0.0));
-  site.depth = -3.0;  // above the surface: the surcharge only
+  site.depth = -1e-12;  // round-off: the surcharge only
   CHECK(soil.stress(soil.initial_state(site)) == VoigtStress<2>(-5e3, -1e4, 0.0));
+  site.depth = -3.0;
+  CHECK_REFUSED(soil.initial_state(site), "3 m above the ground surface");
   VoigtStress<3> expected;
   expected << -1.05e5, -1.05e5, -2.1e5, 0.0, 0.0, 0.0;  // the vertical is the last axis
   CHECK(scarp::GeostaticStress<3>{1e4, 2e4, 0.5}.at(10.0) == expected);

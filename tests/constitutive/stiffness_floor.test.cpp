@@ -29,9 +29,13 @@ struct Fluidised {
     Elastic::State own;
   };
 
-  double height = 1.0;  ///< [m]
+  double height = 1.0;       ///< [m]
+  bool fluid_start = false;  ///< whether it has no contacts there from the start
 
-  State initial_state(scarp::Site<2> const& site) const { return {site.position.y() > height, false, {}}; }
+  State initial_state(scarp::Site<2> const& site) const {
+    bool const loose = site.position.y() > height;
+    return {loose, loose && fluid_start, {}};
+  }
   scarp::VoigtStress<2> stress(State const& state) const { return state.own.stress; }
   scarp::VoigtTangent<2> tangent(State const& state) const { return (state.fluid ? 0.0 : 1.0) * ground().tangent({}); }
   scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
@@ -46,7 +50,8 @@ using Floor = scarp::StiffnessFloor<Fluidised>;
 using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
 
 /// A column of four elements between smooth walls, whose foot moves up by the load factor [m]; its upper half is loose.
-Problem column(double share, scarp::SerialExecutor& executor) {
+template <class Soil>
+Problem column(Soil const& soil, scarp::SerialExecutor& executor) {
   Grid grid(scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, 2.0}, .cells = {1, 4}}.generate());
   scarp::Constraints constraints(grid.mesh());
   for (auto const* wall : {"left", "right"}) {
@@ -62,7 +67,7 @@ Problem column(double share, scarp::SerialExecutor& executor) {
   }
   scarp::LoadHistory history(Eigen::VectorXd::Zero(grid.dof_count()));
   history.add(loads, scarp::TimeFunction::ramp(0.0, 1.0));
-  return {std::move(grid), {Floor{.provider = {}, .share = share}, sites}, std::move(constraints), history, executor};
+  return {std::move(grid), {soil, sites}, std::move(constraints), history, executor};
 }
 
 scarp::RunReport load(Problem& problem, double to) {
@@ -77,11 +82,11 @@ scarp::RunReport load(Problem& problem, double to) {
 TEST_CASE("nodes with nothing but fluid points around them are held by the floor, and its share of force is told") {
   scarp::SerialExecutor executor;
   // A floor too low for the digits of a double is none: the second step begins from fluid points.
-  auto without = column(1e-30, executor);
+  auto without = column(Floor{.share = 1e-30}, executor);
   auto const singular = load(without, 1e-3);
   CHECK_FALSE(singular.verdict.acceptable());
   CHECK(singular.verdict.reason == scarp::Reason::singular_system);
-  auto problem = column(1e-4, executor);
+  auto problem = column(Floor{}, executor);
   auto const run = load(problem, 1e-3);
   CHECK(run.verdict.acceptable());
   CHECK(run.load == 1e-3);
@@ -90,6 +95,30 @@ TEST_CASE("nodes with nothing but fluid points around them are held by the floor
   CHECK(fluid == 8);
   // The free top follows the middle: the floor has next to nothing to hold.
   CHECK(scarp::floor_share(problem) < 1e-3);
+}
+
+TEST_CASE("points that are fluid from the start have the floor at once") {
+  Floor const floor{.provider = {.fluid_start = true}, .shear_modulus = 3e3};
+  auto const loose = floor.initial_state({.position = {0.0, 2.0}});
+  CHECK(loose.fluid);
+  // Analytic: without Poisson's ratio the stiffness is twice the shear modulus along the axes.
+  scarp::VoigtTangent<2> const expected = scarp::Vector<3>(6e3, 6e3, 3e3).asDiagonal();
+  CHECK((floor.tangent(loose) - expected).norm() <= 1e-12 * expected.norm());
+  CHECK(floor.stress(loose).isZero(0.0));
+  auto const solid = floor.initial_state({.position = {0.0, 0.5}});
+  CHECK_FALSE(solid.fluid);
+  CHECK(floor.tangent(solid) == ground().tangent({}));
+  CHECK_REFUSED((Floor{.provider = {.fluid_start = true}}).initial_state({.position = {0.0, 2.0}}), "fluid", "modulus");
+
+  scarp::SerialExecutor executor;
+  Fluidised const all_fluid{.height = 0.0, .fluid_start = true};
+  auto problem = column(Floor{.provider = all_fluid, .shear_modulus = 1e6}, executor);
+  CHECK(load(problem, 1e-3).verdict.acceptable());
+  // Without a stiffness anywhere each free node is as weak as the others: some node is named.
+  auto without = column(all_fluid, executor);
+  auto const stopped = load(without, 1e-3);
+  CHECK(stopped.verdict.reason == scarp::Reason::singular_system);
+  CHECK(stopped.weak_dof >= 0);
 }
 
 TEST_CASE("a fluid point strained on its own carries the floor's stress, a solid one the provider's bits") {

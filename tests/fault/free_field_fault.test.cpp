@@ -212,8 +212,8 @@ TEST_CASE("an element with one packing is that packing driven by the same gradie
   for (int const node : {0, 1, 2}) constraints.fix(node);
   scarp::ThreadExecutor executor(1);
   scarp::Discretisation<scarp::Tri3> grid(mesh);
-  auto const site = grid.site(0, 5.0);
-  auto problem = scarp::make_problem(grid, 5.0, boost::hana::make_tuple(scarp::Region{"soil", scene.soil}), constraints,
+  auto const site = grid.site(0, 1.0);
+  auto problem = scarp::make_problem(grid, 1.0, boost::hana::make_tuple(scarp::Region{"soil", scene.soil}), constraints,
                                      Eigen::VectorXd::Zero(6), executor);
   auto alone = scene.soil.initial_state(site);
   CHECK(problem.points().committed_stress(0) == alone.stress);

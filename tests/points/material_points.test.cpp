@@ -103,6 +103,18 @@ TEST_CASE("every point answers with the provider of its own region") {
   CHECK(points.committed_stresses(serial) == points.stresses());
 }
 
+TEST_CASE("a ground surface that is not one of the mesh is refused, with both levels") {
+  auto const grid = ground_with_footing();  // from 0 to 27 m
+  auto const refused = [&](double level) {
+    return samples::message_of(
+        [&] { scarp::make_points(grid, level, hana::make_tuple(soil(), footing()), scarp::SerialExecutor{}); });
+  };
+  CHECK(refused(62.5) == samples::Naming{"surface is at a height of 62.5 m", "from 0 to 27 m"});
+  CHECK(refused(-62.5) == samples::Naming{"surface is at a height of -62.5 m", "from 0 to 27 m"});
+  CHECK(refused(15.0) == samples::Naming{"above the ground surface"});  // of the soil's uppermost points
+  CHECK(refused(depth).empty());
+}
+
 TEST_CASE("the order in which regions are named does not matter") {
   auto const grid = ground_with_footing();
   Points const points = made(grid, soil(), footing());

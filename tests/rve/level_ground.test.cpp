@@ -63,6 +63,8 @@ TEST_CASE("settings of level ground that cannot be are refused") {
   refused([](auto& g) { g.overconsolidation_ratio = nan; }, {3.0}, {"overconsolidation ratio", "nan"});
   refused([](auto& g) { g.unit_weight = -1.0; }, {3.0}, {"unit weight", "-1"});
   refused([](auto& g) { g.surcharge = nan; }, {3.0}, {"surcharge", "nan"});
+  refused(none, {3.0, -37.5}, {"37.5 m above the ground surface"});
+  refused(none, {3.0, 3000.0}, {"4.704e+07 Pa", "3000 m below the surface", "lengths in metres"});
   refused([](auto& g) { g.preparation.pressure = 5e3; }, {0.0, 3.0}, {"prepared at 5000 Pa", "carries 4000 Pa"});
 }
 

@@ -106,6 +106,11 @@ TEST_CASE_TEMPLATE("every linear solver says that a singular or not finite matri
   auto const verdict = solver.factorize(singular);
   CHECK(verdict.reason == Reason::singular_system);
   CHECK(solver.factorize(random_matrix(20, 5, true)).acceptable());
+  CHECK(scarp::weakest_unknown<Solver>(singular) == 7);
+  SparseMatrix nothing(20, 20);
+  CHECK(scarp::weakest_unknown<Solver>(nothing) >= 0);  // without an entry, and then with entries of zero
+  nothing.setIdentity();
+  CHECK(scarp::weakest_unknown<Solver>(0.0 * nothing) >= 0);
 }
 
 TEST_CASE("the free part of a system is the full one without prescribed rows and columns") {

@@ -23,6 +23,17 @@ struct Site {
   double depth = 0.0;                          ///< below the ground surface [m]
 };
 
+/// \throws InputError for a depth [m] above the ground surface: a material of ground has nothing to carry there
+inline void require_below_surface(double depth) {
+  constexpr double round_off = 1e-6;
+  if (depth < -round_off) {
+    reject(
+        "a point lies {} m above the ground surface (its depth is to be positive): give the height of the ground's "
+        "upper nodes as level of the surface, and lengths upwards in metres",
+        -depth);
+  }
+}
+
 /// Stress and verdict of a material point for an increment.
 template <int Dim>
 struct [[nodiscard]] Response {

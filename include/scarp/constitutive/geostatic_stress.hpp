@@ -30,8 +30,10 @@ struct GeostaticStress {
     require_not_negative("ratio of horizontal to vertical stress, K0,", k0);
   }
 
-  /// depth [m]; a point above the ground surface carries the surcharge only
+  /// depth [m]
+  /// \throws InputError above the ground surface
   VoigtStress<Dim> at(double depth) const {
+    require_below_surface(depth);
     double const vertical = -(surcharge + unit_weight * std::max(depth, 0.0));
     VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
     stress.template head<Dim - 1>().setConstant(k0 * vertical);

@@ -46,7 +46,8 @@ struct StiffnessFloor {
     require_not_negative("shear modulus of a fluid point", shear_modulus);
   }
 
-  /// The provider's state, with the floor's elasticity from its tangent or from `shear_modulus`.
+  /// The provider's state, with the floor's elasticity from its tangent or from `shear_modulus`. A point without stress and
+  /// stiffness is fluid from the start, and has the floor at once.
   /// \throws InputError also for a share of nothing where a point is fluid from the start
   State initial_state(Site<dim> const& site) const {
     validate();
@@ -59,7 +60,8 @@ struct StiffnessFloor {
       }
       elasticity = {share * whole.lame_lambda, share * whole.shear_modulus};
     }
-    return {std::move(own), elasticity};
+    bool const fluid = provider.stress(own).isZero(0.0) && provider.tangent(own).isZero(0.0);
+    return {.own = std::move(own), .elasticity = elasticity, .fluid = fluid};
   }
 
   State empty_state(Site<dim> const& site) const { return {.own = scarp::empty_state(provider, site)}; }

@@ -4,105 +4,89 @@
 #include "scarp/core/linear_map.hpp"
 #include "scarp/core/precompiled.hpp"
 #if !defined(SCARP_PRECOMPILED) || defined(SCARP_GMRES_DEFINITIONS)
-#include <Eigen/SparseCore>
-#include <unsupported/Eigen/IterativeSolvers>
+#include <Eigen/Householder>
+#include <Eigen/Jacobi>
+#include <cmath>
+#include <limits>
+#include <vector>
 #endif
 
 namespace scarp {
 
-/// Restarted GMRES (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856), a LinearIteration.
+/// Restarted GMRES (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856) with Householder's reflections (H. F. Walker,
+/// SIAM J. Sci. Stat. Comput. 9 (1988) 152), a LinearIteration: it ends at 1e-4 of the preconditioned residual or after 300 products.
 SCARP_EXPORT Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& preconditioner,
                                    Eigen::VectorXd const& right);
-
-}  // namespace scarp
 
 #ifndef SCARP_PRECOMPILED
 /// Keyword of gmres() where the header defines it; undefined where the precompiled library does.
 #define SCARP_GMRES_DEFINITIONS inline
 #endif
 #ifdef SCARP_GMRES_DEFINITIONS  // empty in the library that contains them
-namespace scarp::detail {
-class AppliedMatrix;
-}  // namespace scarp::detail
-
-namespace Eigen::internal {
-
-template <>
-struct traits<scarp::detail::AppliedMatrix> : traits<Eigen::SparseMatrix<double>> {};
-
-}  // namespace Eigen::internal
-
-namespace scarp::detail {
-
-/// A linear map as Eigen's iterative solvers want a matrix.
-class AppliedMatrix : public Eigen::EigenBase<AppliedMatrix> {
- public:
-  using Scalar = double;
-  using RealScalar = double;
-  using StorageIndex = int;
-  using Index = Eigen::EigenBase<AppliedMatrix>::Index;
-  enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
-
-  AppliedMatrix(LinearMap const& map, Index size) : map_(map), size_(size) {}
-
-  Index rows() const { return size_; }
-  Index cols() const { return size_; }
-  Eigen::VectorXd product(Eigen::VectorXd const& right) const { return map_(right); }
-  template <class Right>
-  Eigen::Product<AppliedMatrix, Right, Eigen::AliasFreeProduct> operator*(Eigen::MatrixBase<Right> const& right) const {
-    return {*this, right.derived()};
-  }
-
- private:
-  LinearMap const& map_;
-  Index size_;
-};
-
-/// A linear map as a preconditioner.
-struct AppliedPreconditioner {
-  LinearMap const* map = nullptr;
-
-  template <class Matrix>
-  AppliedPreconditioner& compute(Matrix const&) {
-    return *this;
-  }
-  Eigen::VectorXd solve(Eigen::VectorXd const& right) const { return (*map)(right); }
-  static Eigen::ComputationInfo info() { return Eigen::Success; }
-};
-
-}  // namespace scarp::detail
-
-namespace Eigen::internal {
-
-template <class Right>
-struct generic_product_impl<scarp::detail::AppliedMatrix, Right, SparseShape, DenseShape, GemvProduct>
-    : generic_product_impl_base<scarp::detail::AppliedMatrix, Right,
-                                generic_product_impl<scarp::detail::AppliedMatrix, Right>> {
-  template <class Result>
-  static void scaleAndAddTo(Result& result, scarp::detail::AppliedMatrix const& matrix, Right const& right,
-                            double factor) {
-    result += factor * matrix.product(right);
-  }
-};
-
-}  // namespace Eigen::internal
-
-namespace scarp {
-
 SCARP_GMRES_DEFINITIONS Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& preconditioner,
                                               Eigen::VectorXd const& right) {
   // Iterations of a load step are as many with 1e-3 as with 1e-8.
   constexpr double accuracy = 1e-4;  // of the preconditioned residual
-  constexpr int directions = 60;
+  constexpr Eigen::Index directions = 60;
   constexpr int max_products = 300;
-  detail::AppliedMatrix const applied(matrix, right.size());
-  Eigen::GMRES<detail::AppliedMatrix, detail::AppliedPreconditioner> iteration;
-  iteration.preconditioner().map = &preconditioner;
-  iteration.setTolerance(accuracy).set_restart(directions);
-  iteration.setMaxIterations(max_products).compute(applied);
-  return iteration.solve(right);
+  Eigen::Index const size = right.size();
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd vector = preconditioner(right);  // the residual, then each direction
+  double const first_norm = vector.norm();
+  if (right.norm() <= std::numeric_limits<double>::min() || first_norm == 0.0) return solution;
+  Eigen::VectorXd scratch(size);
+  for (int products = 0;;) {
+    // By columns the reflections, below the diagonal, and the triangle that the products became.
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(size, directions + 1);
+    Eigen::VectorXd factors = Eigen::VectorXd::Zero(directions + 1);
+    Eigen::VectorXd shares = Eigen::VectorXd::Zero(directions + 1);
+    std::vector<Eigen::JacobiRotation<double>> rotations(directions);
+    auto const reflect = [&](Eigen::Index k, Eigen::VectorXd& to) {
+      to.tail(size - k).applyHouseholderOnTheLeft(columns.col(k).tail(size - k - 1), factors(k), scratch.data());
+    };
+    auto const make_reflection = [&](Eigen::Index k) {
+      auto essential = columns.col(k).tail(size - k - 1);
+      double length = 0.0;
+      vector.tail(size - k).makeHouseholder(essential, factors(k), length);
+      return length;
+    };
+    shares(0) = make_reflection(0);
+    Eigen::Index k = 0;
+    bool done = false;
+    while (!done && k < directions) {
+      ++k;
+      vector = Eigen::VectorXd::Unit(size, k - 1);
+      for (Eigen::Index i = k - 1; i >= 0; --i) reflect(i, vector);
+      vector = preconditioner(matrix(vector));
+      for (Eigen::Index i = 0; i < k; ++i) reflect(i, vector);
+      if (vector.tail(size - k).norm() != 0.0) {
+        make_reflection(k);
+        reflect(k, vector);
+      }
+      for (Eigen::Index i = 0; i < k - 1; ++i)
+        vector.applyOnTheLeft(i, i + 1, rotations[static_cast<std::size_t>(i)].adjoint());
+      if (k < size && vector(k) != 0.0) {
+        auto& rotation = rotations[static_cast<std::size_t>(k - 1)];
+        rotation.makeGivens(vector(k - 1), vector(k));
+        vector.applyOnTheLeft(k - 1, k, rotation.adjoint());
+        shares.applyOnTheLeft(k - 1, k, rotation.adjoint());
+      }
+      columns.col(k - 1).head(k) = vector.head(k);
+      done = k == size || std::abs(shares(k)) / first_norm < accuracy || ++products == max_products;
+    }
+    Eigen::VectorXd among = shares.head(k);
+    columns.topLeftCorner(k, k).triangularView<Eigen::Upper>().solveInPlace(among);
+    vector.setZero();
+    for (Eigen::Index i = k - 1; i >= 0; --i) {
+      vector(i) += among(i);
+      reflect(i, vector);
+    }
+    solution += vector;
+    if (done) return solution;
+    vector = preconditioner(right - matrix(solution));
+  }
 }
-
-}  // namespace scarp
 #endif
 #undef SCARP_GMRES_DEFINITIONS
+
+}  // namespace scarp

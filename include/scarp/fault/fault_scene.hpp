@@ -114,7 +114,7 @@ struct SCARP_EXPORT FaultScene {
   double surcharge = 4e3;          ///< [Pa], on the ground surface, below a structure until it is placed
   double throw_to = 0.085 * 25.0;  ///< [m]
   Solver solver{};                 ///< of each load step
-  LoadStepping stepping{};         ///< of all stages
+  LoadStepping stepping{};         ///< of all stages; its load increments are metres of throw
   Structure structure{};           ///< what stands on the ground
 
   /// The ground with what of the structure is part of the mesh.
@@ -146,8 +146,11 @@ struct SCARP_EXPORT FaultScene {
   /// Second stage: the structure is placed; without one nothing happens.
   template <class ProblemType, class Observer>
   RunReport place(ProblemType& problem, Observer& observer) const {
+    LoadStepping const shares{.first = 0.05};  // of the load
     LoadStepping stage = stepping;
-    stage.first = 0.05;  // of the load
+    stage.first = shares.first;
+    stage.smallest = shares.smallest;
+    stage.largest = shares.largest;
     return stage.run(solver, problem, structure.start(), 0.0, observer);
   }
 

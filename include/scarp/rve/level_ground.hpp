@@ -44,6 +44,7 @@ struct LevelGround {
     validate();
     for (double const depth : depths) require_finite("depth of a packing", depth);
     std::sort(depths.begin(), depths.end());
+    require_below_surface(depths.front());
     if (preparation.pressure > overburden(depths.front())) {
       reject(
           "the packing is prepared at {} Pa (the uppermost point carries {} Pa, so that the ground would be unloaded): "
@@ -54,7 +55,14 @@ struct LevelGround {
     depths.erase(std::unique(depths.begin(), depths.end(), alike), depths.end());
     std::vector<double> pressures;
     for (double const depth : depths) pressures.push_back(overconsolidation_ratio * overburden(depth));
-    auto const base = preparation.prepare(cloud.template make<PackingType>(), law, damping);
+    auto loose = cloud.template make<PackingType>();
+    if (double const stiffness = spring_modulus(loose, law); !(pressures.back() < stiffness)) {
+      reject(
+          "the ground carries {:.4g} Pa at its deepest point, {:.4g} m below the surface (grains with a stiffness of "
+          "{:.4g} Pa would overlap by their size): give lengths in metres, or stiffer contacts",
+          pressures.back(), depths.back(), stiffness);
+    }
+    auto const base = preparation.prepare(std::move(loose), law, damping);
     if (!base.verdict.acceptable()) {
       throw PreparationError(fmt::format("the packing did not reach {} Pa ({}): try another seed or a higher pressure",
                                          preparation.pressure, name(base.verdict.reason)));

@@ -92,12 +92,13 @@ double condition_estimate(SparseMatrix const& matrix, Solver const& solver) {
 }
 
 /// The unknown that a singular or nearly singular matrix holds least: the largest entry of the vector that it maps nearest to
-/// nothing, by inverse iteration with a small shift. -1 when that fails too.
+/// nothing, by inverse iteration with a small shift; any unknown where the whole matrix is zero. -1 when that fails too.
 template <LinearSolver Solver>
 int weakest_unknown(SparseMatrix const& matrix) {
   Eigen::Index const size = matrix.rows();
   if (size == 0 || !matrix.coeffs().allFinite()) return -1;
-  double const shift = 1e-9 * matrix.coeffs().abs().maxCoeff();
+  double const largest = matrix.nonZeros() > 0 ? matrix.coeffs().abs().maxCoeff() : 0.0;
+  double const shift = largest > 0.0 ? 1e-9 * largest : 1.0;
   SparseMatrix unit(size, size);
   unit.setIdentity();
   Solver solver;

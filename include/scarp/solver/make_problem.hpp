@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <boost/hana/tuple.hpp>
 #include <optional>
 #include <utility>
@@ -14,11 +15,22 @@
 namespace scarp {
 
 /// The material points of a discretisation. surface_level [m]: height of the ground surface, from which depths are measured
-/// \throws InputError for a region that the mesh does not have, one given twice, or one of the mesh without material
+/// \throws InputError for a region that the mesh does not have, one given twice, one of the mesh without material, and a
+/// surface above or below the mesh
 template <class DiscretisationType, ExecutesTasks Executor, class... Materials>
 MaterialPoints<DiscretisationType::dim> make_points(DiscretisationType const& discretisation, double surface_level,
                                                     boost::hana::tuple<Region<Materials>...> const& regions,
                                                     Executor const& executor) {
+  constexpr int up = DiscretisationType::dim - 1;
+  auto const [low, high] =
+      std::ranges::minmax(discretisation.mesh().nodes, {}, [](auto const& node) { return node(up); });
+  double const nearly = 0.01 * (high(up) - low(up));
+  if (!(surface_level >= low(up) - nearly && surface_level <= high(up) + nearly)) {
+    reject(
+        "the ground surface is at a height of {} m (the mesh goes from {} to {} m): give the height of the ground's "
+        "upper nodes; ground above them counts as surcharge",
+        surface_level, low(up), high(up));
+  }
   std::vector<Site<DiscretisationType::dim>> sites;
   for (int point = 0; point < discretisation.point_count(); ++point)
     sites.push_back(discretisation.site(point, surface_level));
