@@ -64,6 +64,16 @@ def check_closed_forms(folder):
     near("void ratio", rows[-1]["void_ratio"], 1.7 * math.exp(-0.02) - 1.0, 1e-9)
 
 
+def check_no_strength(folder):
+    """A stress ratio that rises to the end of the test, and one that is cut off, are no strength."""
+    for strain in ("0.004", "0.12"):
+        said, _, summary = tested(folder, f"new/deeper/elastic{strain}", "--material", "elastic", "--pressure", "7e4", "--strain", strain)
+        expect(summary["mean"]["peak"] is None and summary["mohr_coulomb"] is None and "peak_friction_angle" not in summary, f"elastic: {summary}")
+        expect("no Mohr-Coulomb parameters: the stress ratio rises to the end of the test" in said, f"elastic: {said}")
+    said, _, summary = tested(folder, "no_friction", *SOIL[:2], "--friction-angle", 0, "--pressure", "7e4")
+    expect("the test mobilises no friction" in said, f"without friction: {said}")
+
+
 def check_table(folder):
     (folder / "path.csv").write_text("sxx,eyy\n1.5e5,0.001\n1.2e5,0.002\n")
     _, rows, _ = tested(folder, "table", "--material", "elastic", "--pressure", "1e5", "--path", "table", "--table", "path.csv")
@@ -102,8 +112,11 @@ def check_ends(folder):
     code, said = run(folder, "beyond", *SOIL, "--path", "table", "--table", "beyond.csv")
     expect(code == 3 and "not_converged" in said and "test.csv" in said, f"beyond the strength: ended with {code}, {said}")
     reached = json.loads((folder / "beyond" / "summary.json").read_text())["length"]
+    expect(json.loads((folder / "beyond" / "summary.json").read_text())["mean"]["residual"] is None, "a residual state of a test that was cut off")
     near("share of the way", reached, (1e5 * (1.0 + SINE) / (1.0 - SINE) - 1e5) / 8e5, 1e-2)
     (folder / "empty.csv").write_text("sxx,syy\n")
+    code, said = run(folder, "empty.csv/output", "--material", "elastic")
+    expect(code == 2 and "empty.csv' is a file" in said, f"an output folder below a file: ended with {code}, {said}")
     for arguments, named in ((["--young", "1e6"], "--young is given but not used"), (["--ratio", "1"], "--ratio"),
                              (["--material", "elastic", "--path", "table", "--table", "empty.csv"], "has no rows"),
                              (["--material", "elastic", "--path", "table", "--table", "beyond.csv", "--window", "0.01"], "--window is given but not used"),
@@ -118,6 +131,6 @@ def check_ends(folder):
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    for check in (check_closed_forms, check_table, check_packing, check_ends):
+    for check in (check_closed_forms, check_no_strength, check_table, check_packing, check_ends):
         check(pathlib.Path(scratch))
 finish()
