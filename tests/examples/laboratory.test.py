@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True
 from expectations import example, expect, finish
 
 LAB = example("rve_lab")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 SINE = math.sin(math.radians(33.0))
 SOIL = ["--material", "mohr-coulomb", "--friction-angle", "33", "--dilation-angle", "7", "--pressure", "1e5", "--tolerance", "1e-9"]
 PACKING = ["--grains", "100", "--strain-step", "2e-5"]
@@ -102,6 +103,9 @@ def check_packing(folder):
     options = shlex.split(re.search("as Mohr-Coulomb: (.*)", said)[1])
     _, twin, _ = tested(folder, "twin", *options, "--pressure", rows[0]["lateral_stress"])
     near("friction of the reading", max(row["friction_angle"] for row in twin), peak, 1e-3)
+    subprocess.run([sys.executable, ROOT / "examples" / "rve_lab" / "report.py", folder / "packing"], check=True, capture_output=True)
+    page = (folder / "packing" / "report.html").read_text()
+    expect("peak friction angle" in page and f"{peak:.1f} degrees" in page, "the report has no peak friction angle")
     tested(folder, "consolidated", *PACKING, "--consolidation", "3e5", "--path", "undrained", "--strain", "0.01")
     with open(folder / "consolidated" / "test.csv", newline="") as file:
         near("consolidation", float(next(csv.DictReader(file))["axial_stress"]), 3e5, 1e-3)
