@@ -14,6 +14,23 @@ namespace {
 
 bool is_density(std::string const& name) { return examples::sets_density(name); }
 
+/// The tests hold the stress of the tables, which is to be one. given: that of the option
+/// \throws InputError for another one
+void take_held_stress(LabTable const& table, std::optional<double> given, std::optional<double>& held) {
+  constexpr double alike = 0.1;
+  if (given && table.held.empty()) return;
+  auto const own = table.held_stress();
+  if (!own && !given && !held)
+    scarp::reject("'{}' has no q and p (the stress that its test held is not known): give --lateral-stress",
+                  table.file);
+  if (own && held && std::abs(*own / *held - 1.0) > alike)
+    scarp::reject("the test of '{}' holds {:.4g} Pa by its q and p, {} {:.4g} Pa (a calibration has one stress): {}",
+                  table.file, *own, given ? "--lateral-stress is" : "another table's", *held,
+                  given ? "leave the option out, or name the columns q_kPa and p_kPa where they are in kPa"
+                        : "calibrate on one of them");
+  if (own && !held) held = own;
+}
+
 Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   if (!choice.sand_file.empty())
     choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
@@ -24,6 +41,9 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
     choice.triaxial = true;
   }
   require_built(choice.sand);
+  if (choice.free.empty())
+    choice.free = std::string("friction,relative-density,") +
+                  (choice.sand.law.ends_with("hertz") ? "modulus" : "normal-stiffness");
   Calibration all{.start = choice.sand,
                   .free = free_parameters(choice.free),
                   .test = choice.test,
@@ -49,7 +69,8 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
   all.observations = targets(choice.target, choice.window);
   double last = 0.0;
   for (auto const& file : choice.tables) {
-    auto const table = LabTable::read(file, choice.triaxial);
+    auto const table = LabTable::read(file, choice.triaxial, choice.test.path == "constant_mean_stress");
+    take_held_stress(table, choice.test.held, all.test.held);
     last = std::max(last, table.strain.back());
     auto const more = observations_of(table, all.observations.empty() ? 0 : all.groups());
     all.observations.insert(all.observations.end(), more.begin(), more.end());
@@ -130,21 +151,24 @@ void calibrate(CalibrateChoice choice, CLI::App const& app) {
 }
 
 void declare_calibrate(CLI::App& app, CalibrateChoice& choice) {
-  app.add_option(
-      "--free", choice.free,
-      "parameters with bounds, name=LEAST:MOST,...; friction, relative-density and rolling-friction have usual ones");
+  app.add_option("--free", choice.free,
+                 "parameters with bounds, name=LEAST:MOST,...; friction, relative-density, rolling-friction, "
+                 "normal-stiffness (the tangential one "
+                 "keeps its ratio) and modulus have usual ones. When not given: friction, relative-density and the "
+                 "stiffness of the law");
   app.add_option("--target", choice.target,
                  "of the drained curve, name=VALUE,...: peak-friction, residual-friction, peak-dilation, "
                  "secant-dilation [degrees], void-ratio, e50 [Pa]");
   app.add_option("--table", choice.tables,
-                 "of the laboratory: axial_strain or axial_strain_percent, volumetric_strain or "
-                 "volumetric_strain_percent, stress_ratio or q and p")
+                 "of the laboratory: axial_strain, volumetric_strain (eps1, epsv; with _percent where they are), "
+                 "stress_ratio, or q and p "
+                 "(q_kPa, p_kPa)")
       ->check(CLI::ExistingFile);
   app.add_flag("--triaxial", choice.triaxial,
                "the tables are of triaxial tests: p is the mean of three stresses; friction angles are compared");
   app.add_option("--path", choice.test.path, "of the tests")->check(CLI::IsMember({"biaxial", "constant_mean_stress"}));
   app.add_option("--lateral-stress,--held-stress", choice.test.held,
-                 "of the path [Pa]; that of the sand when not given")
+                 "of the path [Pa]; otherwise that of the tables' q and p, or of the sand where there is no table")
       ->check(positive(1e12));
   app.add_option("--strain", choice.strain, "at the end; the last one of the tables, or 0.1")->check(positive(1.0));
   app.add_option("--strain-step", choice.test.strain_step, "strain of one DEM step")

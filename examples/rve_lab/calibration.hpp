@@ -30,9 +30,13 @@ struct Calibration {
   std::function<Curve(Sand const&, CurveTest const&)> run{};
 
   std::size_t groups() const { return observations.back().group + 1; }
+  /// The tangential stiffness keeps its ratio to the normal one, where it is not free itself.
   Sand sand_at(Eigen::VectorXd const& shares) const {
     Sand sand = start;
     for (std::size_t k = 0; k < free.size(); ++k) free[k].of(sand) = free[k].at(shares(static_cast<Eigen::Index>(k)));
+    if (std::ranges::find(free, "tangential-stiffness", &Free::name) == free.end() &&
+        sand.normal_stiffness != start.normal_stiffness)
+      sand.tangential_stiffness = start.tangential_stiffness * (sand.normal_stiffness / start.normal_stiffness);
     return sand;
   }
 };

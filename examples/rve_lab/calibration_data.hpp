@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -12,8 +11,9 @@
 
 #include "../shared/command_line.hpp"
 #include "../shared/sand/sand.hpp"
+#include "laboratory_data.hpp"
 #include "mean_curve.hpp"
-#include "scarp/io/csv_reader.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace rve_lab {
 
@@ -67,8 +67,7 @@ struct Observation {
 
 inline double number_in(std::string const& text, std::string_view option) {
   double value = 0.0;
-  auto const [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+  if (scarp::read_number(text, value) != std::errc{} || !std::isfinite(value))
     scarp::reject("--{} has '{}' (a number is expected): correct it", option, text);
   return value;
 }
@@ -87,6 +86,10 @@ inline std::vector<Free> free_parameters(std::string const& text) {
         one.least = 0.05;
       else if (one.name == "rolling-friction")
         one.most = 0.5;
+      else if (one.name == "normal-stiffness")
+        one.least = 2e6, one.most = 2e8;
+      else if (one.name == "modulus")
+        one.least = 1e8, one.most = 1e10;
       else
         scarp::reject("--free has '{}' (its bounds are not usual ones): give {}=LEAST:MOST", item, item);
     } else {
@@ -163,58 +166,6 @@ inline double at_strain(Curve const& curve, double strain, double (*of)(scarp::L
 
 inline double sine_of(scarp::LaboratoryRow<2> const& row) { return std::sin(row.friction()); }
 inline double volumetric_strain_of(scarp::LaboratoryRow<2> const& row) { return row.volumetric_strain(); }
-
-/// Columns of a laboratory table: axial_strain and volumetric_strain (or with _percent), compression positive, and stress_ratio (q/p),
-/// or q and p; columns of path.csv will do.
-struct LabTable {
-  std::vector<double> strain;
-  std::vector<double> sine;         ///< of the mobilised friction angle; empty without stresses
-  std::vector<double> sine_strain;  ///< at which the sines are: of means over a row its middle
-  std::vector<double> volumetric;   ///< empty where it is not given
-
-  /// triaxial: p is the mean of three principal stresses, q/p becomes \f$ \sin\varphi = 3 (q/p) / (6 + q/p) \f$; else of two,
-  /// \f$ \sin\varphi = (q/p) / 2 \f$.
-  /// \throws InputError
-  static LabTable read(std::string const& file, bool triaxial) {
-    auto const table = scarp::read_csv(file);
-    auto const strains = [&](std::string const& name) {
-      bool const percent = table.has(name + "_percent");
-      auto values = table.column<double>(percent ? name + "_percent" : name);
-      for (double& value : values) value *= percent ? 0.01 : 1.0;
-      return values;
-    };
-    LabTable lab;
-    lab.strain = lab.sine_strain = strains("axial_strain");
-    if (table.has("volumetric_strain") || table.has("volumetric_strain_percent"))
-      lab.volumetric = strains("volumetric_strain");
-    if (table.has("stress_ratio")) {
-      lab.sine = table.column<double>("stress_ratio");
-    } else if (table.has("q")) {
-      bool const means = table.has("mean_q");
-      lab.sine = table.column<double>(means ? "mean_q" : "q");
-      auto const p = table.column<double>(means ? "mean_p" : "p");
-      for (std::size_t row = 0; row < p.size(); ++row) {
-        if (!(p[row] > 0.0))
-          scarp::reject("line {} of '{}': p is {} (a mean stress above 0 is expected): correct it", table.line(row),
-                        file, p[row]);
-        lab.sine[row] /= p[row];
-        if (means && row > 0) lab.sine_strain[row] = (lab.strain[row - 1] + lab.strain[row]) / 2.0;
-      }
-    }
-    for (double& ratio : lab.sine) ratio = triaxial ? 3.0 * ratio / (6.0 + ratio) : ratio / 2.0;
-    if (lab.strain.size() < 3 || (lab.sine.empty() && lab.volumetric.empty()))
-      scarp::reject(
-          "'{}' has {} rows and no stress_ratio, q and p, or volumetric_strain (three rows and one of these are "
-          "expected): complete it",
-          file, lab.strain.size());
-    for (std::size_t row = 1; row < lab.strain.size(); ++row) {
-      if (!(lab.strain[row] > lab.strain[row - 1]))
-        scarp::reject("line {} of '{}': the axial strain {} follows {} (it is to increase): give one loading path",
-                      table.line(row), file, lab.strain[row], lab.strain[row - 1]);
-    }
-    return lab;
-  }
-};
 
 /// Twenty strains, denser at the start, at which the curve is to have the table's values. after: groups so far
 inline std::vector<Observation> observations_of(LabTable const& table, std::size_t groups) {

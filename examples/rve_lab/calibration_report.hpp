@@ -45,8 +45,8 @@ class CalibrationReport {
                                 {"seeds", calibration_.seeds}};
     if (!effort_.reasons.empty()) json["first_infeasible_evaluation"] = effort_.reasons.front();
     if (!other_.feasible()) json["infeasible_on_other_seeds"] = other_.reason;
-    for (auto const& [name, value, error, range] : parameters())
-      json["parameters"][name] = {{"value", value}, {"standard_error", error}, {"range", range}};
+    for (auto const& [name, value, error, range, bound] : parameters())
+      json["parameters"][name] = {{"value", value}, {"standard_error", error}, {"range", range}, {"at_bound", bound}};
     for (std::size_t k = 0; k < calibration_.observations.size(); ++k) {
       auto const& one = calibration_.observations[k];
       auto const at = static_cast<Eigen::Index>(k);
@@ -69,7 +69,11 @@ class CalibrationReport {
       examples::print(stdout, "{} of {} evaluations were infeasible, the first: {}\n", effort_.reasons.size(),
                       effort_.evaluations, effort_.reasons.front());
     if (!other_.feasible()) examples::print(stdout, "infeasible on other seeds: {}\n", other_.reason);
-    for (auto const& [name, value, error, range] : parameters()) {
+    for (auto const& [name, value, error, range, bound] : parameters()) {
+      if (!bound.empty()) {
+        examples::print(stdout, "{} {:.5g}, at the {} end of its bounds: widen them\n", name, value, bound);
+        continue;
+      }
       bool const open = error > 0.25 * range;
       examples::print(stdout, "{} {:.5g} +- {:.2g}{}\n", name, value, error,
                       open ? ": the data hardly determine it" : "");
@@ -124,6 +128,7 @@ class CalibrationReport {
     double value;
     double error;
     double range;
+    std::string bound;  ///< "lower" or "upper" where it lies at one
   };
 
   std::vector<Parameter> parameters() const {
@@ -135,9 +140,14 @@ class CalibrationReport {
       double const error = std::sqrt(found_.covariance(at, at));
       double const slope = (one.at(std::min(1.0, share + 0.01)) - one.at(std::max(0.0, share - 0.01))) /
                            (std::min(1.0, share + 0.01) - std::max(0.0, share - 0.01));
-      all.push_back({one.name, one.at(share), std::min(error, 1.0) * slope, one.most - one.least});
+      all.push_back({one.name, one.at(share), std::min(error, 1.0) * slope, one.most - one.least, bound_of(share)});
     }
     return all;
+  }
+
+  static std::string bound_of(double share) {
+    constexpr double near = 0.03;
+    return share <= near ? "lower" : share >= 1.0 - near ? "upper" : "";
   }
 
   template <class Visit>
@@ -158,15 +168,15 @@ class CalibrationReport {
   }
 
   std::string limits_of() const {
-    constexpr double near = 0.03;
     std::string text = void_ratio_limit();
     for (std::size_t k = 0; k < calibration_.free.size(); ++k) {
       auto const& one = calibration_.free[k];
       double const share = best_.shares(static_cast<Eigen::Index>(k));
-      if (share > near && share < 1.0 - near) continue;
-      bool const low = share <= near;
-      text += fmt::format("{}{} at the {} end of its bounds, {:.5g}", text.empty() ? "" : ", ", one.name,
-                          low ? "lower" : "upper", low ? one.least : one.most);
+      auto const bound = bound_of(share);
+      if (bound.empty()) continue;
+      bool const low = bound == "lower";
+      text += fmt::format("{}{} at the {} end of its bounds, {:.5g}", text.empty() ? "" : ", ", one.name, bound,
+                          low ? one.least : one.most);
       if (one.name == "relative-density") text += low ? " (the loosest)" : " (the densest)";
     }
     return text;

@@ -56,7 +56,7 @@ struct CurveTest {
 struct CalibrateChoice {
   examples::Sand sand{.void_ratio_tolerance = 2e-3};  ///< small packings jump over void ratios
   std::string sand_file{};
-  std::string free = "friction,relative-density";
+  std::string free{};  ///< empty: friction, relative density and the stiffness of the contacts
   std::string target{};
   std::vector<std::string> tables{};
   bool triaxial = false;  ///< whether the tables are of triaxial tests

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -82,8 +81,7 @@ class EvaluationTable {
     std::vector<double> values;
     for (auto const& text : table.texts(name)) {
       double value = std::numeric_limits<double>::quiet_NaN();
-      auto const [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (!text.empty() && (trouble != std::errc{} || end != text.data() + text.size()))
+      if (!text.empty() && scarp::read_number(text, value) != std::errc{})
         table.reject_cell(values.size(), name, "it is no number", "calibrate without --resume");
       values.push_back(value);
     }

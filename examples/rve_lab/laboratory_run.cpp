@@ -93,6 +93,13 @@ class LaboratoryRun {
   double void_ratio(std::size_t point) const { return void_ratios_[point]; }
   scarp::PathReport const& total() const { return total_; }
   double length() const { return path_->length(); }
+  /// Words on the point with the least pressure, which ends a test of several first.
+  std::string weakest() const {
+    if (rows_.size() < 2) return {};
+    auto const least = std::ranges::min_element(rows_, {}, [](auto const& rows) { return rows.back().p(); });
+    return fmt::format(", point {} carries the least, p {:.4g} Pa: without it the others may go on",
+                       least - rows_.begin(), least->back().p());
+  }
 
  private:
   static std::vector<scarp::Site<Dim>> sites(int count) {
@@ -165,30 +172,36 @@ nlohmann::json json_of(scarp::LaboratoryRow<Dim> const& row, double void_ratio) 
           {"void_ratio", row.void_ratio(void_ratio)}};
 }
 
+/// whole: whether the test came to its end; one that was cut off has no residual state
 template <int Dim>
-nlohmann::json json_of(scarp::LaboratoryResults<Dim> const& results, double void_ratio) {
-  nlohmann::json json{{"peak", json_of(results.peak, void_ratio)},
-                      {"residual", json_of(results.residual, void_ratio)},
+nlohmann::json json_of(scarp::LaboratoryResults<Dim> const& results, double void_ratio, bool whole) {
+  nlohmann::json json{{"peak", nullptr},
+                      {"residual", nullptr},
                       {"phase_transformation", nullptr},
                       {"peak_dilation_angle", results.peak_dilation / degree},
                       {"secant_dilation_angle", results.secant_dilation / degree},
                       {"E50", results.secant_modulus},
                       {"G0", results.shear_modulus},
                       {"K0", results.k0}};
+  if (!results.rises) json["peak"] = json_of(results.peak, void_ratio);
+  if (whole) json["residual"] = json_of(results.residual, void_ratio);
   if (results.phase_transformation) json["phase_transformation"] = json_of(*results.phase_transformation, void_ratio);
   return json;
 }
 
-void print_results(std::string const& name, nlohmann::json const& json) {
-  auto const number = [](nlohmann::json const& value) { return value.is_null() ? std::nan("") : value.get<double>(); };
-  auto const& peak = json["peak"];
-  auto const& turn = json["phase_transformation"];
-  examples::print(stdout,
-                  "{:>6} {:>8.2f} {:>8.4f} {:>8.4f} {:>8.2f} {:>8.2f} {:>8.4f} {:>9.5f} {:>10.4g} {:>10.4g} {:>6.3f}\n",
-                  name, number(peak["friction_angle"]), number(peak["strain"]), number(peak["void_ratio"]),
-                  number(json["peak_dilation_angle"]), number(json["residual"]["friction_angle"]),
-                  number(json["residual"]["void_ratio"]), turn.is_null() ? std::nan("") : number(turn["strain"]),
-                  number(json["E50"]), number(json["G0"]), number(json["K0"]));
+void print_results(std::string const& name, nlohmann::json const& json) {  // nan: the test does not have it
+  auto const number = [&](std::initializer_list<char const*> keys) {
+    nlohmann::json const* value = &json;
+    for (auto const* key : keys) {
+      if (!value->is_null()) value = &(*value)[key];
+    }
+    return value->is_null() ? std::nan("") : value->get<double>();
+  };
+  examples::print(
+      stdout, "{:>6} {:>8.2f} {:>8.4f} {:>8.4f} {:>8.2f} {:>8.2f} {:>8.4f} {:>9.5f} {:>10.4g} {:>10.4g} {:>6.3f}\n",
+      name, number({"peak", "friction_angle"}), number({"peak", "strain"}), number({"peak", "void_ratio"}),
+      number({"peak_dilation_angle"}), number({"residual", "friction_angle"}), number({"residual", "void_ratio"}),
+      number({"phase_transformation", "strain"}), number({"E50"}), number({"G0"}), number({"K0"}));
 }
 
 /// Mohr-Coulomb parameters of a drained test's results: printed as options of this command, and kept in the summary.
@@ -248,20 +261,25 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
     double mean_void_ratio = 0.0;
     for (std::size_t k = 0; k < run.rows().size(); ++k) {
       mean_void_ratio += run.void_ratio(k) / static_cast<double>(count);
-      auto const json = json_of(scarp::laboratory_results<Dim>(run.rows()[k], window), run.void_ratio(k));
+      auto const json =
+          json_of(scarp::laboratory_results<Dim>(run.rows()[k], window), run.void_ratio(k), verdict.acceptable());
       print_results(fmt::to_string(k), json);
       summary["results"].push_back(json);
     }
     auto const mean = scarp::laboratory_results<Dim>(scarp::mean_rows<Dim>(run.rows()), window);
-    summary["mean"] = json_of(mean, mean_void_ratio);
+    summary["mean"] = json_of(mean, mean_void_ratio, verdict.acceptable());
     if (count > 1) print_results("mean", summary["mean"]);
+    if (!mean.rises) summary["peak_friction_angle"] = mean.peak.friction() / degree;
+    if (verdict.acceptable()) summary["residual_friction_angle"] = mean.residual.friction() / degree;
+    for (auto const* key : {"peak_dilation_angle", "E50", "G0"}) summary[key] = summary["mean"][key];
     if (choice.path == "drained" && !std::isnan(mean.peak_dilation)) summary["mohr_coulomb"] = read_mohr_coulomb(mean);
   }
   examples::write_json(own.path() / "summary.json", summary);
   own.end(verdict.acceptable() ? "finished" : std::string(scarp::name(verdict.reason)));
   if (!verdict.acceptable())
-    examples::print(stderr, "rve_lab: the test ended at the length {:.6g} ({}, {}): the rows so far are in '{}'\n",
-                    run.length(), scarp::name(verdict.status), scarp::name(verdict.reason),
+    examples::print(stderr,
+                    "rve_lab: the test was cut off at the length {:.6g} ({}, {}){}: the rows so far are in '{}'\n",
+                    run.length(), scarp::name(verdict.status), scarp::name(verdict.reason), run.weakest(),
                     (own.path() / "test.csv").string());
   return verdict.acceptable();
 }

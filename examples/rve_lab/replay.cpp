@@ -55,7 +55,7 @@ void relax(PackingType& packing, scarp::LinearFrictional const& law, double pres
   scarp::TimeStepper<PackingType> stepper;
   double const before = packing.void_ratio();
   auto verdict = scarp::Servo{}.reach(stepper, packing, law, loading);
-  if (auto const stopped = stepper.stop(packing, law); !stopped.acceptable()) verdict = stopped;
+  if (auto const stopped = stepper.stop(packing, law); verdict.acceptable()) verdict = stopped;
   if (!verdict.acceptable()) {
     scarp::reject("the packing does not come to rest at {} Pa ({}): check cell, stiffness and pressure", pressure,
                   scarp::name(verdict.reason));

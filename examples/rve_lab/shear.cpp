@@ -92,7 +92,9 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   scarp::save_packing(folder / "end.packing", lab.packing());
   scarp::write_file(examples::sand_path(folder / "end.packing"), examples::text_of(sand));
   examples::print(stdout, "{}{}", scarp::budget_headline(budget.parts()), scarp::budget_table(budget.parts()));
-  examples::print(stdout, "largest q/p {:.4f} at strain {:.5f}\n", largest_ratio(peak), value(peak, "strain"));
+  double const friction = std::asin(std::min(1.0, largest_ratio(peak) / 2.0)) / degree;
+  examples::print(stdout, "largest q/p {:.4f}, a friction angle of {:.2f} degrees, at strain {:.5f}\n",
+                  largest_ratio(peak), friction, value(peak, "strain"));
   nlohmann::json const summary{{"path", choice.name},
                                {"sand", examples::to_json(sand)},
                                {"grains", lab.packing().grain_count()},
@@ -100,6 +102,8 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
                                {"strain_step", choice.strain_step},
                                {"steps", steps},
                                {"error_budget", examples::json_of(budget.parts())},
+                               {"largest_friction_angle", friction},
+                               {"strain_at_largest_friction", value(peak, "strain")},
                                {"peak", nlohmann::json(std::map<std::string, double>(peak.begin(), peak.end()))},
                                {"output", folder.string()},
                                {"run", examples::json_of(own.record())}};

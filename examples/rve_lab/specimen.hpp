@@ -98,7 +98,7 @@ class Specimen {
     }
     double const before = packing_.void_ratio();
     auto verdict = scarp::Servo{}.reach(stepper_, packing_, law_, loading);
-    if (auto const stopped = stepper_.stop(packing_, law_); !stopped.acceptable()) verdict = stopped;
+    if (auto const stopped = stepper_.stop(packing_, law_); verdict.acceptable()) verdict = stopped;
     if (verdict.acceptable() && deepest_overlap(packing_, law_) > deepest)
       verdict = {scarp::Status::failed, scarp::Reason::too_deep};
     if (!verdict.acceptable()) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "renamed_options.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace examples {
 
@@ -68,17 +69,17 @@ inline CLI::Validator seed_number() {
       "SEED");
 }
 
-/// Files with lines `option = value`: a value may hold commas, and editors may have put a byte order mark first.
+/// Files with lines `option = value`: a value may hold commas, lines end as TextLines has them.
 class ConfigFile : public CLI::ConfigTOML {
  public:
   /// app: whose options the file names
   explicit ConfigFile(CLI::App const& app) : app_(app) { arraySeparator = '\x1f'; }
 
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
-    std::string text(std::istreambuf_iterator<char>(input), {});
-    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
-    std::istringstream rest(text);
-    auto found = CLI::ConfigTOML::from_config(rest);
+    std::string const text(std::istreambuf_iterator<char>(input), {});
+    std::stringstream plain;
+    for (scarp::TextLines lines(text); !lines.done();) plain << lines.take() << '\n';
+    auto found = CLI::ConfigTOML::from_config(plain);
     for (auto& item : found) {
       item.name = present_name(app_, item.name);
       for (auto& value : item.inputs) value = present_value(item.name, value);
@@ -97,22 +98,23 @@ inline void declare_config(CLI::App& app, std::string const& what = "file with l
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 
-/// Why a folder cannot take results, or nothing. The folder itself is made when results are written; what it lies in must
-/// exist.
+/// Why a folder cannot take results, or nothing. The folder itself, and what it lies in, are made when results are written.
 inline std::string folder_problem(std::string const& given) {
-  std::filesystem::path const folder = given;
   if (given.empty()) return "the name of the output folder is empty";
   std::error_code trouble;
-  auto const kind = std::filesystem::status(folder, trouble).type();
-  if (kind == std::filesystem::file_type::directory) return {};
-  if (kind == std::filesystem::file_type::none)
-    return "'" + given + "' cannot be reached (" + trouble.message() + "): check the folders that it lies in";
-  if (kind != std::filesystem::file_type::not_found) return "'" + given + "' is a file";
-  auto const whole = std::filesystem::absolute(folder, trouble).lexically_normal();
-  auto const parent = (whole.has_filename() ? whole : whole.parent_path()).parent_path();
-  if (std::filesystem::is_directory(parent, trouble)) return {};
-  return "there is no folder '" + parent.string() +
-         "' (the folder for results or checkpoints would lie in it): create it first";
+  auto place = std::filesystem::absolute(given, trouble).lexically_normal();
+  for (; !trouble && place.has_relative_path(); place = place.parent_path()) {
+    auto const kind = std::filesystem::status(place, trouble).type();
+    if (kind == std::filesystem::file_type::directory) return {};
+    if (kind == std::filesystem::file_type::none) break;
+    if (kind != std::filesystem::file_type::not_found)
+      return place == std::filesystem::absolute(given).lexically_normal()
+                 ? "'" + given + "' is a file"
+                 : "'" + given + "' cannot be made ('" + place.string() + "' is a file): choose another folder";
+    trouble.clear();  // of what is not there
+  }
+  if (!trouble) return {};
+  return "'" + given + "' cannot be reached (" + trouble.message() + "): check the folders that it lies in";
 }
 
 }  // namespace examples

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <string_view>
 
 #include "scarp/core/error.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace examples {
 
@@ -19,15 +19,18 @@ class Entries {
  public:
   /// \throws InputError for a line without a value and for a key that is given twice
   explicit Entries(std::string_view text) {
-    for (int line = 1; !text.empty(); ++line) {
-      std::string_view const whole = text.substr(0, text.find('\n'));
-      text.remove_prefix(std::min(whole.size() + 1, text.size()));
-      std::string_view const entry = trimmed(whole.substr(0, whole.find('#')));
-      if (entry.empty()) continue;
-      std::string_view const key = entry.substr(0, entry.find_first_of(" \t\r="));
-      std::string_view value = trimmed(entry.substr(key.size()));
-      if (value.starts_with('=')) value = trimmed(value.substr(1));
-      if (value.empty()) scarp::reject("line {} is '{}' (a key and its value are expected): add the value", line, key);
+    for (scarp::TextLines lines(text); !lines.done();) {
+      std::string_view const whole = lines.take();
+      std::string_view const entry = scarp::trimmed(whole.substr(0, whole.find('#')));
+      if (entry.empty() || entry.starts_with(';')) continue;
+      auto const line = lines.number();
+      std::string_view const key = entry.substr(0, entry.find_first_of(" \t="));
+      std::string_view value = scarp::trimmed(entry.substr(key.size()));
+      if (value.starts_with('=')) value = scarp::trimmed(value.substr(1));
+      if (value.size() > 1 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
+      if (value.empty())
+        scarp::reject("line {} is '{}' (a key and its value are expected): add the value", line,
+                      scarp::shortened(scarp::spelt_out(key)));
       if (!values_.try_emplace(std::string(key), Value{std::string(value), line}).second)
         scarp::reject("line {} gives '{}' again (one value is expected): leave one out", line, key);
     }
@@ -45,20 +48,19 @@ class Entries {
     auto const found = values_.extract(key);
     if (!found) return;
     auto const& [text, line] = found.mapped();
-    auto const [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(static_cast<double>(value)))
-      scarp::reject("line {}: '{}' is '{}' ({} is expected): correct it", line, key, text, expected<Number>());
+    if (scarp::read_number(text, value) != std::errc{} || !std::isfinite(static_cast<double>(value)))
+      scarp::reject("line {}: '{}' is '{}' ({} is expected): correct it", line, key,
+                    scarp::shortened(scarp::spelt_out(text)), expected<Number>());
   }
 
   /// \throws InputError for keys that nobody took
   void require_all_taken(std::string_view kind) const {
     for (auto const& [key, value] : values_)
-      scarp::reject("line {}: {} has no '{}' (it is unknown or of another kind): leave it out", value.line, kind, key);
+      scarp::reject("line {}: {} has no '{}' (it is unknown or of another kind): leave it out", value.line, kind,
+                    scarp::shortened(scarp::spelt_out(key)));
   }
 
  private:
-  static constexpr std::string_view blanks = " \t\r";
-
   template <class Number>
   static std::string expected() {
     if constexpr (std::floating_point<Number>) return "a finite number";
@@ -66,15 +68,9 @@ class Entries {
                        std::numeric_limits<Number>::max());
   }
 
-  static std::string_view trimmed(std::string_view text) {
-    auto const first = text.find_first_not_of(blanks);
-    return first == std::string_view::npos ? std::string_view{}
-                                           : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-  }
-
   struct Value {
     std::string text;
-    int line;
+    std::size_t line;
   };
   std::map<std::string, Value> values_;
 };

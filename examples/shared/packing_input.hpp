@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
@@ -11,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "grain_files.hpp"
 #include "print.hpp"
-#include "scarp/io/packings/grain_files.hpp"
 #include "scarp/tensor/tensor.hpp"
 
 namespace examples {
@@ -22,17 +21,16 @@ using Tensor = scarp::Tensor<2>;
 /// \throws InputError unless the text is four finite numbers of a right-handed cell
 inline Tensor parse_cell(std::string const& text) {
   std::vector<double> numbers;
-  char const* at = text.data();
-  char const* const end = at + text.size();
-  while (at < end) {
-    while (at < end && *at == ' ') ++at;
-    double number = 0.0;
-    auto const [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc() || !std::isfinite(number) || (next < end && *next != ',')) break;
-    numbers.push_back(number);
-    at = next < end ? next + 1 : end;
+  bool sound = true;
+  for (std::size_t begin = 0; begin <= text.size() && sound;) {
+    auto const end = std::min(text.find(',', begin), text.size());
+    double& number = numbers.emplace_back();
+    sound =
+        scarp::read_number(scarp::trimmed(std::string_view(text).substr(begin, end - begin)), number) == std::errc{} &&
+        std::isfinite(number);
+    begin = end + 1;
   }
-  if (numbers.size() != 4 || at != end) {
+  if (!sound || numbers.size() != 4) {
     scarp::reject("'{}' is no cell (four numbers with commas in between are wanted): write a1x,a1y,a2x,a2y in m", text);
   }
   Tensor cell;
@@ -178,7 +176,7 @@ struct PackingInput {
 /// \throws InputError for files that are wrong or do not fit together
 inline PackingInput read_packing_input(std::string const& particles, std::string const& contacts,
                                        std::string const& cell) {
-  auto file = scarp::read_grains(particles);
+  auto file = read_grains(particles);
   if (cell.empty() && contacts.empty() && !file.cell) {
     scarp::reject(
         "the cell is not known (neither --cell nor --contacts is given, nor does '{}' hold it): give --cell "

@@ -127,7 +127,7 @@ def budget(run):
         within = part.get("within") is not False
         bound = said(part["bound"], ".3g") if "bound" in part else "none"
         rows.append(("" if within else "outside", (name, said(part.get("value"), ".3g"), bound,
-                                                   "inside" if within else "OUTSIDE", part.get("meaning", ""))))
+                                                   "OUTSIDE" if not within else "inside" if "bound" in part else "", part.get("meaning", ""))))
     return table(("part", "value", "bound", "", "what it is"), rows, (1, 2)) if rows else ""
 
 

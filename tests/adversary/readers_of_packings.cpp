@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <fstream>
 
+#include "../../examples/shared/grain_files.hpp"
 #include "adversary/readers.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/io/checkpoint_files.hpp"
 #include "scarp/io/packings/contact_reader.hpp"
-#include "scarp/io/packings/grain_files.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/shape/sphere.hpp"
@@ -130,7 +130,7 @@ Game other_codes_reader() {
   auto const folder = std::make_shared<ScratchFolder>();
   return reader("grains of other codes", other_codes(grain_table(3, 1)), [folder](std::string const& bytes) {
     std::ofstream(*folder / "g", std::ios::binary) << bytes;
-    auto const file = scarp::read_grains(*folder / "g");
+    auto const file = examples::read_grains(*folder / "g");
     if (!file.cell) return;
     use_packing(scarp::read_packing<Spheres>(file.grains, *file.cell, 2650.0, 1.0).packing);
   });

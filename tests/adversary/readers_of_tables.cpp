@@ -23,11 +23,11 @@ std::vector<std::string> table_samples() {
   table.add("", "\"", -2e-300);
   table.write(folder / "own.csv");
   return {content(folder / "nodes.csv"), content(folder / "elements.csv"), content(folder / "own.csv"),
-          "# a b c\n1 2 3\n\t4 5.5 6\n# remark\n7 8 9\n"};
+          "sep=;\na;b;\n1;2;\n;;\n\"3\";4\n"};
 }
 
-void use_table(std::string const& bytes, scarp::CsvSeparator separator) {
-  scarp::CsvColumns const table(bytes, "t.csv", separator);
+void use_table(std::string const& bytes) {
+  scarp::CsvColumns const table(bytes, "t.csv");
   for (auto const& name : table.names()) {
     try {
       auto const values = table.column(name);
@@ -69,12 +69,6 @@ Game record_reader() {
 
 }  // namespace
 
-std::vector<Game> readers_of_tables() {
-  using scarp::CsvSeparator;
-  return {reader("tables", table_samples(), [](std::string const& bytes) { use_table(bytes, CsvSeparator::comma); }),
-          reader("tables of blanks", table_samples(),
-                 [](std::string const& bytes) { use_table(bytes, CsvSeparator::blanks); }),
-          record_reader()};
-}
+std::vector<Game> readers_of_tables() { return {reader("tables", table_samples(), use_table), record_reader()}; }
 
 }  // namespace adversary

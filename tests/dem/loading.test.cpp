@@ -8,3 +8,12 @@ TEST_CASE("a stress that is held without a target is held at zero") {
   CHECK(side.missing(scarp::Tensor<2>::Zero()) == 0.0);
   CHECK(side.missing(scarp::Tensor<2>::Identity()) == -1.0);
 }
+
+TEST_CASE("grains carry a deviator of either sign, also where the direction's trace is round-off") {
+  scarp::StressControl<2> control{.target = 2e4};
+  control.direction.diagonal() << 0.1 + 0.2, -0.3;  // a trace of 5.6e-17
+  CHECK(control.reachable(false));
+  control.direction(1, 1) = -0.2;
+  CHECK_FALSE(control.reachable(false));
+  CHECK(control.reachable(true));
+}

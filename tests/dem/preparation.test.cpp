@@ -75,6 +75,26 @@ TEST_CASE("a target beyond the strength ends within the allowed steps") {
   CHECK(verdict.reason != Reason::none);
 }
 
+namespace {
+/// Moves a grain to nowhere in the servo's last step, which shows when the grains are stopped.
+struct LosesGrain {
+  int* calls;
+  template <class PackingType>
+  void constrain(PackingType const& packing, scarp::GrainHolds<PackingType> const&) const {
+    if (++*calls == 2) const_cast<PackingType&>(packing).velocity(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  }
+};
+}  // namespace
+
+TEST_CASE("a preparation that fails keeps its first reason when it stops the grains") {
+  scarp::IsotropicPreparation const preparation{.pressure = 1e5, .consolidation = {.max_steps = 1}};
+  auto const cloud = samples::loose_cloud<Discs>(20, 1);
+  int calls = 0;
+  auto const made = preparation.prepare(cloud, samples::study_law(), scarp::LocalDamping{}, LosesGrain{&calls});
+  CHECK(calls > 1);
+  CHECK(made.verdict == Verdict{scarp::Status::not_converged, scarp::Reason::unreachable});
+}
+
 TEST_CASE("preparation refuses impossible pressures, frictions and clouds") {
   auto const nan = std::numeric_limits<double>::quiet_NaN();
   auto const prepare = [](double pressure, double friction) {

@@ -16,10 +16,8 @@ TEST_CASE("sieving the grains that a curve gives returns the curve") {
   for (int const dim : {2, 3}) {
     CAPTURE(dim);
     scarp::Random random(7);
-    constexpr int grains = 200'000;
     double mass = 0.0, below_second = 0.0, below_third = 0.0, below_between = 0.0;
-    for (int k = 0; k < grains; ++k) {
-      double const diameter = curve.sample(random, dim);
+    for (double const diameter : curve.sample(random, dim, 200'000)) {
       REQUIRE((diameter >= 1e-3 * (1.0 - 1e-12) && diameter <= 5e-3 * (1.0 + 1e-12)));
       double const own = std::pow(diameter, dim);
       mass += own;
@@ -34,10 +32,50 @@ TEST_CASE("sieving the grains that a curve gives returns the curve") {
   }
 }
 
+// Of a curve over a decade chance draws too few large grains: classes of equal number have the curve's mass all the same.
+TEST_CASE("few grains of a wide curve have its mass, and fewer are rejected with what would do") {
+  SieveCurve const curve{{5e-4, 2e-3, 5e-3}, {0.0, 0.4, 1.0}};
+  for (auto const& [dim, grains] : {std::pair{2, 250}, std::pair{3, 1000}}) {
+    for (std::uint64_t seed = 1; seed < 20; ++seed) {
+      CAPTURE(seed);
+      scarp::Random random(seed);
+      double mass = 0.0, below = 0.0, largest = 0.0;
+      for (double const diameter : curve.sample(random, dim, grains)) {
+        double const own = std::pow(diameter, dim);
+        mass += own;
+        if (diameter <= 2e-3) below += own;
+        largest = std::max(largest, diameter);
+      }
+      CHECK(std::abs(below / mass - 0.4) <= 0.1);
+      CHECK(largest > 3.5e-3);
+      CHECK(largest <= 5e-3);
+    }
+  }
+  scarp::Random random(1);
+  auto const draw = [&](SieveCurve const& wide, int dim, int grains) {
+    static_cast<void>(wide.sample(random, dim, grains));
+  };
+  SieveCurve const wide{{1e-4, 1e-3, 1e-2}, {0.0, 0.5, 1.0}};
+  auto const said = samples::message_of([&] { draw(wide, 2, 300); });
+  CAPTURE(said);
+  CHECK(samples::contains(said, "300 grains cannot have the sieve curve from 0.0001 to 0.01 m"));
+  // Half of the mass in each decade is uniform over ln d, hence numbers are as differences of 1 / d^2; a tenth of the mass lies above d90.
+  int needed = 0;
+  double begin = 0.0;
+  REQUIRE(std::sscanf(said.substr(said.find("take ")).c_str(), "take %d grains, or begin the curve at %lf", &needed,
+                      &begin) == 2);
+  double const d90 = 1e-2 * std::pow(10.0, -0.2);
+  double const number = (1.0 / (1e-4 * 1e-4) - 1.0 / (1e-2 * 1e-2)) / (1.0 / (d90 * d90) - 1.0 / (1e-2 * 1e-2));
+  CHECK(std::abs(needed - number) <= 1.0);
+  CHECK_NOTHROW(draw(wide, 2, needed));
+  CHECK_NOTHROW(draw({{begin * 1.01, 1e-2}, {0.0, 1.0}}, 2, 300));
+  CHECK_REFUSED(draw({{begin * 0.9, 1e-2}, {0.0, 1.0}}, 2, 300), "cannot have the sieve curve");
+}
+
 TEST_CASE("sieve curves that are none are rejected") {
   CHECK_REFUSED((SieveCurve{{1e-3}, {0.0}}.validate()), "1 diameters");
   CHECK_REFUSED((SieveCurve{{2e-3, 1e-3}, {0.0, 1.0}}.validate()), "0.001 m");
-  CHECK_REFUSED((SieveCurve{{1e-3, 2e-3}, {0.1, 1.0}}.validate()), "from 0.1 to 1");
+  CHECK_REFUSED((SieveCurve{{1e-3, 2e-3}, {0.1, 1.0}}.validate()), "from 10 % to 100 %");
   CHECK_REFUSED((SieveCurve{{1e-3, 2e-3}, {0.0, 1.5}}.validate()), "1.5");
 }
 

@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True
 from expectations import example, expect, finish
 
 LAB = example("rve_lab")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 SINE = math.sin(math.radians(33.0))
 SOIL = ["--material", "mohr-coulomb", "--friction-angle", "33", "--dilation-angle", "7", "--pressure", "1e5", "--tolerance", "1e-9"]
 PACKING = ["--grains", "100", "--strain-step", "2e-5"]
@@ -64,6 +65,16 @@ def check_closed_forms(folder):
     near("void ratio", rows[-1]["void_ratio"], 1.7 * math.exp(-0.02) - 1.0, 1e-9)
 
 
+def check_no_strength(folder):
+    """A stress ratio that rises to the end of the test, and one that is cut off, are no strength."""
+    for strain in ("0.004", "0.12"):
+        said, _, summary = tested(folder, f"new/deeper/elastic{strain}", "--material", "elastic", "--pressure", "7e4", "--strain", strain)
+        expect(summary["mean"]["peak"] is None and summary["mohr_coulomb"] is None and "peak_friction_angle" not in summary, f"elastic: {summary}")
+        expect("no Mohr-Coulomb parameters: the stress ratio rises to the end of the test" in said, f"elastic: {said}")
+    said, _, summary = tested(folder, "no_friction", *SOIL[:2], "--friction-angle", 0, "--pressure", "7e4")
+    expect("the test mobilises no friction" in said, f"without friction: {said}")
+
+
 def check_table(folder):
     (folder / "path.csv").write_text("sxx,eyy\n1.5e5,0.001\n1.2e5,0.002\n")
     _, rows, _ = tested(folder, "table", "--material", "elastic", "--pressure", "1e5", "--path", "table", "--table", "path.csv")
@@ -92,6 +103,9 @@ def check_packing(folder):
     options = shlex.split(re.search("as Mohr-Coulomb: (.*)", said)[1])
     _, twin, _ = tested(folder, "twin", *options, "--pressure", rows[0]["lateral_stress"])
     near("friction of the reading", max(row["friction_angle"] for row in twin), peak, 1e-3)
+    subprocess.run([sys.executable, ROOT / "examples" / "rve_lab" / "report.py", folder / "packing"], check=True, capture_output=True)
+    page = (folder / "packing" / "report.html").read_text()
+    expect("peak friction angle" in page and f"{peak:.1f} degrees" in page, "the report has no peak friction angle")
     tested(folder, "consolidated", *PACKING, "--consolidation", "3e5", "--path", "undrained", "--strain", "0.01")
     with open(folder / "consolidated" / "test.csv", newline="") as file:
         near("consolidation", float(next(csv.DictReader(file))["axial_stress"]), 3e5, 1e-3)
@@ -102,8 +116,11 @@ def check_ends(folder):
     code, said = run(folder, "beyond", *SOIL, "--path", "table", "--table", "beyond.csv")
     expect(code == 3 and "not_converged" in said and "test.csv" in said, f"beyond the strength: ended with {code}, {said}")
     reached = json.loads((folder / "beyond" / "summary.json").read_text())["length"]
+    expect(json.loads((folder / "beyond" / "summary.json").read_text())["mean"]["residual"] is None, "a residual state of a test that was cut off")
     near("share of the way", reached, (1e5 * (1.0 + SINE) / (1.0 - SINE) - 1e5) / 8e5, 1e-2)
     (folder / "empty.csv").write_text("sxx,syy\n")
+    code, said = run(folder, "empty.csv/output", "--material", "elastic")
+    expect(code == 2 and "empty.csv' is a file" in said, f"an output folder below a file: ended with {code}, {said}")
     for arguments, named in ((["--young", "1e6"], "--young is given but not used"), (["--ratio", "1"], "--ratio"),
                              (["--material", "elastic", "--path", "table", "--table", "empty.csv"], "has no rows"),
                              (["--material", "elastic", "--path", "table", "--table", "beyond.csv", "--window", "0.01"], "--window is given but not used"),
@@ -118,6 +135,6 @@ def check_ends(folder):
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    for check in (check_closed_forms, check_table, check_packing, check_ends):
+    for check in (check_closed_forms, check_no_strength, check_table, check_packing, check_ends):
         check(pathlib.Path(scratch))
 finish()

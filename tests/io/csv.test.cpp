@@ -3,11 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <sstream>
 
 #include "scarp/core/random.hpp"
@@ -48,6 +50,16 @@ TEST_CASE("numbers come back from a table with the same bits") {
     double const back = std::strtod(lines[k + 1].c_str(), nullptr);
     CHECK(std::bit_cast<std::uint64_t>(back) == std::bit_cast<std::uint64_t>(numbers[k]));
   }
+}
+
+TEST_CASE("a row is given cell by cell or as a range") {
+  scarp::CsvTable table({"x", "y"});
+  table.add(1, 2.5);
+  table.add(std::vector<double>{1.0, 2.5});
+  table.add(std::vector<std::string>{"1", "2.5"});
+  table.add(std::span<double const>(std::array{1.0, 2.5}));
+  CHECK(table.text() == "x,y\n1,2.5\n1,2.5\n1,2.5\n1,2.5\n");
+  CHECK_REFUSED(table.add(std::vector<double>{1.0}), "a row of 1 cells");
 }
 
 TEST_CASE("a table holds text and whole numbers beside numbers, and quotes what needs it") {

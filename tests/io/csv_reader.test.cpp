@@ -17,9 +17,7 @@ namespace {
 using samples::Naming;
 using samples::ScratchFolder;
 
-scarp::CsvColumns table(std::string_view text, scarp::CsvSeparator separator = scarp::CsvSeparator::comma) {
-  return {text, "grains.csv", separator};
-}
+scarp::CsvColumns table(std::string_view text) { return {text, "grains.csv"}; }
 
 /// What is said when a column of a table with one number column `r` is requested.
 std::string complaint(std::string_view text, std::string_view column = "r") {
@@ -63,12 +61,26 @@ TEST_CASE("columns are found by name, blank lines and foreign ends of lines do n
   CHECK_REFUSED(read.texts("y"), "no column 'y'");
 }
 
-TEST_CASE("a table whose cells are parted by blanks may begin with a marked header") {
-  auto const read = table("# id  x\n 1\t0.5\n# a remark\n2   0.75\n", scarp::CsvSeparator::blanks);
-  CHECK(read.column<int>("id") == std::vector<int>{1, 2});
-  CHECK(read.column("x") == std::vector<double>{0.5, 0.75});
-  CHECK(read.line(1) == 4);
-  CHECK(table("id x\n1 2\n", scarp::CsvSeparator::blanks).column("x") == std::vector<double>{2.0});
+TEST_CASE("a table is read as spreadsheets leave it") {
+  std::vector<double> const x{0.5, 0.75};
+  for (auto const* const text : {"id;x\n1;0.5\n2;0.75\n", "id\tx\n1\t0.5\n2\t0.75\n", "sep=;\nid;x\n1;0.5\n2;0.75\n",
+                                 "sep=,\r\nid,x\r\n1,0.5\r\n2,0.75\r\n", "id,x\r1,0.5\r2,0.75\r",
+                                 "\nid,x,,\n1,0.5,,\n,,,\n2,0.75,,\n , ,\n", "id,,x\n1,,0.5\n2,,0.75,,\n",
+                                 "id,x\n   \n1,0.5\xC2\xA0\n2,+0.75\n", "\xEF\xBB\xBFid;x;\r1;\"0.5\";\r2;0.75\r"}) {
+    CAPTURE(text);
+    auto const read = table(text);
+    CHECK(read.names() == std::vector<std::string>{"id", "x"});
+    CHECK(read.column<int>("id") == std::vector<int>{1, 2});
+    CHECK(read.column("x") == x);
+  }
+  CHECK(complaint("id,r,\n1,2,\n3,4,5\n") == Naming{"line 3 of", "'5' in column 3", "line 1 does not name"});
+  CHECK(complaint("id;r\n1;0,5\n") == Naming{"'0,5' in column 'r'", "with a point"});
+  CHECK(complaint("r\n1\xC2\xA0"
+                  "200\n") == Naming{"'1<U+00A0>200'"});
+  CHECK(complaint("r\n\xE2\x88\x92"
+                  "2\n") == Naming{"'<U+2212>2'"});
+  CHECK(complaint("x,y" + std::string(5000, 'y') + "\n1,2\n").size() < 400);
+  CHECK(complaint("r\n" + std::string(5000, 'z') + "\n").size() < 400);
 }
 
 TEST_CASE("a file that is missing, a folder or empty is refused by name") {
@@ -76,6 +88,8 @@ TEST_CASE("a file that is missing, a folder or empty is refused by name") {
   CHECK_THROWS_WITH_AS(scarp::read_csv(folder / "nowhere.csv"),
                        doctest::Contains("nowhere.csv' (there is no such file)"), scarp::InputError);
   CHECK_THROWS_WITH_AS(scarp::read_csv(folder.path()), doctest::Contains("it is a folder"), scarp::InputError);
+  scarp::write_file(folder / "unicode.txt", std::string("\xFF\xFEr\0\n\0001\0\n\0", 10));
+  CHECK_THROWS_WITH_AS(scarp::read_csv(folder / "unicode.txt"), doctest::Contains("in UTF-16"), scarp::InputError);
   CHECK_THROWS_WITH_AS(table(""), doctest::Contains("'grains.csv' is empty"), scarp::InputError);
   CHECK_THROWS_WITH_AS(table("\n\n"), doctest::Contains("'grains.csv' is empty"), scarp::InputError);
 }
@@ -87,7 +101,7 @@ TEST_CASE("a wrong header is refused") {
 
 TEST_CASE("a line of another width is refused with its number") {
   CHECK(complaint("x,r\n1,2\n3\n") == Naming{"line 3 of 'grains.csv'", "1 cells", "2 columns"});
-  CHECK(complaint("x,r\n1,2,\n") == Naming{"has 3 cells"});
+  CHECK(complaint("x,r\n1,2,3\n") == Naming{"has 3 cells"});
 }
 
 TEST_CASE("a cell that is no finite number is refused with line, column and value") {

@@ -58,3 +58,13 @@ TEST_CASE("times that do not increase are refused and the list stays") {
   CHECK(entries_in(content(folder / "fault.pvd")) == 1);
   CHECK(series.entries().size() == 1);
 }
+
+TEST_CASE("a file that could not be listed may be added again") {
+  ScratchFolder const folder;
+  scarp::PvdSeries series(folder / "later", "fault");
+  CHECK(samples::message_of<scarp::FileError>([&] { series.add(0.5, "a.vtu"); }) == samples::Naming{"later"});
+  CHECK(series.entries().empty());
+  std::filesystem::create_directory(folder / "later");
+  series.add(0.5, "a.vtu");
+  CHECK(entries_in(content(folder / "later/fault.pvd")) == 1);
+}

@@ -66,6 +66,7 @@ TEST_CASE_TEMPLATE("Mohr-Coulomb parameters are read from Mohr-Coulomb's own cur
   CHECK(read.elasticity.shear_modulus == Approx(20e6 / 2.6).epsilon(1e-6));
   CHECK(read.elasticity.lame_lambda == Approx(soil.elasticity.lame_lambda).epsilon(1e-6));
   CHECK(read.strength.strength.friction == results.peak.friction());
+  CHECK_FALSE(results.rises);
   // Contraction ends at the corner: the last elastic row.
   REQUIRE(results.phase_transformation);
   CHECK(results.phase_transformation->q() <= results.peak.q() * (1.0 + 1e-9));
@@ -109,6 +110,26 @@ TEST_CASE("results of a synthetic drained test") {
   CHECK(results.secant_poisson == Approx(1.0 - volume(half) / half).epsilon(1e-4));
   double const first = end / count;
   CHECK(results.shear_modulus == Approx(deviator(first) / (2.0 * (2.0 * first - volume(first)))));
+}
+
+TEST_CASE("a stress ratio that rises to the end is no peak") {
+  auto const nothing = [](double) { return 0.0; };
+  auto const ends = [&](auto const& deviator, double end) {
+    auto const results = scarp::laboratory_results<2>(drawn(deviator, nothing, end, 100), end / 20.0);
+    if (results.rises) CHECK_REFUSED(scarp::mohr_coulomb_of(results), "rises to the end", "degrees");
+    return results.rises;
+  };
+  for (double const end : {1e-3, 0.02, 0.5}) {  // elastic material, whatever its angle
+    CAPTURE(end);
+    CHECK(ends([](double axial) { return 200.0 * axial; }, end));
+  }
+  // A hyperbola has risen to 10/11 of its asymptote at ten times its half strain, to 9/10 at nine times: by 1 %; to 2/3 at twice: by 3.6 %.
+  auto const hyperbola = [](double axial) { return 3.0 * axial / (0.01 + axial); };
+  CHECK_FALSE(ends(hyperbola, 0.1));
+  CHECK(ends(hyperbola, 0.01));  // half: by 5.5 %
+  // A plateau that scatters, the last value the largest, and a peak before the end.
+  CHECK_FALSE(ends([](double axial) { return 2.0 + 0.01 * std::sin(2000.0 * axial) + axial; }, 0.1));
+  CHECK_FALSE(ends([](double axial) { return axial < 0.05 ? 60.0 * axial : 4.5 - 30.0 * axial; }, 0.1));
 }
 
 TEST_CASE("a window takes means of stresses, and only the way to the first turn counts") {
@@ -170,7 +191,7 @@ TEST_CASE("what has no results is rejected, and what a test does not have is no 
   auto const isotropic = scarp::laboratory_results<2>(rows);
   CHECK(std::isnan(isotropic.shear_modulus));
   CHECK(std::isnan(isotropic.secant_modulus));
-  CHECK_REFUSED(scarp::mohr_coulomb_of(isotropic), "Young's modulus is nan");
+  CHECK_REFUSED(scarp::mohr_coulomb_of(isotropic), "mobilises no friction");
   CHECK_REFUSED(scarp::mean_rows<2>({}), "no test");
   CHECK_REFUSED(scarp::mean_rows<2>({rows, {rows.front()}}), "1 rows, the first 2");
 }

@@ -5,24 +5,34 @@
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/sieve_curve.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace examples {
 
-/// A sieve curve from the text of a sand's option: "0.002 0, 0.006 100", diameters [m] and per cent.
+/// A sieve curve from the text of a sand's option: "0.002 0, 0.006 100", diameters [m] and per cent. A point that is given twice counts once.
 /// \throws InputError
 inline scarp::SieveCurve sieve_curve(std::string const& text) {
+  constexpr double largest = 1.0;  // [m]; larger ones are in mm
   scarp::SieveCurve curve;
   for (std::size_t begin = 0; begin <= text.size();) {
     auto const end = std::min(text.find(',', begin), text.size());
+    auto const point = scarp::trimmed(std::string_view(text).substr(begin, end - begin));
+    auto const blank = std::min(point.find_first_of(" \t"), point.size());
     double diameter = 0.0, passing = 0.0;
-    char rest = 0;
-    if (std::sscanf(text.substr(begin, end - begin).c_str(), "%lf %lf %c", &diameter, &passing, &rest) != 2)
+    if (scarp::read_number(point.substr(0, blank), diameter) != std::errc{} ||
+        scarp::read_number(scarp::trimmed(point.substr(blank)), passing) != std::errc{})
       scarp::reject(
-          "'{}' is no point of a sieve curve (a diameter [m] and per cent that pass are expected): correct it",
-          text.substr(begin, end - begin));
+          "'{}' is no point of a sieve curve (a diameter [m] and per cent that pass are expected, points between "
+          "digits and commas between points of the curve): correct it",
+          scarp::shortened(scarp::spelt_out(point)));
+    if (diameter > largest)
+      scarp::reject("a sieve of the curve has {} m (at most {} m are expected): give diameters in metres", diameter,
+                    largest);
+    begin = end + 1;
+    if (!curve.diameters.empty() && diameter == curve.diameters.back() && passing / 100.0 == curve.passing.back())
+      continue;
     curve.diameters.push_back(diameter);
     curve.passing.push_back(passing / 100.0);
-    begin = end + 1;
   }
   scarp::detail::validated(curve);
   return curve;
@@ -41,15 +51,20 @@ struct SandGrading {
 
   void validate() const { scarp::detail::validate_grading(smallest, largest, aspect, exponent); }
 
-  scarp::SizeOf<Shape> sample(scarp::Random& random) const {
+  std::vector<scarp::SizeOf<Shape>> sample(scarp::Random& random, int grains) const {
     constexpr auto numbers = std::tuple_size_v<scarp::SizeOf<Shape>>;
-    scarp::SizeOf<Shape> size{};
     double const minor_share = numbers > 1 ? aspect : 1.0;
-    size[0] = sieve.diameters.empty() ? random.uniform(smallest, largest)
-                                      : sieve.sample(random, Shape::dim) / 2.0 / minor_share;
-    if constexpr (numbers > 1) size[1] = aspect * size[0];
-    if constexpr (numbers > 2) size[2] = exponent;
-    return size;
+    std::vector<double> majors;
+    if (!sieve.diameters.empty()) majors = sieve.sample(random, Shape::dim, grains);
+    for (double& major : majors) major = major / 2.0 / minor_share;
+    while (majors.size() < static_cast<std::size_t>(grains)) majors.push_back(random.uniform(smallest, largest));
+    std::vector<scarp::SizeOf<Shape>> sizes;
+    for (double const major : majors) {
+      sizes.push_back({major});
+      if constexpr (numbers > 1) sizes.back()[1] = aspect * major;
+      if constexpr (numbers > 2) sizes.back()[2] = exponent;
+    }
+    return sizes;
   }
 };
 

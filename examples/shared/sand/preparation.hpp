@@ -130,7 +130,7 @@ PackingType brought_to_k0(PackingType packing, typename PackingType::Law const& 
     loading.controls.push_back(scarp::component_control<dim>(axis, axis < dim - 1 ? -k0 * vertical : -vertical));
   scarp::TimeStepper<PackingType> stepper;
   auto verdict = scarp::Servo{}.reach(stepper, packing, law, loading);
-  if (auto const stopped = stepper.stop(packing, law); !stopped.acceptable()) verdict = stopped;
+  if (auto const stopped = stepper.stop(packing, law); verdict.acceptable()) verdict = stopped;
   return settled<PackingType>({std::move(packing), verdict}, fmt::format("brought to k0 {}", k0));
 }
 

@@ -12,12 +12,15 @@
 
 namespace scarp {
 
-/// sample(random): parameters of one grain [m] of the shape that it names.
+/// sample(random): parameters of one grain [m] of the shape that it names; or sample(random, count) of so many, which depend on each other.
 template <class Grading>
-concept SamplesGrains = requires(Grading const& grading, Random& random) {
-  requires ParticleShape<typename Grading::Shape>;
-  { grading.sample(random) } -> std::same_as<SizeOf<typename Grading::Shape>>;
-};
+concept SamplesGrains = ParticleShape<typename Grading::Shape> &&(
+    requires(Grading const& grading, Random& random) {
+      { grading.sample(random) } -> std::same_as<SizeOf<typename Grading::Shape>>;
+    } ||
+    requires(Grading const& grading, Random& random) {
+      { grading.sample(random, 1) } -> std::same_as<std::vector<SizeOf<typename Grading::Shape>>>;
+    });
 
 /// Random sequential insertion: a loose cloud in a square or cubic cell, the start of every preparation: grains are placed one by one, largest
 /// first, at random without touching (bounding circles or spheres), plane grains with their axes evenly spread over all
@@ -52,7 +55,10 @@ struct Cloud {
     validate();
     Random random(seed);
     std::vector<SizeOf<Shape>> sizes;
-    for (int i = 0; i < grains; ++i) sizes.push_back(grading.sample(random));
+    if constexpr (requires { grading.sample(random, grains); })
+      sizes = grading.sample(random, grains);
+    else
+      for (int i = 0; i < grains; ++i) sizes.push_back(grading.sample(random));
     std::sort(sizes.begin(), sizes.end(), std::greater<>{});
 
     PackingType packing;

@@ -23,7 +23,9 @@ struct StressControl {
   }
   /// Grains without bonds carry pressure only.
   bool reachable(bool bonded) const {
-    return std::isfinite(target) && (bonded || direction.trace() == 0.0 || target < 0.0);
+    constexpr double round_off = 1e-12;
+    bool const deviatoric = std::abs(direction.trace()) <= round_off * direction.norm();
+    return std::isfinite(target) && (bonded || deviatoric || target < 0.0);
   }
 };
 

@@ -58,7 +58,7 @@ struct IsotropicPreparation {
     for_each_friction(prepared_by, [&](double& friction) { friction = preparation_friction; });
     Verdict verdict = consolidation.reach(stepper, cloud, prepared_by, loading);
     if (verdict.acceptable()) verdict = relaxation.reach(stepper, cloud, law, loading);
-    if (Verdict const stopped = stepper.stop(cloud, law); !stopped.acceptable()) verdict = stopped;
+    if (Verdict const stopped = stepper.stop(cloud, law); verdict.acceptable()) verdict = stopped;
     return {std::move(cloud), verdict};
   }
 };
@@ -86,7 +86,7 @@ struct OneDimensionalCompression {
     for (double const pressure : vertical_pressures) {
       loading.controls.front().target = -require_positive("vertical pressure", pressure);
       Verdict verdict = servo.reach(stepper, packing, law, loading);
-      if (Verdict const stopped = stepper.stop(packing, law); !stopped.acceptable()) verdict = stopped;
+      if (Verdict const stopped = stepper.stop(packing, law); verdict.acceptable()) verdict = stopped;
       column.push_back({packing, verdict});
       if (!verdict.acceptable()) break;
     }

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "scarp/core/described.hpp"
@@ -42,6 +43,10 @@ std::string csv_cell(Value const& value) {
   }
 }
 
+/// What one cell is written from.
+template <class Value>
+concept CsvValue = std::is_arithmetic_v<Value> || std::convertible_to<Value const&, std::string_view>;
+
 /// The header line and the width of a table; every row is checked against it.
 class CsvFormat {
  public:
@@ -65,7 +70,7 @@ class CsvFormat {
 
   std::string const& header() const { return header_; }
 
-  template <class... Values>
+  template <CsvValue... Values>
   std::string row(Values const&... values) const {
     require_width(sizeof...(values));
     std::string line;

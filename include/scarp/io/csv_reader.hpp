@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <concepts>
 #include <optional>
@@ -14,14 +13,9 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/io/read_file.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace scarp {
-
-/// What stands between the cells of a table.
-enum class CsvSeparator {
-  comma,  ///< quotes as in RFC 4180
-  blanks  ///< any number of blanks and tabs; '#' begins the header and comments
-};
 
 namespace detail {
 
@@ -30,79 +24,51 @@ struct CsvLine {
   std::vector<std::string> cells;
 };
 
-/// Parses a table's text, row by row. Lines without any character are skipped.
+/// Parses a table's text, row by row. Lines of nothing but separators and blanks, as spreadsheets leave them, are skipped. Where the first
+/// line holds no comma, semicolons or tabs part the cells; a line `sep=` before it names the separator.
 class CsvScanner {
  public:
-  CsvScanner(std::string_view text, std::string file, CsvSeparator separator)
-      : rest_(text), file_(std::move(file)), separator_(separator) {
-    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);  // byte order mark that spreadsheets write
+  CsvScanner(std::string_view text, std::string file) : lines_(text), file_(std::move(file)) {
+    auto ahead = lines_;
+    auto first = ahead.take();
+    if (first.size() == 5 && first.starts_with("sep=")) {
+      separator_ = first.back();
+      lines_ = ahead;
+    } else {
+      while (first.empty() && !ahead.done()) first = ahead.take();
+      for (char const other : {'\t', ';', ','})
+        if (first.find(other) != std::string_view::npos) separator_ = other;
+    }
   }
 
   /// \return whether there was another row
   /// \throws InputError for quotes that do not close or are followed by text
-  bool next(CsvLine& line) { return separator_ == CsvSeparator::comma ? next_of_commas(line) : next_of_blanks(line); }
-
- private:
-  static constexpr std::string_view blanks = " \t";
-
-  static std::string trimmed(std::string_view text) {
-    std::size_t const begin = std::min(text.find_first_not_of(blanks), text.size());
-    return std::string(text.substr(begin, text.find_last_not_of(blanks) + 1 - begin));
-  }
-
-  std::string_view take_line() {
-    std::size_t const end = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    ++number_;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-
-  bool next_of_blanks(CsvLine& line) {
-    bool const header = number_ == 0;
-    while (!rest_.empty()) {
-      std::string_view text = take_line();
-      bool const marked = text.starts_with('#');
-      if (marked && !header) continue;
-      if (marked) text.remove_prefix(1);
-      line = {number_, {}};
-      while (true) {
-        text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-        if (text.empty()) break;
-        std::size_t const end = std::min(text.find_first_of(blanks), text.size());
-        line.cells.emplace_back(text.substr(0, end));
-        text.remove_prefix(end);
-      }
-      if (!line.cells.empty()) return true;
-    }
-    return false;
-  }
-
-  bool next_of_commas(CsvLine& line) {
-    while (!rest_.empty()) {
-      std::string_view text = take_line();
-      if (text.empty()) continue;
-      line = {number_, {}};
+  bool next(CsvLine& line) {
+    char const empty[] = {' ', '\t', separator_};
+    while (!lines_.done()) {
+      std::string_view text = lines_.take();
+      if (text.find_first_not_of({empty, sizeof empty}) == std::string_view::npos) continue;
+      line = {lines_.number(), {}};
       while (true) {
         line.cells.push_back(text.starts_with('"') ? quoted_cell(text) : plain_cell(text));
         if (text.empty()) return true;
-        text.remove_prefix(1);  // the comma
+        text.remove_prefix(1);  // the separator
       }
     }
     return false;
   }
 
-  static std::string plain_cell(std::string_view& text) {
-    std::size_t const end = std::min(text.find(','), text.size());
-    std::string cell = trimmed(text.substr(0, end));
+ private:
+  std::string plain_cell(std::string_view& text) const {
+    std::size_t const end = std::min(text.find(separator_), text.size());
+    std::string cell(trimmed(text.substr(0, end)));
     text.remove_prefix(end);
     return cell;
   }
 
   /// The quotes may enclose ends of lines: then `text` continues in a later line.
   std::string quoted_cell(std::string_view& text) {
-    std::size_t const opened = number_;
+    std::size_t const opened = lines_.number();
     std::string cell;
     text.remove_prefix(1);
     while (true) {
@@ -110,9 +76,9 @@ class CsvScanner {
       cell += text.substr(0, end);
       text.remove_prefix(end);
       if (text.empty()) {
-        if (rest_.empty()) reject("line {} of '{}' opens quotes (they never close): close them", opened, file_);
+        if (lines_.done()) reject("line {} of '{}' opens quotes (they never close): close them", opened, file_);
         cell += '\n';
-        text = take_line();
+        text = lines_.take();
       } else if (text.starts_with("\"\"")) {
         cell += '"';
         text.remove_prefix(2);
@@ -121,43 +87,48 @@ class CsvScanner {
         break;
       }
     }
-    if (!text.empty() && !text.starts_with(',')) {
-      reject("line {} of '{}' has text behind closed quotes (a comma must follow): double quotes inside quotes",
-             number_, file_);
+    if (!text.empty() && !text.starts_with(separator_)) {
+      reject("line {} of '{}' has text behind closed quotes (a '{}' must follow): double quotes inside quotes",
+             lines_.number(), file_, separator_);
     }
     return cell;
   }
 
-  std::string_view rest_;
+  TextLines lines_;
   std::string file_;
-  CsvSeparator separator_;
-  std::size_t number_ = 0;
+  char separator_ = ',';
 };
 
 }  // namespace detail
 
-/// A table of a file: named columns, whose cells become numbers when a column is requested, so that other columns may
+/// A table of a file, parted by commas (quotes as in RFC 4180), semicolons or tabs: named columns, whose cells become numbers when a column is requested, so that other columns may
 /// hold anything. Does not depend on the locale.
 class CsvColumns {
  public:
   /// text: content of the file; file: its name in messages
   /// \throws InputError for no header, repeated names and lines with too few or too many cells
-  CsvColumns(std::string_view text, std::string file, CsvSeparator separator = CsvSeparator::comma)
-      : file_(std::move(file)) {
-    detail::CsvScanner scanner(text, file_, separator);
+  CsvColumns(std::string_view text, std::string file) : file_(std::move(file)) {
+    detail::CsvScanner scanner(text, file_);
     if (!scanner.next(header_)) reject("'{}' is empty (a table begins with the names of its columns): add them", file_);
-    for (auto name = header_.cells.begin(); name != header_.cells.end(); ++name) {
-      if (std::find(header_.cells.begin(), name, *name) != name) {
+    auto& names = header_.cells;
+    for (detail::CsvLine line; scanner.next(line);) {
+      while (line.cells.size() > names.size() && line.cells.back().empty()) line.cells.pop_back();
+      while (line.cells.size() < names.size() && names[line.cells.size()].empty()) line.cells.emplace_back();
+      if (line.cells.size() != names.size()) {
+        reject(
+            "line {} of '{}' has {} cells (the header names {} columns): give one cell for each, decimals with points",
+            line.number, file_, line.cells.size(), names.size());
+      }
+      rows_.push_back(std::move(line));
+    }
+    for (std::size_t column = names.size(); column-- > 0;) {
+      if (names[column].empty()) drop_empty(column);
+    }
+    for (auto name = names.begin(); name != names.end(); ++name) {
+      if (std::find(names.begin(), name, *name) != name) {
         reject("line {} of '{}' names two columns '{}' (they cannot be distinguished): rename one", header_.number,
                file_, *name);
       }
-    }
-    for (detail::CsvLine line; scanner.next(line);) {
-      if (line.cells.size() != header_.cells.size()) {
-        reject("line {} of '{}' has {} cells (the header names {} columns): give one cell for each", line.number, file_,
-               line.cells.size(), header_.cells.size());
-      }
-      rows_.push_back(std::move(line));
     }
   }
 
@@ -196,11 +167,23 @@ class CsvColumns {
   /// Rejects the value in one cell, naming file, line and column.
   [[noreturn]] void reject_cell(std::size_t row, std::string_view name, std::string_view why,
                                 std::string_view suggestion) const {
-    reject("line {} of '{}' has '{}' in column '{}' ({}): {}", line(row), file_, rows_[row].cells[require(name)], name,
-           why, suggestion);
+    reject("line {} of '{}' has '{}' in column '{}' ({}): {}", line(row), file_,
+           shortened(spelt_out(rows_[row].cells[require(name)])), name, why, suggestion);
   }
 
  private:
+  /// A column that has neither a name nor a cell, as spreadsheets add them.
+  void drop_empty(std::size_t column) {
+    auto const at = static_cast<std::ptrdiff_t>(column);
+    for (auto& row : rows_) {
+      if (!row.cells[column].empty())
+        reject("line {} of '{}' has '{}' in column {}, which line {} does not name: name it", row.number, file_,
+               shortened(row.cells[column]), column + 1, header_.number);
+      row.cells.erase(row.cells.begin() + at);
+    }
+    header_.cells.erase(header_.cells.begin() + at);
+  }
+
   std::optional<std::size_t> find(std::string_view name) const {
     auto const found = std::find(header_.cells.begin(), header_.cells.end(), name);
     if (found == header_.cells.end()) return std::nullopt;
@@ -211,22 +194,20 @@ class CsvColumns {
     auto const place = find(name);
     if (!place) {
       reject("'{}' has no column '{}' (line {} names {}): add it or rename one", file_, name, header_.number,
-             listed(header_.cells));
+             shortened(listed(header_.cells)));
     }
     return *place;
   }
 
   template <class Number>
   Number number(std::size_t row, std::size_t place) const {
-    std::string_view text = rows_[row].cells[place];
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars accepts no plus
     Number value{};
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    auto const error = read_number(rows_[row].cells[place], value);
     auto const& name = header_.cells[place];
     if (error == std::errc::result_out_of_range) {
       reject_cell(row, name, "its size is beyond what a number here can hold", "check the value and its unit");
     }
-    if (error != std::errc() || end != text.data() + text.size()) {
+    if (error != std::errc()) {
       if constexpr (std::integral<Number>) reject_cell(row, name, "it is no whole number", "write digits only");
       reject_cell(row, name, "it is no number", "write a decimal number with a point, such as 2.5e-3");
     }
@@ -242,8 +223,6 @@ class CsvColumns {
 };
 
 /// \throws InputError for a file that cannot be read and those of CsvColumns
-inline CsvColumns read_csv(std::filesystem::path const& path, CsvSeparator separator = CsvSeparator::comma) {
-  return CsvColumns(read_file(path), path.string(), separator);
-}
+inline CsvColumns read_csv(std::filesystem::path const& path) { return CsvColumns(read_file(path), path.string()); }
 
 }  // namespace scarp

@@ -23,6 +23,8 @@ inline void reject_stand_in(std::string_view content, std::string_view file) {
     lower += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
   if (lower.starts_with("<!doctype html") || lower.starts_with("<html"))
     reject("cannot read '{}' (it is a web page): download the file itself", file);
+  if (begin.starts_with("\xFF\xFE") || begin.starts_with("\xFE\xFF"))
+    reject("cannot read '{}' (it is text in UTF-16, which spreadsheets call Unicode): save it in UTF-8", file);
   if (begin.starts_with("version https://git-lfs"))
     reject("cannot read '{}' (it is a pointer of Git LFS): fetch the file itself by `git lfs pull`", file);
   if (begin.starts_with("\x1f\x8b") || begin.starts_with("PK\x03\x04") || begin.starts_with("BZh") ||

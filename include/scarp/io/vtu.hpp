@@ -242,12 +242,14 @@ class PvdSeries {
       reject("time {} of '{}' cannot be added (times must be finite and increase): order the files", time,
              file.string());
     }
-    entries_.emplace_back(time, file.generic_string());
+    auto entries = entries_;  // those of before where the list cannot be written
+    entries.emplace_back(time, file.generic_string());
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
-    for (auto const& [when, what] : entries_) {
+    for (auto const& [when, what] : entries) {
       text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", when, xml_text(what));
     }
     write_file(path(), text + "</Collection>\n</VTKFile>\n");
+    entries_ = std::move(entries);
   }
 
   SCARP_MEMBERS_EXCEPT((folder_, name_), entries_)

@@ -70,6 +70,9 @@ struct LaboratoryResults {
 
   Row peak{};      ///< where the mobilised friction is largest; mean over the window, as all rows here
   Row residual{};  ///< over the last window
+  /// Whether the ratio of the outer principal stresses is largest in the last window and still rose in the last tenth of the path, by a
+  /// twentieth of its growth: `peak` is then where the test ended, and no strength.
+  bool rises = false;
   std::optional<Row>
       phase_transformation{};  ///< from contraction to dilation; at constant volume from falling to rising p
   double peak_dilation =
@@ -187,6 +190,15 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
   }
   if (means.empty()) reject("the test is shorter than the window {} of its results: take a smaller one", window);
   results.peak = *std::ranges::max_element(means, {}, &Row::friction);
+  auto const growth = [](Row const& row) {  // sigma_1 / sigma_3 - 1
+    double const sine = std::sin(row.friction());
+    return 2.0 * sine / (1.0 - sine);
+  };
+  double const path = means.back().length - rows.front().length;
+  auto const before = std::ranges::find_if(  // a tenth of the path before the end
+      means, [&](Row const& row) { return std::abs(means.back().length - row.length) <= 0.1 * std::abs(path); });
+  auto const earlier = before == means.begin() ? before : before - 1;
+  results.rises = results.peak.length == means.back().length && growth(means.back()) > 1.05 * growth(*earlier);
   bool const extends = rows.back().axial_strain() < rows.front().axial_strain();  // elastic ground swells then
   for (std::size_t k = 0; k < means.size() && !extends; ++k) {
     constexpr double nearly = 0.9;  // of the peak: before, elastic changes of volume count

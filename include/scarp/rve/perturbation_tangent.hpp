@@ -95,7 +95,7 @@ struct PerturbationTangent {
         if (Verdict const moved = stepper.step(packing, law, step); !moved.acceptable()) verdict = moved;
       }
       taken += how.strain_steps;
-      if (Verdict const stopped = stepper.stop(packing, law); !stopped.acceptable()) verdict = stopped;
+      if (Verdict const stopped = stepper.stop(packing, law); verdict.acceptable()) verdict = stopped;
       return settle(how, packing, verdict, taken);
     }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "scarp/core/error.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace scarp::detail {
 
@@ -104,10 +104,8 @@ class GmshStream {
       fortran[at] = 'e';
       word = fortran;
     }
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars accepts no plus
     Number number{};
-    auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || end != word.data() + word.size()) {
+    if (read_number(word, number) != std::errc{}) {
       reject("{} has '{}' for {} (it is no {}): check the line and the counts of its section", place(), shown(whole),
              what, std::floating_point<Number> ? "number" : "whole number that can stand here");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/io/packings/grain_files.hpp"
+#include "../../examples/shared/grain_files.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,10 +15,10 @@ namespace {
 
 using samples::Naming;
 
-scarp::GrainFile read(std::string const& text) {
+examples::GrainFile read(std::string const& text) {
   samples::ScratchFolder const folder;
   scarp::write_file(folder / "grains", text);
-  return scarp::read_grains(folder / "grains");
+  return examples::read_grains(folder / "grains");
 }
 
 std::string complaint(std::string const& text) {
@@ -90,6 +90,16 @@ TEST_CASE("what a file holds beside the grains is told") {
   CHECK(samples::contains(read(dump).notes.at(0), "the last of 2 snapshots"));
   CHECK(samples::contains(read(with(dump, "yz pp pp pp", "yz pp ff pp")).notes.at(0), "not periodic"));
   CHECK(samples::contains(read(lammps).notes.at(0), "densities"));
+  // Another unit system, a second material, grains that are held.
+  auto const notes = [](std::string const& text) { return scarp::listed(read(text).notes, "; "); };
+  CHECK(notes(with(with(lammps, "via write_data", "via write_data, units = micro"), "9 1 0.5", "9 3 0.5")) ==
+        Naming{"2 materials", "units are 'micro'"});
+  CHECK_FALSE(samples::contains(notes(with(lammps, "via write_data", "via write_data, units = si")), "units"));
+  CHECK(notes("ITEM: UNITS\ncgs\n" + with(dump, "\n9 1 0.5", "\n9 4 0.5")) == Naming{"2 materials", "'cgs'"});
+  CHECK(notes(with(mercury, "radius 0.25 invMass 1", "radius 0.25 invMass 0")) == Naming{"1 fixed grains"});
+  CHECK(notes(with(mercury, "id 9 indSpecies 0", "id 9 indSpecies 1")) == Naming{"2 materials"});
+  CHECK(notes("#format x_y_z_r_matId\n1 1 1 0.5 0\n1.5 2 3 0.25 2\n") == Naming{"x_y_z_r_matId those behind r"});
+  CHECK(notes("#format x_y_z_r_clumpId\n1 1 1 0.5 -1\n1.5 2 3 0.25 -1\n").empty());
 }
 
 TEST_CASE("a packing of spheres comes from another code's file") {
@@ -108,6 +118,9 @@ TEST_CASE("what cannot be read is refused with the line") {
   CHECK(complaint(with(yade, "#format x_y_z_r", "#format r_x_y")) == Naming{"line 1 of", "export it as x_y_z_r"});
   CHECK(complaint(with(yade, "1.5\t2\t3\t0.25", "1.5 2 3")) == Naming{"line 4 of", "3 words (4 are needed)"});
   CHECK(complaint("# id x y z r\n1 1 1 1 0.5\n") == Naming{"line 1 of", "columns are not named"});
+  CHECK(complaint("#format id_x_y_z_r_mass_clumpId\n0 1 1 1 0.5 7 -1\n1 1.5 2 3 0.25 7 12\n") ==
+        Naming{"line 3 of", "member of a clump"});
+  CHECK(complaint(with(lammps, "0 4 xlo xhi", "4 0 0 avec")) == Naming{"line 6 of", "general triclinic box"});
   CHECK(complaint(with(lammps, " # sphere", "")) == Naming{"line 11 of", "style is not named"});
   CHECK(complaint(with(lammps, "# sphere", "# atomic")) == Naming{"line 11 of", "the style 'atomic' has no diameters"});
   CHECK(complaint(with(lammps, "0 4 xlo", "0 x xlo")) == Naming{"line 6 of", "'x' (it is no number)"});

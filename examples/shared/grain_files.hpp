@@ -4,87 +4,113 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "scarp/io/csv_reader.hpp"
 #include "scarp/tensor/tensor.hpp"
 
-namespace scarp {
+namespace examples {
 
 /// Grains of another code's file.
 struct GrainFile {
-  CsvColumns grains;                 ///< as read_packing takes them
-  std::optional<Tensor<3>> cell{};   ///< base vectors as columns [m], where the file has them
-  std::vector<std::string> notes{};  ///< what is in the file and not here, a sentence each
+  scarp::CsvColumns grains;                ///< as read_packing takes them
+  std::optional<scarp::Tensor<3>> cell{};  ///< base vectors as columns [m], where the file has them
+  std::vector<std::string> notes{};        ///< what is in the file and not here, a sentence each
 };
 
 namespace detail {
 
 inline std::optional<double> number_in(std::string_view word) {
   double number = 0.0;
-  auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
+  return scarp::read_number(word, number) == std::errc{} ? std::optional(number) : std::nullopt;
 }
 
 /// Collects id, x, y, z, r of grains from lines of words. The first line has lost a # at its beginning, later comments are not here.
 class GrainLines {
  public:
+  using Line = scarp::detail::CsvLine;
+
   GrainLines(std::string_view text, std::string const& file) : file_(file) {
-    CsvScanner scanner(text, file, CsvSeparator::blanks);
-    for (CsvLine line; scanner.next(line);) lines_.push_back(std::move(line));
+    for (scarp::TextLines all(text); !all.done();) {
+      std::string_view line = all.take();
+      bool const marked = line.starts_with('#');
+      if (marked && all.number() > 1) continue;
+      if (marked) line.remove_prefix(1);
+      Line words{all.number(), {}};
+      while (!(line = scarp::trimmed(line)).empty()) {
+        auto const end = std::min(line.find_first_of(" \t"), line.size());
+        words.cells.emplace_back(line.substr(0, end));
+        line.remove_prefix(end);
+      }
+      if (!words.cells.empty()) lines_.push_back(std::move(words));
+    }
   }
 
   std::size_t count() const { return lines_.size(); }
   std::vector<std::string> const& words(std::size_t line) const { return lines_[line].cells; }
   std::string const& word(std::size_t line, std::size_t at) const {
-    if (line >= lines_.size()) reject("'{}' ends too soon (it is cut off): write or copy it again", file_);
+    if (line >= lines_.size()) scarp::reject("'{}' ends too soon (it is cut off): write or copy it again", file_);
     if (at < words(line).size()) return words(line)[at];
-    reject("line {} of '{}' has {} words ({} are needed): check it", lines_[line].number, file_, words(line).size(),
-           at + 1);
+    scarp::reject("line {} of '{}' has {} words ({} are needed): check it", lines_[line].number, file_,
+                  words(line).size(), at + 1);
   }
   double number(std::size_t line, std::size_t at) const {
     if (auto const value = number_in(word(line, at)); value && std::isfinite(*value)) return *value;
-    reject("line {} of '{}' has '{}' (it is no number): check it", lines_[line].number, file_, word(line, at));
+    scarp::reject("line {} of '{}' has '{}' (it is no number): check it", lines_[line].number, file_, word(line, at));
   }
   /// The word behind a key.
   std::size_t behind(std::size_t line, std::string_view key) const {
     auto const& all = words(line);
     auto const found = std::find(all.begin(), all.end(), key);
     if (found == all.end())
-      reject("line {} of '{}' has no {} (a grain has one): check it", lines_[line].number, file_, key);
-    return index(found - all.begin()) + 1;
+      scarp::reject("line {} of '{}' has no {} (a grain has one): check it", lines_[line].number, file_, key);
+    return scarp::detail::index(found - all.begin()) + 1;
   }
 
   /// at: the words of id, x, y, z, and of the radius or, with scale 0.5, of the diameter; without ids they count from 0
   void add(std::size_t line, std::array<std::optional<std::size_t>, 5> const& at, double scale) {
-    CsvLine row{lines_[line].number, {std::to_string(rows_.size())}};
+    Line row{lines_[line].number, {std::to_string(rows_.size())}};
     if (at[0]) row.cells[0] = word(line, *at[0]);
     for (std::size_t k = 1; k < at.size(); ++k) row.cells.push_back(word(line, at[k].value()));
     if (auto const size = number_in(row.cells[4]); size && scale != 1.0)
       row.cells[4] = fmt::format("{}", scale * *size);
     rows_.push_back(std::move(row));
   }
-  void restart() { rows_.clear(); }
+  void restart() {
+    rows_.clear();
+    kinds_.clear();
+  }
+  /// Remembers the material of a grain, the word that names it.
+  void add_kind(std::size_t line, std::size_t at) { kinds_.insert(word(line, at)); }
+  /// Notes on what was remembered, and on units other than those of SI.
+  void note(std::vector<std::string>& notes, std::string const& units = {}) const {
+    if (kinds_.size() > 1) notes.push_back(fmt::format("{} materials are read as one", kinds_.size()));
+    if (!units.empty() && units != "si")
+      notes.push_back(fmt::format("its units are '{}': lengths are read as m", units));
+  }
   /// \throws InputError unless there are as many grains as the file announces, where it does
   void require_complete(std::optional<double> announced) const {
     if (announced && *announced != static_cast<double>(rows_.size()))
-      reject("'{}' announces {} grains and has {} (it is cut off or damaged): write or copy it again", file_,
-             *announced, rows_.size());
+      scarp::reject("'{}' announces {} grains and has {} (it is cut off or damaged): write or copy it again", file_,
+                    *announced, rows_.size());
   }
-  CsvColumns columns() && { return {file_, {0, {"id", "x", "y", "z", "r"}}, std::move(rows_)}; }
+  scarp::CsvColumns columns() && { return {file_, {0, {"id", "x", "y", "z", "r"}}, std::move(rows_)}; }
 
   [[noreturn]] void reject_line(std::size_t line, std::string_view why, std::string_view suggestion) const {
-    reject("line {} of '{}' begins with '{}' ({}): {}", lines_[line].number, file_, word(line, 0), why, suggestion);
+    scarp::reject("line {} of '{}' begins with '{}' ({}): {}", lines_[line].number, file_, word(line, 0), why,
+                  suggestion);
   }
 
  private:
-  std::vector<CsvLine> lines_;
+  std::vector<Line> lines_;
   std::string file_;
-  std::vector<CsvLine> rows_{};
+  std::vector<Line> rows_{};
+  std::set<std::string> kinds_{};
 };
 
 /// A box with edges along the axes, sheared.
-inline Tensor<3> sheared_box(std::array<double, 3> const& edges, std::array<double, 3> const& tilts = {}) {
-  Tensor<3> cell;
+inline scarp::Tensor<3> sheared_box(std::array<double, 3> const& edges, std::array<double, 3> const& tilts = {}) {
+  scarp::Tensor<3> cell;
   cell << edges[0], tilts[0], tilts[1], 0.0, edges[1], tilts[2], 0.0, 0.0, edges[2];
   return cell;
 }
@@ -92,22 +118,37 @@ inline Tensor<3> sheared_box(std::array<double, 3> const& edges, std::array<doub
 /// Yade's export.text, export.textExt and SpherePack.save: a line `#format x_y_z_r...`, comments, one line for each grain.
 inline GrainFile read_yade(GrainLines lines) {
   std::array<std::optional<std::size_t>, 5> at{std::nullopt, 0, 1, 2, 3};
-  std::optional<Tensor<3>> cell;
+  std::optional<scarp::Tensor<3>> cell;
+  std::vector<std::string> notes;
   auto const& format = lines.count() > 0 && lines.words(0).size() > 1 ? lines.word(0, 1) : std::string();
   bool const has_head = lines.count() > 0 && !number_in(lines.word(0, 0));
   if (has_head && lines.word(0, 0) == "format") {
     if (format.starts_with("id_")) at = {0, 1, 2, 3, 4};
-    if (format.find("x_y_z_r") > 3) lines.reject_line(0, "places and radii are read", "export it as x_y_z_r");
+    auto const places = format.find("x_y_z_r");
+    if (places > 3) lines.reject_line(0, "places and radii are read", "export it as x_y_z_r");
+    if (auto const further = format.substr(places + 7); further.find("clumpId") != std::string::npos) {
+      auto const column =
+          *at[4] + static_cast<std::size_t>(
+                       std::count(further.begin(), further.begin() + std::ptrdiff_t(further.find("clumpId")), '_'));
+      for (std::size_t k = 1; k < lines.count(); ++k) {
+        if (lines.word(k, column) != "-1")
+          lines.reject_line(k, "it is a member of a clump, which would become a grain of its own",
+                            "export single spheres");
+      }
+    } else if (!further.empty()) {
+      notes.push_back(fmt::format("of its columns {} those behind r are not read", format));
+    }
   } else if (has_head && lines.word(0, 0) == "#PERIODIC::") {
     cell = sheared_box({lines.number(0, 1), lines.number(0, 2), lines.number(0, 3)});
   } else if (has_head && lines.word(0, 0) == "O.cell.hSize") {  // = Matrix3( a , b , ... )
-    for (int k = 0; k < 9; ++k) (cell ? *cell : cell.emplace())(k / 3, k % 3) = lines.number(0, index(3 + 2 * k));
+    for (int k = 0; k < 9; ++k)
+      (cell ? *cell : cell.emplace())(k / 3, k % 3) = lines.number(0, scarp::detail::index(3 + 2 * k));
   } else if (lines.count() > (has_head ? 1u : 0u) && lines.words(has_head ? 1 : 0).size() != 4) {
     lines.reject_line(0, "its columns are not named; without a line '#format' x y z r are read",
                       "export it as x_y_z_r, or leave other columns out");
   }
   for (std::size_t k = has_head ? 1 : 0; k < lines.count(); ++k) lines.add(k, at, 1.0);
-  return {std::move(lines).columns(), cell};
+  return {std::move(lines).columns(), cell, std::move(notes)};
 }
 
 /// A data file of LAMMPS with the atom style sphere: id, type, diameter, density, x, y, z. docs.lammps.org/read_data.html
@@ -116,6 +157,9 @@ inline GrainFile read_lammps_data(GrainLines lines) {
   std::array<double, 3> tilts{};
   std::optional<double> announced;
   bool in_atoms = false;
+  std::string units;
+  for (std::size_t k = 0; lines.count() > 0 && k + 2 < lines.words(0).size(); ++k)
+    if (lines.word(0, k) == "units") units = lines.word(0, k + 2);  // units = si
   for (std::size_t k = 1; k < lines.count(); ++k) {
     auto const& words = lines.words(k);
     if (!number_in(words[0])) {
@@ -127,27 +171,34 @@ inline GrainFile read_lammps_data(GrainLines lines) {
                           "write it with atom_style sphere");
     } else if (in_atoms) {
       lines.add(k, {0, 4, 5, 6, 2}, 0.5);
+      lines.add_kind(k, 1);
     } else if (words.size() == 2 && words[1] == "atoms") {
       announced = lines.number(k, 0);
     } else if (words.size() >= 4 && (words[2] == "xlo" || words[2] == "ylo" || words[2] == "zlo")) {
-      edges[index(words[2][0] - 'x')] = lines.number(k, 1) - lines.number(k, 0);
+      edges[scarp::detail::index(words[2][0] - 'x')] = lines.number(k, 1) - lines.number(k, 0);
+    } else if (words.size() >= 4 && words[3] == "avec") {
+      lines.reject_line(k, "a general triclinic box is not read", "write it without triclinic/general");
     } else if (words.size() >= 6 && words[3] == "xy") {
       tilts = {lines.number(k, 0), lines.number(k, 1), lines.number(k, 2)};
     }
   }
   lines.require_complete(announced);
-  return {std::move(lines).columns(), sheared_box(edges, tilts), {"densities of grains are not read"}};
+  std::vector<std::string> notes{"densities of grains are not read"};
+  lines.note(notes, units);
+  return {std::move(lines).columns(), sheared_box(edges, tilts), std::move(notes)};
 }
 
 /// The last snapshot of a dump file of LAMMPS, with columns x, y, z and radius or diameter. docs.lammps.org/dump.html
 inline GrainFile read_lammps_dump(GrainLines lines) {
-  std::optional<Tensor<3>> cell;
+  std::optional<scarp::Tensor<3>> cell;
   std::vector<std::string> notes;
   std::optional<double> announced;
+  std::string units;
   int snapshots = 0;
   std::size_t begun = 0;  // line of the last snapshot's head that no grains have followed yet
   for (std::size_t k = 0; k < lines.count(); ++k) {
     if (lines.word(k, 0) != "ITEM:") continue;
+    if (lines.word(k, 1) == "UNITS") units = lines.word(k + 1, 0);
     if (lines.word(k, 1) == "NUMBER") announced = lines.number(k + 1, 0);
     begun = lines.word(k, 1) == "ATOMS" ? 0 : k;
     if (lines.word(k, 1) == "BOX") {
@@ -171,7 +222,7 @@ inline GrainFile read_lammps_dump(GrainLines lines) {
       auto const& words = lines.words(k);
       auto const column = [&](std::string_view name) -> std::optional<std::size_t> {
         auto const found = std::find(words.begin(), words.end(), name);
-        return found == words.end() ? std::nullopt : std::optional(index(found - words.begin()) - 2);
+        return found == words.end() ? std::nullopt : std::optional(scarp::detail::index(found - words.begin()) - 2);
       };
       auto const place = [&](std::string const& axis) { return column(axis) ? column(axis) : column(axis + "u"); };
       bool const radii = column("radius").has_value();
@@ -179,19 +230,24 @@ inline GrainFile read_lammps_dump(GrainLines lines) {
                           radii ? column("radius") : column("diameter")};
       if (!at[1] || !at[2] || !at[3] || !at[4])
         lines.reject_line(k, "places and sizes are needed", "write it by `dump ... custom ... id x y z radius`");
-      while (k + 1 < lines.count() && lines.word(k + 1, 0) != "ITEM:") lines.add(++k, at, radii ? 1.0 : 0.5);
+      while (k + 1 < lines.count() && lines.word(k + 1, 0) != "ITEM:") {
+        lines.add(++k, at, radii ? 1.0 : 0.5);
+        if (auto const type = column("type")) lines.add_kind(k, *type);
+      }
     }
   }
   if (begun > 0) lines.reject_line(begun, "no ITEM: ATOMS follows, the file is cut off", "write or copy it again");
   lines.require_complete(announced);
+  lines.note(notes, units);
   if (snapshots > 1) notes.push_back(fmt::format("the last of {} snapshots is read", snapshots));
   return {std::move(lines).columns(), cell, notes};
 }
 
 /// A restart file of MercuryDPM: keys with their values.
 inline GrainFile read_mercury(GrainLines lines) {
-  std::optional<Tensor<3>> cell;
+  std::optional<scarp::Tensor<3>> cell;
   std::vector<std::string> notes;
+  int fixed = 0;
   for (std::size_t k = 1; k < lines.count(); ++k) {
     auto const& key = lines.word(k, 0);
     if (key == "xMin") {
@@ -204,10 +260,14 @@ inline GrainFile read_mercury(GrainLines lines) {
         if (lines.word(++k, 0) != "SphericalParticle" && lines.word(k, 0) != "BaseParticle")
           lines.reject_line(k, "spheres are read", "leave other particles out");
         auto const place = lines.behind(k, "position");
+        lines.add_kind(k, lines.behind(k, "indSpecies"));
+        if (lines.number(k, lines.behind(k, "invMass")) == 0.0) ++fixed;
         lines.add(k, {lines.behind(k, "id"), place, place + 1, place + 2, lines.behind(k, "radius")}, 1.0);
       }
     }
   }
+  lines.note(notes);
+  if (fixed > 0) notes.push_back(fmt::format("{} fixed grains are read as free ones", fixed));
   return {std::move(lines).columns(), cell, notes};
 }
 
@@ -217,7 +277,7 @@ inline GrainFile read_mercury(GrainLines lines) {
 /// files of MercuryDPM, tables with commas as for read_packing.
 /// \throws InputError naming file and line for what cannot be read
 inline GrainFile read_grains(std::filesystem::path const& path) {
-  auto const text = read_file(path);
+  auto const text = scarp::read_file(path);
   auto const name = path.string();
   auto const first = text.substr(0, text.find('\n'));
   auto const noted = [&](GrainFile file) {
@@ -229,7 +289,8 @@ inline GrainFile read_grains(std::filesystem::path const& path) {
   if (text.find("\nAtoms") != std::string::npos) return noted(detail::read_lammps_data({text, name}));
   auto const begin = std::min(first.find_first_not_of(" \t"), first.size());
   bool const numbers = first.find(',') == std::string::npos && first.find_first_of("+-.0123456789") == begin;
-  return numbers || first.starts_with('#') ? noted(detail::read_yade({text, name})) : GrainFile{CsvColumns(text, name)};
+  return numbers || first.starts_with('#') ? noted(detail::read_yade({text, name}))
+                                           : GrainFile{scarp::CsvColumns(text, name)};
 }
 
-}  // namespace scarp
+}  // namespace examples
