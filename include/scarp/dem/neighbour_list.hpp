@@ -51,8 +51,8 @@ template <int Dim>
 std::vector<FormerPair<Dim>> former_pairs(std::vector<std::int32_t> const& first,
                                           std::vector<std::int32_t> const& second,
                                           std::vector<std::int32_t> const& owner_of,
-                                          std::vector<std::array<std::int8_t, Dim>> const& shift_of, std::size_t rows,
-                                          Renaming<Dim> const& renaming) {
+                                          std::vector<std::array<std::int8_t, index(Dim)>> const& shift_of,
+                                          std::size_t rows, Renaming<Dim> const& renaming) {
   std::vector<FormerPair<Dim>> former;
   former.reserve(first.size());
   for (std::size_t p = 0; p < first.size(); ++p) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "scarp/core/index.hpp"
 #include "scarp/element/reference_element.hpp"
 
 namespace scarp {
@@ -14,8 +15,8 @@ template <int Points>
 struct GaussLine {
   static_assert(Points >= 1 && Points <= 5, "Gauss rules are tabulated for one to five points per axis");
 
-  std::array<double, Points> points;   ///< ascending, in (-1, 1)
-  std::array<double, Points> weights;  ///< of the points; they add up to 2
+  std::array<double, detail::index(Points)> points;   ///< ascending, in (-1, 1)
+  std::array<double, detail::index(Points)> weights;  ///< of the points; they add up to 2
 
   /// The tabulated rule of one to five points.
   static constexpr GaussLine make() {
@@ -89,8 +90,8 @@ auto conical_rule() {
 
 /// A point all of whose coordinates are `all`, then those of which one, each in turn, is `one`.
 template <int Dim>
-std::array<QuadraturePoint<Dim>, Dim + 1> orbit(double all, double one, double weight) {
-  std::array<QuadraturePoint<Dim>, Dim + 1> points;
+std::array<QuadraturePoint<Dim>, index(Dim + 1)> orbit(double all, double one, double weight) {
+  std::array<QuadraturePoint<Dim>, index(Dim + 1)> points;
   for (auto& point : points) point = {Vector<Dim>::Constant(all), weight};
   for (std::size_t axis = 0; axis < Dim; ++axis) points[axis + 1].xi(static_cast<int>(axis)) = one;
   return points;

@@ -18,15 +18,15 @@ template <CheckedElement Element>
 struct BoxMesh {
   static constexpr int dim = Element::dim;  ///< of the elements
 
-  Vector<dim> lengths = Vector<dim>::Ones();  ///< [m]
-  std::array<int, dim> cells = filled(1);     ///< number along each axis, 1 to 10000
+  Vector<dim> lengths = Vector<dim>::Ones();              ///< [m]
+  std::array<int, detail::index(dim)> cells = filled(1);  ///< number along each axis, 1 to 10000
   double distortion = 0.0;  ///< largest move of an interior corner, as a part of the cell's lengths; up to 0.2
   std::uint64_t seed = 1;   ///< of the random moves
   std::function<Vector<dim>(Vector<dim> const&)> map{};  ///< from the box [m] to space [m]; empty: stay
 
   /// Equal numbers of cells along all axes.
-  static constexpr std::array<int, dim> filled(int cells) {
-    std::array<int, dim> all{};
+  static constexpr std::array<int, detail::index(dim)> filled(int cells) {
+    std::array<int, detail::index(dim)> all{};
     all.fill(cells);
     return all;
   }
@@ -49,7 +49,7 @@ struct BoxMesh {
   static_assert(detail::is_simplex<Linear> || detail::is_cube<Linear>,
                 "scarp: a box is divided into triangles, tetrahedra, quadrilaterals or hexahedra; an element with more "
                 "nodes than corners names these, `using Linear = ...`, and `mid_sides()` or `node_places()`");
-  using Place = std::array<int, dim>;  // of a grid node, in cells along each axis
+  using Place = std::array<int, detail::index(dim)>;  // of a grid node, in cells along each axis
 
   void check() const {
     for (int axis = 0; axis < dim; ++axis) {

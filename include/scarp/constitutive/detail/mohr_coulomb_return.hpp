@@ -96,8 +96,8 @@ class MohrCoulombReturn {
 
   /// The first return with so many active planes, of which the first `chosen` are given and the others numbered from `next`.
   template <int Count>
-  PrincipalReturn with_planes(Vector<3> const& trial, double slack, std::array<int, Count> active = {}, int chosen = 0,
-                              int next = 0) const {
+  PrincipalReturn with_planes(Vector<3> const& trial, double slack, std::array<int, detail::index(Count)> active = {},
+                              int chosen = 0, int next = 0) const {
     if (chosen == Count) return attempt<Count>(active, trial, slack);
     for (; next < count_; ++next) {
       active[detail::index(chosen)] = next;
@@ -109,7 +109,8 @@ class MohrCoulombReturn {
 
   /// With exactly these planes active. Outside of the class, so that a library can contain it.
   template <int Count>
-  PrincipalReturn attempt(std::array<int, Count> const& active, Vector<3> const& trial, double slack) const;
+  PrincipalReturn attempt(std::array<int, detail::index(Count)> const& active, Vector<3> const& trial,
+                          double slack) const;
 
   double lame_lambda_;    // [Pa]
   double twice_shear_;    // [Pa]
@@ -123,8 +124,8 @@ class MohrCoulombReturn {
 /// R subtracts, are unknowns of one system: however large kappa is near incompressibility, nothing large is subtracted,
 /// \f$ N^T R\mu + N^T 1\,p = f^{tr},\; \kappa\,1^T R\mu - p = 0 \f$, the second row divided by 1 + |kappa|.
 template <int Count>
-SCARP_EXPORT PrincipalReturn MohrCoulombReturn::attempt(std::array<int, Count> const& active, Vector<3> const& trial,
-                                                        double slack) const {
+SCARP_EXPORT PrincipalReturn MohrCoulombReturn::attempt(std::array<int, detail::index(Count)> const& active,
+                                                        Vector<3> const& trial, double slack) const {
   Eigen::Matrix<double, 3, Count> normals;
   Eigen::Matrix<double, 3, Count + 1> flows;  // the last one a unit of mean stress
   Eigen::Matrix<double, Count + 1, 1> over;

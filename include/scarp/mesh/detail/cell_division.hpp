@@ -22,11 +22,11 @@ inline constexpr bool is_cube = Element::nodes == 1 << Element::dim;
 template <class Element>
   requires is_simplex<Element> std::vector<std::array<int, Element::nodes>> cell_division() {
     constexpr int dim = Element::dim;
-    std::vector<std::array<int, dim + 1>> parts;
-    std::array<int, dim> axes;
+    std::vector<std::array<int, index(dim + 1)>> parts;
+    std::array<int, index(dim)> axes;
     std::iota(axes.begin(), axes.end(), 0);
     do {
-      std::array<int, dim + 1> part{};
+      std::array<int, index(dim + 1)> part{};
       bool odd = false;
       for (int i = 0; i < dim; ++i) {
         part[index(i + 1)] = part[index(i)] + (1 << axes[index(i)]);
