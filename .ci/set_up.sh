@@ -48,5 +48,16 @@ configure() {
   shift 2
   if command -v ninja > /dev/null; then launcher+=(-G Ninja); fi
   if command -v ccache > /dev/null; then launcher+=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+  # A build folder that was copied or moved together with its sources still belongs to the former ones.
+  local folder="build/$preset" previous="" argument former
+  for argument in "$@"; do
+    if [ "$previous" = -B ]; then folder="$argument"; fi
+    previous="$argument"
+  done
+  former="$(cd "$repository" && sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$folder/CMakeCache.txt" 2> /dev/null || true)"
+  if [ -n "$former" ] && [ ! "$former" -ef "$repository" ]; then
+    complain "$folder was made for the sources in '$former': configuring it anew"
+    launcher+=(--fresh)
+  fi
   (cd "$repository" && cmake --preset "$preset" -D CMAKE_CXX_COMPILER="$(command -v "$compiler")" -D SCARP_WERROR=OFF "${launcher[@]}" "$@") >&2
 }

@@ -6,6 +6,17 @@
 include(CheckCXXCompilerFlag)
 check_cxx_compiler_flag("-mmove-max=512 -mstore-max=512" SCARP_HAS_WIDE_MOVES)
 
+# scarp_note_build_type(): tells once whoever configures without a build type what that costs.
+function(scarp_note_build_type)
+  get_property(several GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  get_property(told GLOBAL PROPERTY SCARP_BUILD_TYPE_TOLD)
+  if(NOT CMAKE_BUILD_TYPE AND NOT several AND NOT told AND NOT CMAKE_CXX_FLAGS MATCHES "-O[1-3sf]")
+    set_property(GLOBAL PROPERTY SCARP_BUILD_TYPE_TOLD ON)
+    message(WARNING "scarp: there is no CMAKE_BUILD_TYPE (without optimisation programs are some twenty times slower): add "
+                    "-D CMAKE_BUILD_TYPE=Release")
+  endif()
+endfunction()
+
 # scarp_kernel_flags(<variable>): what makes the kernels fast beside the instruction set. g++ otherwise copies arrays of vector
 # registers in pieces of 16 bytes, or of AVX-512 in halves, which costs the pair loop a tenth to a third of its speed.
 function(scarp_kernel_flags variable)

@@ -82,7 +82,7 @@ struct Takeover : scarp::NeverStops {
   void take() {
     if (std::exchange(done, true)) return;
     folder.begin();
-    std::filesystem::create_directories(folder.path() / "fields");
+    scarp::make_folder(folder.path() / "fields");
     remove_older_results(folder.path(), goes_on);
     if (also) also();
   }

@@ -29,11 +29,12 @@ struct SensitivityRuns {
   /// Runs those that the file does not have yet of this commit, each in a folder of its own. One that fails is left out with a warning.
   /// steps: of the scene's run
   void complete(std::vector<SensitivityRun> const& runs, int steps, SensitivityFile& file) const {
+    scarp::StopSignal const stop;
     auto const known = file.results();
     for (auto const& run : runs) {
       auto const before = known.find(run.part);
       if (before != known.end() && before->second.commit == commit) continue;
-      if (scarp::StopSignal::wants_stop()) return;
+      if (stop.wants_stop()) return;
       try {
         add(run, steps, file);
       } catch (std::exception const& problem) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "scarp/core/process.hpp"
 #include "scarp/run/root_rank.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #ifdef SCARP_WITH_RANKS
@@ -29,7 +30,8 @@ inline int rank() {
 }
 /// Ranks share the machine's processors unless a number is requested.
 inline int threads_of_a_process(int asked) {
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks());
+  int const share = static_cast<int>(std::thread::hardware_concurrency()) / ranks();
+  return asked > 0 ? asked : std::clamp(share, 1, scarp::usable_processors());
 }
 inline Team make_team(scarp::ThreadExecutor& threads) { return Team(threads); }
 inline int threads_of(Team const& team) { return team.local().threads(); }

@@ -90,7 +90,7 @@ inline void print_table(std::vector<Section> const& all) {
 /// Fields of an older run would be mixed up with the new ones.
 inline void begin_anew(std::filesystem::path const& folder) {
   std::filesystem::remove(folder / "summary.json");
-  std::filesystem::create_directories(folder / "fields");
+  scarp::make_folder(folder / "fields");
   for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
     if (file.path().extension() == ".vtu") std::filesystem::remove(file.path());
   }

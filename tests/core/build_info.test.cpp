@@ -23,7 +23,9 @@ TEST_CASE("a build is described in one line") {
 }
 
 TEST_CASE("a build without optimisation says so") {
-  BuildInfo const info{.compiler = "g++", .instruction_set = "riscv64", .lanes = 1};
+  BuildInfo info{.compiler = "g++", .instruction_set = "riscv64", .lanes = 1};
   CHECK(scarp::described(info) == "g++, NOT optimised, riscv64, 1 lane in a pack");
+  info.checked_containers = true;
+  CHECK(scarp::described(info) == "g++, NOT optimised, riscv64, 1 lane in a pack, checked containers");
   CHECK(scarp::slow_build_note(info).find("without optimisation") != std::string_view::npos);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scarp/io/atomic_file.hpp"
 
+#include <dlfcn.h>
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -27,6 +28,46 @@ TEST_CASE("files that are being written have names of their own, for each proces
   CHECK(first.parent_path() == "results");
   CHECK(first.filename().string().starts_with("a.txt.partial-" + std::to_string(::getpid()) + "-"));
   CHECK(scarp::detail::partial_name("results/a.txt") != first);
+}
+
+namespace {
+bool close_fails = false;
+}
+
+/// In place of the C library's, which it calls.
+extern "C" int fclose(std::FILE* file) {
+  static auto* const real = reinterpret_cast<int (*)(std::FILE*)>(::dlsym(RTLD_NEXT, "fclose"));
+  int const closed = real(file);
+  if (!close_fails) return closed;
+  errno = EDQUOT;
+  return EOF;
+}
+
+TEST_CASE("the old file stays as it was when the disk reports at last that the new one does not fit") {
+  ScratchFolder const folder;
+  scarp::write_file(folder / "a.csv", "old");
+  close_fails = true;
+  auto const said = samples::message_of<scarp::FileError>([&] { scarp::write_file(folder / "a.csv", "new"); });
+  close_fails = false;
+  CHECK(said == samples::Naming{"a.csv", std::strerror(EDQUOT)});
+  CHECK(content(folder / "a.csv") == "old");
+  CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("names that no file can have, and folders that cannot be made, are complaints of one type") {
+  ScratchFolder const folder;
+  scarp::write_file(folder / "file", "");
+  std::string const long_name(400, 'n');
+  auto const write = [&](std::filesystem::path const& path) {
+    return samples::message_of<scarp::FileError>([&] { scarp::write_file(path, "text"); });
+  };
+  CHECK(write(folder / (long_name + ".vtu")) == samples::Naming{"cannot write", long_name});
+  CHECK(write(folder / long_name / "a.vtu") == samples::Naming{"cannot write", "there is no folder"});
+  CHECK(write(folder / "file/a.vtu") == samples::Naming{"cannot write", "there is no folder"});
+  for (auto const& made : {folder / "file", folder / "file/below", folder / long_name})
+    CHECK(samples::message_of<scarp::FileError>([&] { scarp::make_folder(made); }) == samples::Naming{made.string()});
+  CHECK_NOTHROW(scarp::make_folder(folder / "a/b"));
+  CHECK_NOTHROW(scarp::make_folder(folder / "a/b"));
 }
 
 TEST_CASE("a missing folder is named in the complaint") {

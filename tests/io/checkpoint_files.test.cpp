@@ -101,3 +101,20 @@ TEST_CASE("a folder of checkpoints has one owner, and other ranks of a run, whic
   CHECK_REFUSED(CheckpointFiles({.folder = folder / "saved"}, "soil: sand\n"), "is in use");
   CHECK_NOTHROW(CheckpointFiles({.folder = folder / "saved", .locks = false}, "soil: sand\n"));
 }
+
+TEST_CASE("a folder that vanishes during a run is made again, and one that cannot be is a complaint about a file") {
+  ScratchFolder const folder;
+  auto const states = folder / "saved/states";
+  CheckpointFiles files({.folder = states}, "soil: clay\n");
+  save(files, 1);
+  std::filesystem::remove_all(folder / "saved");
+  save(files, 2);
+  CHECK(std::filesystem::exists(files.newest()));
+  std::filesystem::remove_all(folder / "saved");
+  scarp::write_file(folder / "saved", "in the way");
+  CHECK(samples::message_of<scarp::FileError>([&] { save(files, 3); }) ==
+        samples::Naming{states.string(), "Not a directory"});
+  std::filesystem::remove(folder / "saved");
+  save(files, 3);
+  CHECK(loaded(CheckpointFiles({.folder = states, .resume = true, .locks = false}, "soil: clay\n")) == 3);
+}

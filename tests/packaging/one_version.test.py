@@ -24,7 +24,8 @@ SOURCES = {
     "part.cpp": PART.replace("NAME", "part"),
     "other_part.cpp": PART.replace("NAME", "other_part"),
     "library.cpp": '#include "scarp/core/one_version.hpp"\n'
-                   "int scarp::detail::version_of_library() { return version_number(); }\n",
+                   "int scarp::detail::version_of_library() { return version_number(); }\n"
+                   "int scarp::detail::container_of_library() { return bytes_of_container(); }\n",
 }
 HIDDEN = ["-fvisibility=hidden", "-fvisibility-inlines-hidden"]
 PRECOMPILED = ["-DSCARP_PRECOMPILED"]
@@ -107,6 +108,7 @@ def mixed(scratch):
     (scratch.folder / "aligned_part.cpp").write_text(aligned)
     (scratch.folder / "aligned_library.cpp").write_text(
         aligned + "int scarp::detail::version_of_library() { return version_number(); }\n"
+        "int scarp::detail::container_of_library() { return bytes_of_container(); }\n"
         "int scarp::detail::alignment_of_library() { return own_alignment(); }\n")
 
     def part(source, alignment, *flags):
@@ -119,6 +121,13 @@ def mixed(scratch):
              ("scarp::precompiled with another alignment",
               [part("aligned_program.cpp", 16, *PRECOMPILED), part("aligned_library.cpp", 64, *PRECOMPILED, *HIDDEN)],
               r"Eigen aligns by (16|64) bytes .* meets (16|64) ")]
+    checks = "-D_GLIBCXX_DEBUG"
+    plain, checked = (scratch.object(source, scratch.own, *flags) for source, flags in (("program.cpp", ()), ("part.cpp", (checks,))))
+    linked = [scratch.object("program.cpp", scratch.own, *PRECOMPILED, checks), scratch.object("part.cpp", scratch.own, *PRECOMPILED, checks),
+              scratch.object("library.cpp", scratch.own, *PRECOMPILED, *HIDDEN)]
+    said = r"std::vector has \d+ bytes meets one where it has \d+"
+    cases += [("checked containers and others", [plain, checked], said), ("scarp::precompiled without checked containers", linked, said),
+              ("checked containers everywhere", [scratch.object(source, scratch.own, checks) for source in ("program.cpp", "part.cpp")], None)]
     if platform.machine() == "x86_64":
         plain = scratch.object("program.cpp", scratch.own)
         avx = scratch.object("part.cpp", scratch.own, "-march=x86-64-v3")
@@ -134,6 +143,27 @@ def mixed(scratch):
             yield f"{title}: was not refused: {code}, {said}"
 
 
+def plugins(scratch):
+    """Two libraries with hidden symbols whose functions are visible to all once they are loaded keep their own, for two instruction sets."""
+    (scratch.folder / "plugin.cpp").write_text("""
+#include "scarp/constitutive/mohr_coulomb.hpp"
+extern "C" [[gnu::visibility("default")]] int lanes() {
+  scarp::MohrCoulomb<3> const soil{scarp::IsotropicElasticity::from_young_poisson(9e6, 0.2), {{.cohesion = 400.0, .friction = 0.6}}};
+  auto const start = soil.initial_state({});
+  auto end = start;
+  soil.respond(start, scarp::Gradient<3>{{0.0, 1e-2, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -2e-2}}, end);
+  return scarp::detail::bytes_of_register();
+}
+""")
+    names = []
+    for level in ("x86-64", "x86-64-v3"):
+        made = scratch.compile([scratch.folder / "plugin.cpp"], "-shared", "-fPIC", f"-march={level}", *include_folders(), *HIDDEN, "-lfmt")
+        symbols = subprocess.run(["nm", "-DC", "--defined-only", made], capture_output=True, text=True, check=True).stdout
+        names.append({line.split(maxsplit=2)[2] for line in symbols.splitlines() if "scarp::" in line})
+    if common := names[0] & names[1]:
+        yield f"two plugins share {len(common)} functions of scarp, such as {sorted(common)[0]}"
+
+
 def reached(header, seen):
     if header not in seen:
         seen.add(header)
@@ -144,7 +174,7 @@ def reached(header, seen):
 
 with tempfile.TemporaryDirectory() as folder:
     scratch = Scratch(folder)
-    found = [*faults(scratch), *mixed(scratch)]
+    found = [*faults(scratch), *mixed(scratch), *(plugins(scratch) if platform.machine() == "x86_64" else [])]
 for room in sorted(folder for folder in (include / "scarp").iterdir() if any(folder.glob("*.hpp"))):
     if not any("scarp/core/one_version.hpp" in reached(f"scarp/{room.name}/{header.name}", set())
                for header in room.glob("*.hpp")):

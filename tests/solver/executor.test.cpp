@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <thread>
@@ -90,10 +92,10 @@ TEST_CASE("an executor without work stops its threads when it ends") {
   }
 }
 
-TEST_CASE("a negative number of threads is refused and zero takes what the machine has") {
+TEST_CASE("a negative number of threads is refused and zero takes what the process may use") {
   CHECK_THROWS_WITH_AS(scarp::ThreadExecutor(-1), doctest::Contains("-1 threads"), scarp::InputError);
   scarp::ThreadExecutor const all(0);
-  CHECK(all.threads() == std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  CHECK(all.threads() == scarp::usable_processors());
 }
 
 TEST_CASE("a task may ask the team for tasks of its own, and two threads may ask it at the same time") {
@@ -181,6 +183,104 @@ TEST_CASE("more threads than there is memory to list are refused in words" * doc
     }
   });
   CHECK(words.find("could be started") != std::string::npos);
+}
+
+namespace {
+
+/// Exit code of a forked process that runs an action; of a signal where it does not end within 20 seconds.
+template <class Action>
+int exit_code_of_child(Action const& action) {
+  pid_t const child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    alarm(20);
+    _exit(action());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+TEST_CASE("a team that was forked works with new threads, and ends" * doctest::skip(sanitized)) {
+  auto const works = [](scarp::ThreadExecutor& executor) {
+    return executor.threads() == 4 && calls(executor, 300) == std::vector<int>(300, 1);
+  };
+  auto executor = std::make_unique<scarp::ThreadExecutor>(4);
+  REQUIRE(works(*executor));
+  CHECK(exit_code_of_child([&] {
+          bool const both = works(*executor) && works(*executor);
+          int const below = exit_code_of_child([&] { return works(*executor) ? 5 : 1; });
+          executor.reset();
+          return both && below == 5 ? 7 : 1;
+        }) == 7);
+  CHECK(exit_code_of_child([&] {  // never used there
+          executor.reset();
+          return 7;
+        }) == 7);
+  CHECK(works(*executor));
+}
+
+TEST_CASE("a process forked from a task, and one forked while another thread works, have teams that work" *
+          doctest::skip(sanitized)) {
+  scarp::ThreadExecutor executor(3);
+  std::atomic<int> code = 0;
+  executor.for_each(9, [&](int i) {
+    if (i == 4) code = exit_code_of_child([&] { return calls(executor, 40) == std::vector<int>(40, 1) ? 7 : 1; });
+  });
+  CHECK(code == 7);
+
+  std::atomic<bool> begun = false, over = false;
+  std::thread other([&] {
+    executor.for_each(2, [&](int) {
+      begun = true;
+      while (!over) std::this_thread::yield();
+    });
+  });
+  while (!begun) std::this_thread::yield();
+  CHECK(exit_code_of_child([&] { return calls(executor, 40) == std::vector<int>(40, 1) ? 7 : 1; }) == 7);
+  over = true;
+  other.join();
+}
+
+TEST_CASE("a check of the caller ends tasks of all threads, also while the caller waits") {
+  for (int const threads : {1, 2, 4}) {
+    scarp::ThreadExecutor executor(threads);
+    auto const caller = std::this_thread::get_id();
+    std::atomic<int> begun = 0, done = 0;
+    std::atomic<bool> over = false;
+    std::function<void()> const check = [&] {
+      if (std::this_thread::get_id() == caller && begun == threads) over = true;
+      if (over) throw std::length_error("enough");
+    };
+    scarp::InterruptionCheck const checked(&check);
+    CHECK_THROWS_AS(executor.for_each(threads,
+                                      [&](int) {
+                                        ++begun;
+                                        bool const waits = std::this_thread::get_id() == caller && threads > 1;
+                                        while (begun < threads) std::this_thread::yield();
+                                        while (!waits) scarp::InterruptionCheck::run();
+                                      }),
+                    std::length_error);
+    begun = 0, over = false;
+    executor.for_each(10, [&](int) { ++done; });
+    CHECK(done == 10);
+  }
+  CHECK(scarp::InterruptionCheck::now() == nullptr);
+}
+
+TEST_CASE("zero threads are no more than the process is bound to") {
+  CHECK(exit_code_of_child([] {
+          cpu_set_t bound;
+          sched_getaffinity(0, sizeof bound, &bound);
+          int last = CPU_SETSIZE - 1;
+          while (!CPU_ISSET(last, &bound)) --last;
+          CPU_ZERO(&bound);
+          CPU_SET(last, &bound);
+          sched_setaffinity(0, sizeof bound, &bound);
+          return scarp::usable_processors();
+        }) == 1);
 }
 
 TEST_CASE("tasks of one team may call another team, whose tasks call the first") {

@@ -16,6 +16,7 @@ struct BuildInfo {
   std::string_view beyond = {};            ///< instructions that the level does not promise, or nothing
   int lanes = 1;                           ///< double-precision numbers in one pack of the kernels
   bool optimised = false;                  ///< whether the compiler optimises, at any level
+  bool checked_containers = false;         ///< whether those of the standard library check their use (_GLIBCXX_DEBUG)
 };
 
 /// Of the source that calls: sources of one program may have different flags. For sources that link `scarp::precompiled`
@@ -57,6 +58,9 @@ consteval BuildInfo build_info() {
 #if defined(__OPTIMIZE__)
   info.optimised = true;
 #endif
+#if defined(_GLIBCXX_DEBUG)
+  info.checked_containers = true;
+#endif
   return info;
 }
 
@@ -74,7 +78,8 @@ inline std::string described(BuildInfo const& info) {
   return text.append(", ")
       .append(std::to_string(info.lanes))
       .append(info.lanes == 1 ? " lane" : " lanes")
-      .append(" in a pack");
+      .append(" in a pack")
+      .append(info.checked_containers ? ", checked containers" : "");
 }
 
 /// Note for whoever starts a program that was compiled so, or nothing.

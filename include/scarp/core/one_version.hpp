@@ -3,11 +3,16 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 #include "scarp/core/version.hpp"
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "scarp: with -ffast-math, -Ofast or -ffinite-math-only no check finds a NaN: add -fno-finite-math-only"
+#endif
+
 /// Two versions of scarp in one program must not share functions in silence, nor must sources compiled for registers of
-/// different width, in whose types members stand elsewhere: functions of the same name but different body are merged by the
+/// different width or with other containers, in whose types members stand elsewhere: functions of the same name but different body are merged by the
 /// linker, and by the loader between shared libraries, without a word. Every source that includes scarp checks at the start of
 /// the program whether that has happened to it. Names and meaning in this header stay the same for ever.
 namespace scarp::detail {
@@ -50,9 +55,19 @@ consteval int bytes_of_register() {
   return bytes;
 }
 
+/// Size of a container, which those with checks (_GLIBCXX_DEBUG) do not share.
+consteval int bytes_of_container() { return static_cast<int>(sizeof(std::vector<int>)); }
+
+[[gnu::noinline]] inline int container_of_functions() {
+  int volatile bytes = bytes_of_container();
+  return bytes;
+}
+
 #ifdef SCARP_PRECOMPILED
 /// Of the headers that `scarp::precompiled` was compiled with.
 int version_of_library();
+/// Bytes of a container there.
+int container_of_library();
 #endif
 
 struct OneVersion {
@@ -70,6 +85,20 @@ struct OneVersion {
           own_register, register_of_functions());
       std::abort();
     }
+    require_same_containers(container_of_functions());
+#ifdef SCARP_PRECOMPILED
+    require_same_containers(container_of_library());
+#endif
+  }
+
+  static void require_same_containers(int other) {
+    if (other == bytes_of_container()) return;
+    std::fprintf(
+        stderr,
+        "scarp: a source whose std::vector has %d bytes meets one where it has %d: compile the whole program, and "
+        "scarp::precompiled, with _GLIBCXX_DEBUG or without\n",
+        bytes_of_container(), other);
+    std::abort();
   }
 
   [[noreturn]] static void reject(int own, int other, char const* what) {

@@ -20,8 +20,9 @@ inline constexpr bool has_library = false;
 
 }  // namespace scarp
 
-/// Before definitions that the library exports.
-#if defined(__GNUC__)
+/// Before definitions that the library exports where it is a shared one. In other programs they are hidden where their flags hide
+/// symbols, so that libraries of different flags or versions keep theirs apart.
+#if defined(SCARP_SHARED) && defined(__GNUC__)
 #define SCARP_EXPORT [[gnu::visibility("default")]]
 #else
 #define SCARP_EXPORT

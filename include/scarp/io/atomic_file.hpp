@@ -14,6 +14,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "scarp/core/process.hpp"
+
 #if __has_include(<unistd.h>)
 #include <fcntl.h>
 #include <unistd.h>
@@ -35,6 +37,12 @@ enum class Durability {
 
 namespace detail {
 
+/// Whether there is such a folder; false where the system denies the look.
+inline bool is_folder(std::filesystem::path const& path) {
+  std::error_code none;
+  return std::filesystem::is_directory(path, none);
+}
+
 struct CloseFile {
   void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
 };
@@ -48,7 +56,7 @@ using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 /// opened: the file to open; wanted: the one that messages name, in the same folder
 inline OpenFile open_file(std::filesystem::path const& opened, char const* mode, std::filesystem::path const& wanted) {
   auto const folder = wanted.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+  if (!folder.empty() && !is_folder(folder)) {
     throw FileError(
         fmt::format("cannot write '{}' (there is no folder '{}'): create it first", wanted.string(), folder.string()));
   }
@@ -64,12 +72,8 @@ inline OpenFile open_file(std::filesystem::path const& path, char const* mode) {
 /// A name in the folder of `path` that no other writer of this machine uses at the same time.
 inline std::filesystem::path partial_name(std::filesystem::path const& path) {
   static std::atomic<unsigned> calls{0};
-  long process = 0;
-#if __has_include(<unistd.h>)
-  process = static_cast<long>(::getpid());
-#endif
   auto name = path;
-  name += fmt::format(".partial-{}-{}", process, calls++);
+  name += fmt::format(".partial-{}-{}", process_number(), calls++);
   return name;
 }
 
@@ -101,20 +105,30 @@ inline bool flush_folder(std::filesystem::path const& folder) {
 
 }  // namespace detail
 
+/// Makes a folder, with those above it, where it is missing.
+/// \throws FileError
+inline void make_folder(std::filesystem::path const& folder) {
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (!trouble && !detail::is_folder(folder)) trouble = std::make_error_code(std::errc::not_a_directory);
+  if (trouble) detail::throw_not_written(folder, trouble.message());
+}
+
 /// Writes a whole file: either all of `content` stands under `path` afterwards, or what was there before.
 /// The content goes to a temporary name in the same folder, which then replaces the old file.
 /// \throws FileError when the folder is missing or not writable, or the disk is full
 inline void write_file(std::filesystem::path const& path, std::string_view content,
                        Durability durability = Durability::handed_over) {
-  if (std::filesystem::is_directory(path)) {
+  if (detail::is_folder(path)) {
     throw FileError(fmt::format("cannot write '{}' (it is a folder): give the name of a file", path.string()));
   }
   auto const partial = detail::partial_name(path);
   std::error_code trouble;
   {
-    auto const file = detail::open_file(partial, "wb", path);
+    auto file = detail::open_file(partial, "wb", path);
     bool const written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
-    if (!written || !detail::flush(file.get(), durability)) {
+    // Quotas and network file systems may report what is missing when the file is closed.
+    if (!written || !detail::flush(file.get(), durability) || std::fclose(file.release()) != 0) {
       std::string const why = std::strerror(errno);
       std::filesystem::remove(partial, trouble);
       detail::throw_not_written(path, why);

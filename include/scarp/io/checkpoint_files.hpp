@@ -75,7 +75,12 @@ class CheckpointFiles {
     settings_.validate();
     if (settings_.folder.empty()) return;
     if (settings_.locks) lock_ = FolderLock(settings_.folder, "checkpoints.lock");
-    auto const present = numbers();
+    std::error_code trouble;
+    auto const present = numbers(names(trouble));
+    if (trouble && trouble != std::errc::no_such_file_or_directory) {
+      throw CheckpointError(fmt::format("cannot look into '{}' ({}): check the folder of the checkpoints",
+                                        settings_.folder.string(), trouble.message()));
+    }
     if (present.empty()) return;
     number_ = present.back();
     auto const newest = path(number_);
@@ -115,7 +120,7 @@ class CheckpointFiles {
   /// \throws FileError when the file cannot be written; the earlier ones are then untouched
   template <class Write>
   void save(Write&& write) {
-    std::filesystem::create_directories(settings_.folder);
+    make_folder(settings_.folder);
     auto const bytes = detail::framed(detail::checkpoint_format, [&](StateWriter& writer) {
       writer("scene", scene_);
       writer("run", run_);
@@ -177,18 +182,19 @@ class CheckpointFiles {
                        before.string());
   }
 
-  /// Of the checkpoints that are there, increasing.
-  std::vector<int> numbers() const {
+  /// Of all files in the folder.
+  std::vector<std::string> names(std::error_code& trouble) const {
+    std::vector<std::string> found;
+    std::filesystem::directory_iterator file(settings_.folder, trouble);
+    for (; !trouble && file != std::filesystem::directory_iterator(); file.increment(trouble))
+      found.push_back(file->path().filename().string());
+    return found;
+  }
+
+  /// Of the checkpoints among files, increasing.
+  static std::vector<int> numbers(std::vector<std::string> const& names) {
     std::vector<int> found;
-    std::error_code trouble;
-    bool const there = std::filesystem::is_directory(settings_.folder, trouble);
-    if (trouble && trouble != std::errc::no_such_file_or_directory) {
-      throw CheckpointError(fmt::format("cannot look into '{}' ({}): check the folder of the checkpoints",
-                                        settings_.folder.string(), trouble.message()));
-    }
-    if (!there) return found;
-    for (auto const& file : std::filesystem::directory_iterator(settings_.folder)) {
-      std::string const name = file.path().filename().string();
+    for (auto const& name : names) {
       if (!name.starts_with(stem) || name.size() > stem.size() + 9) continue;
       std::string const digits = name.substr(stem.size());
       if (!digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos)
@@ -201,13 +207,13 @@ class CheckpointFiles {
   /// Also what a killed process has not finished writing.
   void remove_older() const {
     std::error_code ignored;
-    for (int const number : numbers()) {
+    auto const present = names(ignored);
+    for (int const number : numbers(present)) {
       if (number < number_ - 1) std::filesystem::remove(path(number), ignored);
     }
-    for (auto const& file : std::filesystem::directory_iterator(settings_.folder)) {
-      std::string const name = file.path().filename().string();
+    for (auto const& name : present) {
       if (name.starts_with(stem) && name.find(".partial-") != std::string::npos)
-        std::filesystem::remove(file.path(), ignored);
+        std::filesystem::remove(settings_.folder / name, ignored);
     }
   }
 

@@ -153,7 +153,8 @@ class CsvLog {
  private:
   static std::filesystem::path const& checked(std::filesystem::path const& path, detail::CsvFormat const& format,
                                               CsvStart start) {
-    bool const continues = start == CsvStart::resumed && std::filesystem::exists(path);
+    std::error_code none;
+    bool const continues = start == CsvStart::resumed && std::filesystem::exists(path, none);
     if (continues && !read_file(path).starts_with(format.header())) {
       reject("'{}' cannot be continued (its columns are not '{}'): start another file", path.string(),
              std::string_view(format.header()).substr(0, format.header().size() - 1));

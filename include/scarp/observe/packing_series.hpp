@@ -8,6 +8,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/dem/packing_picture.hpp"
+#include "scarp/io/atomic_file.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/run/root_rank.hpp"
@@ -64,7 +65,7 @@ class PackingSeries : public NeverStops {
     visit_point(problem, detail::require_point(problem, point_),
                 [&](auto const& points, int k) { picture = points.template picture<PackingPicture>(k); });
     if (!picture) return;
-    std::filesystem::create_directories(folder_);
+    make_folder(folder_);
     write_packing_tables(folder_, *picture, stem(throws_.size()));
     throws_.push_back(measure_.of(load));
     CsvTable list({measure_.name, "packing"});

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/process.hpp"
 
 #if __has_include(<sys/resource.h>)
 #include <sys/resource.h>
@@ -51,46 +51,16 @@ struct FreeMemory {
 
 namespace detail {
 
-/// The number behind a name in a file of the kernel's, or the file's only number; infinite where there is none.
-inline double kernel_number(std::string const& file, std::string_view name = {}) {
-  std::ifstream stream(file);
-  for (std::string word; stream >> word;) {
-    if (name.empty()) stream.seekg(0);
-    if (!name.empty() && word != name) continue;
-    double number = 0.0;
-    return stream >> number ? number : std::numeric_limits<double>::infinity();
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
-/// Memory [bytes] that the control groups of a process leave, from its own up to the outermost that is seen: of cgroup v2, and of
-/// the memory controller of v1. Infinite where there is no limit.
-/// groups: lines `number:controllers:/path` as in /proc/self/cgroup; mounted: folder of the groups
+/// Memory [bytes] that the control groups of a process leave; see `least_of_groups`.
 inline double group_memory(std::string const& groups, std::string const& mounted) {
-  double least = std::numeric_limits<double>::infinity();
-  std::ifstream lines(groups);
-  for (std::string line; std::getline(lines, line);) {
-    auto const controllers = line.find(':') + 1;
-    auto const path = line.find(':', controllers);
-    if (controllers == 0 || path == std::string::npos) continue;
-    auto const names = "," + line.substr(controllers, path - controllers) + ",";
-    bool const second = names == ",,";
-    if (!second && names.find(",memory,") == std::string::npos) continue;
-    auto const root = mounted + (second ? "" : "/memory");
-    std::filesystem::path group = line.substr(path + 1);
-    for (bool above = true; above; group = group.parent_path()) {
-      auto const file = [&](char const* name) { return (root + group.string()) + "/" + name; };
-      // The memory that caches the group's files can be freed.
-      double const taken =
-          second ? kernel_number(file("memory.current")) - kernel_number(file("memory.stat"), "inactive_file")
-                 : kernel_number(file("memory.usage_in_bytes")) -
-                       kernel_number(file("memory.stat"), "total_inactive_file");
-      double const left = kernel_number(file(second ? "memory.max" : "memory.limit_in_bytes")) - taken;
-      if (left < least) least = left;
-      above = group.has_relative_path();
-    }
-  }
-  return least;
+  return least_of_groups(groups, mounted, "memory", [](auto const& file, bool is_second) {
+    // The memory that caches the group's files can be freed.
+    double const taken =
+        is_second
+            ? kernel_number(file("memory.current")) - kernel_number(file("memory.stat"), "inactive_file")
+            : kernel_number(file("memory.usage_in_bytes")) - kernel_number(file("memory.stat"), "total_inactive_file");
+    return kernel_number(file(is_second ? "memory.max" : "memory.limit_in_bytes")) - taken;
+  });
 }
 
 }  // namespace detail

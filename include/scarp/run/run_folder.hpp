@@ -79,7 +79,7 @@ class RunFolder {
   static std::string absolute(std::filesystem::path const& path) {
     std::error_code trouble;
     auto const found = std::filesystem::weakly_canonical(path, trouble);
-    return valid_utf8(trouble ? std::filesystem::absolute(path).string() : found.string());  // as the record has it
+    return valid_utf8((trouble ? path : found).string());  // as the record has it
   }
 
   std::string name() const { return settings_.folder.string(); }
@@ -87,7 +87,7 @@ class RunFolder {
   /// The run whose folder this is.
   std::optional<RunRecord> present() const {
     auto const file = settings_.folder / settings_.record;
-    if (!std::filesystem::exists(file)) return std::nullopt;
+    if (std::error_code none; !std::filesystem::exists(file, none)) return std::nullopt;
     try {
       return RunRecord::from(read_file(file));
     } catch (InputError const& problem) {
@@ -113,7 +113,7 @@ class RunFolder {
   void require_new(std::optional<RunRecord> const& before, bool wants_to_go_on) const {
     std::string found = before ? before->described() : "";
     for (auto const& result : settings_.results) {
-      if (found.empty() && std::filesystem::exists(settings_.folder / result))
+      if (std::error_code none; found.empty() && std::filesystem::exists(settings_.folder / result, none))
         found = fmt::format("results of another run, such as '{}'", result);
     }
     if (found.empty()) return;

@@ -69,14 +69,14 @@ class SoaArray {
   Scalar operator()(std::size_t row, int k) const { return column(k)[row]; }
 
   /// One value of each column.
-  std::array<Scalar, Count> row(std::size_t r) const {
-    std::array<Scalar, Count> values{};
+  std::array<Scalar, detail::index(Count)> row(std::size_t r) const {
+    std::array<Scalar, detail::index(Count)> values{};
     for (int k = 0; k < Count; ++k) values[detail::index(k)] = (*this)(r, k);
     return values;
   }
 
   /// One value for each column.
-  void set_row(std::size_t r, std::array<Scalar, Count> const& values) {
+  void set_row(std::size_t r, std::array<Scalar, detail::index(Count)> const& values) {
     for (int k = 0; k < Count; ++k) (*this)(r, k) = values[detail::index(k)];
   }
 
