@@ -22,17 +22,15 @@ void require_probes_inside(Choice const& choice, SceneType const& scene) {
     right = std::max(right, node.x());
   }
   double const depth = scene.ground.depth();
-  auto const check = [&](char name, double x, double y, double default_x, double default_y) {
-    bool const inside = x >= left && x <= right && y >= 0.0 && y <= depth;
-    if (inside || (x == default_x && y == default_y)) return;
+  auto const check = [&](char name, double x, double y) {
+    if (x >= left && x <= right && y >= 0.0 && y <= depth) return;
     scarp::reject(
         "probe {} at x = {} m, {} m above bedrock, lies outside of the ground (x from {} to {} m, up to {} m): "
         "put it inside",
         name, x, y, left, right, depth);
   };
-  Choice const usual;
-  check('A', choice.probe_a_x, choice.probe_a_y, usual.probe_a_x, usual.probe_a_y);
-  check('B', choice.probe_b_x, choice.probe_b_y, usual.probe_b_x, usual.probe_b_y);
+  check('A', choice.probe_a_x, choice.probe_a_y);
+  check('B', choice.probe_b_x, choice.probe_b_y);
 }
 
 /// scene: its soil may be missing
@@ -45,7 +43,8 @@ SceneSize size_of(Choice const& choice, SceneType const& scene, std::vector<scar
   size.nodes = static_cast<double>(mesh.nodes.size());
   size.width = right->x() - left->x();
   size.depth = scene.ground.depth();
-  if (scene.ground.strip) size.min_area = scene.ground.strip->fine * scene.ground.strip->fine / (is_triangle ? 4 : 1);
+  double const fine = scene.ground.strip ? scene.ground.strip->fine : choice.mesh_size;
+  size.min_area = fine * fine / (is_triangle ? 4 : 1);
   return size;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "ensemble.hpp"
 #include "../shared/renamed_keys.hpp"
+#include "measure_words.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,11 @@ constexpr std::array no_measures{"seed",
                                  "share_of_time_in_points",
                                  "share_of_time_outside_points",
                                  "tolerance",
-                                 "fault_line_x50"};
+                                 "fault_line_x50",
+                                 "depth",
+                                 "footing_centre",
+                                 "footing_width",
+                                 "bearing_pressure"};
 
 struct Spread {
   int count = 0;
@@ -87,18 +92,27 @@ Json ensemble_summary(std::vector<EnsembleMember> const& members) {
   std::map<std::string, std::vector<double>> values;
   Json summary;
   for (auto const& member : members) {
-    std::string status = member.problem;
-    if (status.empty()) {
+    Json told{{"seed", member.seed}, {"folder", member.folder.filename().string()}, {"status", member.problem}};
+    if (member.problem.empty()) {
       auto const own = Json::parse(scarp::read_file(member.folder / "summary.json"));
-      status = own["status"].get<std::string>();
+      told["status"] = own["status"];
       if (member.code == 0) collect(own, names, values);
+      for (auto const& [part, found] : own["error_budget"]["parts"].items()) {
+        if (!found["within"].get<bool>())
+          told["outside_budget"][part] = {{"value", found["value"]}, {"bound", found.value("bound", Json())}};
+      }
     }
-    summary["members"].push_back(
-        {{"seed", member.seed}, {"folder", member.folder.filename().string()}, {"status", status}});
+    summary["members"].push_back(std::move(told));
   }
   for (auto const& name : names) {
     auto const spread = spread_of(values[name]);
-    summary["measures"][name] = {{"count", spread.count}, {"mean", spread.mean}, {"scatter", spread.scatter}};
+    auto const said = words_of(name);
+    auto const level = name.find(" at ");
+    auto const what = *said.what == '\0'   ? name
+                      : level == name.npos ? said.what
+                                           : said.what + (", " + name.substr(level + 1));
+    summary["measures"][name] = {{"count", spread.count}, {"mean", spread.mean}, {"scatter", spread.scatter},
+                                 {"what", what},          {"unit", said.unit},   {"factor", said.factor}};
   }
   return summary;
 }
@@ -106,19 +120,29 @@ Json ensemble_summary(std::vector<EnsembleMember> const& members) {
 std::string ensemble_table(Json const& summary) {
   std::string text;
   for (auto const& member : summary["members"]) {
-    if (member["status"] != "ok")
-      text += fmt::format("INCOMPLETE: seed {}: {}\n", member["seed"].get<std::uint64_t>(),
-                          member["status"].get<std::string>());
+    auto const seed = member["seed"].get<std::uint64_t>();
+    if (member["status"] != "ok") {
+      text += fmt::format("INCOMPLETE: seed {}: {}\n", seed, member["status"].get<std::string>());
+      continue;
+    }
+    std::string outside;
+    auto const number = [](Json const& value) { return value.is_number() ? value.get<double>() : std::nan(""); };
+    auto const beyond = member.value("outside_budget", Json::object());
+    for (auto const& [part, found] : beyond.items())
+      outside += fmt::format("{}{} {:.2g} (bound {:.2g})", outside.empty() ? ": " : ", ", part, number(found["value"]),
+                             number(found["bound"]));
+    text += fmt::format("seed {}: {}side its error budget{}\n", seed, outside.empty() ? "in" : "out", outside);
   }
-  text +=
-      fmt::format("{:<44} {:>6} {:>12} {:>12}\n", "measure (SI units, angles in radians)", "runs", "mean", "scatter");
+  text += fmt::format("{:<56} {:>12} {:>12} {:<8} {:>4}  {}\n", "measure", "mean", "scatter", "", "runs", "key");
   if (!summary.contains("measures")) return text;
   for (auto const& [name, spread] : summary["measures"].items()) {
+    double const factor = spread["factor"].get<double>();
     std::string const scatter = spread["scatter"].is_null() || !std::isfinite(spread["scatter"].get<double>())
                                     ? "-"
-                                    : fmt::format("{:.3g}", spread["scatter"].get<double>());
-    text += fmt::format("{:<44} {:>6} {:>12.5g} {:>12}\n", name, spread["count"].get<int>(),
-                        spread["mean"].get<double>(), scatter);
+                                    : fmt::format("{:.3g}", factor * spread["scatter"].get<double>());
+    text += fmt::format("{:<56} {:>12.5g} {:>12} {:<8} {:>4}  {}\n", spread["what"].get<std::string>(),
+                        factor * spread["mean"].get<double>(), scatter, spread["unit"].get<std::string>(),
+                        spread["count"].get<int>(), name);
   }
   return text;
 }

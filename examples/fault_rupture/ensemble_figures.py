@@ -3,6 +3,7 @@
 import json
 import pathlib
 
+import footing_figures
 import numpy as np
 import scarp_figures as figures
 from scarp_figures import BLACK, BLUE, GREY, plt
@@ -29,9 +30,10 @@ def ensemble(folder):
         axes.axvspan(place["mean"] - (place["scatter"] or 0.0), place["mean"] + (place["scatter"] or 0.0), color=BLUE, alpha=0.12)
         axes.axvline(place["mean"], color=BLUE, linewidth=0.9, linestyle="-" if name == "surface_x50" else ":")
     axes.invert_yaxis()
+    footing_figures.draw_extent(axes, next(map(figures.read_summary, (table.parent for table in tables if table.is_file())), {}))
     count = measures["surface_x50"]["count"]
     axes.set(xlabel="x before the fault moved [m]", ylabel="settlement [m]",
              title=f"{count} packings: 5, 50 and 95 % of the throw at "
                    + ", ".join(f"{measures[name]['mean']:.1f} ± {measures[name]['scatter'] or 0.0:.1f}" for name in SHOWN) + " m")
-    axes.legend(loc="lower left")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4)
     return fig

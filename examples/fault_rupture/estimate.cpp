@@ -58,7 +58,7 @@ double iterations_of(double gradient, double tolerance, bool has_length, CostMod
 /// crowding: factor of the strain
 double answer_of(Choice const& choice, SceneSize const& size, EqualSteps const& steps, double width, double crowding,
                  CostModel const& model) {
-  double const strain = crowding * model.strain_at_metre * std::pow(width, model.strain_by_width) *
+  double const strain = crowding * model.strain_at_metre * std::pow(width / choice.scale(), model.strain_by_width) *
                         (1.0 + model.strain_by_throw * steps.throw_at / size.depth) * steps.increment / size.depth;
   return std::hypot(choice.min_dem_steps, strain / choice.strain_per_step);
 }
@@ -94,7 +94,7 @@ std::filesystem::path default_cost_model() { return FAULT_RUPTURE_COSTS; }
 
 Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control, CostModel const& model,
              double speed) {
-  // In the strip, where the rupture is.
+  // Along the fault, where the rupture is.
   double const mean_area = size.width * size.depth / size.elements;
   double const area = size.min_area > 0.0 ? size.min_area : mean_area;
   double const node_distance = std::sqrt(area * size.elements / size.nodes);
@@ -175,7 +175,7 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
 
   auto text =
       fmt::format("scene: {:.0f} elements, {:.0f} nodes, {:.0f} points", size.elements, size.nodes, size.points);
-  if (size.min_area > 0.0) text += fmt::format(", those in the strip {:.3g} m2", size.min_area);
+  if (size.min_area > 0.0) text += fmt::format(", those along the fault {:.3g} m2", size.min_area);
   if (size.columns > 0.0)
     text += fmt::format(", {} grains in each, {:.0f} columns of packings", choice.grains, size.columns);
   if (size.pairs > 0.0)
@@ -198,10 +198,8 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
   text += fmt::format("uncertainty: runs that were not fitted took up to {:.1f} times more or less (docs/scaling.md)\n",
                       model.largest_error);
   if (choice.scene != Case::free) text += "warning: no scene with a footing was measured; many take more iterations\n";
-  Choice const usual;
-  if (choice.soil == Soil::dem &&
-      (choice.grain_aspect != usual.grain_aspect || choice.grain_friction != usual.grain_friction))
-    text += "warning: no other grains than the reference study's were measured\n";
+  if (!repeats_study(choice))
+    text += "warning: the model is of the reference study's site; others took up to 2.3 times more or 1.5 times less\n";
   if (choice.soil == Soil::elastic) text += "warning: no elastic ground was measured\n";
   if (choice.sensitivity_runs) text += "sensitivity runs come on top: about one and a half to three times more\n";
   return text;

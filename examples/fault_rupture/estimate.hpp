@@ -20,7 +20,7 @@ struct CostModel {
   /// Iterations of a step: value + by_decade log10(gradient/tolerance), at least one; without a length and with one.
   double iterations = 0.0, iterations_by_decade = 0.0;
   double iterations_with_length = 0.0, iterations_with_length_by_decade = 0.0;
-  /// Strain of a mean point over throw/depth: at_metre width^by_width (1 + by_throw throw/depth).
+  /// Strain of a mean point over throw/depth: at_metre width^by_width (1 + by_throw throw/depth), with the width in 25 m of ground.
   double strain_at_metre = 0.0, strain_by_width = 0.0, strain_by_throw = 0.0;
   double dem_step = 0.0, dem_step_by_grains = 0.0;  ///< value grains^power, as the next ones
   double tangent = 0.0;                             ///< of a point, in DEM steps

@@ -14,18 +14,16 @@
 #include "pilot.hpp"
 #include "run_scene.hpp"
 #include "sensitivity_runs.hpp"
+#include "site_options.hpp"
 
 namespace {
 
 using fault_rupture::Choice;
 
-constexpr double short_length = 2.0;  ///< [m], where the mesh is made for it
-constexpr double long_length = 8.0;   ///< [m], of coarser meshes
-
 /// Beside the reference study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
 /// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and fewer DEM steps.
 void make_objective(Choice& choice) {
-  choice.length = short_length;
+  choice.length = fault_rupture::short_length;
   choice.overconsolidation_ratio = 1.25;
   choice.packings = 16;
   choice.mirrored_packings = true;
@@ -55,7 +53,10 @@ void make_quick(Choice& choice) {
 }
 
 /// About as many triangles as the reference study has, most of them around the rupture.
-void make_study(Choice& choice) { choice.length = 1.0; }
+void make_study(Choice& choice) {
+  choice.length = 1.0;
+  choice.study = true;
+}
 
 void declare_materials(CLI::App& app, Choice& choice) {
   using examples::number_from;
@@ -129,7 +130,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
                   {{"dem", Soil::dem}, {"mohr_coulomb", Soil::mohr_coulomb}, {"elastic", Soil::elastic}});
   add_named<Base>(app, "--footing", choice.base, "tied (elastic block, shares nodes) or frictional (rigid, may lift)",
                   {{"tied", Base::tied}, {"frictional", Base::frictional}});
-  app.add_option("--footing-centre", choice.footing_centre, "x [m]")->check(number_from(-1e6, true, 1e6));
+  fault_rupture::declare_site(app, choice);
+  app.add_option("--footing-centre", choice.footing_centre,
+                 "x [m]; where it is not given 0.16 depths right of where the fault's own line comes out")
+      ->check(fault_rupture::place());
   app.add_option("--footing-width", choice.footing_width, "[m]")->check(number_from(0.0, false, 1e6));
   app.add_option("--bearing-pressure", choice.bearing_pressure, "[Pa]; 0 takes the case's own, 91 or 37 kPa")
       ->check(number_from(0.0, true, 1e9));
@@ -155,7 +159,8 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, false, 25.0));
   app.add_option("--strip-width", choice.strip_width,
                  "width of the strip of small elements around what a pilot run strains, frictional ground on a coarse "
-                 "mesh [m]; 0 for a uniform mesh; a --length below 6 m chooses it, and --size")
+                 "mesh [m]; 0 for a uniform mesh, or that of --mesh as it is; a --length below 6 m (depth 25 m) or "
+                 "below what --mesh resolves chooses it, and --size")
       ->check(number_from(0.0, true, 1e3));
   for (char const* other : {"--quick", "--local", "--size", "--strip-width"}) study->excludes(app.get_option(other));
   app.add_option("--elements", choice.elements, "wanted number of elements instead of --size")
@@ -183,13 +188,14 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_option("--mesh-order", choice.mesh_order, "highest order of elements of --mesh: 1 leaves out all but corners")
       ->check(CLI::Range(1, 2))
       ->needs(file);
-  for (char const* made_mesh : {"--size", "--strip-width", "--elements", "--pattern", "--aspect", "--mesh-seed"})
+  for (char const* made_mesh : {"--depth", "--left", "--width", "--elements", "--pattern", "--aspect", "--mesh-seed"})
     file->excludes(app.get_option(made_mesh));
   file->excludes(study);
-  app.add_option("--length", choice.length,
-                 "intrinsic length [m]: radius of the means that points see; 0 for none, as in the reference study; "
-                 "where it is "
-                 "not given 1 with --study, 8 with --quick, --size, --elements, --mesh or --strip-width 0")
+  app.add_option(
+         "--length", choice.length,
+         "intrinsic length [m]: radius of the means that points see; 0 for none, as in the reference study; "
+         "where it is not given and the depth is 25 m: 2, 1 with --study, 8 with --quick, --size, --elements or "
+         "--strip-width 0; with --mesh what its elements resolve")
       ->check(number_from(0.0, true, 1e3));
   app.add_option("--grains", choice.grains, "grains in each RVE")->check(CLI::Range(1, 100'000));
   app.add_option("--packings", choice.packings,
@@ -210,7 +216,8 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));
   app.add_option("--dip", choice.dip, "of the fault [degrees]")->check(number_from(0.0, false, 90.0));
   app.add_flag("--reverse", choice.reverse, "the hanging wall is pushed up the fault plane");
-  app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]")->check(number_from(-1e6, true, 1e6));
+  app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]; places that are not given follow it")
+      ->check(fault_rupture::place());
   app.add_option("--tolerance", choice.tolerance,
                  "force residual over reactions; packings 1e-2, Mohr-Coulomb 1e-8, else 1e-10")
       ->check(number_from(0.0, false, 1.0));
@@ -226,10 +233,10 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(number_from(0.0, false, 1.0));
   app.add_option("--threads", choice.threads, "of each process; 0 uses all processors")->check(CLI::Range(0, 1024));
   app.add_option("--frames", choice.frames, "VTU files over the run")->check(CLI::Range(1, 100'000));
-  app.add_option("--probe-a-x", choice.probe_a_x, "probe A, in the band [m]")->check(number_from(-1e6, true, 1e6));
-  app.add_option("--probe-a-y", choice.probe_a_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
-  app.add_option("--probe-b-x", choice.probe_b_x, "probe B, outside [m]")->check(number_from(-1e6, true, 1e6));
-  app.add_option("--probe-b-y", choice.probe_b_y, "height above bedrock [m]")->check(number_from(-1e6, true, 1e6));
+  app.add_option("--probe-a-x", choice.probe_a_x, "probe A, in the band [m]")->check(fault_rupture::place());
+  app.add_option("--probe-a-y", choice.probe_a_y, "height above bedrock [m]")->check(fault_rupture::place());
+  app.add_option("--probe-b-x", choice.probe_b_x, "probe B, outside [m]")->check(fault_rupture::place());
+  app.add_option("--probe-b-y", choice.probe_b_y, "height above bedrock [m]")->check(fault_rupture::place());
   app.add_option("--time-limit", choice.time_limit, "stop after so many seconds, preparation and all; 0 for none")
       ->check(number_from(0.0, true, 1e9));
   app.add_option("--budget", choice.budget, "bounds of the error budget, part=bound, instead of the default ones")
@@ -264,21 +271,6 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   examples::declare_output(app, output, "folder for all results");
   resume->excludes("--overwrite");
   examples::declare_config(app);
-}
-
-/// What follows from the options that are given; recorded as if it were the default.
-void choose_length_and_sizes(CLI::App& app, Choice& choice) {
-  bool const is_uniform = app.count("--strip-width") > 0 && choice.strip_width == 0.0;
-  bool const has_mesh = app.count("--size") > 0 || choice.elements > 0 || !choice.mesh.empty() || is_uniform;
-  bool const has_length = app.count("--length") > 0 || choice.length == 0.0;
-  if ((has_mesh || app.count("--quick") > 0) && !has_length) choice.length = long_length;
-  if (!has_mesh) fault_rupture::choose_strip<fault_rupture::Element>(choice);
-  auto const record = [&](char const* option, double value) {
-    if (app.count(option) == 0) app.get_option(option)->default_str(fmt::format("{:g}", value));
-  };
-  record("--length", choice.length);
-  record("--size", choice.size);
-  record("--strip-width", choice.strip_width);
 }
 
 /// Names options that were given and that nothing of the scene uses.
@@ -358,8 +350,12 @@ int main(int argc, char** argv) {
   }
   try {
     read_sand(app, choice);
-    choose_length_and_sizes(app, choice);
-    if (fault_rupture::rank() == 0) warn_of_unused(app, choice);
+    fault_rupture::choose_places(app, choice);
+    fault_rupture::choose_length_and_sizes(app, choice);
+    if (fault_rupture::rank() == 0) {
+      warn_of_unused(app, choice);
+      fault_rupture::warn_of_ends(choice);
+    }
     if (choice.strip_width > 0.0) fault_rupture::run_pilot(choice);
     if (app.count("--estimate") > 0) {
       if (fault_rupture::rank() == 0) print_estimate(choice, seeds.size());

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """The ground of a fault rupture: its strain and settlement, an animation of the rupture, and principal stresses."""
 
+import footing_figures
 import numpy as np
 import scarp_figures as figures
 from matplotlib.collections import LineCollection, PolyCollection
@@ -83,6 +84,9 @@ def rupture(folder):
     strains = [deviatoric_percent(grid, path) for _, grid, path in grids]
     depth = layer_depth(*grids[0][1:])
     low, high = (edge([np.asarray(edge(grid.points, axis=0)) for _, grid, _ in grids], axis=0) for edge in (np.min, np.max))
+    summary, surface = figures.read_summary(folder), surface_level(*grids[0][1:])
+    blocks = [footing_figures.corners(folder, summary, throw, surface) for throw, _, _ in grids]
+    high[1] = max([high[1], *(block[:, 1].max() for block in blocks if block is not None)])
     margin = 0.02 * (high - low)[0]
     shape = np.clip((high - low)[1] / (high - low)[0], 0.1, 1.0)
     fig, axes = plt.subplots(figsize=(8.0, 1.3 + 6.4 * shape), dpi=100)
@@ -91,11 +95,14 @@ def rupture(folder):
     rim = axes.add_collection(LineCollection(outline(grids[0][1]), colors=BLACK, linewidths=0.8))
     axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), xlabel="x [m]", ylabel="y [m]")
     fig.colorbar(cells, ax=axes, label="deviatoric strain [%],\nsquare-root scale", extend="max", aspect=12)
+    footing = footing_figures.draw_block(axes, folder, summary, grids[0][0], surface)
     frames = []
-    for (throw, grid, _), strain in zip(grids, strains):
+    for (throw, grid, _), strain, block in zip(grids, strains, blocks):
         cells.set_verts(grid.points[grid.cells])
         cells.set_array(strain)
         rim.set_segments(outline(grid))
+        if footing is not None:
+            footing.set_xy(block)
         axes.set_title(f"h/H = {throw:.4f}, throw {throw * depth:.2f} m, largest strain {np.nanmax(strain):.3g} %", loc="left")
         fig.canvas.draw()
         frames.append(Image.fromarray(np.asarray(fig.canvas.buffer_rgba())[..., :3].copy()))
@@ -120,6 +127,12 @@ def layer_depth(grid, path):
     """[m], of the soil before it moved"""
     initial = grid.points - figures.field(grid.at_nodes, "displacement", path)[:, :2]
     return float(np.ptp(initial[grid.cells[soil_of(grid, path)], 1]))
+
+
+def surface_level(grid, path):
+    """y of the soil's surface before it moved [m]"""
+    initial = grid.points - figures.field(grid.at_nodes, "displacement", path)[:, :2]
+    return float(np.max(initial[grid.cells[soil_of(grid, path)], 1]))
 
 
 def mean_stresses(grid, path):
@@ -163,6 +176,7 @@ def stress_crosses(folder):
     fig, axes = plt.subplots(figsize=(8.6, 3.0))
     draw_settlement(fig, axes, grid, path, alpha=0.5)
     axes.add_collection(LineCollection(outline(grid), colors=GREY, linewidths=0.6))
+    footing_figures.draw_block(axes, folder, figures.read_summary(folder), throw, surface_level(grid, path))
     axes.add_collection(LineCollection(arms[~tension], colors=BLACK, linewidths=0.9))
     axes.add_collection(LineCollection(arms[tension], colors=VERMILION, linewidths=1.3))
     axes.plot([], [], color=BLACK, label=f"compression, up to {largest / 1e3:.0f} kPa, length by its square root")

@@ -11,7 +11,7 @@ namespace fault_rupture {
 
 namespace {
 
-/// What the coarse mesh resolves [m].
+/// What the coarse mesh resolves [m], in the reference study's ground.
 constexpr double pilot_length = 5.0;
 
 }  // namespace
@@ -19,11 +19,11 @@ constexpr double pilot_length = 5.0;
 void run_pilot(Choice& choice) {
   Choice pilot = choice;
   pilot.soil = Soil::mohr_coulomb;
-  pilot.size = Choice{}.size;
+  pilot.size = Choice{}.size * choice.scale();
   pilot.strip_width = 0.0;
   pilot.pattern.reset();  // one strip for meshes of all directions
   pilot.aspect = Choice{}.aspect;
-  pilot.length = pilot_length;
+  pilot.length = std::max(pilot_length * choice.scale(), 2.0 * choice.mesh_size);
   pilot.tolerance = 1e-3;
   pilot.max_displacement_gradient.reset();
   // Its rupture comes out where that of the reference study's sand does with a length of 2 m, within 1 m.

@@ -19,8 +19,9 @@ from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.patheffects import withStroke
 from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
 
-STUDY_OUTCROP = -12.5       # [m], where the reference study's surface starts to deflect, sec. 4.1
-CENTRIFUGE_OUTCROP = -9.8   # [m], the experiment as the reference study states it, sec. 4.1
+# Of the free field of the reference study, sec. 4.1 [m]: shown where a run repeats its site.
+STUDY_OUTCROP = -12.5
+CENTRIFUGE_OUTCROP = -9.8
 PROBES = {"A": BLUE, "B": VERMILION}
 
 
@@ -91,9 +92,14 @@ def draw_bands(axes, summary, bedrock, depth):
     axes.legend(loc="lower left", fontsize=7)
 
 
+def tip_of(summary):
+    """x of the fault's tip [m]"""
+    return float(summary.get("run", {}).get("options", {}).get("tip", 0.0))
+
+
 def draw_fault(axes, summary, bedrock, depth):
     """The fault's own line through the soil, along which a rigid hanging wall would rupture it, from the tip at rest."""
-    tip = float(summary.get("run", {}).get("options", {}).get("tip", 0.0))
+    tip = tip_of(summary)
     block = figures.finite(summary.get("fault_line_x50"))
     if block is not None:
         axes.plot([tip, block], [bedrock, bedrock + depth], ":", color=BLACK, linewidth=1.3, label="line of the fault",
@@ -123,6 +129,8 @@ def deformation(folder):
     upper.set_title(f"Deformed mesh at h/H = {throw:.3g}, displacements to scale", loc="left")
     upper.set_title(f"largest strain {np.nanmax(strain):.3g} %{status_note(grid)}", loc="right", fontsize=7.5)
     draw_settlement(fig, lower, grid, path)
+    for axes in (upper, lower):
+        footing_figures.draw_block(axes, folder, summary, throw, bedrock + depth)
     lower.set(xlabel="x [m]", ylabel="y [m]")
     draw_bands(lower, summary, bedrock, depth)
     lower.set_title("Vertical displacement", loc="left")
@@ -136,6 +144,7 @@ def strain_development(folder):
     fig, panels = plt.subplots(len(steps), 1, figsize=(6.4, 0.6 + 2.0 * len(steps)), sharex=True, squeeze=False)
     for axes, (throw, grid, path) in zip(panels[:, 0], steps):
         cells = draw_cells(axes, grid, deviatoric_percent(grid, path), norm, edge=0.0)
+        footing_figures.draw_block(axes, folder, figures.read_summary(folder), throw, ground_figures.surface_level(grid, path))
         axes.set(ylabel="y [m]", title=f"h/H = {throw:.3g}")
     panels[-1, 0].set_xlabel("x [m]")
     fig.colorbar(cells, ax=panels[:, 0], label="deviatoric strain [%], square-root scale", extend="max", aspect=35)
@@ -162,8 +171,10 @@ def outcrop_marks(axes, summary):
              (figures.finite(summary.get("surface_mean")), GREEN, "-", "mean of the profile, last throw"),
              *((figures.finite(summary.get(f"surface_x{share}")), BLUE, line, f"{int(share)} % of the throw has passed here")
                for share, line in (("05", ":"), ("50", "-"), ("95", ":"))),
-             (STUDY_OUTCROP, BLACK, "--", "reference study: surface starts to deflect"),
-             (CENTRIFUGE_OUTCROP, GREY, ":", "centrifuge, as the reference study states it")]
+             (figures.finite(summary.get("fault_line_x50")), BLACK, "-.", "the fault's own line")]
+    if summary.get("repeats_study") is True:
+        marks += [(STUDY_OUTCROP, BLACK, "--", "reference study, free field: starts to deflect"),
+                  (CENTRIFUGE_OUTCROP, GREY, ":", "centrifuge, as the reference study states it")]
     return [axes.axvline(x, color=colour, linestyle=line, linewidth=1.1, label=f"{text}: {x:.1f} m")
             for x, colour, line, text in marks if x is not None]
 
@@ -185,11 +196,13 @@ def surface(folder):
     for colour, (throw, x, settlement) in zip(colours, profiles):
         lines += upper.plot(x, settlement / depth, ".-", color=colour, markersize=3, label=f"h/H = {throw:.3g}")
         lower.plot(x, settlement / (throw * depth), ".-", color=colour, markersize=3)
+    marks = outcrop_marks(lower, summary) + footing_figures.draw_extent(lower, summary)
     outcrop_marks(upper, summary)
-    marks = outcrop_marks(lower, summary)
+    footing_figures.draw_extent(upper, summary)
     for axes in (upper, lower):
         axes.invert_yaxis()
-    upper.secondary_xaxis("top", functions=(lambda x: x / depth, lambda ratio: ratio * depth)).set_xlabel("x/H [-]")
+    tip = tip_of(summary)
+    upper.secondary_xaxis("top", functions=(lambda x: (x - tip) / depth, lambda ratio: tip + ratio * depth)).set_xlabel("x/H from the tip [-]")
     upper.set_ylabel("settlement over depth of layer [-]")
     lower.set(xlabel="x [m]", ylabel="settlement over throw [-]")
     upper.legend(handles=lines, loc="lower left")

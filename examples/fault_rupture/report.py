@@ -82,7 +82,7 @@ def lead(run):
     mesh = f"{elements:.0f} elements ({run.summary.get('element')})" if elements else f"elements {run.option('element')}"
     length = run.option("length", "0")
     seen = "no intrinsic length" if length in ("", "0") else f"an intrinsic length of {length} m"
-    return (f"A fault that dips at {run.option('dip')} degrees moves below {structure(run)} to a throw of "
+    return (f"A fault that dips at {run.option('dip')} degrees moves below {structure(run)}, {run.option('depth')} m deep, to a throw of "
             f"{run.option('throw-over-depth')} of the depth. The ground is {ground(run)}, {mesh}, {seen}.")
 
 

@@ -25,6 +25,7 @@
 #include "scarp/run/time_limit.hpp"
 #include "sensitivity.hpp"
 #include "summary.hpp"
+#include "summary_table.hpp"
 #include "team.hpp"
 
 namespace fault_rupture {

@@ -17,7 +17,7 @@ struct SceneSize {
   double points = 0.0;    ///< of the soil
   double columns = 0.0;   ///< of packings that are made; 0 without packings
   double prepared = 0.0;  ///< packings that points may draw, images too
-  double min_area = 0.0;  ///< [m2], of an element in the strip; 0 without a strip
+  double min_area = 0.0;  ///< [m2], of an element along the fault; 0 on a uniform mesh
   double pairs = 0.0;     ///< of points within the length of each other, each with itself too; 0 without a length
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 
 #include "../shared/process_usage.hpp"
@@ -92,6 +91,8 @@ void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem c
     auto const& footing = scene.structure.footing;
     double const weight = footing.bearing * footing.width;
     json["bearing_pressure"] = footing.bearing;
+    json["footing_centre"] = footing.centre;
+    json["footing_width"] = footing.width;
     json["tilt"] = motion.tilt;
     json["settlement"] = motion.settlement;
     json["horizontal_displacement"] = motion.horizontal;
@@ -155,9 +156,11 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
   auto const offset = scarp::offset_at(scene.fault, std::max(run.load, 0.0));
   auto const survey = scarp::rupture_survey(grid.mesh(), ground, grid.positions(), offset);
-  constexpr double from_side = 5.0;  // [m], where the far field is read: the sides themselves are prescribed
+  double const from_side = 0.2 * choice.depth;  // where the far field is read: the sides themselves are prescribed
   nlohmann::ordered_json json;
   json["status"] = run.verdict.acceptable() ? "ok" : std::string(name(run.verdict.reason));
+  json["repeats_study"] = repeats_study(choice);
+  json["depth"] = scene.ground.depth();
   json["element"] = element_name;
   json["elements"] = grid.mesh().elements.size();
   if (scene.ground.strip) add_strip(json, *scene.ground.strip, survey, choice.scene == Case::free);
@@ -227,76 +230,6 @@ inline void add_volume_part(scarp::BudgetParts& parts, nlohmann::ordered_json co
        .value = std::abs(excess) / (offset * depth),
        .bound = bound,
        .meaning = "dilated area that the packings do not have, over the throw and the depth of the ground"});
-}
-
-/// The run beside the reference study's numbers, as text.
-inline std::string table(nlohmann::ordered_json const& json) {
-  auto const number = [&](char const* key) {
-    return json.contains(key) && json[key].is_number() ? json[key].get<double>() : std::nan("");
-  };
-  auto const degrees = [](double angle) { return angle * 180.0 / std::numbers::pi; };
-  std::string text = fmt::format("{:<44} {:>12} {}\n", "quantity", "this run", "  study / yardstick");
-  auto const row = [&](std::string const& what, std::string const& value, char const* reference) {
-    text += fmt::format("{:<44} {:>12}   {}\n", what, value, reference);
-  };
-  row("K0 before faulting, mean", fmt::format("{:.3f}", number("k0")), "about 0.4");
-  if (json.contains("void_ratio_min"))
-    row("void ratio over the depth", fmt::format("{:.3f}-{:.3f}", number("void_ratio_min"), number("void_ratio_max")),
-        "0.160-0.179");
-  if (json.contains("floor_share"))
-    row("stiffness of points without contacts, share of all stress", fmt::format("{:.1e}", number("floor_share")), "0");
-  row("vertical stress against overburden, largest error",
-      fmt::format("{:.2f} %", 100.0 * number("vertical_stress_error")), "0");
-  row("throw / depth", fmt::format("{:.4f}", number("throw_over_depth")), "0.085");
-  row("outcrop_x [m]: steepest line meets the surface", fmt::format("{:.2f}", number("outcrop_x")),
-      "-12.5 (surface starts to deflect); dip alone -14.4");
-  row("steepest_x [m]", fmt::format("{:.2f}", number("steepest_x")), "sharp band: -14.5 to -6.5");
-  row("outcrop_width [m]", fmt::format("{:.2f}", number("outcrop_width")), "mild and broad slope, no figure given");
-  auto const block = fmt::format("{:.2f} on the fault's own line", number("fault_line_x50"));
-  row("surface_x50 [m]: half of the throw has passed", fmt::format("{:.2f}", number("surface_x50")), block.c_str());
-  row("surface_x05, surface_x95 [m]", fmt::format("{:.2f}, {:.2f}", number("surface_x05"), number("surface_x95")),
-      "a sharp band: both at surface_x50");
-  row("surface_mean [m]: mean of the settlement profile", fmt::format("{:.2f}", number("surface_mean")),
-      "follows from the dilated area (docs/grounds.md)");
-  row("dilated_area [m2]: growth of the ground's area", fmt::format("{:.2f}", number("dilated_area")),
-      "0 for a rigid hanging wall; over the throw: shift of the mean");
-  if (json.contains("dilated_area_of_packings"))
-    row("dilated_area_of_packings [m2]: by their void ratios",
-        fmt::format("{:.2f}", number("dilated_area_of_packings")), "as the line above");
-  row("steepest slope of the surface [degrees]", fmt::format("{:.1f}", degrees(std::atan(number("surface_slope_max")))),
-      "not reported");
-  row("rupture_dip [degrees]: tip to surface_x50", fmt::format("{:.1f}", degrees(number("rupture_dip"))),
-      "the fault's dip, and its dilation above that");
-  for (auto const& band : json["bands"]) {
-    auto const of_band = [&](char const* key) { return band[key].get<double>(); };
-    row(fmt::format("at {:.2f} of the depth: x50, width [m], dip", of_band("height_over_depth")),
-        fmt::format("{:.1f}, {:.1f}, {:.0f}", of_band("band_x50"), of_band("band_width"), degrees(of_band("band_dip"))),
-        "as the line above; across, the width of a shear band");
-  }
-  if (json.contains("strip_margin"))
-    row("least distance of the band from the strip's edges [m]", fmt::format("{:.1f}", number("strip_margin")),
-        "below 0 the band leaves the strip: compare with a wider --strip-width");
-  auto const& distorted = json["distorted_element"];
-  row("most distorted element: number, shear [%], mean ratio",
-      fmt::format("{}, {:.0f}, {:.2f}", distorted["number"].get<int>(), 100.0 * distorted["shear"].get<double>(),
-                  distorted["mean_ratio"].get<double>()),
-      "a regular element has shear 0 and mean ratio 1");
-  row("settlement of the far footwall / throw", fmt::format("{:.4f}", number("settlement_footwall_over_throw")), "0");
-  row("settlement of the far hanging wall / throw", fmt::format("{:.4f}", number("settlement_hanging_wall_over_throw")),
-      "1");
-  if (json.contains("tilt")) {
-    row("tilt of the footing towards the hanging wall [degrees]", fmt::format("{:.3f}", degrees(number("tilt"))),
-        "no figure given");
-    row("settlement of the footing [m]", fmt::format("{:.3f}", number("settlement")), "no figure given");
-    row("contact pressure [kPa]",
-        fmt::format("{:.0f}-{:.0f}", number("contact_pressure_min") / 1e3, number("contact_pressure_max") / 1e3),
-        "mean: the bearing pressure");
-    row("imbalance of the footing over its weight", fmt::format("{:.1e}", number("force_imbalance")), "0");
-  }
-  row("largest residual of an accepted step", fmt::format("{:.2e}", number("max_accepted_residual")), "not reported");
-  row("share of the time outside the material points",
-      fmt::format("{:.1f} %", 100.0 * number("share_of_time_outside_points")), "not reported");
-  return text;
 }
 
 }  // namespace fault_rupture

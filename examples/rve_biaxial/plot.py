@@ -15,10 +15,17 @@ import void_ratio_figures
 from scarp_figures import plt
 
 STUDY_FRICTION_ANGLE = 30.8  # [deg], read off the reference study's fig. 1b by its authors, sec. 3.1
+STUDY_PRESSURE = 2e5  # [Pa]
 
 
 def packing(folder):
     return packing_figures.draw_packing(folder, "Packing after isotropic consolidation")
+
+
+def is_at_study_pressure(summary):
+    """Whether the reference study's numbers are of the test's stress level."""
+    choice = summary.get("choice")
+    return isinstance(choice, dict) and choice.get("pressure") == STUDY_PRESSURE
 
 
 def stress_ratio_at(friction_angle):
@@ -85,8 +92,9 @@ def biaxial(folder):
         label = f"preparation friction {friction:g}{smoothed_angle(summary, friction)}"
         draw_runs(stress, runs, lambda run: run["stress_ratio"], colour, label, len(groups) == 1)
         draw_runs(volume, runs, lambda run: 100.0 * run["volumetric_strain"], colour, None, len(groups) == 1)
-    stress.axhline(stress_ratio_at(STUDY_FRICTION_ANGLE), color=figures.BLACK, linewidth=0.9, linestyle="--",
-                   label=f"study's peak friction angle, {STUDY_FRICTION_ANGLE}°")
+    if is_at_study_pressure(summary):
+        stress.axhline(stress_ratio_at(STUDY_FRICTION_ANGLE), color=figures.BLACK, linewidth=0.9, linestyle="--",
+                       label=f"study's peak friction angle, {STUDY_FRICTION_ANGLE}°")
     volume.axhline(0.0, color=figures.BLACK, linewidth=0.8)
     stress.set(ylabel="axial over lateral stress [-]", title="Drained biaxial compression")
     stress.margins(y=0.08)
@@ -98,6 +106,7 @@ def biaxial(folder):
 if __name__ == "__main__":
     drawn = {"packing": packing, "biaxial": biaxial}
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) == 2 else None
-    if folder and len(figures.read_summary(folder).get("packings", [])) > 1:
+    summary = figures.read_summary(folder) if folder else {}
+    if len(summary.get("packings", [])) > 1 and is_at_study_pressure(summary):  # they compare with others at this pressure
         drawn.update(strength=void_ratio_figures.strength, fabric=void_ratio_figures.fabric)
     figures.draw_all(drawn)

@@ -77,8 +77,14 @@ def how_it_ended(run):
     return f"INCOMPLETE: {ended}" + (f", at h/H = {reached:.5g}" if reached is not None else "")
 
 
+def members_outside(run):
+    """Members of an ensemble that are outside their error budgets, in words."""
+    return [f"seed {member.get('seed')} ({', '.join(member['outside_budget'])})" for member in run.ensemble.get("members", [])
+            if isinstance(member, dict) and isinstance(member.get("outside_budget"), dict)]
+
+
 def verdict(run):
-    """How the run ended, and whether it is inside its error budget."""
+    """How the run, or the members of an ensemble, ended, and whether it is inside its error budget."""
     outside = [f"{name} is {said(part.get('value'), '.2g')}" + (f" (bound {said(part['bound'], '.2g')})" if "bound" in part else "")
                for name, part in budget_of(run).items() if part.get("within") is False]
     ended = how_it_ended(run)
@@ -87,6 +93,9 @@ def verdict(run):
         words += f"{'; ' if ended else ', but '}outside its error budget: {', '.join(outside)}"
     elif budget_of(run):
         words += f", {'so far ' if ended else ''}inside its error budget"
+    if run.ensemble:
+        outside = members_outside(run)
+        words += f"; outside their error budgets: {', '.join(outside)}" if outside else ", all members that ended inside their error budgets"
     return element("p", f"<b>{text(words)}.</b>", class_="verdict bad" if outside or ended else "verdict")
 
 
@@ -200,11 +209,13 @@ def ensemble(run):
     measures = run.ensemble.get("measures")
     if not isinstance(measures, dict):
         return ""
-    rows = [("", (name, *(said(one.get(key), ".4g") for key in ("mean", "scatter")), one.get("count", "")))
+    def number(one, key):
+        return said(one[key] * one.get("factor", 1.0) if isinstance(one.get(key), float) else one.get(key), ".4g")
+    rows = [("", (one.get("what", name), number(one, "mean"), number(one, "scatter"), one.get("unit", ""), one.get("count", ""), name))
             for name, one in measures.items() if isinstance(one, dict)]
     links = [element("a", text(member.name), href=f"{member.name}/report.html")
              for member in member_folders(run) if (member / "report.html").is_file()]
-    return table(("measure", "mean", "scatter", "runs"), rows, (1, 2, 3)) + \
+    return table(("measure", "mean", "scatter", "", "runs", "key"), rows, (1, 2, 4)) + \
         (element("p", "Pages of the members: " + ", ".join(links)) if links else "")
 
 

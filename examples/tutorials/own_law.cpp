@@ -33,10 +33,10 @@ struct Stiffening {
   }
   double& friction_coefficient() { return friction; }
 };
+using Grains = scarp::Packing<scarp::Disc, Stiffening>;  // names what a law lacks
 static_assert(scarp::Frictional<Stiffening>);
 
 int main() {
-  using Grains = scarp::Packing<scarp::Disc, Stiffening>;
   Stiffening const law{.coefficient = 1e9, .tangential_stiffness = 5e6, .friction = 0.5};
   double const radius = 5e-3, overlap = 1e-5, spacing = 2.0 * radius - overlap;
   scarp::SamePacking<Grains> const source{tutorials::lattice<Grains>({radius}, {spacing, spacing})};

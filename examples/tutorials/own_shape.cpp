@@ -59,7 +59,7 @@ struct Oval {
     return scarp::support_contact<Oval>(first, second, branch, normal);
   }
 };
-static_assert(scarp::ParticleShape<Oval>);
+using Grains = scarp::Packing<Oval, scarp::LinearFrictional>;  // names what a shape lacks
 
 /// Ovals of one form and of several sizes.
 struct OvalGrading {
@@ -68,7 +68,6 @@ struct OvalGrading {
 };
 
 int main() {
-  using Grains = scarp::Packing<Oval, scarp::LinearFrictional>;
   scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.5};
   scarp::TimeStepper<Grains> stepper;
   scarp::StepObservation<2> seen;

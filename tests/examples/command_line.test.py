@@ -109,8 +109,14 @@ def check_bad_input():
     check_refusal(FAULT, "two sizes at once", "--study", None, "--study")
     check_refusal(FAULT, "a length and none", "--study", None, "--local excludes --study", without=["--quick"], also={"--local": None})
     # These pass the command line; the scene refuses them.
-    check_refusal(FAULT, "tip outside the domain", "--tip", "100", "fault tip is at x = 100 m")
-    check_refusal(FAULT, "tip close to the side", "--tip", "22.9", "22.9")
+    fixed = {"--left": "-52"}  # without it the ground goes with the tip
+    check_refusal(FAULT, "tip outside the domain", "--tip", "100", "fault tip is at x = 100 m", also=fixed)
+    check_refusal(FAULT, "tip close to the side", "--tip", "22.9", "22.9", also=fixed)
+    check_refusal(FAULT, "a tip whose digits are gone", "--tip", "1e12", "--tip")
+    check_refusal(FAULT, "a mean over more than the ground", "--length", "200", "25 m deep")
+    check_refusal(FAULT, "kilonewtons", "--unit-weight", "16", "--unit-weight")
+    check_refusal(FAULT, "ground without depth", "--depth", "0", "--depth")
+    check_refusal(FAULT, "a ground to the left of its fault", "--width", "50", "fault tip is at x = 0 m")
     check_refusal(FAULT, "a single grain", "--grains", "1", "fault_rupture: ")
     check_refusal(FAULT, "an element of another program", "--element", "quad8", "compiled for tri3")
     check_refusal(FAULT, "an unknown pattern", "--pattern", "zigzag", "--pattern")
@@ -121,7 +127,8 @@ def check_bad_input():
                                   ("a mesh without soil", mesh.replace('"soil"', '"rock"'), "soil"),
                                   ("a mesh that is cut off", mesh[:len(mesh) // 2], "m.msh")):
         check_refusal(FAULT, title, "--mesh", "m.msh", named, {"m.msh": changed}, {"--size"})
-    check_refusal(FAULT, "a file beside a mesh of its own", "--mesh", "m.msh", "--size excludes --mesh", {"m.msh": mesh})
+    check_refusal(FAULT, "a size of a file's elements", "--mesh", "m.msh", "without --strip-width", {"m.msh": mesh})
+    check_refusal(FAULT, "a file beside a layer", "--mesh", "m.msh", "excludes --mesh", {"m.msh": mesh}, {"--size"}, {"--depth": "20"})
     check_refusal(FAULT, "a file without a node at the tip", "--tip", "0.3", "put a node there", {"m.msh": mesh},
                   {"--size"}, {"--mesh": "m.msh"})
 
@@ -154,6 +161,7 @@ def check_warnings():
                                ("a length below the mesh's", {"--length": "0.1", "--soil": "mohr_coulomb"}, "reaches no neighbour"),
                                ("grains of a soil without", {"--soil": "mohr_coulomb"}, "--grains has no effect"),
                                ("a footing of the free field", {"--soil": "mohr_coulomb", "--footing-width": "8"}, "--footing-width has no effect"),
+                               ("a rupture near the side", {"--soil": "mohr_coulomb", "--dip": "30"}, "from an end of the ground"),
                                ("a length", {"--length": "20", "--grains": "64"}, None)):
         with tempfile.TemporaryDirectory() as scratch:
             code, said = run(FAULT, "--quick", *command(TINY, given), "--output", "out", folder=scratch)

@@ -40,6 +40,12 @@ with tempfile.TemporaryDirectory() as scratch:
     x50 = told["measures"]["surface_x50"]
     expect(x50["count"] == 3 and abs(x50["mean"] - statistics.mean(places)) < 1e-12, f"the mean is that of the members: {x50}")
     expect(abs(x50["scatter"] - statistics.stdev(places)) < 1e-12 and x50["scatter"] > 0.0, "and the scatter")
+    expect((x50["what"], x50["unit"]) == ("half of the throw has passed at x", "m"), f"a measure is told in words: {x50}")
+    dip = next(line for line in done.stdout.splitlines() if line.startswith("dip from the tip"))
+    expect(" degrees " in dip and 20.0 < float(dip[56:].split()[0]) < 150.0, f"angles are in degrees: {dip}")
+    for seed, summary in zip((1, 2, 3), summaries):
+        side = "in" if summary["error_budget"]["within"] else "out"
+        expect(f"seed {seed}: {side}side its error budget" in done.stdout, f"each member has its verdict: {done.stdout[:500]}")
     with open(scratch / "all" / "surface_mean.csv") as file:
         means = [float(row["settlement"]) for row in csv.DictReader(file)]
     ends = []

@@ -51,7 +51,7 @@ with tempfile.TemporaryDirectory() as scratch:
         expect(estimate(scratch, *options)[0]["CPU time"] > 0.0, f"{options} have one too")
 
     # What is refused for a run is refused for its estimate.
-    for options, named in ((["--grains", "0"], "--grains"), (["--size", "many"], "--size"), (["--tip", "500"], "500"),
+    for options, named in ((["--grains", "0"], "--grains"), (["--size", "many"], "--size"), (["--tip", "500", "--left", "0"], "500"),
                            (["--probe-a-x", "1000"], "probe A"), (["--mesh", "none.msh"], "none.msh"),
                            (["--estimate=no"], "estimate")):
         done = run(scratch, "--estimate", *options)

@@ -25,6 +25,7 @@ def told(folder, *options):
 
 
 BEGINNING = ("--throw-over-depth", "0.002")
+FILE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "fault_rupture" / "meshes" / "unstructured.msh"
 with tempfile.TemporaryDirectory() as scratch:
     graded = told(scratch, "--length", "4")
     surface = pathlib.Path(scratch, "out", "surface.csv").read_text()
@@ -66,6 +67,29 @@ with tempfile.TemporaryDirectory() as scratch:
                               "--resume"], cwd=scratch, capture_output=True, text=True)
     expect(resumed.returncode == 0 and stopped.returncode == 130 and "resuming" in resumed.stderr, f"it goes on: {resumed.stderr[-500:]}")
     expect(pathlib.Path(scratch, "out", "surface.csv").read_text() == surface, f"and has the same surface as in one go ({graded['surface_x50']})")
+
+    # The mesh of a file: as it is with the length that its elements resolve, or refined for a shorter one.
+    as_it_is = told(scratch, "--mesh", FILE, *BEGINNING)
+    expect("strip_size" not in as_it_is and as_it_is["depth"] == 25.0, f"a file's mesh stays: {as_it_is}")
+    own_length = float(as_it_is["run"]["options"]["length"])
+    expect(5.0 < own_length < 8.0, f"elements of 2.5 m along the fault resolve 6 m: {own_length}")
+    refined = told(scratch, "--mesh", FILE, "--length", "4")
+    expect(refined["strip_size"] == graded["strip_size"] and refined["elements"] > as_it_is["elements"], f"a length refines it: {refined}")
+    expect(abs(refined["surface_x50"] - graded["surface_x50"]) < 1.0, f"x50 {refined['surface_x50']} and {graded['surface_x50']}")
+    coarse = run(scratch, "--mesh", FILE, "--length", "4", "--strip-width", "0", *BEGINNING)
+    expect(coarse.returncode == 0 and "needs elements of at most 1.6 m" in coarse.stderr, f"too coarse a file is told: {coarse.stderr[-500:]}")
+
+    # Other sites: sizes and places follow the depth, and all of them the tip.
+    shallow = told(scratch, "--depth", "12.5", *BEGINNING)
+    options = shallow["run"]["options"]
+    expect((options["length"], options["size"], options["left"], options["width"]) == ("1", "0.41", "-26", "37.5"), f"half the depth: {options}")
+    expect(abs(shallow["fault_line_x50"] + 12.5 / 3.0**0.5) < 1e-9, f"its fault's line comes out at {shallow['fault_line_x50']}")
+    far = told(scratch, "--length", "4", "--tip", "5300000")
+    expect(abs(far["surface_x50"] - 5300000.0 - graded["surface_x50"]) < 0.01, f"a site far off: {far['surface_x50']} and {graded['surface_x50']}")
+    heavier = told(scratch, "--unit-weight", "20000", "--surcharge", "0", "--size", "5", *BEGINNING)
+    lighter = told(scratch, "--size", "5", *BEGINNING)
+    expect(heavier["vertical_stress_error"] < 1e-2, f"weight and surcharge reach the ground: {heavier['vertical_stress_error']}")
+    expect(heavier["reaction"] != lighter["reaction"], "a heavier ground resists otherwise")
 
     done = run(scratch, "--length", "0.1")
     expect(done.returncode > 0 and "--length is 0.1 m" in done.stderr and "--size" in done.stderr, f"too short a length: {done.stderr}")

@@ -107,6 +107,39 @@ def check_whole(folder):
     expect("INCOMPLETE" not in page.words and "Finished" in page.words, "a finished run is not told so")
 
 
+def drawn_marks(folder):
+    """Labels of the marks of surface.png, and the number of footings in deformation.png."""
+    words = ("import json, pathlib, sys, plot; from matplotlib.patches import Polygon; folder = pathlib.Path(sys.argv[1]); "
+             "labels = [line.get_label() for axes in plot.surface(folder).axes for line in axes.lines]; "
+             "boxes = sum(type(patch) is Polygon for axes in plot.deformation(folder).axes for patch in axes.patches); "
+             "print(json.dumps([labels, boxes]))")
+    done = subprocess.run([sys.executable, "-B", "-c", words, folder], cwd=scripts, capture_output=True, text=True, timeout=900)
+    expect(done.returncode == 0, f"marks: {done.stderr[-1000:]}")
+    labels, boxes = json.loads(done.stdout)
+    return " ".join(labels), boxes
+
+
+def check_site(folder):
+    """The reference study's numbers stand beside its own site only, and a rigid footing is drawn."""
+    def site(*options):
+        done = subprocess.run([program, "--quick", "--soil", "mohr_coulomb", "--frames", "2", "--output", folder.name, "--overwrite", *options],
+                              cwd=folder.parent, capture_output=True, text=True, timeout=900)
+        expect(done.returncode == 0, f"{options}: ended with {done.returncode}: {done.stderr[-1000:]}")
+        told = json.loads((folder / "summary.json").read_text())
+        return told["repeats_study"], (folder / "summary.txt").read_text(), *drawn_marks(folder)
+
+    repeats, table, marks, boxes = site("--throw-over-depth", "0.01")
+    expect(repeats and "-12.5" in table and "centrifuge" in marks and boxes == 0, f"the reference study's site: {repeats}, {boxes}\n{table}\n{marks}")
+    for options in (["--depth", "11"], ["--reverse"], ["--peak-friction-angle", "38"], ["--dip", "50"], ["--surcharge", "2e4"]):
+        repeats, table, marks, _ = site("--throw-over-depth", "0.01", *options)
+        strange = [word for word in ("study", "-12.5 (", "-14.5", "0.085\n", "about 0.4", "centrifuge") if word in table + marks]
+        expect(not repeats and not strange, f"{options}: {strange}\n{table}\n{marks}")
+    _, _, marks, boxes = site("--throw-over-depth", "0.02", "--case", "heavy", "--footing", "frictional", "--footing-centre", "-14")
+    expect(boxes == 2 and "footing" in (folder / "run.json").read_text(), f"a rigid footing is drawn {boxes} times")
+    for code, said in write_page(folder):
+        expect(code == 0, f"figures of a footing: {said}")
+
+
 def check_packings(folder):
     """The observer's files, as the figures read them."""
     throws = [line.split(",")[0] for line in (folder / "packings/A.csv").read_text().splitlines()[1:]]
@@ -195,6 +228,7 @@ with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
     if browser:
         check_browser(browser, scratch / "out/report.html", scratch)
     check_packings(scratch / "out")
+    check_site(scratch / "site")
     check_stopped(scratch / "stopped")
     check_escapes(scratch / "evil")
 if browser is None and not troubles:

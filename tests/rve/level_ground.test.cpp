@@ -68,6 +68,15 @@ TEST_CASE("settings of level ground that cannot be are refused") {
   refused([](auto& g) { g.preparation.pressure = 5e3; }, {0.0, 3.0}, {"prepared at 5000 Pa", "carries 4000 Pa"});
 }
 
+TEST_CASE("a preparation of which one member is given keeps the others of level ground") {
+  scarp::LevelGround<scarp::EllipseGrading> const loose{.preparation = {.preparation_friction = 0.3}};
+  CHECK(loose.preparation.pressure == 2e3);
+  CHECK(loose.preparation.consolidation.unbalanced_tolerance ==
+        scarp::IsotropicPreparation{}.consolidation.unbalanced_tolerance);
+  scarp::LevelGround<scarp::EllipseGrading> const light{.preparation = {.pressure = 500.0}};
+  CHECK(light.preparation.preparation_friction == 0.08);
+}
+
 TEST_CASE("packings that do not come to their stress end the preparation in words") {
   auto const law = samples::study_law();
   auto const ended = [&](auto change, std::initializer_list<std::string_view> parts) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,9 @@ scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename Pack
                                                 .unit_weight = unit_weight,
                                                 .surcharge = surcharge,
                                                 .overconsolidation_ratio = sand.overconsolidation_ratio};
+  // The uppermost point may carry less than the preparation's usual pressure.
+  double const least = ground.overburden(std::ranges::min(depths));
+  ground.preparation.pressure = std::min(ground.preparation.pressure, least);
   double& friction = ground.preparation.preparation_friction;
   friction = sand.preparation_friction;
   if (sand.void_ratio > 0.0 || sand.relative_density > 0.0) {

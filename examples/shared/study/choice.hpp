@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 namespace fault_rupture {
 
 // Of the reference study's ground.
+inline constexpr double study_depth = 25.0;     ///< [m]
 inline constexpr double unit_weight = 15.68e3;  ///< [N/m3]
 inline constexpr double surcharge = 4e3;        ///< [Pa]
 
@@ -25,7 +27,13 @@ struct Choice {
   Case scene = Case::free;
   Soil soil = Soil::dem;
   Base base = Base::tied;
-  bool quick = false;        ///< looser defaults of tolerance and load steps with packings
+  bool quick = false;          ///< looser defaults of tolerance and load steps with packings
+  bool study = false;          ///< whether the reference study's numbers are wanted beside other soil too
+  double depth = study_depth;  ///< of the ground [m]
+  double left = -52.0;         ///< x of its left end [m]
+  double width = 75.0;         ///< [m]
+  double unit_weight = fault_rupture::unit_weight;  ///< [N/m3]
+  double surcharge = fault_rupture::surcharge;      ///< [Pa]
   double size = 2.5;         ///< [m], cell width in the band, or size of the elements in the strip
   double strip_width = 0.0;  ///< [m], twice the margin around `strained` with small elements; 0 for a uniform mesh
   int elements = 0;          ///< wanted number of elements instead of `size`; 0 for none
@@ -34,6 +42,7 @@ struct Choice {
   std::uint64_t mesh_seed = 1;         ///< of the jittered mesh
   std::string mesh;                    ///< Gmsh file in place of all these
   int mesh_order = 2;                  ///< highest order of elements that are read from it
+  double mesh_size = 0.0;              ///< of its elements along the fault [m], see measure_mesh
   double length = 0.0;                 ///< intrinsic [m]; 0 for none
   int grains = 400;
   int packings = 1;                ///< of which every point draws one
@@ -87,6 +96,11 @@ struct Choice {
     visit("soil", self.soil);
     visit("footing", self.base);
     visit("quick", self.quick);
+    visit("depth", self.depth);
+    visit("left", self.left);
+    visit("width", self.width);
+    visit("unit-weight", self.unit_weight);
+    visit("surcharge", self.surcharge);
     visit("size", self.size);
     visit("strip-width", self.strip_width);
     visit("elements", self.elements);
@@ -131,7 +145,16 @@ struct Choice {
     for (auto const& place : self.strained) strained += place.x() + 2.0 * place.y();
     visit("strained", strained);
   }
+
+  /// Of lengths that follow the depth where they are not given.
+  double scale() const { return depth / study_depth; }
+  /// Below it the balance of a point counts as if it carried so much [Pa].
+  double least_pressure() const { return std::max(surcharge, fault_rupture::surcharge) / 2.0; }
 };
+
+/// Whether the site is the reference study's, so that its places and ranges may stand beside the results: ground, fault and soil, whatever
+/// the mesh, the length and the grains of a packing are. With `study` any soil.
+bool repeats_study(Choice const& choice);
 
 /// The sand of a choice, with its grains, seed, density and friction.
 /// \throws scarp::InputError for grains that the scenes are not built for

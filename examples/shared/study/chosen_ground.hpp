@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "choice.hpp"
 #include "scarp/element/quad8.hpp"
@@ -25,7 +28,18 @@ constexpr char const* element_name = Element::nodes == 3   ? "tri3"
                                                            : "quad8";
 constexpr bool is_triangle = Element::nodes % 3 == 0;
 
-/// A layer in a mesh of its own, refined in a strip where there is one, or the mesh of a file. Defined in chosen_ground.cpp for one element.
+/// A normal fault, or the same backwards.
+struct ChosenFault : scarp::NormalFault {
+  bool reverse = false;
+
+  scarp::Vector<2> right() const { return (reverse ? -1.0 : 1.0) * NormalFault::right(); }
+};
+
+inline ChosenFault fault_of(Choice const& choice) {
+  return {{.dip = choice.dip * std::numbers::pi / 180.0, .tip = choice.tip}, choice.reverse};
+}
+
+/// A layer in a mesh of its own or the mesh of a file, refined in a strip where there is one. Defined in chosen_ground.cpp for one element.
 template <class ElementType>
 struct ChosenGround {
   using Element = ElementType;
@@ -39,8 +53,17 @@ struct ChosenGround {
   double depth() const;
 };
 
+/// Takes depth and ends of the mesh of a file, and the size of its elements along the fault, into the choice.
+/// notes: on the file \throws scarp::InputError for a file that is no ground
+template <class ElementType>
+void measure_mesh(Choice& choice, std::vector<std::string>& notes);
+
+/// Size [m] of the elements that resolve a length [m].
+template <class ElementType>
+double size_for(double length);
+
 /// Size of the elements and, unless it is chosen already, width of the strip that a length requires where it is too short
-/// for the usual mesh.
+/// for the usual mesh, or for that of the file.
 /// \throws scarp::InputError for a length that requires too many elements
 template <class ElementType>
 void choose_strip(Choice& choice);
@@ -48,12 +71,5 @@ void choose_strip(Choice& choice);
 /// \throws scarp::InputError for choices that do not fit together
 template <class ElementType>
 ChosenGround<ElementType> ground_of(Choice const& choice);
-
-/// A normal fault, or the same backwards.
-struct ChosenFault : scarp::NormalFault {
-  bool reverse = false;
-
-  scarp::Vector<2> right() const { return (reverse ? -1.0 : 1.0) * NormalFault::right(); }
-};
 
 }  // namespace fault_rupture

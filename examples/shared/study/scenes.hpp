@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <numbers>
-
 #include "chosen_ground.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/free_field_fault.hpp"
@@ -35,9 +33,9 @@ template <class SceneType>
 SceneType without_soil(Choice const& choice) {
   SceneType scene;
   scene.ground = ground_of<Element>(choice);
-  scene.fault = {{.dip = choice.dip * std::numbers::pi / 180.0, .tip = choice.tip}, choice.reverse};
-  scene.unit_weight = unit_weight;
-  scene.surcharge = surcharge;
+  scene.fault = fault_of(choice);
+  scene.unit_weight = choice.unit_weight;
+  scene.surcharge = choice.surcharge;
   scene.throw_to = choice.throw_over_depth * scene.ground.depth();
   set(scene.structure, choice);
   return scene;

@@ -2,10 +2,12 @@
 #include "soils.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "../sand/ground.hpp"
+#include "../sand/sand_file.hpp"
 #include "any_soil.hpp"
 #include "scarp/dem/mirrored.hpp"
 #include "scarp/io/packings/packing_tables.hpp"
@@ -17,7 +19,7 @@ namespace {
 
 /// Level ground, by default at the reference study's K0 of about 0.4.
 scarp::GeostaticStress<2> ground_at_rest(Choice const& choice) {
-  return {.surcharge = surcharge, .unit_weight = unit_weight, .k0 = choice.k0};
+  return {.surcharge = choice.surcharge, .unit_weight = choice.unit_weight, .k0 = choice.k0};
 }
 
 /// What all soils' scenes share.
@@ -31,7 +33,7 @@ AnySoil solved(Choice const& choice, Soil const& soil, scarp::QuasiNewton<> solv
           .tolerance = tolerance,
           .max_displacement_gradient =
               choice.max_displacement_gradient.value_or(Soil::max_displacement_gradient(choice.quick)),
-          .pressure_floor = 0.25 * surcharge};
+          .pressure_floor = choice.least_pressure() / 2.0};
 }
 
 scarp::IsotropicElasticity soil_elasticity(Choice const& choice) {
@@ -66,7 +68,8 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
     auto const k = static_cast<std::size_t>(number);
     if (depths[k].empty()) return;
     auto const seed = k > 0 ? scarp::family_seed(sand.seed, k) : sand.seed;
-    columns.sources[k] = examples::level_ground<Grains>(sand, law, seed, unit_weight, surcharge, std::move(depths[k]));
+    columns.sources[k] =
+        examples::level_ground<Grains>(sand, law, seed, choice.unit_weight, choice.surcharge, std::move(depths[k]));
     if (images == 1) return;
     columns.sources[count + k] = columns.sources[k];
     for (auto& packing : columns.sources[count + k].packings) packing = scarp::mirrored(std::move(packing));
@@ -74,7 +77,34 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
   return columns;
 }
 
+/// What a sand is, without the number of grains and the state of the ground.
+std::string material_of(Choice const& choice) {
+  auto sand = sand_of(choice);
+  Choice const study;
+  sand.grains = study.grains;
+  sand.seed = study.seed;
+  sand.overconsolidation_ratio = study.overconsolidation_ratio;
+  sand.calibrated_on = sand.misfit = {};
+  return examples::text_of(sand);
+}
+
 }  // namespace
+
+bool repeats_study(Choice const& choice) {
+  Choice const study;
+  auto const same = [&](auto... members) {
+    return ((std::abs(choice.*members - study.*members) <= 1e-6 * study_depth) &&
+            ...);  // what files with seven digits hold
+  };
+  if (!same(&Choice::depth, &Choice::left, &Choice::width, &Choice::unit_weight, &Choice::surcharge, &Choice::dip,
+            &Choice::tip) ||
+      choice.reverse)
+    return false;
+  if (choice.study) return true;
+  if (choice.soil == Soil::dem) return material_of(choice) == material_of(study);
+  return choice.soil == Soil::mohr_coulomb && !choice.residual_friction_angle &&
+         same(&Choice::peak_friction_angle, &Choice::peak_dilation_angle, &Choice::k0);
+}
 
 examples::Sand sand_of(Choice const& choice) {
   auto sand = choice.sand;
@@ -109,7 +139,7 @@ Sand make_sand(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   packings.strain_per_step = choice.strain_per_step;
   packings.min_steps = choice.min_dem_steps;
   packings.unbalanced_tolerance = choice.unbalanced_tolerance;
-  packings.pressure_floor = surcharge / 2.0;
+  packings.pressure_floor = choice.least_pressure();
   return sand;
 }
 

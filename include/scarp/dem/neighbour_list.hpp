@@ -243,7 +243,7 @@ void write_memory(VerletList<Shape, Law, Scalar>& next, std::vector<NearPair<Sha
 
 }  // namespace detail
 
-/// Whether the cell, with its base vectors reduced, is wider than two grains in touch and the reach of the search, so that
+/// Whether the cell, with its base vectors reduced, is wider than the largest grain and the reach of the search, so that
 /// no image further away than the next cell's can come near.
 template <class PackingType>
 bool cell_is_wide_enough(PackingType const& packing, double reach) {

@@ -21,8 +21,14 @@ struct LevelGround {
   double unit_weight = 15.68e3;          ///< [N/m3]
   double surcharge = 4e3;                ///< [Pa]
   double overconsolidation_ratio = 1.0;  ///< what each depth once carried over its overburden, at least 1: raises K0
-  /// isotropic consolidation before the column is compressed
-  IsotropicPreparation preparation{.pressure = 2e3, .preparation_friction = 0.08};
+  /// IsotropicPreparation with defaults of level ground, which a designated initialiser of some members leaves.
+  struct Preparation {
+    double pressure = 2e3;                                       ///< [Pa], at most what the uppermost point carries
+    double preparation_friction = 0.08;                          ///< sets the density
+    Servo consolidation = IsotropicPreparation{}.consolidation;  ///< at the preparation friction
+    Servo relaxation{};                                          ///< at the law's own friction
+  };
+  Preparation preparation{};                ///< isotropic consolidation before the column is compressed
   OneDimensionalCompression compression{};  ///< one-dimensional compression through the overburdens
 
   /// \throws InputError
@@ -62,7 +68,9 @@ struct LevelGround {
           "{:.4g} Pa would overlap by their size): give lengths in metres, or stiffer contacts",
           pressures.back(), depths.back(), stiffness);
     }
-    auto const base = preparation.prepare(std::move(loose), law, damping);
+    auto const& [pressure, friction, consolidation, relaxation] = preparation;
+    IsotropicPreparation const first{pressure, friction, consolidation, relaxation};
+    auto const base = first.prepare(std::move(loose), law, damping);
     if (!base.verdict.acceptable()) {
       throw PreparationError(fmt::format("the packing did not reach {} Pa ({}): try another seed or a higher pressure",
                                          preparation.pressure, name(base.verdict.reason)));

@@ -66,6 +66,27 @@ struct Wrong {};
 Packing<Disc, Wrong> packing;
 }  // namespace case_5
 
+// first: a contact law needs `static constexpr ContactInputs inputs
+namespace case_named_law {
+struct Wrong {};
+using Named = Packing<Disc, Wrong>;
+static_assert(CheckedContactLaw<Wrong>);
+}  // namespace case_named_law
+
+// first: a shape needs `static constexpr int` dim
+namespace case_named_shape {
+struct Wrong {};
+using Named = Packing<Wrong, Frictionless>;
+static_assert(CheckedShape<Wrong>);
+}  // namespace case_named_shape
+
+// first: an element needs `static constexpr int` dim
+namespace case_named_element {
+struct Wrong {};
+using Named = Discretisation<Wrong>;
+static_assert(CheckedElement<Wrong>);
+}  // namespace case_named_element
+
 // first: needs `.shear = true`
 namespace case_6 {
 struct Wrong : LinearFrictional {

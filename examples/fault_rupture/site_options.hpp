@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "../shared/command_line.hpp"
+#include "../shared/print.hpp"
+#include "../shared/study/chosen_ground.hpp"
+#include "team.hpp"
+
+/// The site of a scene: its ground, and the lengths, sizes and places that follow from it where they are not given.
+namespace fault_rupture {
+
+// In the reference study's ground; they follow the depth of another one.
+constexpr double short_length = 2.0;  ///< [m], where the mesh is made for it
+constexpr double long_length = 8.0;   ///< [m], of coarser meshes
+
+/// Eight digits are left for lengths of a metre; farther off subtract a constant.
+inline CLI::Validator place() { return examples::number_from(-1e8, true, 1e8); }
+
+inline void declare_site(CLI::App& app, Choice& choice) {
+  using examples::number_from;
+  app.add_option("--depth", choice.depth,
+                 "of the ground above bedrock [m]; lengths, sizes and places that are not given follow it")
+      ->check(number_from(0.1, true, 1e3));
+  app.add_option("--left", choice.left,
+                 "x of the ground's left end [m]; where it is not given 2.08 depths left of the tip")
+      ->check(place());
+  app.add_option("--width", choice.width, "of the ground [m]; where it is not given 3 depths")
+      ->check(number_from(0.0, false, 1e5));
+  app.add_option("--unit-weight", choice.unit_weight, "of the ground [N/m3]")->check(number_from(1e3, true, 1e5));
+  app.add_option("--surcharge", choice.surcharge, "on the ground [Pa]")->check(number_from(0.0, true, 1e7));
+}
+
+/// Places that follow from ground and fault where they are not given, as the reference study has them relative to the tip and to the
+/// fault's own line; recorded as if they were the defaults.
+inline void choose_places(CLI::App& app, Choice& choice) {
+  std::vector<std::string> notes;
+  if (!choice.mesh.empty()) measure_mesh<Element>(choice, notes);
+  if (rank() == 0) examples::print_notes(notes);
+  Choice const usual;
+  double const scale = choice.scale();
+  auto const take = [&](char const* option, double& place, double value) {
+    if (app.count(option) == 0) place = value;
+    app.get_option(option)->default_str(fmt::format("{}", place));
+  };
+  take("--depth", choice.depth, choice.depth);
+  take("--left", choice.left, choice.mesh.empty() ? choice.tip + scale * usual.left : choice.left);
+  take("--width", choice.width, choice.mesh.empty() ? scale * usual.width : choice.width);
+  auto const cotangent = [](double dip) { return 1.0 / std::tan(dip * std::numbers::pi / 180.0); };
+  double const further = cotangent(choice.dip) - cotangent(usual.dip);  // to the left, over height
+  auto const along_fault = [&](double x, double height) {
+    return std::clamp(choice.tip + scale * (x - height * further), choice.left, choice.left + choice.width);
+  };
+  take("--probe-a-x", choice.probe_a_x, along_fault(usual.probe_a_x, usual.probe_a_y));
+  take("--probe-a-y", choice.probe_a_y, scale * usual.probe_a_y);
+  take("--probe-b-x", choice.probe_b_x, along_fault(usual.probe_b_x, usual.probe_b_y));
+  take("--probe-b-y", choice.probe_b_y, scale * usual.probe_b_y);
+  take("--footing-centre", choice.footing_centre, along_fault(usual.footing_centre, usual.depth));
+}
+
+/// How the elements of a file fit the length.
+inline void tell_of_mesh(Choice const& choice) {
+  double const largest = size_for<Element>(choice.length);
+  examples::print(stderr,
+                  "'{}': ground of {:.4g} m, elements of about {:.2g} m along the fault, a length of {:.3g} m\n",
+                  choice.mesh, choice.depth, choice.mesh_size, choice.length);
+  if (choice.length > 0.0 && choice.strip_width == 0.0 && largest < 0.9 * choice.mesh_size)
+    examples::print(
+        stderr,
+        "warning: a --length of {} m needs elements of at most {:.2g} m along the fault: mesh them finer, or leave "
+        "--strip-width out to have them refined\n",
+        choice.length, largest);
+}
+
+/// Length and sizes of elements where they are not given; recorded as if they were the defaults.
+inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
+  bool const of_file = !choice.mesh.empty();
+  bool const is_uniform = app.count("--strip-width") > 0 && choice.strip_width == 0.0;
+  bool const has_length = app.count("--length") > 0 || choice.length == 0.0;
+  if (of_file && app.count("--size") > 0 && choice.strip_width == 0.0)
+    scarp::reject(
+        "--size was given with --mesh and without --strip-width (elements of a file are refined in a strip only): give "
+        "both, or a --length");
+  bool const keeps_file = of_file && !has_length && choice.strip_width == 0.0;
+  bool const has_mesh = app.count("--size") > 0 || choice.elements > 0 || is_uniform || keeps_file;
+  double const scale = choice.scale();
+  if (app.count("--size") == 0) choice.size = of_file ? choice.mesh_size : scale * choice.size;
+  if (!has_length) choice.length *= scale;
+  if ((has_mesh || app.count("--quick") > 0) && !has_length) choice.length = scale * long_length;
+  if (has_mesh && of_file && !has_length)
+    choice.length = std::min(choice.length, std::stod(fmt::format("{:.2g}", choice.size / size_for<Element>(1.0))));
+  if (choice.length > choice.depth)
+    scarp::reject(
+        "--length is {} m (the ground is {} m deep, so that a mean over this radius is that of the whole ground): "
+        "choose "
+        "a shorter one, from a tenth of the depth down",
+        choice.length, choice.depth);
+  if (!has_mesh) choose_strip<Element>(choice);
+  if (of_file && rank() == 0) tell_of_mesh(choice);
+  auto const record = [&](char const* option, double value) {
+    if (app.count(option) == 0) app.get_option(option)->default_str(fmt::format("{:g}", value));
+  };
+  record("--length", choice.length);
+  record("--size", choice.size);
+  record("--strip-width", choice.strip_width);
+}
+
+/// The sides move with the walls of the fault, so that a rupture close to them is theirs.
+inline void warn_of_ends(Choice const& choice) {
+  double const outcrop = choice.tip - choice.depth / std::tan(choice.dip * std::numbers::pi / 180.0);
+  double const apart = std::min(outcrop - choice.left, choice.left + choice.width - choice.tip);
+  if (apart < choice.depth / 2.0)
+    examples::print(stderr,
+                    "warning: the fault leads from x = {:.4g} m at bedrock to {:.4g} m at the surface, {:.3g} m from "
+                    "an end of the ground ({:.4g} to {:.4g} m), whose motion is prescribed: give another --left or "
+                    "--width, half of the depth farther\n",
+                    choice.tip, outcrop, apart, choice.left, choice.left + choice.width);
+}
+
+}  // namespace fault_rupture
