@@ -4,8 +4,10 @@
 import base64
 import csv
 import json
+import multiprocessing
 import os
 import pathlib
+import signal
 import sys
 import typing
 import xml.etree.ElementTree as xml
@@ -188,9 +190,25 @@ def save(fig, path):
             plt.close(fig)
 
 
+def draw_one(name):
+    """The file of a figure, or why it is not drawn."""
+    folder = pathlib.Path(sys.argv[1])
+    try:
+        drawn = to_draw[name](folder)
+        path = folder / "figures" / f"{name}.{'gif' if isinstance(drawn, Animation) else 'png'}"
+        save(drawn, path)
+        return path
+    except (InputError, OSError) as trouble:
+        plt.close("all")
+        return f"figure '{name}' is not drawn: {trouble}"
+
+
+to_draw = {}  # is there before processes begin, which take it over
+
+
 def draw_all(figures):
-    """figures: {name: function(folder) -> figure or Animation}. Draws each that can be drawn into OUTPUT_DIR/figures/ and ends the
-    program: 0 when all were drawn, 1 when some could not be, 2 for a wrong call."""
+    """figures: {name: function(folder) -> figure or Animation}. Draws each that can be drawn into OUTPUT_DIR/figures/, with a process for each
+    core, and ends the program: 0 when all were drawn, 1 when some could not be, 2 for a wrong call."""
     if len(sys.argv) != 2:
         print(f"usage: {sys.argv[0]} OUTPUT_DIR   (the folder that the example wrote)", file=sys.stderr)
         sys.exit(2)
@@ -198,15 +216,14 @@ def draw_all(figures):
     if not folder.is_dir():
         print(f"there is no folder '{folder}' (nothing to draw): give the one that the example wrote", file=sys.stderr)
         sys.exit(2)
+    to_draw.update(figures)
     status = 0
-    for name, draw in figures.items():
-        try:
-            drawn = draw(folder)
-            path = folder / "figures" / f"{name}.{'gif' if isinstance(drawn, Animation) else 'png'}"
-            save(drawn, path)
-            print(path)
-        except (InputError, OSError) as trouble:
-            print(f"figure '{name}' is not drawn: {trouble}", file=sys.stderr)
-            plt.close("all")
-            status = 1
+    jobs = max(1, min(os.cpu_count() or 1, len(figures)))
+    with multiprocessing.get_context("fork").Pool(jobs, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
+        for done in pool.imap(draw_one, figures):
+            if isinstance(done, pathlib.Path):
+                print(done, flush=True)
+            else:
+                print(done, file=sys.stderr)
+                status = 1
     sys.exit(status)
