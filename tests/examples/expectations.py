@@ -5,6 +5,7 @@ import os
 import pathlib
 import sys
 
+NIGHTLY = os.environ.get("SCARP_TESTS") == "nightly"  # what takes long then runs too
 troubles = []
 checks = 0
 

@@ -12,9 +12,9 @@
 #else
 #define ALSO_NIGHTLY(...)
 #endif
-#define SAMPLE_ELEMENTS                    \
-  scarp::Tri3, scarp::Quad8, scarp::Tet10, \
-      scarp::Hex8 ALSO_NIGHTLY(scarp::Tri6, scarp::Quad4, scarp::Tet4, scarp::Hex20)
+#define SAMPLE_ELEMENTS      \
+  scarp::Tri3, scarp::Quad8, \
+      scarp::Tet10 ALSO_NIGHTLY(scarp::Hex8, scarp::Tri6, scarp::Quad4, scarp::Tet4, scarp::Hex20)
 /// For what compiles in no time; a new element is named here and among the sample elements.
 #define ALL_ELEMENTS \
   scarp::Tri3, scarp::Tri6, scarp::Quad4, scarp::Quad8, scarp::Tet4, scarp::Tet10, scarp::Hex8, scarp::Hex20
