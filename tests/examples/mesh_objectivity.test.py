@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""[nightly] With an intrinsic length the rupture comes out at one place, whatever directions the mesh offers. Environment: SCARP_EXAMPLES, the
+"""[slow] With an intrinsic length the rupture comes out at one place, whatever directions the mesh offers. Environment: SCARP_EXAMPLES, the
 folder of the built programs (skipped, exit 77, without)."""
 import os
 import pathlib
