@@ -20,7 +20,9 @@ TEST_CASE("prescribed degrees of freedom come sorted with their rates, whatever 
   constraints.fix(0);
   constraints.move(1, 0, 0.5);
   CHECK(constraints.prescribed_dofs() == std::vector<int>{0, 1, 2, 7});
-  CHECK(constraints.rates() == std::vector<double>{0.0, 0.0, 0.5, -1.0});
+  CHECK(constraints.rate(2) == 0.5);
+  CHECK(constraints.rate(7) == -1.0);
+  CHECK(constraints.rate(3) == 0.0);
 }
 
 TEST_CASE("free degrees of freedom are numbered without gaps") {
@@ -43,13 +45,31 @@ TEST_CASE("displacements follow the load factor") {
   CHECK(constraints.displacement(0.25) == expected);
 }
 
+TEST_CASE("the next knot is the nearest beyond a load factor, of all motions and loads") {
+  auto constraints = on_square();
+  double const never = std::numeric_limits<double>::infinity();
+  constraints.fix(0);
+  constraints.move(1, 0, 2.0);
+  CHECK(constraints.next_knot(-1.0) == never);
+  constraints.move(2, 0, 1.0, scarp::TimeFunction({{-0.5, 0.0}, {0.7, 1.0}, {0.9, 0.0}}));
+  constraints.move(3, 0, 1.0, scarp::TimeFunction::after(0.8));
+  CHECK(constraints.next_knot(-1.0) == -0.5);
+  CHECK(constraints.next_knot(-0.5) == 0.7);
+  CHECK(constraints.next_knot(0.7) == 0.8);
+  CHECK(constraints.next_knot(0.9) == never);
+  scarp::LoadHistory loads(Eigen::VectorXd::Zero(10));
+  loads.add(Eigen::VectorXd::Ones(10), scarp::TimeFunction::ramp(0.2, 0.6));
+  CHECK(loads.next_knot(0.2) == 0.6);
+  CHECK(loads.next_knot(0.6) == never);
+}
+
 TEST_CASE("the same prescription twice is one, two different ones are refused") {
   auto constraints = on_square();
   constraints.move(1, 0, 0.5);
   CHECK_NOTHROW(constraints.move(1, 0, 0.5));
   CHECK(constraints.prescribed_dofs().size() == 1);
   CHECK_REFUSED(constraints.fix(1, 0), "node 1, axis 0 ", "0.5 and 0 ");
-  CHECK(constraints.rates() == std::vector<double>{0.5});
+  CHECK(constraints.rate(2) == 0.5);
 }
 
 TEST_CASE("nodes, axes and rates that do not exist are refused") {

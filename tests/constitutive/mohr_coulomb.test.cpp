@@ -232,6 +232,26 @@ TEST_CASE("the consistent tangent is the derivative of the answer while strength
   CHECK(space.compared > 1900);
 }
 
+TEST_CASE("the consistent tangent is that of falling strength from the first plastic strain on") {
+  constexpr double fall = 1e6;  // [Pa] of cohesion over plastic shear strain
+  scarp::SofteningStrength const strength{
+      .peak = {.cohesion = 100.0}, .residual = {.cohesion = 50.0}, .softening_strain = 50.0 / fall};
+  scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
+      scarp::IsotropicElasticity::from_young_poisson(10e6, 0.3), strength, {}};
+  double const modulus = clay.elasticity.shear_modulus;
+  auto const state = clay.initial_state({});
+  for (double const beyond : {1e-8, 2e-7, 5e-6}) {
+    CAPTURE(beyond);
+    auto trial = state;
+    scarp::Gradient<2> shear = scarp::Gradient<2>::Zero();
+    shear(0, 1) = shear(1, 0) = (100.0 / modulus + beyond) / 2.0;
+    REQUIRE(clay.respond(state, shear, trial).verdict.acceptable());
+    REQUIRE(trial.plastic_shear > 0.0);
+    // Analytic: tau = c - h (gamma - tau / G), so that its slope is -h / (1 - h / G).
+    CHECK(trial.tangent(2, 2) == samples::Approx(-fall / (1.0 - fall / modulus)).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("strength that softens reaches its residual value and stays there") {
   scarp::SofteningStrength const strength{
       .peak = {.cohesion = 10e3}, .residual = {.cohesion = 4e3}, .softening_strain = 0.02};
@@ -350,6 +370,29 @@ TEST_CASE("a strength that cannot be is refused") {
   refused({.friction = std::numeric_limits<double>::quiet_NaN()}, "friction angle is nan");
   refused({.cohesion = 1.0, .tension = -1.0}, "tensile strength is -1");
   refused({.friction = std::numbers::pi / 2.0}, "friction angle is 1.57");
+}
+
+namespace {
+
+/// A law whose own check passes what would create energy: dilation beyond friction, from the start or on the way.
+struct Careless {
+  static constexpr bool changes = true;
+  double from = 0.0;
+  double to = 0.0;
+  Strength at(double shear) const {
+    return {.cohesion = 1e3, .friction = 0.5, .dilation = shear >= from && shear < to ? 0.6 : 0.1};
+  }
+  void validate() const {}
+};
+
+}  // namespace
+
+TEST_CASE("the strengths of a user's law are checked whatever the law checks itself") {
+  using Soil = scarp::MohrCoulomb<2, scarp::StressFree<2>, Careless>;
+  auto const stiff = scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3);
+  CHECK_NOTHROW(Soil{stiff}.initial_state({}));
+  for (auto const& wrong : {Careless{0.0, 1e-9}, Careless{0.02, 0.3}, Careless{5.0, 1e9}})
+    CHECK_REFUSED((Soil{stiff, wrong}.initial_state({})), "dilation is 0.6 rad with a friction of 0.5");
 }
 
 TEST_CASE("friction may soften to none: a cut-off holds on the way and no strength is NaN") {

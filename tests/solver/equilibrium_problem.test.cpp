@@ -114,6 +114,23 @@ TEST_CASE_TEMPLATE("a law is tested on one element all of whose nodes are moved"
     CHECK(std::abs(stress(1) + 1e-4 * modulus) < 2e-4 * 1e-4 * modulus);
 }
 
+TEST_CASE("only the increment that was evaluated is refined and committed, and a refused commit changes nothing") {
+  scarp::SerialExecutor serial;
+  auto grid = square();
+  auto constraints = held_as_a_body(grid);
+  auto points = points_on(grid);
+  Problem<> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
+  auto const before = problem.discretisation().positions();
+  Eigen::VectorXd const increment = Eigen::VectorXd::Constant(problem.dof_count(), 1e-4);
+  REQUIRE(problem.evaluate(increment).verdict.acceptable());
+  CHECK(problem.refine(increment).verdict.acceptable());
+  CHECK_REFUSED(problem.refine(2.0 * increment), "to be refined", "evaluated last");
+  CHECK_REFUSED(problem.commit(2.0 * increment), "to be committed", "evaluated last");
+  problem.points().commit();  // past the problem, which has no trial states then
+  CHECK_REFUSED(problem.commit(increment), "without a response");
+  CHECK(problem.discretisation().positions() == before);
+}
+
 TEST_CASE("parts that do not fit together are refused") {
   scarp::SerialExecutor serial;
   auto const grid = square();

@@ -134,6 +134,55 @@ TEST_CASE("the free part of a system is the full one without prescribed rows and
   for (int const dof : free) CHECK(scattered(dof) == vector(dof));
 }
 
+namespace {
+
+/// As far as an iteration comes that finds a share of the solution.
+template <int percent>
+Eigen::VectorXd partly(scarp::LinearMap const&, scarp::LinearMap const& inverse, Eigen::VectorXd const& right) {
+  return percent / 100.0 * inverse(right);
+}
+
+/// A ground with a second part of its stiffness, of zero, and an iteration of its own.
+struct Iterated {
+  static constexpr int dim = 2;
+  static constexpr bool is_bare = true;
+  scarp::Constraints held;
+  scarp::LinearIteration iterate;
+
+  scarp::Constraints const& constraints() const { return held; }
+  void ground_stiffness(Eigen::VectorXd const& increment, std::vector<scarp::VoigtTangent<2>> const&,
+                        scarp::GroundStiffness& stiffness) const {
+    stiffness.own.resize(increment.size(), increment.size());
+    stiffness.own.setIdentity();
+    stiffness.around = std::make_shared<scarp::LinearMap const>([](Eigen::VectorXd const& x) { return 0.0 * x; });
+    stiffness.iterate = iterate;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an iteration that stagnates far from the solution is no solution") {
+  auto const mesh = scarp::RectangleMesh{.columns = 2, .rows = 1}.generate();
+  scarp::Constraints constraints(mesh);
+  for (int const node : scarp::boundary_nodes(mesh, "bottom")) constraints.fix(node);
+  Eigen::VectorXd const still = Eigen::VectorXd::Zero(constraints.dof_count());
+  Eigen::VectorXd const unbalanced = Eigen::VectorXd::Constant(constraints.dof_count(), 2.0);
+  for (auto const& [iterate, verdict] :
+       {std::pair{&partly<95>, scarp::Verdict{}},
+        std::pair{&partly<80>, scarp::Verdict{scarp::Status::not_converged, Reason::iterations_spent}},
+        std::pair{&partly<-5>, scarp::Verdict{scarp::Status::failed, Reason::singular_system}}}) {
+    Iterated problem{constraints, iterate};
+    scarp::LinearisedStep<Iterated, scarp::SparseLu> step(problem, 1e-3);
+    REQUIRE(step.linearise(still, unbalanced, {}).acceptable());
+    Eigen::VectorXd increment = still;
+    CHECK(step.solve(increment, still) == verdict);
+    CHECK(step.linear_residual() == samples::Approx(1.0 - iterate(
+                                                              {}, [](auto const& x) { return x; }, unbalanced)(0) /
+                                                              2.0));
+    if (!verdict.acceptable()) CHECK(increment == still);
+  }
+}
+
 TEST_CASE("the estimate of the condition number is close below the true one") {
   scarp::Random random(1);
   for (int draw = 0; draw < 50; ++draw) {

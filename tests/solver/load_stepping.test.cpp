@@ -41,6 +41,25 @@ double height_error(SoftBlock::Problem const& problem, double load) {
   return worst;
 }
 
+/// Course up to a peak that no sum of growing steps meets, and back to nothing, which lasts.
+scarp::TimeFunction there_and_back() { return scarp::TimeFunction({{0.0, 0.0}, {0.37, 1.0}, {0.81, 0.0}}); }
+
+/// A linear block whose top carries 100 kPa, or moves up by 5 mm, over that course.
+SoftBlock::Problem there_and_back(bool is_moved, scarp::SerialExecutor& executor) {
+  SoftBlock::Grid grid(scarp::RectangleMesh{.columns = 3, .rows = 2}.generate());
+  scarp::Constraints constraints(grid.mesh());
+  scarp::LoadHistory loads;
+  for (int const node : scarp::boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node);
+  if (is_moved) {
+    for (int const node : scarp::boundary_nodes(grid.mesh(), "top")) constraints.move(node, 1, 5e-3, there_and_back());
+  } else {
+    loads.add(scarp::traction(grid, "top", scarp::Vector<2>(0.0, -100e3)), there_and_back());
+  }
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+  return {std::move(grid), {Softening{}, sites}, std::move(constraints), std::move(loads), executor};
+}
+
 }  // namespace
 
 TEST_CASE("a softening block is pulled past its peak in steps that the observer hears of one by one") {
@@ -231,6 +250,52 @@ TEST_CASE("a prediction that turns elements inside out is cut before it is tried
   CHECK_FALSE(steps.run(scarp::QuasiNewton<>{}, problem, 0.0, 10.0, first).verdict.acceptable());
   CHECK(first.seen.verdict == Verdict{});
   CHECK(first.seen.max_displacement_gradient <= 1.001 * steps.max_displacement_gradient);
+}
+
+TEST_CASE("steps end at the knots of loads and prescribed motions, and a body may be unloaded to nothing") {
+  scarp::SerialExecutor serial;
+  for (bool const is_moved : {false, true}) {
+    CAPTURE(is_moved);
+    auto problem = there_and_back(is_moved, serial);
+    auto witness = samples::watch(problem);
+    scarp::LoadStepping const steps{.first = 0.1, .largest = 0.2, .max_displacement_gradient = 0.1};
+    auto const run = steps.run(scarp::QuasiNewton<>{.tolerance = 1e-8}, problem, 0.0, 1.0, witness);
+    CHECK(run.verdict == Verdict{});
+    CHECK(run.refused == 0);
+    std::vector<double> loads;
+    for (auto const& report : witness.reports) loads.push_back(report.load);
+    // 0.1, 0.14, 0.196 and 0.2: the steps of 0.13 and 0.044 that knots cut short leave the next ones as long.
+    for (double const expected : {0.1, 0.24, 0.37, 0.566, 0.766, 0.81, 1.0}) {
+      REQUIRE_FALSE(loads.empty());
+      CHECK(loads.front() == samples::Approx(expected).epsilon(1e-12));
+      loads.erase(loads.begin());
+    }
+    CHECK(loads.empty());
+    CHECK(largest_strain(problem) < 1e-8);  // analytic: zero; the largest was 5e-3
+  }
+}
+
+TEST_CASE("a run that goes on from a saved state is unloaded with the scale of forces that it had") {
+  scarp::SerialExecutor serial;
+  scarp::NoObserver no_observer;
+  scarp::QuasiNewton<> const solver{.tolerance = 1e-8};
+  auto problem = there_and_back(false, serial);
+  REQUIRE(stepping().settle(solver, problem, 0.0, no_observer).verdict == Verdict{});
+  scarp::LoadStepping const steps{.first = 0.37, .max_displacement_gradient = 0.1};
+  REQUIRE(steps.run(solver, problem, 0.0, 0.81 - 1e-6, no_observer).verdict == Verdict{});
+  scarp::StateWriter writer;
+  writer("problem", problem);
+  auto resumed = there_and_back(false, serial);
+  scarp::StateReader reader(writer.bits());
+  reader("problem", resumed);
+  Eigen::VectorXd const slight = Eigen::VectorXd::Constant(problem.dof_count(), 1e-3);  // [N], of 1e5 N at the peak
+  std::vector<double> residuals;
+  for (auto* const one : {&problem, &resumed}) {
+    CHECK(steps.run(solver, *one, 0.81 - 1e-6, 0.81, no_observer).verdict == Verdict{});
+    residuals.push_back(one->residual(slight));
+  }
+  CHECK(residuals[0] == residuals[1]);
+  CHECK(residuals[0] < 1e-3);
 }
 
 TEST_CASE("a body that nothing holds is not called balanced") {

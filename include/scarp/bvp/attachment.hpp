@@ -31,7 +31,9 @@ concept Attachment = requires(Part& part, Part const& constant, std::vector<Vect
 };
 
 /// Nothing: the elements alone.
-struct NoAttachment {};
+struct NoAttachment {
+  static constexpr int extra_dofs() { return 0; }  ///< It has no degrees of freedom of its own.
+};
 
 /// An attachment, or `NoAttachment`.
 template <class Part, int Dim>

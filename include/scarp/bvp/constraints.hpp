@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,7 +24,7 @@ class Constraints {
   /// extra_dofs: degrees of freedom that follow those of the nodes
   template <class Element>
   explicit Constraints(Mesh<Element> const& mesh, int extra_dofs = 0)
-      : dim_(Element::dim), nodes_(detail::count(mesh.nodes)), extra_dofs_(extra_dofs) {}
+      : dim_(Element::dim), nodes_(detail::count(mesh.nodes)), motions_(detail::index(dim_ * nodes_ + extra_dofs)) {}
 
   /// Holds a node along an axis of space at its place.
   /// \throws InputError for a node or axis that does not exist, or one that is already moved
@@ -49,46 +51,36 @@ class Constraints {
   /// factor 0.
   /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
   void move_extra(int number, double rate, TimeFunction amplitude = {}) {
-    if (number < 0 || number >= extra_dofs_) {
-      reject("extra degree of freedom {} is prescribed (there are {}): check the number", number, extra_dofs_);
+    int const extra_dofs = dof_count() - dim_ * nodes_;
+    if (number < 0 || number >= extra_dofs) {
+      reject("extra degree of freedom {} is prescribed (there are {}): check the number", number, extra_dofs);
     }
     prescribe(dim_ * nodes_ + number, fmt::format("extra degree of freedom {}", number), rate, std::move(amplitude));
   }
 
   /// Degrees of freedom of the nodes and of attached bodies.
-  int dof_count() const { return dim_ * nodes_ + extra_dofs_; }
+  int dof_count() const { return detail::count(motions_); }
   /// Degrees of freedom that are not prescribed.
-  int free_count() const { return dof_count() - detail::count(dofs_); }
-
-  /// Prescribed degrees of freedom in increasing order.
-  std::vector<int> const& prescribed_dofs() const { return dofs_; }
-
-  /// Displacement per unit of its amplitude of each of prescribed_dofs().
-  std::vector<double> const& rates() const { return rates_; }
+  int free_count() const { return detail::count(free_dofs()); }
 
   /// Whether a degree of freedom's motion is prescribed, also by zero.
-  bool is_prescribed(int dof) const { return std::binary_search(dofs_.begin(), dofs_.end(), dof); }
+  bool is_prescribed(int dof) const { return motions_[detail::index(dof)].has_value(); }
+
+  /// Displacement of a degree of freedom per unit of its amplitude; 0 for a free one.
+  double rate(int dof) const { return is_prescribed(dof) ? motions_[detail::index(dof)]->rate : 0.0; }
+
+  /// Prescribed degrees of freedom in increasing order.
+  std::vector<int> prescribed_dofs() const { return dofs(true); }
 
   /// Free degrees of freedom in increasing order.
-  std::vector<int> free_dofs() const {
-    std::vector<int> free;
-    auto next = dofs_.begin();
-    for (int dof = 0; dof < dof_count(); ++dof) {
-      if (next != dofs_.end() && *next == dof) {
-        ++next;
-      } else {
-        free.push_back(dof);
-      }
-    }
-    return free;
-  }
+  std::vector<int> free_dofs() const { return dofs(false); }
 
   /// Displacement [m] of all degrees of freedom between two load factors; the free ones are zero.
   Eigen::VectorXd displacement(double from, double to) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(dof_count());
-    for (std::size_t k = 0; k < dofs_.size(); ++k) {
-      auto const& amplitude = amplitudes_[k];
-      all(dofs_[k]) = rates_[k] * (amplitude == TimeFunction{} ? to - from : amplitude(to) - amplitude(from));
+    for (int const dof : prescribed_dofs()) {
+      auto const& amplitude = motions_[detail::index(dof)]->amplitude;
+      all(dof) = rate(dof) * (amplitude == TimeFunction{} ? to - from : amplitude(to) - amplitude(from));
     }
     return all;
   }
@@ -96,32 +88,45 @@ class Constraints {
   /// From the load factor 0.
   Eigen::VectorXd displacement(double load) const { return displacement(0.0, load); }
 
+  /// Load factor of the first knot of any motion's amplitude beyond one; infinite beyond the last.
+  double next_knot(double load) const {
+    double next = std::numeric_limits<double>::infinity();
+    for (auto const& motion : motions_)
+      if (motion) next = std::min(next, motion->amplitude.next_knot(load));
+    return next;
+  }
+
  private:
+  struct Motion {
+    double rate = 0.0;
+    TimeFunction amplitude{};
+  };
+
   void prescribe(int dof, std::string const& what, double rate, TimeFunction amplitude) {
     require_finite("rate of a prescribed displacement", rate);
-    auto const place = std::lower_bound(dofs_.begin(), dofs_.end(), dof);
-    auto const k = place - dofs_.begin();
-    if (place == dofs_.end() || *place != dof) {
-      rates_.insert(rates_.begin() + k, rate);
-      amplitudes_.insert(amplitudes_.begin() + k, std::move(amplitude));
-      dofs_.insert(place, dof);
+    auto& known = motions_[detail::index(dof)];
+    if (!known) {
+      known = {rate, std::move(amplitude)};
       return;
     }
-    auto const known = detail::index(k);
-    if (rates_[known] != rate) {
-      reject("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, rates_[known], rate);
+    if (known->rate != rate) {
+      reject("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, known->rate, rate);
     }
-    if (rate != 0.0 && !(amplitudes_[known] == amplitude)) {
+    if (rate != 0.0 && !(known->amplitude == amplitude)) {
       reject("{} is prescribed twice (by different amplitudes of the rate {}): decide for one of them", what, rate);
     }
   }
 
+  std::vector<int> dofs(bool prescribed) const {
+    std::vector<int> found;
+    for (int dof = 0; dof < dof_count(); ++dof)
+      if (is_prescribed(dof) == prescribed) found.push_back(dof);
+    return found;
+  }
+
   int dim_;
   int nodes_;
-  int extra_dofs_;
-  std::vector<int> dofs_;
-  std::vector<double> rates_;
-  std::vector<TimeFunction> amplitudes_;
+  std::vector<std::optional<Motion>> motions_;  ///< by degree of freedom; none of free ones
 };
 
 /// A degree of freedom in words: node, place, axis and the regions that the node belongs to.

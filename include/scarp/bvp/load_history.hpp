@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,13 @@ class TimeFunction {
     return low + (load - left) / (right - left) * (high - low);
   }
 
+  /// Load factor of the first knot beyond one, where the course may turn; infinite beyond the last.
+  double next_knot(double load) const {
+    for (auto const& knot : knots_)
+      if (knot.first > load) return knot.first;
+    return std::numeric_limits<double>::infinity();
+  }
+
  private:
   std::vector<std::pair<double, double>> knots_;
   double slope_at_end_ = 0.0;
@@ -92,6 +100,13 @@ class LoadHistory {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size());
     for (auto const& [forces, amplitude] : parts_) sum += amplitude(load) * forces;
     return sum;
+  }
+
+  /// Load factor of the first knot of any amplitude beyond one; infinite beyond the last.
+  double next_knot(double load) const {
+    double next = std::numeric_limits<double>::infinity();
+    for (auto const& [forces, amplitude] : parts_) next = std::min(next, amplitude.next_knot(load));
+    return next;
   }
 
  private:

@@ -48,15 +48,15 @@ struct MohrCoulomb {
     return {to_voigt_stress<3, double>(stress), 0.0, elasticity.template stiffness<Dim>()};
   }
 
-  /// Of a law of strength without a check of its own the ends are checked.
+  /// A strength that changes is checked at every decade of the plastic shear strain, whatever its law checks itself.
   /// \throws InputError for a strength or elasticity that cannot be
   void validate() const {
     elasticity.validate();
-    if constexpr (requires { strength.validate(); }) {
-      strength.validate();
-    } else {
-      strength.at(0.0).validate();
-      if constexpr (StrengthType::changes) strength.at(std::numeric_limits<double>::infinity()).validate();
+    detail::validated(strength).at(0.0).validate();
+    if constexpr (StrengthType::changes) {
+      constexpr double least = 1e-6;
+      constexpr double most = 1e3;
+      for (double shear = least; shear <= most; shear *= 10.0) strength.at(shear).validate();
     }
   }
 
@@ -161,9 +161,10 @@ struct MohrCoulomb {
   void soften_tangent(Return& returned, Vector<3> const& trial, double plastic_shear) const {
     if (returned.planes == 0) return;
     constexpr double step = 1e-6;  // of plastic strain; the strength is smooth over it but for single kinks
+    double const back = std::min(step, plastic_shear);  // since there is no strength before the first plastic strain
     Vector<3> const slope =
-        (returned_at(trial, plastic_shear + step).stress - returned_at(trial, plastic_shear - step).stress) /
-        (2.0 * step);
+        (returned_at(trial, plastic_shear + step).stress - returned_at(trial, plastic_shear - back).stress) /
+        (step + back);
     Vector<3> weight = Vector<3>::Zero();
     Eigen::Index largest = 0;
     Eigen::Index smallest = 0;

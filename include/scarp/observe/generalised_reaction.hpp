@@ -18,10 +18,8 @@ double generalised_reaction(Problem const& problem) {
   grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem.balanced_stresses(), forces);
   auto const& held = problem.constraints();
   double work = 0.0;
-  for (std::size_t k = 0; k < held.rates().size(); ++k) {
-    int const dof = held.prescribed_dofs()[k];
-    if (dof < forces.size()) work += held.rates()[k] * forces(dof);  // attached bodies come after its nodes
-  }
+  for (Eigen::Index dof = 0; dof < forces.size(); ++dof)  // attached bodies come after its nodes
+    work += held.rate(static_cast<int>(dof)) * forces(dof);
   return work;
 }
 

@@ -4,7 +4,8 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <memory>
+#include <string_view>
 #include <vector>
 
 #include "scarp/bvp/constraints.hpp"
@@ -46,6 +47,7 @@ class SCARP_EXPORT EquilibriumProblem final
         constraints_(std::move(constraints)),
         loads_(std::move(loads)),
         free_dofs_(constraints_.free_dofs()),
+        prescribed_dofs_(constraints_.prescribed_dofs()),
         regions_(discretisation_.mesh(), constraints_) {
     if (points_.size() != discretisation_.point_count()) {
       reject("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
@@ -66,21 +68,12 @@ class SCARP_EXPORT EquilibriumProblem final
   }
 
   /// Degrees of freedom of the mesh, then of what is attached.
-  int dof_count() const override {
-    if constexpr (is_bare) {
-      return discretisation_.dof_count();
-    } else {
-      return discretisation_.dof_count() + this->attached_.extra_dofs();
-    }
-  }
+  int dof_count() const override { return discretisation_.dof_count() + this->attached().extra_dofs(); }
 
-  /// Sets the load factor whose loads the forces are measured against from now on.
-  void set_load(double load) override { load_now_ = loads_.at(load); }
-
+  void set_load(double load) override { load_now_ = loads_.at(load); }  ///< Forces are measured against its loads.
   DiscretisationType const& discretisation() const { return discretisation_; }  ///< Mesh and elements, committed.
   MaterialPoints<dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
-  /// For callers that exchange states between load steps.
-  MaterialPoints<dim>& points() { return points_; }
+  MaterialPoints<dim>& points() { return points_; }  ///< For callers that exchange states between load steps.
   Constraints const& constraints() const override { return constraints_; }  ///< Prescribed displacements [m].
   std::vector<int> const& free_dofs() const { return free_dofs_; }  ///< Without a prescribed displacement, increasing.
   LoadHistory const& loads() const override { return loads_; }      ///< Forces [N] by load factor.
@@ -109,25 +102,16 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Fixes every point's work for the load step from a predicted increment; the points' gradients are stored.
   /// \param worst_point where given, a point of the element that the increment turns inside out, -1 for none
   Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) override {
-    if (worst_point) *worst_point = -1;
-    if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
-    if (auto const inverted = look(increment)) {
-      if (worst_point) *worst_point = *inverted * DiscretisationType::points_per_element;
-      return {Status::failed, Reason::element_inverted};
-    }
-    points_.plan();
-    return {};
+    Verdict const verdict = look(increment, worst_point);
+    if (verdict.acceptable()) points_.plan();
+    return verdict;
   }
 
   /// Lets every point respond to an increment from its committed state and adds up the forces.
   Evaluation evaluate(Eigen::VectorXd const& increment) override {
     Evaluation evaluation;
-    if (!increment.allFinite()) {
-      evaluation.verdict = {Status::failed, Reason::not_finite};
-    } else if (auto const inverted = look(increment)) {
-      evaluation.verdict = {Status::failed, Reason::element_inverted};
-      evaluation.worst_point = *inverted * DiscretisationType::points_per_element;
-    } else {
+    evaluation.verdict = look(increment, &evaluation.worst_point);
+    if (evaluation.verdict.acceptable()) {
       static_cast<ResponseReport&>(evaluation) = points_.evaluate(executor_);
       evaluated_ = increment;
       add_up(increment, evaluation);
@@ -137,7 +121,9 @@ class SCARP_EXPORT EquilibriumProblem final
 
   /// Evaluates the points whose last response is not converged with more inner steps, now and for the rest of the load step, at the increment
   /// of the last evaluation.
+  /// \throws InputError for another increment
   Evaluation refine(Eigen::VectorXd const& increment) override {
+    require_evaluated("refined", increment);
     Evaluation evaluation{points_.refine(executor_)};
     add_up(increment, evaluation);
     return evaluation;
@@ -149,6 +135,7 @@ class SCARP_EXPORT EquilibriumProblem final
     forget();
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
+    largest_scale_ = std::max(largest_scale_, scale(evaluation.unbalanced));
     return evaluation;
   }
 
@@ -163,7 +150,8 @@ class SCARP_EXPORT EquilibriumProblem final
       discretisation_.stiffness(nodes, points_.stresses(), parts.by_own, stiffness.own);
       auto const volumes = discretisation_.volumes(nodes);
       for (std::size_t k = 0; k < volumes.size(); ++k) parts.by_mean[k] *= volumes[k];
-      stiffness.around = forces_around(discretisation_.strain_operator(nodes), std::move(parts.by_mean));
+      stiffness.around = std::make_shared<LinearMap const>(
+          forces_around(discretisation_.strain_operator(nodes), std::move(parts.by_mean)));
       stiffness.iterate = means->iterate();
     } else {
       discretisation_.stiffness(nodes, points_.stresses(), tangents, stiffness.own);
@@ -173,15 +161,14 @@ class SCARP_EXPORT EquilibriumProblem final
 
   /// Largest of all parts' residuals, see `residuals`.
   double residual(Eigen::VectorXd const& unbalanced) const override {
-    double largest = std::max(residual_of_all(unbalanced), regions_.largest(unbalanced, load_now_));
-    if constexpr (!is_bare) largest = std::max(largest, residual_beside(unbalanced));
-    return largest;
+    return std::max(
+        {residual_of_all(unbalanced), regions_.largest(unbalanced, load_now_), residual_beside(unbalanced)});
   }
 
-  /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads| and what the
-  /// elements and the attachment carried there in the last evaluation, Euclidean norms; then follows every
-  /// region of the mesh that is held nowhere, by its name, unless it is the only one, as a rigid body, and "attached", each
-  /// over its own loads at the present load factor (0 without such loads).
+  /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads|
+  /// and what the elements and the attachment carried there last, Euclidean norms, or a thousandth of the largest that
+  /// a committed state had, since an unloaded body has none. Then follows every region of the mesh that is held nowhere,
+  /// by its name, unless it is the only one, as a rigid body, and "attached", each over its own loads (0 without them).
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
     std::vector<PartResidual> parts{{"all", residual_of_all(unbalanced)}};
     regions_.list(unbalanced, load_now_, parts);
@@ -189,8 +176,7 @@ class SCARP_EXPORT EquilibriumProblem final
     return parts;
   }
 
-  /// Imbalance of an attached body relative to its own loads: the reactions of a heavy ground would hide it.
-  /// 0 without such a body or loads.
+  /// Imbalance of an attached body over its own loads, since reactions of the ground would hide it; 0 without loads.
   double residual_beside(Eigen::VectorXd const& unbalanced) const override {
     return detail::residual_beside(unbalanced, load_now_, free_dofs_, discretisation_.dof_count());
   }
@@ -205,15 +191,11 @@ class SCARP_EXPORT EquilibriumProblem final
   /// Makes the increment and the points' trial states the committed ones.
   /// \throws InputError unless the increment is the last one that was evaluated: trial states belong to that one
   void commit(Eigen::VectorXd const& increment) override {
-    if (evaluated_.size() != increment.size() || evaluated_ != increment) {
-      reject(
-          "the increment to be committed is not the one that was evaluated last (the points' trial states belong to "
-          "that one): evaluate it first, and commit it once");
-    }
+    require_evaluated("committed", increment);
+    points_.commit();  // first, since it may throw
     forget();
     if constexpr (!is_bare) this->attached_.commit(discretisation_.positions(), increment);
     discretisation_.commit(of_nodes(increment));
-    points_.commit();
   }
 
   /// What evolves from step to step: a new problem with these resumes as the one that they were saved from.
@@ -221,14 +203,26 @@ class SCARP_EXPORT EquilibriumProblem final
   static void members(Self& self, Visit&& visit) {
     visit("discretisation", self.discretisation_);
     visit("materials", self.points_);
+    visit("largest_scale", self.largest_scale_);
     if constexpr (!is_bare) visit("attached", self.attached_);
   }
   void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
 
  private:
   void forget() { seen_ = evaluated_ = Eigen::VectorXd(); }
+  void require_evaluated(std::string_view what, Eigen::VectorXd const& increment) const {
+    if (evaluated_.size() == increment.size() && evaluated_ == increment) return;
+    reject("the increment to be {} is not the one that was evaluated last: evaluate it first, and commit it once",
+           what);
+  }
   double residual_of_all(Eigen::VectorXd const& unbalanced) const {
-    return detail::residual_of_all(unbalanced, load_now_, carried_, free_dofs_, constraints_.prescribed_dofs());
+    constexpr double least = 1e-3 * 1e-3;  // of the largest scale, squared
+    double const free = detail::squared_over(free_dofs_, unbalanced);
+    return free == 0.0 ? 0.0 : std::sqrt(free / std::max(scale(unbalanced), least * largest_scale_));
+  }
+  /// Of "all", squared [N2]. Reactions alone may be round-off: those of a body that is pressed from all sides.
+  double scale(Eigen::VectorXd const& unbalanced) const {
+    return std::max({detail::squared_over(prescribed_dofs_, unbalanced), load_now_.squaredNorm(), carried_});
   }
 
   decltype(auto) of_nodes(Eigen::VectorXd const& increment) const {
@@ -239,17 +233,20 @@ class SCARP_EXPORT EquilibriumProblem final
     }
   }
 
-  /// Shows the points an increment.
-  /// \return number of the first element that it turns inside out
-  std::optional<int> look(Eigen::VectorXd const& increment) {
-    if (seen_.size() == increment.size() && seen_ == increment) return std::nullopt;
+  /// Shows the points an increment, unless it is not finite or turns an element inside out.
+  Verdict look(Eigen::VectorXd const& increment, int* worst_point) {
+    if (worst_point) *worst_point = -1;
+    if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
+    if (seen_.size() == increment.size() && seen_ == increment) return {};
     std::vector<Gradient<dim>> gradients(detail::index(discretisation_.point_count()));
-    auto const inverted = discretisation_.gradients(of_nodes(increment), gradients);
-    if (inverted) return inverted;
+    if (auto const inverted = discretisation_.gradients(of_nodes(increment), gradients)) {
+      if (worst_point) *worst_point = *inverted * DiscretisationType::points_per_element;
+      return {Status::failed, Reason::element_inverted};
+    }
     evaluated_.resize(0);
     points_.set_gradients(std::move(gradients), executor_);
     seen_ = increment;
-    return std::nullopt;
+    return {};
   }
 
   /// Forces [N] of the mesh's degrees of freedom by the means of strains: strains from displacements, and stresses times volume
@@ -293,10 +290,11 @@ class SCARP_EXPORT EquilibriumProblem final
   Constraints constraints_;
   LoadHistory loads_;
   Eigen::VectorXd load_now_;
-  Eigen::VectorXd seen_;       ///< increment whose gradients the points have; empty after a commit
-  Eigen::VectorXd evaluated_;  ///< increment that the points' trial states belong to; empty after a commit
-  double carried_ = 0.0;       ///< at free degrees of freedom in the last evaluation, squared [N2]
-  std::vector<int> free_dofs_;
+  Eigen::VectorXd seen_;        ///< increment whose gradients the points have; empty after a commit
+  Eigen::VectorXd evaluated_;   ///< increment that the points' trial states belong to; empty after a commit
+  double carried_ = 0.0;        ///< at free degrees of freedom in the last evaluation, squared [N2]
+  double largest_scale_ = 0.0;  ///< of the committed states that were evaluated, squared [N2]
+  std::vector<int> free_dofs_, prescribed_dofs_;
   detail::RegionResiduals<dim> regions_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <memory>
 #include <vector>
 
 #include "scarp/bvp/constraints.hpp"
@@ -24,6 +25,8 @@ class FreeSystem {
     for (std::size_t k = 0; k < free_dofs_.size(); ++k) free_index_[detail::index(free_dofs_[k])] = static_cast<int>(k);
   }
 
+  /// Degrees of freedom, free and prescribed.
+  Eigen::Index dof_count() const { return static_cast<Eigen::Index>(free_index_.size()); }
   /// Order of the reduced system.
   Eigen::Index free_count() const { return static_cast<Eigen::Index>(free_dofs_.size()); }
 
@@ -73,26 +76,29 @@ namespace scarp::detail {
 template <LinearSolver Linear>
 class GroundEquations {
  public:
+  /// The system must outlive the equations.
   Verdict factorize(FreeSystem const& system, GroundStiffness const& stiffness) {
+    system_ = &system;
     matrix_ = system.matrix(stiffness.own);
-    iterate_ = stiffness.around ? stiffness.iterate : nullptr;
-    if (iterate_) {
-      whole_ = [&system, stiffness](Eigen::VectorXd const& displacement) {
-        Eigen::VectorXd all = Eigen::VectorXd::Zero(stiffness.own.cols());
-        system.scatter(displacement, all);
-        return system.gather(stiffness * all);
-      };
-    }
+    around_ = stiffness.around;
+    iterate_ = stiffness.iterate;
     return linear_.factorize(matrix_);
   }
   /// As far as an iteration comes; the residual shows how far.
   Eigen::VectorXd solve(Eigen::VectorXd const& force) const {
-    if (!iterate_) return linear_.solve(force);
-    return iterate_(
-        whole_, [this](Eigen::VectorXd const& right) -> Eigen::VectorXd { return linear_.solve(right); }, force);
+    if (!around_) return linear_.solve(force);
+    return iterate_([this](Eigen::VectorXd const& x) { return product(x); },
+                    [this](Eigen::VectorXd const& right) { return linear_.solve(right); }, force);
   }
   Eigen::VectorXd product(Eigen::VectorXd const& displacement) const {
-    return iterate_ ? whole_(displacement) : Eigen::VectorXd(matrix_ * displacement);
+    Eigen::VectorXd forces = matrix_ * displacement;
+    if (!around_) return forces;
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(system_->dof_count());
+    system_->scatter(displacement, all);
+    Eigen::VectorXd const more = (*around_)(all);
+    all.setZero();
+    all.head(more.size()) = more;
+    return forces + system_->gather(all);
   }
   /// Of what the elements hold alone.
   double condition() const { return condition_estimate(matrix_, linear_); }
@@ -101,7 +107,8 @@ class GroundEquations {
  private:
   Linear linear_;
   SparseMatrix matrix_;
-  LinearMap whole_;
+  FreeSystem const* system_ = nullptr;
+  std::shared_ptr<LinearMap const> around_;  ///< see GroundStiffness
   LinearIteration iterate_ = nullptr;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <memory>
 #include <utility>
 
 #include "scarp/core/linear_map.hpp"
@@ -13,7 +14,8 @@ namespace scarp {
 /// the length and is not symmetric; it is applied, never assembled.
 struct GroundStiffness {
   Eigen::SparseMatrix<double> own;  ///< what the elements hold without their neighbours
-  LinearMap around{};  ///< forces of the second part, of the mesh's degrees of freedom; empty for local ground
+  /// Forces of the second part, of the mesh's degrees of freedom; shared by copies, none for local ground.
+  std::shared_ptr<LinearMap const> around{};
   LinearIteration iterate = nullptr;  ///< solves with the second part
 
   /// The same for more degrees of freedom, behind those of the mesh, which nothing here holds.
@@ -29,7 +31,7 @@ struct GroundStiffness {
   Eigen::VectorXd operator*(Eigen::VectorXd const& displacement) const {
     Eigen::VectorXd forces = own * displacement;
     if (!around) return forces;
-    Eigen::VectorXd const more = around(displacement);
+    Eigen::VectorXd const more = (*around)(displacement);
     forces.head(more.size()) += more;
     return forces;
   }

@@ -20,6 +20,7 @@ template <class Problem, LinearSolver Linear>
 class LinearisedStep {
  public:
   static constexpr double singular = 1e15;  ///< condition beyond which no digit of a solution is left
+  static constexpr double stagnated = 0.1;  ///< linear residual of an iteration that found no solution
 
   /// accuracy: residual below which the attachment's forces need no further correction
   LinearisedStep(Problem& problem, double accuracy)
@@ -117,6 +118,7 @@ class LinearisedStep {
     double const norm = force.norm();
     linear_residual_ = norm > 0.0 ? (equations_.product(correction) - force).norm() / norm : 0.0;
     if (!(linear_residual_ < 1.0)) return {Status::failed, Reason::singular_system};
+    if (ground_.around && linear_residual_ > stagnated) return {Status::not_converged, Reason::iterations_spent};
     system_.scatter(system_.gather(increment) + correction, increment);
     return {};
   }

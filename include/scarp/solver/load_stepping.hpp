@@ -106,8 +106,9 @@ inline RunReport joined(RunReport const& earlier, RunReport later) {
 }
 
 /// Raises the load factor in steps that adapt themselves: the prediction's largest displacement gradient limits a step before
-/// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved. Only
-/// a step whose residual and points are all acceptable is committed.
+/// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved.
+/// A step ends at the knots of loads and prescribed motions, so that no peak is passed by. Only a step whose residual
+/// and points are all acceptable is committed.
 struct LoadStepping {
   double first = 1e-3;                      ///< load increment of the first step
   double smallest = 1e-7;                   ///< increment below which the run gives up
@@ -190,13 +191,16 @@ struct LoadStepping {
   void attempt(Session& session, Problem& problem, double to, RunState& state, Observer& observer) const {
     RunReport& run = state.report;
     double& increment = state.increment;
+    double const goal = std::min(to, next_knot(problem, run.load + smallest));
+    double tried = std::min(increment, goal - run.load);
+    bool const is_cut = tried < increment;
     StepReport step;
     step.step = run.steps + 1;
     step.load = run.load;
     bool const began = try_step(session, problem, step, run, observer, [&] {
-      Eigen::VectorXd displacement = limited_prediction(session, problem, run.load, to, increment);
-      step.load = end_of(run.load, to, increment);
-      step.load_increment = step.load < to ? increment : to - run.load;
+      Eigen::VectorXd displacement = limited_prediction(session, problem, run.load, goal, tried);
+      step.load = end_of(run.load, goal, tried);
+      step.load_increment = step.load < goal ? tried : goal - run.load;
       return displacement;
     });
     if (!began || step.interrupted()) {  // a smaller increment cannot correct tangents or matrix
@@ -204,16 +208,26 @@ struct LoadStepping {
       return;
     }
     if (step.verdict.acceptable()) {
-      if (step.iterations() <= grow_below) increment *= growth;
+      // A step that a knot has cut short leaves the next one as long as it was to be.
+      if (!is_cut || step.load < goal) increment = step.iterations() <= grow_below ? tried * growth : tried;
       if (step.iterations() > shrink_above) increment *= shrinkage;
     } else {
-      increment *= 0.5;
+      increment = 0.5 * tried;
       if (increment < smallest) {
         run.verdict = {Status::not_converged, Reason::step_too_small};
         return;
       }
     }
     increment = std::min({increment, largest, std::max(to - run.load, smallest)});
+  }
+
+  /// First load factor beyond one where loads or prescribed motions may turn; infinite for a problem that names none.
+  template <class Problem>
+  static double next_knot(Problem const& problem, double load) {
+    double next = std::numeric_limits<double>::infinity();
+    if constexpr (requires { problem.loads().next_knot(load) + problem.constraints().next_knot(load); })
+      next = std::min(problem.loads().next_knot(load), problem.constraints().next_knot(load));
+    return next;
   }
 
   /// From the committed state at the step's load to equilibrium at what predict() begins with; an interrupted attempt counts

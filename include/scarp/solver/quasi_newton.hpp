@@ -164,7 +164,7 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
     report.verdict = linearised.linearise(increment, evaluation.unbalanced, working_);
     if (report.verdict.acceptable()) report.verdict = linearised.solve(next, no_more);
     if (!report.verdict.acceptable()) {
-      report.weak_dof = linearised.weak_dof();
+      if (report.verdict.reason == Reason::singular_system) report.weak_dof = linearised.weak_dof();
       return;
     }
     linear_residual = linearised.linear_residual();

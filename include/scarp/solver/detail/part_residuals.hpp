@@ -22,16 +22,6 @@ inline double squared_over(std::vector<int> const& dofs, Eigen::VectorXd const& 
   return sum;
 }
 
-/// |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads| and what the elements and the attachment
-/// carry at free degrees of freedom (`carried`, squared); Euclidean norms. Reactions alone may be round-off: those of a body that is
-/// pressed from all sides.
-inline double residual_of_all(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double carried,
-                              std::vector<int> const& free_dofs, std::vector<int> const& prescribed_dofs) {
-  double const free = squared_over(free_dofs, unbalanced);
-  double const scale = std::max({squared_over(prescribed_dofs, unbalanced), loads.squaredNorm(), carried});
-  return free == 0.0 ? 0.0 : std::sqrt(free / scale);
-}
-
 /// |unbalanced| over |loads| of free degrees of freedom from the first one of attached bodies on; 0 without such loads.
 inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads,
                               std::vector<int> const& free_dofs, int first) {
