@@ -258,6 +258,8 @@ def check_ground(folder):
     for program in (specimen, wall):
         code, said = run(*program, "--sand", "rolling.sand", folder=folder)
         expect(code > 0 and "law 'rolling' are not built" in said, f"{program[0].name} --sand rolling.sand: ended with {code}\n{said}")
+        code, said = run(*program, "--sand", SANDS / "karlsruhe.sand", folder=folder)
+        expect(code > 0 and "grains are spheres (this program is plane)" in said, f"{program[0].name} with spheres: ended with {code}\n{said}")
 
 
 for check in (check_file, check_refusals, check_scenes, check_calibration, check_infeasible, check_tables, check_impossible_tables, check_ground):
