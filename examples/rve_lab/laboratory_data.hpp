@@ -66,6 +66,7 @@ struct LabTable {
   /// Stress that the test held [Pa]; none where the table has no stresses.
   /// \throws InputError for one that is not held
   std::optional<double> held_stress() const {
+    constexpr double lowest = 1e3;  // [Pa], below those of any laboratory
     if (held.empty()) return std::nullopt;
     auto const [least, most] = std::ranges::minmax(held);
     if (!(least > 0.0 && most - least <= 0.2 * most))
@@ -74,7 +75,14 @@ struct LabTable {
           "other are "
           "expected): check their units, --triaxial and --path, or give stress_ratio and --lateral-stress",
           file, least, most);
-    return (least + most) / 2.0;
+    double const middle = (least + most) / 2.0;
+    if (middle < lowest)
+      scarp::reject(
+          "the test of '{}' holds {:.4g} Pa by its q and p (at least {} Pa is expected): name the columns q_kPa and "
+          "p_kPa where they "
+          "are in kPa",
+          file, middle, lowest);
+    return middle;
   }
 
  private:

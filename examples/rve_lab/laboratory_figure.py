@@ -12,7 +12,8 @@ COLOURS = (VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 NAMES = {"strain": {"length": 100.0, "eps1_percent": 1.0, "eps1": 100.0, "axial_strain": 100.0, "gamma_percent": 1.0},
          "volume": {"volumetric_strain": 100.0, "epsv_percent": 1.0, "epsv": 100.0},
          "q": {"q": 1e-3, "q_kPa": 1.0}, "p": {"p": 1e-3, "p_kPa": 1.0},
-         "axial": {"axial_stress": 1e-3, "sigma1_kPa": 1.0, "sig1_kPa": 1.0}, "void_ratio": {"void_ratio": 1.0, "e": 1.0}}
+         "axial": {"axial_stress": 1e-3, "sigma1_kPa": 1.0, "sig1_kPa": 1.0},
+         "lateral": {"lateral_stress": 1e-3, "sigma3_kPa": 1.0, "sig3_kPa": 1.0}, "void_ratio": {"void_ratio": 1.0, "e": 1.0}}
 
 
 def read_curves(path):
@@ -31,7 +32,10 @@ def read_curves(path):
         axial = table["axial_stress"] - table["lateral_stress"] if {"axial_stress", "lateral_stress"} <= set(table) else np.zeros(count)
         curve["q"] = 1e-3 * (axial if np.ptp(axial) > np.ptp(shear) else shear)
     points = table.get("point", np.zeros(count))
-    return [{name: values[points == point] for name, values in curve.items()} for point in np.unique(points)]
+    curves = [{name: values[points == point] for name, values in curve.items()} for point in np.unique(points)]
+    for one in curves:  # the total lateral stress is held
+        one["pore"] = one["lateral"][0] - one["lateral"]
+    return curves
 
 
 def is_cyclic(curve):
@@ -58,6 +62,9 @@ def laboratory(folder, overlays=()):
     shown = [("strain", "q", "strain [%]", q), ("p", "q", "p [kPa]", q),
              ("strain", "volume", "strain [%]", "volumetric strain [%]\n(contraction positive)"),
              ("axial" if compresses else "p", "void_ratio", f"{'axial stress' if compresses else 'p'} [kPa]", "void ratio")]
+    at_constant_volume = all(np.nanmax(np.abs(curve["volume"]), initial=0.0) < 1e-6 for curve in own)
+    if at_constant_volume:
+        shown[2:] = [("strain", "p", "strain [%]", "p [kPa]"), ("strain", "pore", "strain [%]", "pore pressure [kPa]\n(total lateral stress held)")]
     for axes, (x, y, x_label, y_label) in zip(panels.flat, shown):
         for name, curves, colour, dashes in runs:
             if len(curves) > 1:
@@ -67,17 +74,15 @@ def laboratory(folder, overlays=()):
             label = name if len(curves) == 1 else f"{name}, mean of {len(curves)}"
             axes.plot(mean[x], mean[y], dashes, color=colour, label=label)
         axes.set(xlabel=x_label, ylabel=y_label)
-        if y == "volume" and all(np.nanmax(np.abs(c["volume"]), initial=0.0) < 1e-6 for _, cs, _, _ in runs for c in cs):
-            axes.set_ylim(-0.1, 0.1)
     if compresses:
         panels[1][1].set_xscale("log")
-    mark_states(panels, summary, len(own))
+    mark_states(panels, summary, len(own), at_constant_volume)
     panels[0][0].legend(loc="best")
     fig.suptitle(f"{summary.get('path', 'test').replace('_', ' ').capitalize()} test", fontsize=10)
     return fig
 
 
-def mark_states(panels, summary, count):
+def mark_states(panels, summary, count, at_constant_volume):
     results = summary.get("mean") or {}
     for name, marker in (("peak", "o"), ("phase_transformation", "^"), ("residual", "s")):
         state = results.get(name)
@@ -89,4 +94,4 @@ def mark_states(panels, summary, count):
         style = {"color": BLACK if count == 1 else GREY, "markersize": 4, "zorder": 5, "linestyle": "none"}
         panels[0][0].plot(100.0 * state["strain"], 1e-3 * state["q"], marker, label=label, **style)
         panels[0][1].plot(1e-3 * state["p"], 1e-3 * state["q"], marker, **style)
-        panels[1][0].plot(100.0 * state["strain"], 100.0 * state["volumetric_strain"], marker, **style)
+        panels[1][0].plot(100.0 * state["strain"], 1e-3 * state["p"] if at_constant_volume else 100.0 * state["volumetric_strain"], marker, **style)

@@ -217,7 +217,8 @@ def check_impossible_tables(folder):
             (ratio, lambda t: (0.1 * t * (0.8 - t), 0, t), held, "it is not to decrease"),
             ("axial_strain,q,p", lambda t: (0.1 * t, 4e5 * t, 100 + 133 * t), [], "give q and p in one unit"),
             ("axial_strain,q,p", lambda t: (0.1 * t, 4e5 * t, 2e5), [], "goes from"),
-            ("axial_strain,q,p", lambda t: (0.1 * t, 200 * t, 100 + 100 * t), held, "the columns q_kPa and p_kPa"),
+            ("axial_strain,q,p", lambda t: (0.1 * t, 200 * t, 100 + 100 * t), [], "holds 100 Pa by its q and p"),
+            ("axial_strain,q_kPa,p_kPa", lambda t: (0.1 * t, 200 * t, 200 + 100 * t), held, "--lateral-stress is 1e+05 Pa"),
             ("axial_strain,volumetric_strain", lambda t: (0.1 * t, 0), [], "give --lateral-stress"),
             ("axial_strain,void_ratio", lambda t: (0.1 * t, 0.7), held, "no stress_ratio, no q and p, and no volumetric_strain (line 1 names axial_strain, void_ratio"),
             ("eps_percent,stress_ratio", lambda t: (0.1 * t, t), held, "(line 1 names eps_percent, stress_ratio; axial_strain, axial_strain_percent, eps1")):
@@ -258,6 +259,8 @@ def check_ground(folder):
     for program in (specimen, wall):
         code, said = run(*program, "--sand", "rolling.sand", folder=folder)
         expect(code > 0 and "law 'rolling' are not built" in said, f"{program[0].name} --sand rolling.sand: ended with {code}\n{said}")
+        code, said = run(*program, "--sand", SANDS / "karlsruhe.sand", folder=folder)
+        expect(code > 0 and "grains are spheres (this program is plane)" in said, f"{program[0].name} with spheres: ended with {code}\n{said}")
 
 
 for check in (check_file, check_refusals, check_scenes, check_calibration, check_infeasible, check_tables, check_impossible_tables, check_ground):

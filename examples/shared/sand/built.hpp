@@ -69,6 +69,10 @@ void with_packing(Built<Packings...>, Sand const& sand, Task const& task) {
   auto const run = [&]<class Packing>(std::type_identity<Packing> packing) {
     if (fits(packing)) task(packing, law_of<typename Packing::Law>(sand));
   };
+  if (sand.shape == "sphere" && ((Packings::dim == 2) && ...))
+    scarp::reject(
+        "the sand's grains are spheres (this program is plane): use ellipses; spheres go to rve_lab test and "
+        "calibrate");
   if (!(fits(std::type_identity<Packings>{}) || ...)) {
     std::string built;
     ((built += fmt::format("{}{} {}", built.empty() ? "" : ", ", name_in_sand<typename Packings::Shape>,
