@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 
 #include "../shared/budget_report.hpp"
@@ -58,8 +59,8 @@ class Specimen {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(grid.dof_count());
     Eigen::VectorXd forces;
     grid.internal_force(still, problem_.committed_stresses(), forces);
-    problem_.attached().add_forces(grid.positions(), still, forces);
-    double sum = 0.0;
+    auto const verdict = problem_.attached().add_forces(grid.positions(), still, forces);
+    double sum = verdict.acceptable() ? 0.0 : std::nan("");
     for (int const node : sides_.top) sum -= forces(2 * node + 1);
     return sum;
   }

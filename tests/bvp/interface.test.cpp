@@ -194,7 +194,7 @@ TEST_CASE("a base that slides over a kink of the ground changes its force contin
     Eigen::VectorXd increment = Eigen::VectorXd::Zero(9);
     increment(6) = x;
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(9);
-    interface.add_forces(nodes, increment, forces);
+    REQUIRE(interface.add_forces(nodes, increment, forces).acceptable());
     return forces;
   };
   constexpr double step = 1e-5;
@@ -214,7 +214,7 @@ TEST_CASE("the stiffness of a base that slides along a slope is the derivative o
     Eigen::VectorXd increment = Eigen::VectorXd::Zero(7);
     increment.segment<2>(4) << x, y;
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(7);
-    interface.add_forces(nodes, increment, forces);
+    REQUIRE(interface.add_forces(nodes, increment, forces).acceptable());
     return forces;
   };
   constexpr double step = 1e-6;

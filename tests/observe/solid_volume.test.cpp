@@ -31,7 +31,7 @@ TEST_CASE("solids neither come nor go with packings that deform as their element
     for (int step = 0; step < 3; ++step) {  // elements shrink and grow by up to a third
       Eigen::VectorXd moves = Eigen::VectorXd::Zero(problem.dof_count());
       for (Eigen::Index k = 0; k < moves.size(); ++k) moves(k) = 0.01 * static_cast<double>((3 + k * k) % 5);
-      problem.plan(moves);
+      REQUIRE(problem.plan(moves).acceptable());
       REQUIRE(problem.evaluate(moves).verdict.acceptable());
       problem.commit(moves);
     }

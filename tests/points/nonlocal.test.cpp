@@ -129,7 +129,7 @@ TEST_CASE("points that were saved and loaded go on with the same bits") {
   samples::Softening const soil{.reference_strain = 0.02};
   Problem first = block({.length = 0.6}, soil, executor);
   Eigen::VectorXd const moves = uneven(first.dof_count(), 0.01);
-  first.plan(moves);
+  REQUIRE(first.plan(moves).acceptable());
   REQUIRE(first.evaluate(moves).verdict.acceptable());
   first.commit(moves);
   scarp::StateWriter writer;
@@ -199,7 +199,7 @@ TEST_CASE("equations of a wide stiffness are solved as those of its matrix") {
   scarp::SerialExecutor executor;
   auto problem = block({.length = 0.6}, {.reference_strain = 5e-3}, executor);
   Eigen::VectorXd const at = uneven(problem.dof_count(), 2e-3);
-  problem.plan(at);
+  REQUIRE(problem.plan(at).acceptable());
   REQUIRE(problem.evaluate(at).verdict.acceptable());
   scarp::GroundStiffness stiffness;
   problem.ground_stiffness(at, problem.trial_tangents(), stiffness);

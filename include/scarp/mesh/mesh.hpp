@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -142,8 +143,11 @@ std::vector<MeshSide<Element>> sorted_sides(Mesh<Element> const& mesh) {
 
 /// Those of the sorted sides that have these nodes, in whatever order: none, one or, between two elements, two.
 template <class Element>
-auto sides_with(std::vector<MeshSide<Element>> const& sides, decltype(MeshSide<Element>::nodes) const& nodes) {
-  return std::ranges::equal_range(sides, sorted_nodes(nodes), {}, &MeshSide<Element>::sorted);
+std::span<MeshSide<Element> const> sides_with(std::vector<MeshSide<Element>> const& sides,
+                                              decltype(MeshSide<Element>::nodes) const& nodes) {
+  auto const sorted = sorted_nodes(nodes);
+  auto const first = std::ranges::lower_bound(sides, sorted, {}, &MeshSide<Element>::sorted);
+  return {first, std::ranges::upper_bound(sides, sorted, {}, &MeshSide<Element>::sorted)};
 }
 
 template <class Element>

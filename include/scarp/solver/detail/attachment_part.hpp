@@ -41,7 +41,8 @@ class AttachmentPart : public AttachedProblem<Dim> {
   /// result is that of the next evaluation.
   Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) override {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(this->dof_count());
-    attached_.add_forces(static_cast<Problem const&>(*this).discretisation().positions(), increment, forces);
+    auto const& places = static_cast<Problem const&>(*this).discretisation().positions();
+    static_cast<void>(attached_.add_forces(places, increment, forces));
     return forces;
   }
 

@@ -93,7 +93,7 @@ template <class Element>
 bool orient(std::array<int, Element::facet_nodes>& side, std::vector<MeshSide<Element>> const& sides) {
   auto const found = sides_with(sides, side);
   auto const has_sense = [&](auto const& other) { return same_winding<typename Element::Facet>(side, other.nodes); };
-  if (!found.empty() && std::ranges::none_of(found, has_sense)) side = found.front().nodes;
+  if (!found.empty() && std::none_of(found.begin(), found.end(), has_sense)) side = found.front().nodes;
   return !found.empty();
 }
 
