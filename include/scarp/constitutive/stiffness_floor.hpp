@@ -45,8 +45,8 @@ struct StiffnessFloor {
     require_not_negative("shear modulus of a fluid point", shear_modulus);
   }
 
-  /// The provider's state, with the floor's elasticity from its tangent or from `shear_modulus`. A point without stress and
-  /// stiffness is fluid from the start, and has the floor at once.
+  /// The provider's state, with the floor's elasticity from its tangent or from `shear_modulus`. A point without stress
+  /// and stiffness is fluid from the start, and has the floor at once.
   /// \throws InputError also for a share of nothing where a point is fluid from the start
   State initial_state(Site<dim> const& site) const {
     validate();

@@ -13,8 +13,9 @@
 
 namespace scarp {
 
-/// Restarted GMRES (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856) with Householder's reflections (H. F. Walker,
-/// SIAM J. Sci. Stat. Comput. 9 (1988) 152), a LinearIteration: it ends at 1e-4 of the preconditioned residual or after 300 products.
+/// Restarted GMRES (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856) with Householder's reflections
+/// (H. F. Walker, SIAM J. Sci. Stat. Comput. 9 (1988) 152), a LinearIteration. It ends at 1e-4 of the preconditioned
+/// residual or after 300 products.
 SCARP_EXPORT Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& preconditioner,
                                    Eigen::VectorXd const& right);
 

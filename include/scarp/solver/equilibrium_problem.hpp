@@ -165,11 +165,10 @@ class SCARP_EXPORT EquilibriumProblem final
         {residual_of_all(unbalanced), regions_.largest(unbalanced, load_now_), residual_beside(unbalanced)});
   }
 
-  /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads| and what the
-  /// elements and the attachment carried there in the last evaluation, Euclidean norms, and never less than a thousandth of
-  /// the largest that a committed state had, since nothing is left of them in a body that is unloaded; then follows every
-  /// region of the mesh that is held nowhere, by its name, unless it is the only one, as a rigid body, and "attached", each
-  /// over its own loads at the present load factor (0 without such loads).
+  /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads|
+  /// and what the elements and the attachment carried there last, Euclidean norms, or a thousandth of the largest that
+  /// a committed state had, since an unloaded body has none. Then follows each region of the mesh that is held nowhere,
+  /// by its name, unless it is the only one, as a rigid body, and "attached", each over its own loads (0 without them).
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
     std::vector<PartResidual> parts{{"all", residual_of_all(unbalanced)}};
     regions_.list(unbalanced, load_now_, parts);
@@ -177,7 +176,7 @@ class SCARP_EXPORT EquilibriumProblem final
     return parts;
   }
 
-  /// Imbalance of an attached body over its own loads: a heavy ground's reactions would hide it. 0 without body or loads.
+  /// Imbalance of an attached body over its own loads, since reactions of the ground would hide it; 0 without loads.
   double residual_beside(Eigen::VectorXd const& unbalanced) const override {
     return detail::residual_beside(unbalanced, load_now_, free_dofs_, discretisation_.dof_count());
   }

@@ -91,8 +91,8 @@ double condition_estimate(SparseMatrix const& matrix, Solver const& solver) {
   return norm * inverse_norm;
 }
 
-/// The unknown that a singular or nearly singular matrix holds least: the largest entry of the vector that it maps nearest to
-/// nothing, by inverse iteration with a small shift; any unknown where the whole matrix is zero. -1 when that fails too.
+/// The unknown that a singular or nearly singular matrix holds least: largest entry of the vector that it maps nearest
+/// to nothing, by inverse iteration with a small shift; any unknown where the whole matrix is zero. -1 when that fails.
 template <LinearSolver Solver>
 int weakest_unknown(SparseMatrix const& matrix) {
   Eigen::Index const size = matrix.rows();

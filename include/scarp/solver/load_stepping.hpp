@@ -106,9 +106,9 @@ inline RunReport joined(RunReport const& earlier, RunReport later) {
 }
 
 /// Raises the load factor in steps that adapt themselves: the prediction's largest displacement gradient limits a step before
-/// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved. A step
-/// ends at the knots of loads and prescribed motions, so that no peak is passed by. Only a step whose residual and points are
-/// all acceptable is committed.
+/// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved.
+/// A step ends at the knots of loads and prescribed motions, so that no peak is passed by. Only a step whose residual
+/// and points are all acceptable is committed.
 struct LoadStepping {
   double first = 1e-3;                      ///< load increment of the first step
   double smallest = 1e-7;                   ///< increment below which the run gives up

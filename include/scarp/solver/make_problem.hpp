@@ -15,8 +15,8 @@
 namespace scarp {
 
 /// The material points of a discretisation. surface_level [m]: height of the ground surface, from which depths are measured
-/// \throws InputError for a region that the mesh does not have, one given twice, one of the mesh without material, and a
-/// surface above or below the mesh
+/// \throws InputError for a region that the mesh does not have, one given twice, one of the mesh without material, and
+/// a surface above or below the mesh
 template <class DiscretisationType, ExecutesTasks Executor, class... Materials>
 MaterialPoints<DiscretisationType::dim> make_points(DiscretisationType const& discretisation, double surface_level,
                                                     boost::hana::tuple<Region<Materials>...> const& regions,
