@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -57,10 +58,13 @@ double least_of_groups(std::string const& groups, std::string const& mounted, st
     auto const controllers = line.find(':') + 1;
     auto const path = line.find(':', controllers);
     if (controllers == 0 || path == std::string::npos) continue;
-    auto const names = "," + line.substr(controllers, path - controllers) + ",";
-    bool const is_second = names == ",,";
-    if (!is_second && names.find("," + controller + ",") == std::string::npos) continue;
-    auto const root = mounted + (is_second ? "" : "/" + controller);
+    std::istringstream names(line.substr(controllers, path - controllers));
+    bool const is_second = path == controllers;
+    bool is_wanted = is_second;
+    for (std::string name; std::getline(names, name, ',');) is_wanted = is_wanted || name == controller;
+    if (!is_wanted) continue;
+    std::string root = mounted;
+    if (!is_second) root.append("/").append(controller);
     std::filesystem::path group = line.substr(path + 1);
     for (bool above = true; above; group = group.parent_path()) {
       double const one = left([&](char const* name) { return (root + group.string()) + "/" + name; }, is_second);

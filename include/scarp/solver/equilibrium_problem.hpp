@@ -167,7 +167,7 @@ class SCARP_EXPORT EquilibriumProblem final
 
   /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads|
   /// and what the elements and the attachment carried there last, Euclidean norms, or a thousandth of the largest that
-  /// a committed state had, since an unloaded body has none. Then follows every region of the mesh that is held nowhere,
+  /// a committed state had, since an unloaded body has none. Then follows each region of the mesh that is held nowhere,
   /// by its name, unless it is the only one, as a rigid body, and "attached", each over its own loads (0 without them).
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
     std::vector<PartResidual> parts{{"all", residual_of_all(unbalanced)}};
