@@ -49,7 +49,8 @@ template <class Material>
 void take_keywords(py::dict given, Material& material) {
   for_each_keyword(material, [&](py::str const& name, auto& member) {
     if (!given.contains(name)) return;
-    py::object const value = given.attr("pop")(name);
+    py::object value = given.attr("pop")(name);
+    if (py::hasattr(value, "__fspath__")) value = value.attr("__fspath__")();
     try {
       member = value.cast<std::remove_reference_t<decltype(member)>>();
     } catch (py::cast_error const&) {
@@ -71,8 +72,10 @@ void take_keywords(py::dict given, Material& material) {
 /// \throws InputError for other types and shapes
 inline py::array_t<double, py::array::c_style> rows_of(py::object const& given, char const* what,
                                                        std::vector<py::ssize_t> const& shape) {
-  auto const array = py::array::ensure(given);
-  if (!array) {
+  if (py::module_::import("numpy").attr("ma").attr("is_masked")(given).cast<bool>())
+    scarp::reject("{} are masked (a mask would be lost): fill the masked numbers, or leave their points out", what);
+  auto const array = given.is_none() ? py::array() : py::array::ensure(given);
+  if (!array || given.is_none()) {
     PyErr_Clear();
     scarp::reject("{} are no array ({}): give a NumPy array", what, std::string(py::str(given.get_type())));
   }

@@ -2,20 +2,50 @@
 // How does Python call packings as materials? Points that respond to NumPy arrays, with their states inside: a biaxial test.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <chrono>
+#include <exception>
 #include <set>
+#include <thread>
 
 #include "../shared/sand/sand_file.hpp"
 #include "keywords.hpp"
 #include "points.hpp"
 #include "scarp/core/build_info.hpp"
+#include "scarp/core/interruption.hpp"
 #include "scarp/tensor/geo.hpp"
 
 namespace python_points {
 namespace {
 
 constexpr auto number_size = static_cast<py::ssize_t>(sizeof(double));
+
+/// Ends long work by the exception of Python's signal handlers (Ctrl-C), which run where this was made: on Python's main thread.
+class Signals {
+ public:
+  /// Runs the handlers every now and then. \throws py::error_already_set once one of them has failed
+  void look() {
+    if (is_over_) std::rethrow_exception(failure_);
+    auto const moment = std::chrono::steady_clock::now();
+    if (std::this_thread::get_id() != owner_ || moment < next_) return;
+    next_ = moment + std::chrono::milliseconds(100);
+    py::gil_scoped_acquire const acquire;
+    if (PyErr_CheckSignals() == 0) return;
+    failure_ = std::make_exception_ptr(py::error_already_set());
+    is_over_ = true;
+    std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::thread::id owner_ = std::this_thread::get_id();
+  std::chrono::steady_clock::time_point next_{};
+  std::exception_ptr failure_;
+  std::atomic<bool> is_over_ = false;
+  std::function<void()> const look_ = [this] { look(); };
+  scarp::InterruptionCheck const check_{&look_};
+};
 
 template <int Dim>
 py::dict quantities(Points<Dim>& points, int point) {
@@ -66,7 +96,14 @@ py::tuple respond(Points<Dim>& points, py::object const& given, int threads, int
         for (int j = 0; j < Dim; ++j) all.gradient(k)(i, j) = rows(k, i, j);
       }
     }
-    auto const report = all.respond(executor, refinements);
+    Signals signals;
+    scarp::ResponseReport report;
+    try {
+      report = all.respond(executor, refinements);
+    } catch (py::error_already_set const&) {  // DEM steps may have been refined on the way
+      all.discard();
+      throw;
+    }
     stresses = all.stresses();
     if (tangents) moduli = all.tangents(executor);
     for (auto const& response : all.responses()) verdicts.push_back(response.verdict);
@@ -109,6 +146,9 @@ Places<Dim> places_of(py::object const& positions, py::object const& volumes, do
   if (indices) {
     if (indices->size() != places.indices.size())
       scarp::reject("{} indices are given for {} points: give one to each", indices->size(), places.indices.size());
+    for (int const index : *indices) {
+      if (index < 0) scarp::reject("index {} is given to a point (0 or more is expected): correct it", index);
+    }
     places.indices = std::move(*indices);
   }
   places.volumes = column(volumes, "volumes");
@@ -131,15 +171,16 @@ Material<Dim> made(std::string const& kind, py::dict keywords) {
     return bits_of(recipe);
   });
   py::gil_scoped_release const release;
+  Signals signals;
   return prepared<Dim>(kind, bits, threads, [&](int done, int total, std::string const& text) {
+    if (progress.is_none()) return;
     py::gil_scoped_acquire const acquire;
-    if (!progress.is_none()) progress(done, total, text);
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    progress(done, total, text);
   });
 }
 
 /// The options of a sand's file as keywords. given: keywords that replace some
-py::dict sand_keywords(std::string const& file, std::set<std::string> const& given) {
+py::dict sand_keywords(std::filesystem::path const& file, std::set<std::string> const& given) {
   auto const is_given = [&](std::string name) {
     std::ranges::replace(name, '-', '_');
     return given.contains(name);
@@ -160,6 +201,13 @@ py::tuple names_up_to() {
   py::tuple names(count);
   for (std::size_t k = 0; k < count; ++k) names[k] = name(decltype(last)(k));
   return names;
+}
+
+/// Bytes of an object that holds some, such as a bytearray.
+py::bytes bytes_of(py::buffer const& held) {
+  PyObject* const bytes = PyBytes_FromObject(held.ptr());
+  if (!bytes) throw py::error_already_set();
+  return py::reinterpret_steal<py::bytes>(bytes);
 }
 
 py::object load(std::string_view bytes) {
@@ -237,8 +285,8 @@ void bind(py::module_& module, char const* material_name, char const* points_nam
           "Gives a point the committed state of another one.")
       .def("pack", [](All& self, std::vector<int> const& points) { return py::bytes(self.now().pack(points)); })
       .def("unpack", [](All& self, std::vector<int> const& points,
-                        py::bytes const& bits) { self.now().unpack(points, std::string_view(bits)); })
-      .def("save", [](All& self, std::string const& path) { scarp::write_file(path, self.bytes()); })
+                        py::buffer const& bits) { self.now().unpack(points, std::string_view(bytes_of(bits))); })
+      .def("save", [](All& self, std::filesystem::path const& path) { scarp::write_file(path, self.bytes()); })
       .def("__deepcopy__", [](All& self, py::dict const&) { return load(self.bytes()); })
       .def("__reduce__", [](All& self) {
         return py::make_tuple(py::module_::import("scarp").attr("loads"), py::make_tuple(py::bytes(self.bytes())));
@@ -254,11 +302,11 @@ PYBIND11_MODULE(_points, module) {
   bind<2>(module, "Material", "Points");
   bind<3>(module, "MaterialInSpace", "PointsInSpace");
   module.def("sand_keywords", &sand_keywords);
-  module.def("load", [](std::string const& path) {
+  module.def("load", [](std::filesystem::path const& path) {
     auto const file = scarp::read_file(path);
-    return scarp::with_context(fmt::format("cannot load '{}'", path), [&] { return load(file); });
+    return scarp::with_context(fmt::format("cannot load '{}'", path.string()), [&] { return load(file); });
   });
-  module.def("loads", [](py::bytes const& bytes) { return load(std::string_view(bytes)); });
+  module.def("loads", [](py::buffer const& bytes) { return load(std::string_view(bytes_of(bytes))); });
   module.attr("statuses") = names_up_to<scarp::Status::failed>();
   module.attr("reasons") = names_up_to<scarp::Reason::interrupted>();
   static_cast<py::class_<Points<2>>>(module.attr("Points"))

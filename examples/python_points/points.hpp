@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "materials.hpp"
+#include "scarp/core/process.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/points/nonlocal.hpp"
 
@@ -45,7 +46,7 @@ class Points {
   /// The points, while no other thread has them.
   /// \throws std::runtime_error
   scarp::MaterialPoints<Dim>& now() {
-    if (busy_) throw std::runtime_error(in_use);
+    if (long const process = busy_) reject_in_use(process);
     return points_;
   }
 
@@ -53,10 +54,11 @@ class Points {
   /// \throws std::runtime_error like now()
   template <class Work>
   void at_work(int threads, Work const& work) {
-    if (busy_.exchange(true)) throw std::runtime_error(in_use);
+    if (long process = 0; !busy_.compare_exchange_strong(process, scarp::detail::process_number()))
+      reject_in_use(process);
     struct Done {
-      std::atomic<bool>& busy;
-      ~Done() { busy = false; }
+      std::atomic<long>& busy;
+      ~Done() { busy = 0; }
     } const done{busy_};
     if (!team_ || threads_ != threads) team_ = std::make_unique<scarp::ThreadExecutor>(threads);
     threads_ = threads;
@@ -106,14 +108,21 @@ class Points {
   }
 
  private:
-  static constexpr char const* in_use =
-      "the points respond to another thread (they serve one at a time): wait for it, or give each thread its own";
+  /// process: where they respond
+  [[noreturn]] static void reject_in_use(long process) {
+    throw std::runtime_error(process == scarp::detail::process_number()
+                                 ? "the points respond to another thread (they serve one at a time): wait for it, or "
+                                   "give each thread its own"
+                                 : "the points responded to a thread when this process was forked from its own (nobody "
+                                   "ends that here): fork "
+                                   "between responses, or load points that were saved");
+  }
 
   Material<Dim> material_;
   Places<Dim> places_;
   scarp::MaterialPoints<Dim> points_;
   scarp::ResponseReport report_{};
-  std::atomic<bool> busy_ = false;
+  std::atomic<long> busy_ = 0;  ///< process in which they respond now
   std::unique_ptr<scarp::ThreadExecutor> team_;
   int threads_ = 0;
 };

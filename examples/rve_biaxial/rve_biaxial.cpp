@@ -2,17 +2,17 @@
 // How strong and how dilatant is the reference study's sand? Consolidates 400 ellipses and compresses them in a drained biaxial test.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <thread>
 
 #include "../shared/command_line.hpp"
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "report.hpp"
+#include "scarp/core/process.hpp"
+#include "scarp/solver/thread_executor.hpp"
 #include "tables.hpp"
 
 namespace {
@@ -54,30 +54,13 @@ std::vector<rve_biaxial::Result> run_all(Options const& options) {
   auto const seeds = static_cast<std::size_t>(options.seeds);
   std::size_t const count = options.preparation_frictions.size() * seeds;
   std::vector<rve_biaxial::Result> results(count);
-  std::vector<std::exception_ptr> problems(count);
-  std::atomic<std::size_t> next{0};
-  auto const run = [&](std::size_t k) {
-    auto choice = options.choice;
-    choice.preparation_friction = options.preparation_frictions[k / seeds];
-    return rve_biaxial::run_seed(choice, options.seed + k % seeds);
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (std::size_t w = 0; w < std::min<std::size_t>(count, std::max(1U, std::thread::hardware_concurrency())); ++w) {
-      workers.emplace_back([&] {
-        for (std::size_t k = next++; k < count; k = next++) {
-          try {
-            results[k] = run(k);
-          } catch (...) {
-            problems[k] = std::current_exception();
-          }
-        }
+  scarp::ThreadExecutor(std::min(static_cast<int>(count), scarp::usable_processors()))
+      .for_each(static_cast<int>(count), [&](int task) {
+        auto const k = static_cast<std::size_t>(task);
+        auto choice = options.choice;
+        choice.preparation_friction = options.preparation_frictions[k / seeds];
+        results[k] = rve_biaxial::run_seed(choice, options.seed + k % seeds);
       });
-    }
-  }
-  for (auto const& problem : problems) {
-    if (problem) std::rethrow_exception(problem);
-  }
   return results;
 }
 

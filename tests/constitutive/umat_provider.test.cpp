@@ -5,8 +5,12 @@
 
 #include "constitutive/provider_laws.hpp"
 #include "constitutive/umats.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/executor.hpp"
+#include "scarp/element/quad4.hpp"
+#include "scarp/element/tri6.hpp"
+#include "scarp/mesh/box_mesh.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/approx.hpp"
@@ -90,7 +94,7 @@ void tangent_is_the_derivative() {
 }
 
 scarp::UmatProvider<2> odd(double wish) {
-  return {.umat = umats::odd, .name = "CLAY", .properties = {wish}, .variables = {3.0}};
+  return {.umat = umats::odd, .name = "Clay", .properties = {wish}, .variables = {3.0}};
 }
 
 template <class Provider>
@@ -187,9 +191,9 @@ TEST_CASE("a point of a UMAT is copied, but not mirrored: nothing is known of it
 }
 
 TEST_CASE("a UMAT that writes outside of its arrays is rejected with the name of the array") {
-  CHECK_REFUSED(response_of(odd(1.0)), "CLAY", "STATEV", "1 numbers");
-  CHECK_REFUSED(response_of(odd(2.0)), "CLAY", "STRESS", "4 numbers");
-  CHECK_REFUSED(response_of(odd(3.0)), "CLAY", "DDSDDE", "16 numbers");
+  CHECK_REFUSED(response_of(odd(1.0)), "Clay", "STATEV", "1 numbers");
+  CHECK_REFUSED(response_of(odd(2.0)), "Clay", "STRESS", "4 numbers");
+  CHECK_REFUSED(response_of(odd(3.0)), "Clay", "DDSDDE", "16 numbers");
 }
 
 TEST_CASE("a UMAT that requests a smaller step does not converge, one that gives NaN fails") {
@@ -226,6 +230,67 @@ TEST_CASE("a UMAT receives the number of its increment") {
     CHECK(umat.respond(state, shear<2>(1e-3), trial).stress(0) == k);
     CHECK(umat.respond(state, shear<2>(2e-3), trial).stress(0) == k);  // a second trial of the same increment
     state = trial;
+  }
+}
+
+TEST_CASE("a UMAT receives the size and number of its element, and of its point in it, from a grid") {
+  // Analytic: cells of 3 m by 0.75 m have the root 1.5 m; nodes between the corners halve it.
+  auto const received = [](auto const& grid, int point) {
+    auto const umat = odd(9.0);
+    auto const start = umat.initial_state(grid.site(point, 0.0));
+    auto end = start;
+    return umat.respond(start, shear<2>(1e-3), end).stress;
+  };
+  scarp::BoxMesh<scarp::Quad4> const cells{.lengths = {9.0, 1.5}, .cells = {3, 2}};
+  auto const quads = received(scarp::Discretisation<scarp::Quad4>(cells.generate(), 0.2), 14);
+  CHECK(quads(0) == Approx(1.5).epsilon(1e-14));
+  CHECK(quads(1) == 4.0);
+  CHECK(quads(2) == 3.0);
+  scarp::BoxMesh<scarp::Tri6> const cell{.lengths = {3.0, 1.5}};
+  auto const triangles = received(scarp::Discretisation<scarp::Tri6>(cell.generate()), 3);
+  CHECK(triangles(0) == Approx(std::sqrt(2.25) / 2.0).epsilon(1e-14));
+  CHECK(triangles(1) == 2.0);
+  CHECK(triangles(2) == 1.0);
+  auto const umat = odd(9.0);
+  auto const alone = umat.initial_state({.index = 6});
+  auto end = alone;
+  CHECK(umat.respond(alone, shear<2>(1e-3), end).stress == scarp::VoigtStress<2>(1.0, 7.0, 1.0));
+}
+
+TEST_CASE("a UMAT that is written for space serves in plane strain, and is found out with four components") {
+  scarp::UmatProvider<2> umat{.umat = umats::of_space, .properties = {4e6}, .variables = {0.0}, .components = 6};
+  auto const start = umat.initial_state({});
+  auto end = start;
+  CHECK(umat.tangent(start) == scarp::VoigtTangent<2>(4e6 * scarp::VoigtTangent<2>::Identity()));
+  CHECK(umat.respond(start, shear<2>(2e-3), end).stress(2) == Approx(8e3).epsilon(1e-5));
+  CHECK(end.variables[0] == 0.0);
+  umat.components = 4;
+  CHECK_REFUSED(umat.initial_state({}), "wrote outside of", "components included");
+  umat.components = 3;
+  CHECK_REFUSED(umat.initial_state({}), "3 components", "6 of one for space");
+  scarp::UmatProvider<3> const in_space{
+      .umat = umats::of_space, .properties = {4e6}, .variables = {0.0}, .components = 4};
+  CHECK_REFUSED(in_space.initial_state({}), "4 components");
+}
+
+TEST_CASE("a UMAT that forgets the initial stress is rejected, and without initial stress serves") {
+  scarp::UmatProvider<2, scarp::GeostaticStress<2>> umat{.umat = umats::forgetful, .name = "loam", .properties = {5e6}};
+  auto const start = umat.initial_state({.depth = 4.0});
+  auto end = start;
+  CHECK(umat.respond(start, shear<2>(1e-3), end).verdict.acceptable());
+  umat.initial = {.surcharge = 2e3, .unit_weight = 18e3, .k0 = 0.6};
+  CHECK_REFUSED(umat.initial_state({.depth = 4.0}), "loam", "-44400, -74000, -44400 Pa become 0, 0, 0");
+  umat.umat = umats::careless;
+  umat.properties = {5e6, 0.0};
+  CHECK(umat.stress(umat.initial_state({.depth = 4.0}))(1) == Approx(-74e3).epsilon(1e-14));
+}
+
+TEST_CASE("a UMAT without a tangent, and one that reads beyond its arrays, are rejected before the first step") {
+  scarp::UmatProvider<3> umat{.umat = umats::careless, .name = "silt", .properties = {5e6, 1.0}, .variables = {0.0}};
+  CHECK_REFUSED(umat.initial_state({}), "silt", "leaves DDSDDE zero");
+  for (double const wish : {2.0, 3.0, 4.0}) {
+    umat.properties[1] = wish;
+    CHECK_REFUSED(umat.initial_state({}), "reads beyond its arrays", "state variables");
   }
 }
 

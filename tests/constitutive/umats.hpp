@@ -16,7 +16,8 @@ namespace umats {
   double *stress, double *statev, double *ddsdde, double *, double *, double *, double *, double *, double *, \
       double *, double *stran, double *dstran, double *, double *, double *, double *, double *, double *,    \
       char *cmname, int *ndi, int *, int *ntens, int *nstatv, double *props, int *, double *, double *,       \
-      double *pnewdt, double *, double *, double *dfgrd1, int *, int *, int *, int *, int *, int *kinc, std::size_t
+      double *pnewdt, [[maybe_unused]] double *celent, double *, double *dfgrd1, [[maybe_unused]] int *noel,  \
+      [[maybe_unused]] int *npt, int *, int *, int *, int *kinc, std::size_t
 
 /// Von Mises' plasticity with linear isotropic hardening by radial return (Simo and Hughes 1998, box 3.1).
 /// PROPS: shear modulus, bulk modulus, yield stress (zero: none), hardening modulus [Pa]; STATEV: equivalent plastic strain, calls.
@@ -59,8 +60,45 @@ inline void von_mises(UMAT_ARGUMENTS) {
   statev[1] += 1.0;
 }
 
+/// Young's modulus PROPS(1) and no lateral contraction, of strain as a whole: what stress was before, it forgets.
+inline void forgetful(UMAT_ARGUMENTS) {
+  static_cast<void>(statev), static_cast<void>(cmname), static_cast<void>(nstatv), static_cast<void>(pnewdt),
+      static_cast<void>(dfgrd1), static_cast<void>(kinc);
+  for (int i = 0; i < *ntens; ++i) {
+    double const modulus = i < *ndi ? props[0] : props[0] / 2.0;
+    stress[i] = modulus * (stran[i] + dstran[i]);
+    ddsdde[i * *ntens + i] = modulus;
+  }
+}
+
+/// As an elastic one of six components that never looks at NTENS; STATEV: sum of the shears 13 and 23.
+inline void of_space(UMAT_ARGUMENTS) {
+  static_cast<void>(stran), static_cast<void>(cmname), static_cast<void>(nstatv), static_cast<void>(pnewdt),
+      static_cast<void>(dfgrd1), static_cast<void>(kinc), static_cast<void>(ndi), static_cast<void>(ntens);
+  for (int i = 0; i < 6; ++i) {
+    stress[i] += props[0] * dstran[i];
+    for (int j = 0; j < 6; ++j) ddsdde[6 * j + i] = i == j ? props[0] : 0.0;
+  }
+  statev[0] += stress[4] + stress[5];
+}
+
+/// Elastic like `forgetful`, but adding, with one wish: 1 no DDSDDE, 2 reads STATEV(2), 3 reads PROPS(3), 4 reads DSTRAN(NTENS + 1).
+inline void careless(UMAT_ARGUMENTS) {
+  static_cast<void>(stran), static_cast<void>(cmname), static_cast<void>(nstatv), static_cast<void>(pnewdt),
+      static_cast<void>(dfgrd1), static_cast<void>(kinc), static_cast<void>(ndi);
+  double const wish = props[1];
+  for (int i = 0; i < *ntens; ++i) {
+    stress[i] += props[0] * dstran[i];
+    ddsdde[i * *ntens + i] = wish == 1.0 ? 0.0 : props[0];
+  }
+  if (wish == 2.0) statev[0] = statev[1];
+  if (wish == 3.0) stress[0] += props[2];
+  if (wish == 4.0) stress[0] += dstran[*ntens];
+}
+
 /// Does what its PROPS(1) says: 1 writes behind STATEV, 2 before STRESS, 3 behind DDSDDE, 4 requests a smaller step, 5 gives NaN,
-/// 6 returns what it received in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4); 7 returns STRAN, 8 KINC.
+/// 6 returns what it received in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4); 7 returns STRAN, 8 KINC, 9 CELENT, NOEL and
+/// NPT.
 inline void odd(UMAT_ARGUMENTS) {
   static_cast<void>(ndi);
   int const n = *ntens;
@@ -78,7 +116,9 @@ inline void odd(UMAT_ARGUMENTS) {
   }
   if (wish == 7) std::copy_n(stran, n, stress);
   if (wish == 8) stress[0] = *kinc;
+  if (wish == 9) stress[0] = *celent, stress[1] = *noel, stress[3] = *npt;
   statev[0] += 1.0;
+  for (int i = 0; i < n; ++i) ddsdde[i * n + i] = 1.0;
 }
 
 #undef UMAT_ARGUMENTS

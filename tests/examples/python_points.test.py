@@ -2,9 +2,11 @@
 """The Python module responds as the laws say, refuses wrong arrays in words, keeps states through pickles, files and copies, responds to several
 threads, and serves as micro simulation. Environment: SCARP_EXAMPLES, beside whose folder the module is (skipped, exit 77, without)."""
 import copy
+import multiprocessing
 import os
 import pathlib
 import pickle
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -67,6 +69,14 @@ refused(ValueError, "grains is 4.5 (a value like 400", lambda: scarp.ellipses(gr
 refused(ValueError, "void ratio 3", lambda: scarp.discs(grains=40, void_ratio=3.0))
 refused(RuntimeError, "could not be consolidated", lambda: scarp.discs(grains=40, pressure=1e12))
 refused(ZeroDivisionError, "division", lambda: scarp.discs(grains=40, progress=lambda *told: 1 / 0))
+refused(ValueError, "point -2 is named (there are 3 points)", lambda: points.quantities(-2))
+refused(ValueError, "index -4 is given to a point", lambda: scarp.MaterialPoints(scarp.linear_elastic(young=1e6), np.zeros((2, 2)), indices=[0, -4]))
+refused(ValueError, "are no array", lambda: points.respond(None))
+refused(ValueError, "dim is '3' (expected is 2 or 3)", lambda: scarp.mohr_coulomb(dim="3"))
+outlier = np.ma.masked_greater(good + np.eye(2) * 1e-9, 0.9 * small)
+refused(ValueError, "displacement gradients are masked", lambda: points.respond(outlier))
+refused(ValueError, "positions are masked", lambda: scarp.MaterialPoints(scarp.linear_elastic(young=1e6), np.ma.masked_invalid([[0.0, np.nan]])))
+expect(np.array_equal(points.respond(np.ma.masked_greater(good, 1.0))[0], points.respond(good)[0]), "a mask of nothing changes the stress")
 refused(ValueError, "point 3 is named (there are 3 points)", lambda: points.quantities(3))
 
 told = []
@@ -116,7 +126,7 @@ else:
     with tempfile.TemporaryDirectory() as scratch:
         subprocess.run([lab, "prepare", "--shape", "ellipse", "--grains", "60", "--friction", "0.3", "--output", "made"], cwd=scratch,
                        check=True, capture_output=True, timeout=100)
-        file = str(pathlib.Path(scratch) / "made/packing.packing")
+        file = pathlib.Path(scratch) / "made/packing.packing"
         beside, given, other, usual = (scarp.MaterialPoints(scarp.ellipses(file=file, **more), np.zeros((1, 2))).respond(gradients(1, -5e-3))[0]
                                 for more in ({}, {"friction": 0.3}, {"friction": 0.5}, {"friction": 0.55}))
         for more in ({"grains": 100}, {"packings": 2}):
@@ -136,17 +146,19 @@ expect(np.array_equal(serial, several) and (points.work > 0).all(), "two threads
 points.commit()
 expect(np.array_equal(points.stresses(), several), "a commit keeps other stresses than those of the response")
 with tempfile.TemporaryDirectory() as scratch:
-    file = os.path.join(scratch, "sand.points")
+    file = pathlib.Path(scratch) / "sand.points"
     points.save(file)
+    points.save(str(file))
     again = [pickle.loads(pickle.dumps(points)), copy.deepcopy(points), scarp.load(file)]
-    damaged = bytearray(pathlib.Path(file).read_bytes())
+    damaged = bytearray(file.read_bytes())
     damaged[len(damaged) // 2] ^= 1
-    pathlib.Path(file).write_bytes(damaged)
+    file.write_bytes(damaged)
     refused(ValueError, "sand.points", lambda: scarp.load(file))
 expected = points.respond(gradients(4, -1e-3))[0]
 for other in again:
     expect(np.array_equal(other.respond(gradients(4, -1e-3))[0], expected), "a saved state goes on in another way")
-again[0].unpack([2], points.pack([1]))
+again[0].unpack([2], bytearray(points.pack([1])))
+refused(TypeError, "", lambda: again[0].unpack([2], 7))
 again[1].copy(2, points, 1)
 expect(np.array_equal(again[0].stresses()[2], points.stresses()[1]) and np.array_equal(again[1].stresses()[2], points.stresses()[1]),
        "a packed or copied state is another one")
@@ -176,6 +188,95 @@ worker.join()
 for which in "01":
     expect(any(which == trouble[0] and "serve one at a time" in trouble for trouble in troubles), f"call {which} is not rejected")
 expect(counted[0] > 100, f"{counted} rounds during a response")
+
+# A state is not taken over by points whose law is another: contacts would carry another stress.
+held = scarp.MaterialPoints(scarp.discs(grains=60), np.zeros((2, 2)))
+for stiff in (scarp.discs(grains=60, normal_stiffness=3e7), scarp.discs(grains=60, friction=0.05)):
+    held.respond(gradients(2, -1e-3)), held.commit()
+    others = scarp.MaterialPoints(stiff, np.zeros((2, 2)))
+    for take in (lambda: others.copy(0, held, 1), lambda: others.unpack([0, 1], held.pack([0, 1]))):
+        refused(ValueError, "another law has made it", take)
+same = scarp.MaterialPoints(scarp.discs(grains=60, seed=4), np.zeros((2, 2)))
+same.copy(0, held, 1)
+same.unpack([1], held.pack([1]))
+expect(np.array_equal(same.respond(gradients(2, -1e-3))[0][:1], held.respond(gradients(2, -1e-3))[0][1:]), "a state of one law is not taken over")
+
+# A process that was forked has none of the parent's threads: it starts its own, also through multiprocessing.
+forked = scarp.MaterialPoints(sand, np.zeros((5, 2)))
+expected = forked.respond(gradients(5, -2e-3), threads=3)[0]
+
+
+def in_child(pipe):
+    pipe.send([forked.respond(gradients(5, -2e-3), threads=threads)[0] for threads in (3, 2)])
+
+
+here, there = multiprocessing.Pipe()
+child = multiprocessing.get_context("fork").Process(target=in_child, args=(there,))
+child.start()
+expect(here.poll(60) and all(np.array_equal(one, expected) for one in here.recv()), "points do not respond, or otherwise, in a process that was forked")
+child.join(20)
+expect(child.exitcode == 0, f"a process that was forked does not end: {child.exitcode}")
+child.kill()
+busy = scarp.MaterialPoints(scarp.discs(grains=60), np.zeros((400, 2)))
+worker = threading.Thread(target=lambda: busy.respond(gradients(400, -1e-2)))
+worker.start()
+while True:
+    try:
+        len(busy)
+    except RuntimeError:
+        break
+if (process := os.fork()) == 0:
+    try:
+        busy.respond(gradients(400, 0.0))
+    except RuntimeError as trouble:
+        os._exit(7 if "fork between responses" in str(trouble) else 1)
+    os._exit(2)
+expect(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]) == 7, "points that responded during a fork are not rejected in words")
+worker.join()
+
+# Ctrl-C ends work of minutes; a limit of CPU time ends the process where it does not. Committed states and later responses stay as they were.
+interrupted = """
+import os, signal, sys, threading
+import numpy as np, scarp
+signal.setitimer(signal.ITIMER_PROF, 60)
+def after(seconds, work):
+    threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT)).start()
+    try:
+        work()
+    except KeyboardInterrupt:
+        return
+    sys.exit("it was not interrupted")
+strain = lambda axial: np.repeat(np.diag([0.0, axial])[None], len(points), axis=0)
+for threads, count in ((1, 3000), (3, 3000), (2, 1)):
+    slow = {} if count > 1 else dict(strain_per_step=1e-8, max_steps=10**7)
+    points = scarp.MaterialPoints(scarp.ellipses(grains=80, **slow), np.zeros((count, 2)))
+    points.respond(strain(-1e-5 if count < 2 else 0.0)), points.commit()
+    before = points.pack([0])
+    other = scarp.loads(points.__reduce__()[1][0])
+    after(0.3, lambda: points.respond(strain(-0.15), threads=threads))
+    assert points.pack([0]) == before
+    if count < 2:
+        assert np.array_equal(points.respond(strain(-1e-5))[0], other.respond(strain(-1e-5))[0])
+        points.commit()
+    try:
+        points.commit()
+        sys.exit("an interrupted response was committed")
+    except ValueError:
+        pass
+after(0.5, lambda: scarp.discs(grains=100000))
+after(0.5, lambda: scarp.spheres(grains=20000, packings=3, threads=2))
+"""
+done = subprocess.run([sys.executable, "-B", "-c", interrupted], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=300)
+expect(done.returncode == 0, f"Ctrl-C in long work: {done.returncode} {done.stderr}")
+
+# An interpreter without NumPy, and one that the module was not built for.
+done = subprocess.run([sys.executable, "-S", "-B", "-c", "import scarp"], env={"PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=100)
+expect("scarp needs NumPy" in done.stderr, done.stderr)
+with tempfile.TemporaryDirectory() as scratch:
+    shutil.copytree(module / "scarp", pathlib.Path(scratch) / "scarp", ignore=shutil.ignore_patterns("_points*"))
+    (pathlib.Path(scratch) / "scarp/_points.cpython-35m-x86_64-linux-gnu.so").touch()
+    done = subprocess.run([sys.executable, "-B", "-c", "import scarp"], env={"PYTHONPATH": scratch}, cwd=scratch, capture_output=True, text=True, timeout=100)
+    expect("does not load in Python" in done.stderr and "cpython-35m" in done.stderr, done.stderr)
 
 
 class Incremental(scarp.MicroSimulation):

@@ -1,6 +1,19 @@
 # SPDX-License-Identifier: BSL-1.0
 """Materials of scarp, packings of grains among them, as points that respond to NumPy arrays."""
-from . import _points
+import os
+import pathlib
+import sys
+
+try:
+    import numpy
+except ImportError as missing:
+    raise ImportError(f"scarp needs NumPy ('{sys.executable}' finds none): install it for this Python, or run another one") from missing
+try:
+    from . import _points
+except ImportError as missing:
+    _built = ", ".join(path.name for path in pathlib.Path(__file__).parent.glob("_points*")) or "nothing"
+    raise ImportError(f"scarp's compiled part does not load in Python {sys.version.split()[0]} ({missing}; there is {_built}): run the Python that it was built "
+                      "for, or build it with -D Python_EXECUTABLE=" + sys.executable) from missing
 from ._points import build, load, reasons, statuses
 from .micro_simulation import MicroSimulation
 
@@ -8,7 +21,7 @@ from .micro_simulation import MicroSimulation
 def _maker(kind, spaces):
     def make(dim=spaces[0], **keywords):
         if dim not in spaces:
-            raise ValueError(f"dim is {dim} (expected is {' or '.join(map(str, spaces))}): correct it")
+            raise ValueError(f"dim is {dim!r} (expected is {' or '.join(map(str, spaces))}): correct it")
         return (_points.made if dim == 2 else _points.made_in_space)(kind, keywords)
 
     known = (_points.defaults if 2 in spaces else _points.defaults_in_space)(kind)
@@ -26,7 +39,7 @@ spheres = _maker("spheres", (3,))
 
 def packing(sand, **keywords):
     """The sand of a file, with lines `option = value` (examples/sands); keywords as of discs, ellipses and spheres replace its values."""
-    known = _points.sand_keywords(str(sand), set(keywords))
+    known = _points.sand_keywords(os.fspath(sand), set(keywords))
     kinds = {"disc": discs, "ellipse": ellipses, "sphere": spheres}
     if known["shape"] not in kinds:
         raise ValueError(f"the shape is '{known['shape']}' (expected is {', '.join(kinds)}): take another sand")

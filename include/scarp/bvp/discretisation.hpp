@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -199,7 +200,17 @@ Site<Element::dim> Discretisation<Element, Motion, Scheme>::site(int point, doub
   int const element = point / points_per_element;
   auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions_);
   Vector<dim> const position = rows.transpose() * Element::shape(local_point(point).xi);
-  return {point, mesh_.element_region[detail::index(element)], position, surface_level - position(dim - 1)};
+  double volume = 0.0;
+  for (auto const& shape : shapes_at(rows, std::make_index_sequence<material_points<Scheme, Element>>{}))
+    volume += std::abs(shape.volume);
+  constexpr double lines_of_nodes = Element::nodes > 1 << dim ? 2.0 : 1.0;
+  return {.index = point,
+          .region = mesh_.element_region[detail::index(element)],
+          .position = position,
+          .depth = surface_level - position(dim - 1),
+          .element = element,
+          .place = point % points_per_element,
+          .size = std::pow(volume / thickness_, 1.0 / dim) / lines_of_nodes};
 }
 
 template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>

@@ -21,6 +21,9 @@ struct Site {
   int region = 0;                              ///< number of the region in its mesh
   Vector<Dim> position = Vector<Dim>::Zero();  ///< [m]
   double depth = 0.0;                          ///< below the ground surface [m]
+  int element = -1;                            ///< number of its element in its mesh, -1 for none
+  int place = 0;                               ///< number of the point in its element
+  double size = 1.0;  ///< of its element [m]: root of its volume, half of that with nodes between the corners
 };
 
 /// \throws InputError for a depth [m] above the ground surface: a material of ground has nothing to carry there

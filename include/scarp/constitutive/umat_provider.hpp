@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -32,33 +35,38 @@ using Umat = void(double* stress, double* statev, double* ddsdde, double* sse, d
 
 namespace detail {
 
-/// Numbers that a subroutine may write, between others that it must leave alone.
+/// Numbers that a subroutine may use, between NaN that it must leave alone: what it computes with these is NaN too.
 class FencedNumbers {
  public:
-  explicit FencedNumbers(std::size_t count) : numbers_(count + 2 * width, fence) { std::fill_n(data(), count, 0.0); }
+  explicit FencedNumbers(std::size_t count) : numbers_(count + 2 * width, std::bit_cast<double>(fence)) {
+    std::fill_n(data(), count, 0.0);
+  }
   double* data() { return numbers_.data() + width; }
 
   /// \throws InputError where a number outside was overwritten
   void require_intact(std::string_view name, std::string_view umat) const {
-    auto const is_fence = [](double number) { return number == fence; };
+    auto const is_fence = [](double number) { return std::bit_cast<std::uint64_t>(number) == fence; };
     std::ptrdiff_t const count = std::ssize(numbers_) - 2 * static_cast<std::ptrdiff_t>(width);
     if (!std::all_of(numbers_.begin(), numbers_.begin() + width, is_fence) ||
         !std::all_of(numbers_.end() - width, numbers_.end(), is_fence))
       reject(
-          "the UMAT '{}' wrote outside of {} (which has {} numbers): correct its loops, or give more state variables",
+          "the UMAT '{}' wrote outside of {} (which has {} numbers): correct its loops, or give more of them, "
+          "components "
+          "included",
           umat, name, count);
   }
 
  private:
-  static constexpr std::ptrdiff_t width = 8;
-  static constexpr double fence = -8.7654321e300;
+  static constexpr std::ptrdiff_t width = 40;                    // a DDSDDE of six components ends in it
+  static constexpr std::uint64_t fence = 0x7ff8'5ca2'7000'f32c;  // a quiet NaN that no arithmetic makes
 
   std::vector<double> numbers_;
 };
 
 }  // namespace detail
 
-/// A user's UMAT as provider: in the plane by four components (11, 22, 33, 12), in space by six (11, 22, 33, 12, 13, 23). Stress, total
+/// A user's UMAT as provider: in the plane by four components (11, 22, 33, 12), in space by six (11, 22, 33, 12, 13, 23), which
+/// `components = 6` gives in the plane too, for a UMAT that knows nothing else. Stress, total
 /// strain and state variables are parts of the state, so that a trial never changes what is committed. The increment is passed
 /// both as strain with rotation (DSTRAN, DROT; stress and strain are turned before) and as DFGRD0 and DFGRD1. State variables that are
 /// tensors are turned by the UMAT, as for Abaqus; a mirrored copy of a state is rejected.
@@ -78,42 +86,60 @@ struct UmatProvider {
     Tensor<3> deformation = Tensor<3>::Identity();               ///< DFGRD0
     double time = 0.0;                                           ///< [s]
     Vector<3> position = Vector<3>::Zero();                      ///< COORDS [m]
-    int number = 0;                                              ///< of the point, NOEL
+    int element = 1;                                             ///< NOEL; where there is none, the point's number
+    int place = 1;                                               ///< in the element, NPT
+    double size = 1.0;                                           ///< of the element, CELENT [m]
     VoigtTangent<Dim> tangent = VoigtTangent<Dim>::Zero();       ///< of the increment that led here [Pa]
 
-    SCARP_MEMBERS(stress, strain, variables, deformation, time, position, number, tangent)
+    SCARP_MEMBERS(stress, strain, variables, deformation, time, position, element, place, size, tangent)
   };
 
-  Umat* umat = nullptr;              ///< address of the subroutine
-  std::string name = "UMAT";         ///< CMNAME
-  std::vector<double> properties{};  ///< PROPS
-  std::vector<double> variables{};   ///< STATEV at the start; its length is NSTATV
-  InitialStress initial{};           ///< every point's start, by depth
-  double time_step = 1.0;            ///< DTIME of an increment [s]
+  Umat* umat = nullptr;               ///< address of the subroutine
+  std::string name = "UMAT";          ///< CMNAME, which a UMAT gets in upper case
+  std::vector<double> properties{};   ///< PROPS
+  std::vector<double> variables{};    ///< STATEV at the start; its length is NSTATV
+  InitialStress initial{};            ///< every point's start, by depth
+  double time_step = 1.0;             ///< DTIME of an increment [s]
+  int components = Dim == 2 ? 4 : 6;  ///< NTENS; 6 in the plane for a UMAT that is written for space alone
 
   /// The stress out of the plane starts as the horizontal one in it. The UMAT is called with a zero increment, for its tangent.
-  /// \throws InputError for a provider without a UMAT, a name of more than 80 letters, and for an initial stress that cannot be
-  /// or that the UMAT does not bear
+  /// \throws InputError for a provider without a UMAT, a name of more than 80 letters, another number of components, an initial
+  /// stress that cannot be or that the UMAT does not keep, and for a UMAT without a tangent
   State initial_state(Site<Dim> const& site) const {
     if (!umat) reject("a UmatProvider has no UMAT (its address is null): give it one");
     if (name.size() > name_length)
       reject("the name of a UMAT's material has {} letters (at most {} are expected): shorten it", name.size(),
              name_length);
     require_positive("time step of a UMAT", time_step);
+    if (components != 6 && !(Dim == 2 && components == 4))
+      reject("a UMAT has {} components ({} expected): give as many", components,
+             Dim == 2 ? "4, or 6 of one for space, are" : "6 are");
     VoigtStress<Dim> const start = initial_stress<Dim>(initial, site);
     Tensor<3> const stress = in_space<Dim>(from_voigt_stress<Dim, double>(start), start(0));
     State state;
     state.stress = to_voigt_stress<3, double>(stress);
     state.variables = variables;
     state.position.template head<Dim>() = site.position;
-    state.number = site.index + 1;
+    state.element = 1 + (site.element < 0 ? site.index : site.element);
+    state.place = 1 + site.place;
+    state.size = site.size;
     State tried = state;
     if (!call(tried, state.deformation, Tensor<3>::Identity(), Tensor<3>::Zero()).acceptable())
       reject(
-          "the UMAT '{}' does not bear a zero increment (its numbers are not finite, or PNEWDT is below one): correct "
-          "its properties",
-          name);
+          "the UMAT '{}' does not bear a zero increment (its numbers are not finite, as where it reads beyond its "
+          "arrays, or PNEWDT is below one): correct its properties, or give more of these{}",
+          name, components == 4 ? ", of its state variables, or six components" : " and of its state variables");
     state.tangent = tried.tangent;
+    if (state.tangent.isZero(0.0))
+      reject("the UMAT '{}' leaves DDSDDE zero (solvers need the stiffness): let it set DDSDDE", name);
+    constexpr double round_off = 1e-6, slightest_strain = 1e-9;
+    double const tolerance = round_off * state.stress.norm() + slightest_strain * state.tangent.norm();
+    if (!((tried.stress - state.stress).norm() <= tolerance))
+      reject(
+          "the UMAT '{}' changes the initial stress in a zero increment (normal stresses {:.6g}, {:.6g}, {:.6g} Pa "
+          "become "
+          "{:.6g}, {:.6g}, {:.6g}): let it add to STRESS, or give an initial stress that its material can bear",
+          name, state.stress(0), state.stress(1), state.stress(2), tried.stress(0), tried.stress(1), tried.stress(2));
     return state;
   }
 
@@ -139,17 +165,16 @@ struct UmatProvider {
   }
 
  private:
-  static constexpr int components = Dim == 2 ? 4 : 6;
   static constexpr std::size_t name_length = 80;
   /// Places of the UMAT's components in the order of VoigtStress<3>.
   static constexpr std::array<int, 6> places{0, 1, 2, 5, 4, 3};
-  /// Components of the UMAT that make up VoigtStress<Dim>.
+  /// Components of the UMAT, of four as of six, that make up VoigtStress<Dim>.
   static constexpr std::array<int, 6> own = Dim == 2 ? std::array{0, 1, 3, 0, 0, 0} : std::array{0, 1, 2, 5, 4, 3};
 
-  static void copy(VoigtStress<3> const& from, double* to) {
+  void copy(VoigtStress<3> const& from, double* to) const {
     for (int k = 0; k < components; ++k) to[k] = from(places[detail::index(k)]);
   }
-  static void copy(double const* from, VoigtStress<3>& to) {
+  void copy(double const* from, VoigtStress<3>& to) const {
     for (int k = 0; k < components; ++k) to(places[detail::index(k)]) = from[k];
   }
 
@@ -160,33 +185,42 @@ struct UmatProvider {
     Tensor<3> half = from_voigt_stress<3, double>(state.strain);  // its shear is that of engineering
     half += half.diagonal().asDiagonal();
     Tensor<3> const total = turn * half * turn.transpose() / 2.0;
-    detail::FencedNumbers stress(components), statev(state.variables.size()), ddsdde(components * components);
+    auto const size = detail::index(components);
+    detail::FencedNumbers stress(size), statev(state.variables.size()), ddsdde(size * size), props(properties.size());
+    detail::FencedNumbers stran(size), dstran(size), ddsddt(size), drplde(size);
     copy(to_voigt_stress<3, double>(turned), stress.data());
     std::copy(state.variables.begin(), state.variables.end(), statev.data());
-    std::array<double, 6> stran{}, dstran{};
+    std::copy(properties.begin(), properties.end(), props.data());
     copy(to_engineering_strain<3, double>(total), stran.data());
     copy(to_engineering_strain<3, double>(strain), dstran.data());
     double sse = 0.0, spd = 0.0, scd = 0.0, rpl = 0.0, drpldt = 0.0, temp = 0.0, dtemp = 0.0, predef = 0.0, dpred = 0.0;
-    double pnewdt = 1.0, celent = 1.0, dtime = time_step;
-    std::array<double, 6> ddsddt{}, drplde{};
+    double pnewdt = 1.0, celent = state.size, dtime = time_step;
     std::array<double, 2> time{state.time, state.time};
     std::array<char, name_length> cmname;
     cmname.fill(' ');
-    std::copy(name.begin(), name.end(), cmname.begin());
+    std::ranges::transform(name, cmname.begin(), [](char letter) {
+      return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+    });
     int ndi = 3, nshr = components - 3, ntens = components, nstatv = detail::count(state.variables);
-    int nprops = detail::count(properties), npt = 1, layer = 1, kspt = 1, noel = state.number;
+    int nprops = detail::count(properties), npt = state.place, layer = 1, kspt = 1, noel = state.element;
     std::array<int, 4> kstep{1, 0, 0, 0};
     int kinc = 1 + static_cast<int>(std::lround(state.time / time_step));
-    auto props = properties;
     Vector<3> coords = state.position;
     Tensor<3> after = state.deformation;
     umat(stress.data(), statev.data(), ddsdde.data(), &sse, &spd, &scd, &rpl, ddsddt.data(), drplde.data(), &drpldt,
          stran.data(), dstran.data(), time.data(), &dtime, &temp, &dtemp, &predef, &dpred, cmname.data(), &ndi, &nshr,
          &ntens, &nstatv, props.data(), &nprops, coords.data(), turn.data(), &pnewdt, &celent, before.data(),
          after.data(), &noel, &npt, &layer, &kspt, kstep.data(), &kinc, name_length);
-    stress.require_intact("STRESS", name);
-    statev.require_intact("STATEV", name);
-    ddsdde.require_intact("DDSDDE", name);
+    using Named = std::pair<detail::FencedNumbers const*, std::string_view>;
+    for (auto const& [array, what] : std::initializer_list<Named>{{&stress, "STRESS"},
+                                                                  {&statev, "STATEV"},
+                                                                  {&ddsdde, "DDSDDE"},
+                                                                  {&props, "PROPS"},
+                                                                  {&stran, "STRAN"},
+                                                                  {&dstran, "DSTRAN"},
+                                                                  {&ddsddt, "DDSDDT"},
+                                                                  {&drplde, "DRPLDE"}})
+      array->require_intact(what, name);
     for (int i = 0; i < voigt_size<Dim>; ++i) {
       for (int j = 0; j < voigt_size<Dim>; ++j)
         state.tangent(i, j) = ddsdde.data()[own[detail::index(j)] * components + own[detail::index(i)]];

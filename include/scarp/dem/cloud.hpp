@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "scarp/core/interruption.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/packing.hpp"
 
@@ -76,6 +77,7 @@ struct Cloud {
     constexpr long max_trials = 1'000'000;  // ordinary clouds need some ten per grain
     std::vector<Vector<dim>> placed;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
+      InterruptionCheck::run();
       double const radius = Shape::bounding_radius(sizes[i]);
       bool free = false;
       for (long trial = 0; !free; ++trial) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "scarp/core/interruption.hpp"
 #include "scarp/dem/loading.hpp"
 #include "scarp/dem/time_stepping.hpp"
 
@@ -183,6 +184,7 @@ struct Servo {
     double const tolerance = stress_tolerance * (prescribed > 0.0 ? prescribed : slight * spring_modulus(packing, law));
     CellDriver<PackingType> drive(packing, law, loading, feedback);
     for (long step = 1; step <= max_steps; ++step) {
+      InterruptionCheck::run();
       if (Verdict const verdict = drive.step(stepper); !verdict.acceptable()) return verdict;
       if (step % check_every != 0) continue;
       if (loading.worst_missing(drive.seen().stress) <= tolerance &&

@@ -8,6 +8,7 @@
 #include "scarp/constitutive/unwrap.hpp"
 #include "scarp/contact/law_checks.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/interruption.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/mirrored.hpp"
 #include "scarp/dem/packing_picture.hpp"
@@ -106,6 +107,24 @@ struct DemRve {
     return state;
   }
 
+  /// For a state that comes from elsewhere.
+  /// \throws InputError where contacts carry another stress by this law than the state has, since another law has made it
+  void require_fitting(State const& state) const {
+    if (!state.packing.population) return;
+    Stepper stepper;
+    stepper.boundary = boundary;
+    State seen = state;
+    static_cast<void>(observe(stepper, seen));
+    constexpr double round_off = 1e-6;
+    if ((seen.stress - state.stress).norm() <= round_off * state.stress.norm() + min_pressure(state.packing)) return;
+    reject(
+        "the state of a packing has the stress {:.6g}, {:.6g} Pa (xx, yy), but its contacts carry {:.6g}, {:.6g} by "
+        "the law of "
+        "these points (another law has made it): give a state of points with one law, or prepare a packing with this "
+        "one",
+        state.stress(0), state.stress(1), seen.stress(0), seen.stress(1));
+  }
+
   /// \throws InputError for parameters that no response can be made with
   void validate() const {
     require_positive("strain per DEM step", strain_per_step);
@@ -202,6 +221,7 @@ struct DemRve {
     trial.verdict = {};
     if (!strain_step.allFinite()) trial.verdict = {Status::failed, Reason::not_finite};
     for (int step = 0; step < steps && trial.verdict.acceptable(); ++step) {
+      InterruptionCheck::run();
       trial.verdict = stepper.step(trial.packing, law, strain_step);
     }
     if (trial.verdict.acceptable()) trial.verdict = observe(stepper, trial);

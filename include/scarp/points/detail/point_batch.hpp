@@ -139,6 +139,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   std::any read(int k, StateReader& reader) const override {
     State state = scarp::empty_state(*provider_, sites_[index(k)]);
     described(reader, state);
+    require_fitting(state);
     return state;
   }
   void put(int k, std::any state) override {
@@ -149,6 +150,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     auto const* const same = dynamic_cast<PointBatchOf const*>(&other);
     if (!same) reject("a point is to be copied from one of another type of provider: copy points of one provider");
     State state = same->present(k);
+    if (same->provider_ != provider_) require_fitting(state);
     if (!mirror) return state;
     described(*mirror, state);
     // A strain in Voigt's notation, for example, has the type of a stress and another mirror image.
@@ -167,6 +169,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
       if (!here_[k]) committed_[k] = scarp::empty_state(*provider_, sites_[k]);
     }
     described(reader, std::span(committed_), "states");
+    for (State const& state : committed_) require_fitting(state);
     trial_ = committed_;
     here_.assign(sites_.size(), true);
   }
@@ -226,6 +229,13 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
       reject("the state of point {} is requested where another process owns it: request it from that process",
              numbers_[index(k)]);
     return committed_[index(k)];
+  }
+
+  /// \throws InputError for a state that another law has made, where the provider finds that out
+  void require_fitting(State const& state) const {
+    unwrap(*provider_, state, [](auto const& inner, auto const& own) {
+      if constexpr (requires { inner.require_fitting(own); }) inner.require_fitting(own);
+    });
   }
 
   /// Of a point that another process owns.
