@@ -20,7 +20,11 @@ inline constexpr double degree = 180.0 / std::numbers::pi;
 inline constexpr std::array words{
     Words{"throw_over_depth", "throw over depth", "%", 100.0},
     Words{"k0", "K0 before faulting, mean"},
+    Words{"k0_min", "K0 before faulting, least"},
+    Words{"k0_max", "K0 before faulting, largest"},
     Words{"void_ratio", "void ratio before faulting, mean"},
+    Words{"void_ratio_min", "void ratio before faulting, least"},
+    Words{"void_ratio_max", "void ratio before faulting, largest"},
     Words{"surface_x05", "5 % of the throw has passed at x", "m"},
     Words{"surface_x50", "half of the throw has passed at x", "m"},
     Words{"surface_x95", "95 % of the throw has passed at x", "m"},
@@ -52,6 +56,8 @@ inline constexpr std::array words{
     Words{"strip_margin", "least distance of the band from the strip's edges", "m"},
     Words{"vertical_stress_error", "vertical stress against overburden, largest error", "%", 100.0},
     Words{"max_accepted_residual", "largest residual of an accepted step"},
+    Words{"floor_share", "share of all stress in stiffness floors"},
+    Words{"iterations", "iterations"},
     Words{"steps", "accepted load steps"},
     Words{"rejected_steps", "rejected load steps"},
     Words{"dem_steps", "DEM steps", "million", 1e-6}};

@@ -2,6 +2,7 @@
 """[slow] fault_rupture --estimate says what a run will take, and does nothing else. Environment: SCARP_EXAMPLES, the folder of the built
 programs (skipped, exit 77, without)."""
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -78,4 +79,14 @@ with tempfile.TemporaryDirectory() as scratch:
     for what, found, expected in (("steps", predicted["steps"], took["steps"]), ("iterations", iterations, took["iterations"]),
                                   ("DEM steps", 1e6 * million, took["dem_steps"])):
         expect(abs(found - expected) <= 0.3 * expected, f"{what}: {found} are predicted, the run took {expected}")
+
+    # A graded mesh of a file, and other depths: the load steps follow the elements along the fault and the depth.
+    mesh = pathlib.Path(__file__).resolve().parents[2] / "examples" / "fault_rupture" / "meshes" / "unstructured.msh"
+    for options in (["--mesh", mesh, "--grains", "36"], ["--depth", "8"], ["--depth", "80", "--dip", "50"]):
+        other = ["--quick", "--threads", "1", "--throw-over-depth", "0.02", *options]
+        predicted, said = estimate(scratch, *other)
+        expect("reference study's site" in said or "--mesh" in options, f"{options}: it says what it was measured on: {said}")
+        done = run(scratch, *other, "--output", "other", "--overwrite")
+        took = json.loads(pathlib.Path(scratch, "other", "summary.json").read_text())["steps"] if done.returncode == 0 else math.nan
+        expect(abs(predicted["steps"] - took) <= 0.15 * took, f"{options}: {predicted['steps']} steps are predicted, the run took {took}")
 finish()

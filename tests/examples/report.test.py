@@ -111,7 +111,7 @@ def drawn_marks(folder):
     """Labels of the marks of surface.png, and the number of footings in deformation.png."""
     words = ("import json, pathlib, sys, plot; from matplotlib.patches import Polygon; folder = pathlib.Path(sys.argv[1]); "
              "labels = [line.get_label() for axes in plot.surface(folder).axes for line in axes.lines]; "
-             "boxes = sum(type(patch) is Polygon for axes in plot.deformation(folder).axes for patch in axes.patches); "
+             "boxes = sum(type(patch) is Polygon for axes in plot.deformation(folder).axes[:2] for patch in axes.patches); "
              "print(json.dumps([labels, boxes]))")
     done = subprocess.run([sys.executable, "-B", "-c", words, folder], cwd=scripts, capture_output=True, text=True, timeout=900)
     expect(done.returncode == 0, f"marks: {done.stderr[-1000:]}")

@@ -97,8 +97,6 @@ struct Choice {
     visit("footing", self.base);
     visit("quick", self.quick);
     visit("depth", self.depth);
-    visit("left", self.left);
-    visit("width", self.width);
     visit("unit-weight", self.unit_weight);
     visit("surcharge", self.surcharge);
     visit("size", self.size);
@@ -126,6 +124,8 @@ struct Choice {
     visit("throw-over-depth", self.throw_over_depth);
     visit("dip", self.dip);
     visit("tip", self.tip);
+    visit("left", self.left);
+    visit("width", self.width);
     visit("tolerance", self.tolerance);
     visit("max-displacement-gradient", self.max_displacement_gradient);
     visit("max-iterations", self.max_iterations);
