@@ -138,7 +138,7 @@ TEST_CASE("points that were saved and loaded go on with the same bits") {
   scarp::StateReader reader(writer.bits());
   reader("problem", second);
   CHECK(reader.at_end());
-  for (Problem* problem : {&first, &second}) problem->plan(-0.5 * moves);
+  for (Problem* problem : {&first, &second}) REQUIRE(problem->plan(-0.5 * moves).acceptable());
   auto const one = first.evaluate(-0.5 * moves);
   auto const other = second.evaluate(-0.5 * moves);
   CHECK(first.points().means()->added_stresses() == second.points().means()->added_stresses());
