@@ -2,6 +2,7 @@
 // The C functions of scarp_points.h.
 #include "handles.hpp"
 #include "materials.hpp"
+#include "scarp/core/process.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/points/point_file.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -18,6 +19,7 @@ struct Points {
   bool has_response = false;   ///< to these gradients
   bool is_acceptable = false;  ///< so that it can be committed
   std::mutex mutex{};
+  std::atomic<long> process = 0;  ///< that has locked the mutex last
 
   void forget() { has_gradients = has_response = is_acceptable = false; }
 };
@@ -43,7 +45,17 @@ template <class Work>
 int with_points(scarp_points const* handle, Work const& work) {
   return guarded([&] {
     auto const points = batches().at(handle);
-    std::lock_guard const lock(points->mutex);
+    std::unique_lock lock(points->mutex, std::try_to_lock);
+    long const process = scarp::detail::process_number();
+    if (!lock) {
+      if (long const other = points->process; other != 0 && other != process)
+        scarp::reject(
+            "the points were used by a thread of process {} when this process was forked from it (nobody ends that "
+            "here): fork between calls, or make other points",
+            other);
+      lock.lock();
+    }
+    points->process = process;
     return std::visit([&](auto& batch) { return work(*points, batch); }, points->batch);
   });
 }

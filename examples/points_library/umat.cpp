@@ -146,7 +146,12 @@ Tensor3 increment_of(Call const& call, Components const& components, State const
   Tensor3 const strain = source == 0 ? components.strain_tensor(given(call.dstran, "DSTRAN"))
                          : start     ? Tensor3(total - start->strain)
                                      : total;
-  return gradient_of(strain, call.drot ? Tensor3(Matrix(call.drot)) : Tensor3(Tensor3::Identity()));
+  Tensor3 const turn = call.drot ? Tensor3(Matrix(call.drot)) : Tensor3(Tensor3::Identity());
+  constexpr double round_off = 1e-4;  // of a host in single precision, over an analysis
+  if (double const off = (turn * turn.transpose() - Tensor3::Identity()).norm(); !(off <= round_off))
+    scarp::reject("DROT is no rotation (DROT times its transpose is {:.3g} off the identity): pass a rotation, or null",
+                  off);
+  return gradient_of(strain, turn);
 }
 
 template <int Dim>

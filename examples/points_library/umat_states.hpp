@@ -170,9 +170,17 @@ class StateVariables {
   static std::uint64_t whole_number(std::span<double const> statev, std::size_t k) {
     double const value = statev[k];
     if (!(value >= 0.0 && value <= static_cast<double>(mask)) || value != std::floor(value))
-      scarp::reject("STATEV({}) is {} (zero at first, then what this routine left is expected): leave it alone", k + 1,
-                    value);
+      scarp::reject(
+          "STATEV({}) is {} (zero at first, then what this routine left is expected): leave it alone, in double "
+          "precision",
+          k + 1, value);
     return static_cast<std::uint64_t>(value);
+  }
+
+  [[noreturn]] static void reject_changed() {
+    scarp::reject(
+        "STATEV was changed since this routine wrote it (its hash does not fit; single precision changes it): leave it "
+        "alone, in double precision");
   }
 
   static State unpacked(std::span<double const> statev, std::uint64_t length, std::uint64_t hash) {
@@ -183,16 +191,17 @@ class StateVariables {
       std::uint64_t const number = whole_number(statev, k);
       std::memcpy(bytes.data() + at, &number, std::min(bytes_each, length - at));
     }
-    Tensor3 strain;
+    Tensor3 strain = Tensor3::Zero();
     std::string bits;
-    scarp::with_context("STATEV", [&] {
+    try {
       scarp::StateReader reader(bytes);
       reader("strain", strain);
       reader("bits", bits);
-    });
+    } catch (scarp::InputError const&) {
+      reject_changed();
+    }
     auto state = std::make_shared<Snapshot const>(std::move(bits), strain);
-    if (state->hash != hash)
-      scarp::reject("STATEV was changed since this routine wrote it (its hash does not fit): leave it alone");
+    if (state->hash != hash) reject_changed();
     return state;
   }
 

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: BSL-1.0 */
 /* The functions of scarp_points.h: the bits of C++, states that come back, and wrong input. */
+#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "host.h"
 
@@ -93,12 +96,34 @@ static void states_come_back(void) {
   for (int k = 0; k < 3; ++k) scarp_points_free(all[k]);
 }
 
+/* Points of three threads respond, are freed and end in a process that was forked, which has none of these. */
+static void forked(void) {
+  scarp_points* points = points_of(ELASTIC, 4);
+  double gradients[16] = {0.0}, stresses[12], others[12];
+  gradients[3] = gradients[7] = -1.0 / 4096.0;
+  int good = scarp_points_set_gradients(points, gradients, 16) == SCARP_DONE;
+  good &= scarp_points_respond(points, 3, NULL) == SCARP_DONE;
+  good &= scarp_points_stresses(points, stresses, 12) == SCARP_DONE;
+  pid_t const child = fork();
+  if (child == 0) {
+    alarm(20);
+    good &= scarp_points_respond(points, 3, NULL) == SCARP_DONE;
+    good &= scarp_points_stresses(points, others, 12) == SCARP_DONE && apart(stresses, others, 12) == 0.0;
+    _exit(good && scarp_points_free(points) == SCARP_DONE ? 7 : 1);
+  }
+  int status = 0;
+  good &= waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 7;
+  check("C: points of three threads in a forked process", status, good);
+  scarp_points_free(points);
+}
+
 void check_c_functions(void) {
   compare(ELASTIC, 2, "C: elastic in the plane, 3 points, 4 steps [Pa]");
   compare(ELASTIC_IN_SPACE, 3, "C: elastic in space [Pa]");
   compare(MOHR_COULOMB, 2, "C: Mohr-Coulomb [Pa]");
   compare(DISCS, 2, "C: packings of discs, 2 threads [Pa]");
   states_come_back();
+  forked();
 }
 
 static int rejected(int status, char const* text) { return status == SCARP_WRONG_INPUT && reports(text); }
@@ -119,7 +144,8 @@ void check_wrong_input(void) {
   good &= rejected(scarp_material_parse("kind packing\nrolling-friction 0.5\n", &material), "'rolling-friction'");
   good &= rejected(scarp_material_parse("kind packing\nseed -1\n", &material), "whole number from 0");
   good &= rejected(scarp_material_parse("kind mohr-coulomb\nyoung 1e7\nfriction 120\n", &material), "is 120");
-  good &= rejected(scarp_material_parse("kind packing\nsand a.sand\nfile a.packing\n", &material), "'sand' stands beside 'file'");
+  good &= rejected(scarp_material_parse("kind packing\nsand a.sand\nfile a.packing\n", &material),
+                   "'sand' stands beside 'file'");
   check("wrong materials are rejected with a reason", 13, good);
 
   good = rejected(scarp_points_set_gradients(points, few, 4), "2 points have 8");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSL-1.0 */
 /* Cut-backs, other sources of increments, and calls that are wrong. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "host.h"
@@ -73,6 +74,12 @@ void check_rotation(void) {
   double const worst = apart(found, known, 3);
   /* Round-off of stresses up to 1e4 Pa. */
   check("DROT turns the stress, within 1e-10", worst, worst < 1e-10 && fabs(before[2]) > 1e3);
+  double stretched[9];
+  for (int k = 0; k < 9; ++k) stretched[k] = 1.01 * turn[k];
+  umat_(found, statev, ddsdde, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, still, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL, NULL, &three, &hundred, props, &one, NULL, stretched, NULL, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL, NULL);
+  check("a DROT that stretches is rejected with a reason", 1.0, found[0] != found[0] && reports("DROT is no rotation"));
 }
 
 /* A material in space as plane strain, y vertical: the stresses of the plane, and the stress out of it. */
@@ -121,13 +128,21 @@ void check_wrong_calls(void) {
   abaqus_call(&point, "DISCS", strain);
   good &= is_nan(&point) && reports("STATEV(101)");
   point.statev[100] = kept;
+  double* const whole = malloc((size_t)point.nstatv * sizeof(double));
+  if (!whole) abort();
+  memcpy(whole, point.statev, (size_t)point.nstatv * sizeof(double));
+  for (int k = 4; k < point.nstatv; ++k) point.statev[k] = (double)(float)whole[k];
+  abaqus_call(&point, "DISCS", strain);
+  good &= is_nan(&point) && reports("double precision");
+  memcpy(point.statev, whole, (size_t)point.nstatv * sizeof(double));
+  free(whole);
   strain[2] = 1e-3;
   abaqus_call(&point, "DISCS", strain);
   good &= is_nan(&point) && reports("out of the plane");
   strain[2] = NAN;
   abaqus_call(&point, "DISCS", strain);
   good &= is_nan(&point) && reports("not finite") && host_intact(&point);
-  check("an unknown material, a changed STATEV and NaN are rejected with a reason", 5, good);
+  check("an unknown material, a changed STATEV and NaN are rejected with a reason", 6, good);
   host_end(&point);
 
   umat_(NULL, &statev, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
