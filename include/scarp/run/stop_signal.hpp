@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 
+#include "scarp/core/described.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
@@ -65,6 +66,8 @@ class StopSignal {
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}         ///< Records nothing.
   static bool wants_stop() { return detail::stop_requested; }  ///< Whether the process has received a signal.
+
+  SCARP_MEMBERS_EXCEPT((handlers_))  // a resumed run gets signals of its own
 
  private:
   std::shared_ptr<detail::StopHandlers const> handlers_ = detail::StopHandlers::shared();
