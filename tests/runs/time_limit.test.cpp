@@ -17,6 +17,8 @@ TEST_CASE("a time limit counts from the moment that it is told, such as the star
   CHECK_FALSE(scarp::TimeLimit(0.0, now - std::chrono::seconds(9)).wants_stop());
 }
 
+static_assert(scarp::Described<scarp::StopSignal>, "a checkpointed run takes it among its observers");
+
 TEST_CASE("a signal stops the runs of its time, and none that begins later") {
   for (int const number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGPIPE}) {
     CAPTURE(number);

@@ -67,7 +67,7 @@ class StopSignal {
   void attempted(Problem const&, StepReport const&) {}         ///< Records nothing.
   static bool wants_stop() { return detail::stop_requested; }  ///< Whether the process has received a signal.
 
-  SCARP_MEMBERS_EXCEPT((handlers_))
+  SCARP_MEMBERS_EXCEPT((handlers_))  // a resumed run gets signals of its own
 
  private:
   std::shared_ptr<detail::StopHandlers const> handlers_ = detail::StopHandlers::shared();
