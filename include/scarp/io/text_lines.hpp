@@ -14,13 +14,15 @@ namespace scarp {
 /// The lines of a text one by one, without what ends them: line feed, carriage return or both. A byte order mark is dropped.
 class TextLines {
  public:
+  /// text: outlives this object
   explicit TextLines(std::string_view text) : rest_(text) {
     if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
   }
 
-  bool done() const { return rest_.empty(); }
+  bool done() const { return rest_.empty(); }     ///< Whether all lines were taken.
   std::size_t number() const { return number_; }  ///< Of the line that was taken last, from 1.
 
+  /// The next line, a part of the text.
   std::string_view take() {
     std::size_t const end = std::min(rest_.find_first_of("\r\n"), rest_.size());
     std::string_view const line = rest_.substr(0, end);
