@@ -84,7 +84,8 @@ TEST_CASE("Pressure on a part of an outline adds up to pressure times projected 
 TEST_CASE("Nodes of a straight quadratic facet carry a sixth, a sixth and two thirds") {
   std::vector<Vector<2>> const nodes{{1.0, 0.0}, {1.0, 2.0}, {1.0, 1.0}};
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(6);
-  scarp::FollowingPressure<Line3>({{0, 1, 2}}, pressure, thickness).add_forces(nodes, Eigen::VectorXd::Zero(6), forces);
+  scarp::FollowingPressure<Line3> const load({{0, 1, 2}}, pressure, thickness);
+  REQUIRE(load.add_forces(nodes, Eigen::VectorXd::Zero(6), forces).acceptable());
   double const total = 2.0 * pressure * thickness;
   Eigen::VectorXd expected(6);
   expected << total / 6.0, 0.0, total / 6.0, 0.0, total * 2.0 / 3.0, 0.0;

@@ -162,7 +162,7 @@ struct Iterated {
 }  // namespace
 
 TEST_CASE("an iteration that stagnates far from the solution is no solution") {
-  auto const mesh = scarp::RectangleMesh{.columns = 2, .rows = 1}.generate();
+  auto const mesh = samples::CrossedRectangle{.columns = 2, .rows = 1}.generate();
   scarp::Constraints constraints(mesh);
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) constraints.fix(node);
   Eigen::VectorXd const still = Eigen::VectorXd::Zero(constraints.dof_count());

@@ -43,7 +43,10 @@ TEST_CASE("load stepping refuses settings with which a run would not end or not 
 
 TEST_CASE("solvers refuse settings with which no step could be accepted") {
   using Newton = scarp::QuasiNewton<>;
-  refuses(&Newton::tolerance, {not_a_number, infinity, 0.0, -1e-3}, "tolerance of the force residual");
+  for (double const tolerance : {not_a_number, infinity, 0.0, -1e-3}) {
+    CHECK_REFUSED(Newton{.tolerance = tolerance}.validate(), "tolerance of the force residual",
+                  fmt::format("is {}", tolerance));
+  }
   refuses(&Newton::max_iterations, {0, -1}, "most iterations of a load step");
   refuses(&Newton::divergence_limit, {not_a_number, 0.0, 1e-3}, "residual beyond which a step is given up");
   refuses(&Newton::max_refinements, {-1}, "most refinements of an iteration");
