@@ -23,6 +23,7 @@ Elastic ground() { return Elastic::from_young_poisson(20e6, 0.3); }
 /// Elastic ground that loses all contacts above a height once it is strained, as a packing does in tension.
 struct Fluidised {
   static constexpr int dim = 2;
+  static constexpr bool exact_tangent = true;
   struct State {
     bool loose = false;
     bool fluid = false;

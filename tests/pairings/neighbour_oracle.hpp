@@ -71,7 +71,7 @@ Answer<Shape::dim> oracle(Smooth<Shape> const& packing, double reach, double sti
             scarp::converged_contact<Shape>(scarp::row_pose(packing, i), scarp::row_pose(packing, j), branch, start);
         if (touch.overlap < -reach) continue;
         answer.meetings.emplace_back(i, j, shift);
-        double const shallow = 0.03 * std::min(Shape::contact_radius(scarp::row_pose(packing, i)),
+        double const shallow = 0.1 * std::min(Shape::contact_radius(scarp::row_pose(packing, i)),
                                                Shape::contact_radius(scarp::row_pose(packing, j)));
         if (Shape::warm_starts_normal && touch.overlap > shallow) {
           answer.too_deep[i / parts] = answer.too_deep[j / parts] = true;

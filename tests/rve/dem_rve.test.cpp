@@ -355,7 +355,8 @@ TEST_CASE("points take the packing of the nearest depth") {
     site.depth = depth;
     return column.at(site).cell(0, 0) / column.packings.front().cell(0, 0) - 1.0;
   };
-  CHECK(chosen(-1.0) == samples::Approx(0.0));
+  CHECK_REFUSED(chosen(-1.0), "1 m above the ground surface");
+  CHECK(chosen(0.0) == samples::Approx(0.0));
   CHECK(chosen(2.4) == samples::Approx(0.0));
   CHECK(chosen(2.6) == samples::Approx(5.0));
   CHECK(chosen(100.0) == samples::Approx(20.0));

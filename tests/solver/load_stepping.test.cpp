@@ -319,6 +319,7 @@ namespace {
 /// Linear; from a strain on it tells a tangent of nothing.
 struct Exhausted {
   static constexpr int dim = 2;
+  static constexpr bool exact_tangent = true;
   using State = Softening::State;
   Softening law{};
   double largest = 1e-3;

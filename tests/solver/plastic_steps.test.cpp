@@ -118,11 +118,7 @@ TEST_CASE_TEMPLATE("a uniform plastic strain is found inside a distorted patch",
 
 TEST_CASE("the default solver of a plastic body is Newton's method to six digits") {
   scarp::SerialExecutor executor;
-  struct End {
-    std::vector<scarp::Vector<2>> places;
-    long iterations;
-  };
-  auto const pressed = [&](auto const& solver) -> End {
+  auto const pressed = [&](auto const& solver) {
     auto problem = distorted_body<scarp::Quad4>(3, executor, [](auto const& mesh, scarp::Constraints& constraints) {
       for (int const node : boundary_nodes(mesh, "bottom")) constraints.fix(node);
       for (int const node : boundary_nodes(mesh, "top")) constraints.move(node, 1, -4e-3);
@@ -130,22 +126,20 @@ TEST_CASE("the default solver of a plastic body is Newton's method to six digits
     scarp::NoObserver no_observer;
     auto const run = scarp::LoadStepping{.first = 0.1, .largest = 0.1}.run(solver, problem, 0.0, 1.0, no_observer);
     REQUIRE(run.verdict.acceptable());
-    return {problem.discretisation().positions(), run.iterations};
+    return problem.discretisation().positions();
   };
-  End const reference = pressed(Newton{.tolerance = 1e-10});
-  auto const apart = [&](End const& end) {
+  auto const reference = pressed(Newton{.tolerance = 1e-10});
+  auto const apart = [&](std::vector<scarp::Vector<2>> const& places) {
     double largest = 0.0;
-    for (std::size_t n = 0; n < end.places.size(); ++n)
-      largest = std::max(largest, (end.places[n] - reference.places[n]).norm() / 4e-3);
+    for (std::size_t n = 0; n < places.size(); ++n)
+      largest = std::max(largest, (places[n] - reference[n]).norm() / 4e-3);
     return largest;
   };
-  End const suited = pressed(Newton{});
-  End const learned = pressed(scarp::QuasiNewton<scarp::PointwiseBroyden>{.tolerance = 5e-3, .max_iterations = 200});
-  MESSAGE("apart " << apart(suited) << ", learned " << apart(learned) << "; iterations " << suited.iterations << ", "
-                   << learned.iterations);
-  CHECK(apart(suited) < 1e-5);  // ten steps of 1e-6
-  CHECK(apart(learned) > 10.0 * apart(suited));
-  CHECK(suited.iterations < learned.iterations);
+  double const suited = apart(pressed(Newton{}));
+  double const learned = apart(pressed(scarp::QuasiNewton<scarp::PointwiseBroyden>{.tolerance = 5e-3}));
+  MESSAGE("apart " << suited << ", learned tangents " << learned);
+  CHECK(suited < 1e-5);  // ten steps of 1e-6
+  CHECK(learned > 10.0 * suited);
 }
 
 TEST_CASE("Newton's residuals fall quadratically on smooth plastic steps") {

@@ -73,7 +73,8 @@ struct DemRve {
   int min_steps = 20;  ///< of one response, however small the increment
   int max_steps = 20'000;              ///< of one response, however large the increment
   double unbalanced_tolerance = 0.05;  ///< of every response
-  double pressure_floor = 0.0;         ///< [Pa]; a packing at less is judged and driven as if it carried this much
+  /// [Pa]; a packing at less, or at less than 1e-6 of its stiffness, is judged and driven as if it carried this much
+  double pressure_floor = 0.0;
   double time_step_share = default_time_step_share;  ///< of the critical step's lower bound
   bool fluid_start = false;  ///< whether a point may start with a packing without contacts, see StiffnessFloor
   Damping damping{};         ///< of the grains' motion
@@ -188,7 +189,8 @@ struct DemRve {
   /// much as pressure.
   double weight_of(State const& state) const {
     double const pressure = mean_stress_size(state.stress);
-    return pressure < pressure_floor ? pressure / pressure_floor : 1.0;
+    double const floor = floor_of(state);
+    return pressure < floor ? pressure / floor : 1.0;
   }
 
   /// Inertial number of a response in so many DEM steps.
@@ -247,10 +249,13 @@ struct DemRve {
   /// \f$ d \sqrt{\rho/p} \f$ [s]: the time in which the pressure moves a grain by its size.
   double inertial_time(State const& state) const {
     auto const& population = *state.packing.population;
-    // Packings at less than a millionth of their stiffness are driven as if they carried that.
-    double const pressure =
-        std::max({mean_stress_size(state.stress), pressure_floor, 1e-6 * spring_modulus(state.packing, law)});
+    double const pressure = std::max(mean_stress_size(state.stress), floor_of(state));
     return 2.0 * population.largest_radius() * std::sqrt(population.density() / pressure);
+  }
+
+  /// Packings at less than a millionth of their stiffness are judged and driven as if they carried that.
+  double floor_of(State const& state) const {
+    return std::max(pressure_floor, 1e-6 * spring_modulus(state.packing, law));
   }
 
   /// Pressure [Pa] that counts as none: 1e-9 for the reference study's sand, and scaled alike in other units.

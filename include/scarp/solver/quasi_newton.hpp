@@ -262,7 +262,7 @@ struct QuasiNewton {
   void validate() const {
     if (tolerance) require_positive("tolerance of the force residual", *tolerance);
     require_at_least("most iterations of a load step", max_iterations, 1);
-    require_at_least("residual beyond which a step is given up", divergence_limit, tolerance.value_or(0.0));
+    require_at_least("residual beyond which a step is given up", divergence_limit, tolerance.value_or(5e-3));
     require_at_least("most refinements of an iteration", max_refinements, 0);
     require_at_least("load steps that share the provider's tangents", tangent_interval, 1);
     detail::validated(rule);
