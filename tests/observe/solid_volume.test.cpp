@@ -24,7 +24,8 @@ TEST_CASE("solids neither come nor go with packings that deform as their element
   scarp::SerialExecutor executor;
   Rve const sand{.law = samples::study_law(),
                  .source = {samples::consolidated<samples::Discs>(25).packing},
-                 .strain_per_step = 4e-5};
+                 .strain_per_step = 4e-5,
+                 .unbalanced_tolerance = 1.0};  // volumes count here, and elements that grow nearly lose their contacts
   double const whole = 1.0 / (1.0 + sand.source.packing.void_ratio());  // [m2], of 1 m2 of ground
   auto const change = [&](auto& problem) {
     CHECK(scarp::solid_volume(problem) == samples::Approx(whole).epsilon(1e-12));

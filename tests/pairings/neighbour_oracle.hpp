@@ -37,6 +37,14 @@ struct Answer {
   std::vector<bool> too_deep;          ///< grains on top of others, where several directions of least overlap compete
 };
 
+/// Radius of curvature [m] at the tips of an oval, b^2/a; of a superellipse the stand-in that falls to zero at exponent two.
+template <class Size>
+double tip_radius(Size const& size) {
+  double const shorter = std::min(size[0], size[1]);
+  double const exponent = size.size() > 2 ? size[size.size() - 1] : 1.0;
+  return (2.0 - exponent) * shorter * shorter / std::max(size[0], size[1]);
+}
+
 /// Every pair of parts with every image within some cells; a grain's own parts do not meet.
 template <class Shape>
 Answer<Shape::dim> oracle(Smooth<Shape> const& packing, double reach, double stiffness) {
@@ -71,10 +79,10 @@ Answer<Shape::dim> oracle(Smooth<Shape> const& packing, double reach, double sti
             scarp::converged_contact<Shape>(scarp::row_pose(packing, i), scarp::row_pose(packing, j), branch, start);
         if (touch.overlap < -reach) continue;
         answer.meetings.emplace_back(i, j, shift);
-        double const shallow = 0.1 * std::min(Shape::contact_radius(scarp::row_pose(packing, i)),
-                                               Shape::contact_radius(scarp::row_pose(packing, j)));
-        if (Shape::warm_starts_normal && touch.overlap > shallow) {
-          answer.too_deep[i / parts] = answer.too_deep[j / parts] = true;
+        if constexpr (Shape::warm_starts_normal) {
+          double const shallow = 0.3 * std::min(tip_radius(packing.population->size(i / parts)),
+                                                tip_radius(packing.population->size(j / parts)));
+          if (touch.overlap > shallow) answer.too_deep[i / parts] = answer.too_deep[j / parts] = true;
         }
         Vector<dim> const force =
             stiffness * std::max(touch.overlap, 0.0) * Eigen::Map<Vector<dim> const>(touch.normal.data());
