@@ -308,7 +308,7 @@ PYBIND11_MODULE(_points, module) {
   });
   module.def("loads", [](py::buffer const& bytes) { return load(std::string_view(bytes_of(bytes))); });
   module.attr("statuses") = names_up_to<scarp::Status::failed>();
-  module.attr("reasons") = names_up_to<scarp::Reason::interrupted>();
+  module.attr("reasons") = names_up_to<scarp::Reason::too_few_steps>();
   static_cast<py::class_<Points<2>>>(module.attr("Points"))
       .def("picture", &picture, py::arg("point"),
            "Of a packing: cell (columns are base vectors [m]), grains (x, y, half axes a and b, axis of a), contacts "
