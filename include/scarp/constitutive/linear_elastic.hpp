@@ -72,7 +72,7 @@ template <int Dim, class InitialStress = StressFree<Dim>>
   requires InitialStressField<InitialStress, Dim>
 struct LinearElastic {
   static constexpr int dim = Dim;
-  static constexpr bool exact_tangent = true;  ///< of small rotations
+  static constexpr bool exact_tangent = true;  ///< but for the rotation of an increment
 
   /// Stress [Pa], tension positive.
   struct State {

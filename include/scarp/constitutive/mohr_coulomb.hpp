@@ -23,7 +23,7 @@ template <int Dim, class InitialStress = StressFree<Dim>, StrengthLaw StrengthTy
   requires InitialStressField<InitialStress, Dim>
 struct MohrCoulomb {
   static constexpr int dim = Dim;
-  static constexpr bool exact_tangent = true;  ///< of small rotations
+  static constexpr bool exact_tangent = true;  ///< but for the rotation of an increment
 
   /// Stress, hardening variable and tangent of a point.
   struct State {

@@ -33,7 +33,7 @@ inline long process_number() {
 #endif
 }
 
-/// The number behind a name in a file of the kernel's, or the file's only number; infinite where there is none.
+/// The number behind a name in a file of the kernel's, or the file's only number; infinite without such a number.
 inline double kernel_number(std::string const& file, std::string_view name = {}) {
   std::ifstream stream(file);
   for (std::string word; stream >> word;) {
