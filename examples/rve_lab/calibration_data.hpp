@@ -137,7 +137,7 @@ inline std::vector<Observation> targets(std::string const& text, double window) 
                    .reached = unit * measure.reached,
                    .windowed = measure.windowed,
                    .of = [&measure, window](Curve const& curve) {
-                     return measure.of(scarp::laboratory_results<2>(curve.rows, window), curve);
+                     return measure.of(laboratory_results<2>(curve.rows, window), curve);
                    }});
   }
   return all;
@@ -153,7 +153,7 @@ inline double at_strain(std::vector<double> const& strains, std::vector<double> 
 }
 
 /// A column of a curve at an axial strain; no number beyond its end. of: a row
-inline double at_strain(Curve const& curve, double strain, double (*of)(scarp::LaboratoryRow<2> const&)) {
+inline double at_strain(Curve const& curve, double strain, double (*of)(LaboratoryRow<2> const&)) {
   std::vector<double> strains, column;
   for (auto const& row : curve.rows) {
     strains.push_back(row.axial_strain());
@@ -164,8 +164,8 @@ inline double at_strain(Curve const& curve, double strain, double (*of)(scarp::L
   return at_strain(strains, column, strain);
 }
 
-inline double sine_of(scarp::LaboratoryRow<2> const& row) { return std::sin(row.friction()); }
-inline double volumetric_strain_of(scarp::LaboratoryRow<2> const& row) { return row.volumetric_strain(); }
+inline double sine_of(LaboratoryRow<2> const& row) { return std::sin(row.friction()); }
+inline double volumetric_strain_of(LaboratoryRow<2> const& row) { return row.volumetric_strain(); }
 
 /// Twenty strains, denser at the start, at which the curve is to have the table's values. after: groups so far
 inline std::vector<Observation> observations_of(LabTable const& table, std::size_t groups) {

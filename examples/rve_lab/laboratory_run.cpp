@@ -2,12 +2,12 @@
 #include "laboratory_run.hpp"
 
 #include "../shared/print.hpp"
+#include "laboratory_results.hpp"
 #include "laboratory_table.hpp"
+#include "mohr_coulomb_reading.hpp"
 #include "paths.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/points/any_provider.hpp"
-#include "scarp/points/laboratory_results.hpp"
-#include "scarp/points/mohr_coulomb_reading.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace rve_lab {
@@ -42,7 +42,7 @@ scarp::PathConditions<Dim> consolidation_of(double axial, double k0) {
 template <int Dim>
 class LaboratoryRun {
  public:
-  using Row = scarp::LaboratoryRow<Dim>;
+  using Row = LaboratoryRow<Dim>;
 
   LaboratoryRun(Laboratory const& choice, scarp::AnyProvider<Dim> const& material, int count,
                 std::filesystem::path const& table)
@@ -163,7 +163,7 @@ class LaboratoryRun {
 };
 
 template <int Dim>
-nlohmann::json json_of(scarp::LaboratoryRow<Dim> const& row, double void_ratio) {
+nlohmann::json json_of(LaboratoryRow<Dim> const& row, double void_ratio) {
   return {{"strain", row.length},
           {"p", row.p()},
           {"q", row.q()},
@@ -174,7 +174,7 @@ nlohmann::json json_of(scarp::LaboratoryRow<Dim> const& row, double void_ratio) 
 
 /// whole: whether the test came to its end; one that was cut off has no residual state
 template <int Dim>
-nlohmann::json json_of(scarp::LaboratoryResults<Dim> const& results, double void_ratio, bool whole) {
+nlohmann::json json_of(LaboratoryResults<Dim> const& results, double void_ratio, bool whole) {
   nlohmann::json json{{"peak", nullptr},
                       {"residual", nullptr},
                       {"phase_transformation", nullptr},
@@ -206,8 +206,8 @@ void print_results(std::string const& name, nlohmann::json const& json) {  // na
 
 /// Mohr-Coulomb parameters of a drained test's results: printed as options of this command, and kept in the summary.
 template <int Dim>
-nlohmann::json read_mohr_coulomb(scarp::LaboratoryResults<Dim> const& results) try {
-  auto const soil = scarp::mohr_coulomb_of(results);
+nlohmann::json read_mohr_coulomb(LaboratoryResults<Dim> const& results) try {
+  auto const soil = mohr_coulomb_of(results);
   auto const [lambda, shear] = soil.elasticity;
   double const poisson = lambda / (2.0 * (lambda + shear));
   double const young = 2.0 * shear * (1.0 + poisson);
@@ -262,11 +262,11 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
     for (std::size_t k = 0; k < run.rows().size(); ++k) {
       mean_void_ratio += run.void_ratio(k) / static_cast<double>(count);
       auto const json =
-          json_of(scarp::laboratory_results<Dim>(run.rows()[k], window), run.void_ratio(k), verdict.acceptable());
+          json_of(laboratory_results<Dim>(run.rows()[k], window), run.void_ratio(k), verdict.acceptable());
       print_results(fmt::to_string(k), json);
       summary["results"].push_back(json);
     }
-    auto const mean = scarp::laboratory_results<Dim>(scarp::mean_rows<Dim>(run.rows()), window);
+    auto const mean = laboratory_results<Dim>(mean_rows<Dim>(run.rows()), window);
     summary["mean"] = json_of(mean, mean_void_ratio, verdict.acceptable());
     if (count > 1) print_results("mean", summary["mean"]);
     if (!mean.rises) summary["peak_friction_angle"] = mean.peak.friction() / degree;

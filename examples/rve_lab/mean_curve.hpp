@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "choices.hpp"
+#include "laboratory_results.hpp"
 #include "paths.hpp"
-#include "scarp/points/laboratory_results.hpp"
 
 namespace rve_lab {
 
 /// A test on one packing, or the mean of several: the start, then a row for each stretch of the path with its mean stress and the strain in
 /// its middle. Stresses are those across the axes, as a laboratory measures them.
 struct Curve {
-  std::vector<scarp::LaboratoryRow<2>> rows;
+  std::vector<LaboratoryRow<2>> rows;
   double void_ratio = 0.0;            ///< at the start
   double isotropic_void_ratio = 0.0;  ///< of the preparation, at its isotropic pressure
 
@@ -34,7 +34,7 @@ struct Curve {
 /// Mean of curves whose rows end at the same strains, as far as the shortest goes.
 inline Curve mean_of(std::vector<Curve const*> const& curves) {
   Curve mean;
-  std::vector<std::vector<scarp::LaboratoryRow<2>>> rows;
+  std::vector<std::vector<LaboratoryRow<2>>> rows;
   auto const* const shortest = *std::ranges::min_element(curves, {}, [](Curve const* one) { return one->rows.size(); });
   auto const count = static_cast<std::ptrdiff_t>(shortest->rows.size());
   for (auto const* curve : curves) {
@@ -42,7 +42,7 @@ inline Curve mean_of(std::vector<Curve const*> const& curves) {
     mean.void_ratio += curve->void_ratio / static_cast<double>(curves.size());
     mean.isotropic_void_ratio += curve->isotropic_void_ratio / static_cast<double>(curves.size());
   }
-  mean.rows = scarp::mean_rows<2>(rows);
+  mean.rows = mean_rows<2>(rows);
   return mean;
 }
 
@@ -52,7 +52,7 @@ Curve curve_of(Sand const& sand, CurveTest const& test);
 
 /// What a practitioner reads from a curve.
 struct Measure {
-  using Results = scarp::LaboratoryResults<2>;
+  using Results = LaboratoryResults<2>;
 
   std::string_view name;
   std::string_view unit;

@@ -78,7 +78,7 @@ def check_bad_input():
         check_refusal(program, "NaN", "--strain-per-dem-step", "nan", "--strain-per-dem-step")
         check_refusal(program, "infinity", "--strain-per-dem-step", "inf", "--strain-per-dem-step")
         check_refusal(program, "missing value", "--preparation-friction", None, "--preparation-friction")
-        check_refusal(program, "missing folder", "--output", "no/where/out", "--output")
+        check_refusal(program, "folder below a file", "--output", "out/notes.txt/deep/out", "--output")
         check_refusal(program, "file as folder", "--output", "out/notes.txt", "--output")
         check_refusal(program, "empty folder name", "--output", "", "--output")
         check_refusal(program, "missing config file", "--config", "none.ini", "none.ini")

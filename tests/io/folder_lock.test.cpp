@@ -40,6 +40,23 @@ TEST_CASE("the lock of a process that dies does not outlive it, though its file 
   CHECK(FolderLock(folder.path()).holds());
 }
 
+TEST_CASE("a forked process that ends leaves lock, file and folders to its parent") {
+  ScratchFolder const folder;
+  {
+    FolderLock lock(folder / "output");
+    int const child = ::fork();
+    if (child == 0) {
+      { FolderLock const copy = std::move(lock); }
+      ::_exit(0);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(std::filesystem::exists(folder / "output/run.lock"));
+    CHECK_THROWS_WITH_AS(FolderLock(folder / "output"), doctest::Contains("' is in use (process "), FolderError);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "output"));
+}
+
 TEST_CASE("folders that are missing are made, and go with the lock where nothing was put into them") {
   ScratchFolder const folder;
   {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Independent readers, VTK and meshio, find in VTU and Gmsh files what tests/io/mesh_samples.cpp wrote there, and Gmsh
+"""[slow] Independent readers, VTK and meshio, find in VTU and Gmsh files what tests/io/mesh_samples.cpp wrote there, and Gmsh
 files of meshio are read back. Environment: SCARP_TEST_PROGRAMS, the folder of mesh_samples (skipped, exit 77, without, and
 without these packages of Python)."""
 import csv

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/process.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/time_stamp.hpp"
 
@@ -23,7 +24,8 @@ class FolderError : public InputError {
 };
 
 /// Reserves a folder for one writer of a kind, by a locked file in it. The kernel lets go of it when the process dies, however that
-/// comes about. A folder that is not there is made; when the lock goes, so does what was made and got no content.
+/// comes about. A folder that is not there is made; when the lock goes, so does what was made and got no content. A copy in a forked
+/// process leaves everything to its parent.
 class FolderLock {
  public:
   /// Locks nothing.
@@ -58,6 +60,7 @@ class FolderLock {
     std::swap(made_, other.made_);
     std::swap(file_, other.file_);
     std::swap(held_, other.held_);
+    std::swap(process_, other.process_);
   }
 
   void make(std::filesystem::path const& folder) {
@@ -101,7 +104,7 @@ class FolderLock {
     }
     char host[256] = "";
     static_cast<void>(::gethostname(host, sizeof host - 1));
-    auto const text = fmt::format("process {} of {} since {}", ::getpid(), host, time_stamp());
+    auto const text = fmt::format("process {} of {} since {}", process_, host, time_stamp());
     if (held_ && ::ftruncate(file_, 0) == 0) static_cast<void>(!::write(file_, text.data(), text.size()));
   }
 
@@ -113,7 +116,7 @@ class FolderLock {
 
   void release() noexcept {
     if (file_ >= 0) {
-      if (held_) ::unlink(path_.c_str());
+      if (held_ && process_ == detail::process_number()) ::unlink(path_.c_str());
       ::close(std::exchange(file_, -1));
     }
     remove_made();
@@ -125,6 +128,7 @@ class FolderLock {
 
   void remove_made() noexcept {
     std::error_code ignored;
+    if (process_ != detail::process_number()) made_.clear();
     for (auto const& folder : made_) std::filesystem::remove(folder, ignored);  // not one that holds anything
     made_.clear();
   }
@@ -133,6 +137,7 @@ class FolderLock {
   std::vector<std::filesystem::path> made_{};  ///< innermost first
   int file_ = -1;
   bool held_ = false;
+  long process_ = detail::process_number();  ///< that made the lock
 };
 
 }  // namespace scarp

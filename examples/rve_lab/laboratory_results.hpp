@@ -13,19 +13,21 @@
 #include "scarp/tensor/principal.hpp"
 #include "scarp/tensor/voigt.hpp"
 
-namespace scarp {
+namespace rve_lab {
 
 /// State of a point on a laboratory path: length of the path, stress [Pa] and logarithmic strain with engineering shear, tension positive. What
 /// follows from them is positive in compression; p and q in the plane are those of the stresses in it.
 template <int Dim>
 struct LaboratoryRow {
-  double length = 0.0;                                 ///< as `PointPath` counts it
-  VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();  ///< Cauchy stress [Pa], tension positive
+  double length = 0.0;                                               ///< as `PointPath` counts it
+  scarp::VoigtStress<Dim> stress = scarp::VoigtStress<Dim>::Zero();  ///< Cauchy stress [Pa], tension positive
   /// logarithmic, with engineering shear, extension positive
-  EngineeringStrain<Dim> strain = EngineeringStrain<Dim>::Zero();
+  scarp::EngineeringStrain<Dim> strain = scarp::EngineeringStrain<Dim>::Zero();
 
   /// Principal stresses [Pa], largest first.
-  Vector<Dim> principal_stresses() const { return principal_values<Dim>(-from_voigt_stress<Dim, double>(stress)); }
+  scarp::Vector<Dim> principal_stresses() const {
+    return scarp::principal_values<Dim>(-scarp::from_voigt_stress<Dim, double>(stress));
+  }
   /// Mean stress [Pa].
   double p() const { return -stress.template head<Dim>().mean(); }
   /// Difference of the outer principal stresses [Pa].
@@ -54,9 +56,9 @@ struct LaboratoryRow {
 /// where no shear strain changes, as in oedometers: all principal strains have one sign.
 template <int Dim>
 double dilation(LaboratoryRow<Dim> const& from, LaboratoryRow<Dim> const& to) {
-  EngineeringStrain<Dim> change = to.strain - from.strain;
-  change.template tail<voigt_size<Dim> - Dim>() /= 2.0;
-  Vector<Dim> const parts = principal_values<Dim>(from_voigt_stress<Dim, double>(change));
+  scarp::EngineeringStrain<Dim> change = to.strain - from.strain;
+  change.template tail<scarp::voigt_size<Dim> - Dim>() /= 2.0;
+  scarp::Vector<Dim> const parts = scarp::principal_values<Dim>(scarp::from_voigt_stress<Dim, double>(change));
   double const sine = parts.sum() / parts.cwiseAbs().sum();
   return std::abs(sine) < 1.0 - 1e-9 ? std::asin(sine) : std::numeric_limits<double>::quiet_NaN();
 }
@@ -120,13 +122,13 @@ std::optional<LaboratoryRow<Dim>> inner_maximum(std::vector<LaboratoryRow<Dim>> 
 
 template <int Dim>
 void read_moduli(std::span<LaboratoryRow<Dim> const> rows, LaboratoryResults<Dim>& results) {
-  auto const deviator = [](VoigtStress<Dim> const& components) {
-    Tensor<Dim> const tensor = from_voigt_stress<Dim, double>(components);
-    return (tensor - tensor.trace() / Dim * Tensor<Dim>::Identity()).norm();
+  auto const deviator = [](scarp::VoigtStress<Dim> const& components) {
+    scarp::Tensor<Dim> const tensor = scarp::from_voigt_stress<Dim, double>(components);
+    return (tensor - tensor.trace() / Dim * scarp::Tensor<Dim>::Identity()).norm();
   };
   auto const& start = rows.front();
-  EngineeringStrain<Dim> first = rows[1].strain - start.strain;
-  first.template tail<voigt_size<Dim> - Dim>() /= 2.0;
+  scarp::EngineeringStrain<Dim> first = rows[1].strain - start.strain;
+  first.template tail<scarp::voigt_size<Dim> - Dim>() /= 2.0;
   if (double const shear = deviator(first); shear > 0.05 * first.norm())
     results.shear_modulus = deviator(rows[1].stress - start.stress) / (2.0 * shear);
   auto const top = std::ranges::max_element(rows, {}, &LaboratoryRow<Dim>::q);
@@ -135,7 +137,7 @@ void read_moduli(std::span<LaboratoryRow<Dim> const> rows, LaboratoryResults<Dim
   if (above == rows.begin() || above == rows.end()) return;
   auto const& below = *(above - 1);
   double const share = (half - below.q()) / (above->q() - below.q());
-  EngineeringStrain<Dim> const strain = below.strain + share * (above->strain - below.strain) - start.strain;
+  scarp::EngineeringStrain<Dim> const strain = below.strain + share * (above->strain - below.strain) - start.strain;
   double const length = below.length + share * (above->length - below.length) - start.length;
   if (!(std::abs(strain(Dim - 1) + length) < 1e-6 * std::abs(length))) return;
   results.secant_modulus = (half - start.q()) / std::abs(strain(Dim - 1));
@@ -148,11 +150,11 @@ void read_moduli(std::span<LaboratoryRow<Dim> const> rows, LaboratoryResults<Dim
 /// \throws InputError without a test, and for tests of different numbers of rows
 template <int Dim>
 std::vector<LaboratoryRow<Dim>> mean_rows(std::vector<std::vector<LaboratoryRow<Dim>>> const& tests) {
-  if (tests.empty()) reject("there is no test to take the mean of: give one at least");
+  if (tests.empty()) scarp::reject("there is no test to take the mean of: give one at least");
   for (auto const& own : tests)
     if (own.size() != tests.front().size())
-      reject("a test has {} rows, the first {} (tests of a mean have equal rows): follow one path", own.size(),
-             tests.front().size());
+      scarp::reject("a test has {} rows, the first {} (tests of a mean have equal rows): follow one path", own.size(),
+                    tests.front().size());
   std::vector<LaboratoryRow<Dim>> rows(tests.front().size());
   double const share = 1.0 / static_cast<double>(tests.size());
   for (auto const& own : tests) {
@@ -172,9 +174,9 @@ std::vector<LaboratoryRow<Dim>> mean_rows(std::vector<std::vector<LaboratoryRow<
 template <int Dim>
 LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const& all, double window = 0.0) {
   using Row = LaboratoryRow<Dim>;
-  require_not_negative("window of a test's results", window);
+  scarp::require_not_negative("window of a test's results", window);
   auto const rows = detail::monotonic<Dim>(all);
-  if (rows.size() < 2) reject("a test has {} rows (results are differences): give two at least", rows.size());
+  if (rows.size() < 2) scarp::reject("a test has {} rows (results are differences): give two at least", rows.size());
   LaboratoryResults<Dim> results;
   std::vector<Row> means;
   std::vector<double> angles;
@@ -188,7 +190,7 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
     means.push_back(detail::mean<Dim>(rows.subspan(begin, last + 1 - begin)));
     angles.push_back(dilation(rows[first], rows[std::min(std::max(last, first + 1), rows.size() - 1)]));
   }
-  if (means.empty()) reject("the test is shorter than the window {} of its results: take a smaller one", window);
+  if (means.empty()) scarp::reject("the test is shorter than the window {} of its results: take a smaller one", window);
   results.peak = *std::ranges::max_element(means, {}, &Row::friction);
   auto const growth = [](Row const& row) {  // sigma_1 / sigma_3 - 1
     double const sine = std::sin(row.friction());
@@ -218,4 +220,4 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
   return results;
 }
 
-}  // namespace scarp
+}  // namespace rve_lab

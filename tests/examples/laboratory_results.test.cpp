@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/points/laboratory_results.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,16 +7,17 @@
 #include <numbers>
 #include <type_traits>
 
+#include "../../examples/rve_lab/laboratory_results.hpp"
+#include "../../examples/rve_lab/mohr_coulomb_reading.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/points/laboratory_paths.hpp"
-#include "scarp/points/mohr_coulomb_reading.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 
 namespace {
 
 using samples::Approx;
-using Rows = std::vector<scarp::LaboratoryRow<2>>;
+using Rows = std::vector<rve_lab::LaboratoryRow<2>>;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -26,7 +26,7 @@ auto rows_of(Provider const& provider, scarp::PathConditions<Dim> const& conditi
   scarp::MaterialPoints<Dim> points(provider, std::array{scarp::Site<Dim>{}});
   scarp::PointPath<Dim> path(points, conditions, {.tolerance = 1e-11});
   scarp::SerialExecutor serial;
-  std::vector<scarp::LaboratoryRow<Dim>> rows{{0.0, path.stress(0), path.strain(0)}};
+  std::vector<rve_lab::LaboratoryRow<Dim>> rows{{0.0, path.stress(0), path.strain(0)}};
   for (int k = 0; k < count; ++k) {
     REQUIRE(path.advance(length / count, serial).verdict.acceptable());
     rows.push_back({path.length(), path.stress(0), path.strain(0)});
@@ -55,14 +55,14 @@ TEST_CASE_TEMPLATE("Mohr-Coulomb parameters are read from Mohr-Coulomb's own cur
       {{.friction = 35.0 * degree, .dilation = 8.0 * degree}},
       {.surcharge = 1e5}};
   auto const rows = rows_of<dim>(soil, scarp::drained_path<dim>(), 0.04, 400);
-  auto const results = scarp::laboratory_results<dim>(rows);
+  auto const results = rve_lab::laboratory_results<dim>(rows);
   // The elastic strain of an increment is its logarithm to 1e-9; the curve is straight to its corner, but for the row across it.
   CHECK(results.peak.friction() == Approx(35.0 * degree).epsilon(1e-9));
   CHECK(results.residual.friction() == Approx(35.0 * degree).epsilon(1e-9));
   CHECK(results.peak_dilation == Approx(8.0 * degree).epsilon(1e-6));
   CHECK(results.shear_modulus == Approx(20e6 / 2.6).epsilon(1e-8));
   CHECK(results.k0 == Approx((1.0 - std::sin(35.0 * degree)) / (1.0 + std::sin(35.0 * degree))).epsilon(1e-9));
-  auto const read = scarp::mohr_coulomb_of(results);
+  auto const read = rve_lab::mohr_coulomb_of(results);
   CHECK(read.elasticity.shear_modulus == Approx(20e6 / 2.6).epsilon(1e-6));
   CHECK(read.elasticity.lame_lambda == Approx(soil.elasticity.lame_lambda).epsilon(1e-6));
   CHECK(read.strength.strength.friction == results.peak.friction());
@@ -83,7 +83,7 @@ TEST_CASE("results of a synthetic drained test") {
   constexpr int count = 1000;
   constexpr double end = 0.1;
   auto const rows = drawn(deviator, volume, end, count);
-  auto const results = scarp::laboratory_results<2>(rows);
+  auto const results = rve_lab::laboratory_results<2>(rows);
   CHECK(results.peak.length == Approx(at));
   CHECK(results.peak.q() == Approx(top));
   CHECK(results.peak.p() == Approx(1.0 + top / 2.0));
@@ -115,8 +115,8 @@ TEST_CASE("results of a synthetic drained test") {
 TEST_CASE("a stress ratio that rises to the end is no peak") {
   auto const nothing = [](double) { return 0.0; };
   auto const ends = [&](auto const& deviator, double end) {
-    auto const results = scarp::laboratory_results<2>(drawn(deviator, nothing, end, 100), end / 20.0);
-    if (results.rises) CHECK_REFUSED(scarp::mohr_coulomb_of(results), "rises to the end", "degrees");
+    auto const results = rve_lab::laboratory_results<2>(drawn(deviator, nothing, end, 100), end / 20.0);
+    if (results.rises) CHECK_REFUSED(rve_lab::mohr_coulomb_of(results), "rises to the end", "degrees");
     return results.rises;
   };
   for (double const end : {1e-3, 0.02, 0.5}) {  // elastic material, whatever its angle
@@ -137,19 +137,19 @@ TEST_CASE("a window takes means of stresses, and only the way to the first turn 
   auto const spike = [](double axial) { return std::abs(axial - 0.05) < 1e-9 ? 2.0 : 1.0; };
   auto rows = drawn(
       spike, [](double axial) { return -axial; }, 0.1, 100);
-  CHECK(scarp::laboratory_results<2>(rows).peak.q() == Approx(2.0));
-  auto const smooth = scarp::laboratory_results<2>(rows, 0.004);
+  CHECK(rve_lab::laboratory_results<2>(rows).peak.q() == Approx(2.0));
+  auto const smooth = rve_lab::laboratory_results<2>(rows, 0.004);
   CHECK(smooth.peak.q() == Approx((3.0 + 2.0) / 4.0));
   CHECK(smooth.residual.length == Approx(0.0985));
   CHECK(std::sin(smooth.peak_dilation) == Approx(1.0 / 3.0).epsilon(1e-9));  // 1 / (2 + 1)
   CHECK_FALSE(smooth.phase_transformation);
   rows.push_back(rows[98]);
   rows.back().stress(1) = -9.0;
-  CHECK(scarp::laboratory_results<2>(rows).peak.q() == Approx(2.0));
+  CHECK(rve_lab::laboratory_results<2>(rows).peak.q() == Approx(2.0));
 }
 
 TEST_CASE("a minor stress in tension mobilises a right angle, and no stress mobilises nothing") {
-  using Row = scarp::LaboratoryRow<2>;
+  using Row = rve_lab::LaboratoryRow<2>;
   auto const friction = [](double lateral, double axial) {
     return Row{0.0, {-lateral, -axial, 0.0}, scarp::EngineeringStrain<2>::Zero()}.friction();
   };
@@ -166,9 +166,9 @@ TEST_CASE("a minor stress in tension mobilises a right angle, and no stress mobi
     double const axial = 1e-3 * k;
     rows.push_back({axial, {0.1, -1.0 - 100.0 * axial, 0.0}, {0.5 * axial, -axial, 0.0}});
   }
-  auto const results = scarp::laboratory_results<2>(rows, 0.004);
+  auto const results = rve_lab::laboratory_results<2>(rows, 0.004);
   CHECK(results.peak.friction() == Approx(90.0 * degree));
-  CHECK_REFUSED(scarp::mohr_coulomb_of(results), "friction");
+  CHECK_REFUSED(rve_lab::mohr_coulomb_of(results), "friction");
 }
 
 TEST_CASE("phase transformation of an undrained test is where the pressure is least") {
@@ -177,21 +177,21 @@ TEST_CASE("phase transformation of an undrained test is where the pressure is le
     double const axial = 1e-3 * k, mean = 1.0 + 400.0 * (axial - 0.02) * (axial - 0.02), shear = 0.5 * k / 50.0;
     rows.push_back({axial, {-mean + shear, -mean - shear, 0.0}, {axial, -axial, 0.0}});
   }
-  auto const results = scarp::laboratory_results<2>(rows);
+  auto const results = rve_lab::laboratory_results<2>(rows);
   REQUIRE(results.phase_transformation);
   CHECK(results.phase_transformation->length == Approx(0.02));
 }
 
 TEST_CASE("what has no results is rejected, and what a test does not have is no number") {
   Rows rows{{0.0, {-1.0, -1.0, 0.0}, {0.0, 0.0, 0.0}}};
-  CHECK_REFUSED(scarp::laboratory_results<2>(rows), "1 rows");
+  CHECK_REFUSED(rve_lab::laboratory_results<2>(rows), "1 rows");
   rows.push_back({0.01, {-2.0, -2.0, 0.0}, {-0.01, -0.01, 0.0}});
-  CHECK_REFUSED(scarp::laboratory_results<2>(rows, 0.02), "shorter than the window 0.02");
-  CHECK_REFUSED(scarp::laboratory_results<2>(rows, -1.0), "is -1");
-  auto const isotropic = scarp::laboratory_results<2>(rows);
+  CHECK_REFUSED(rve_lab::laboratory_results<2>(rows, 0.02), "shorter than the window 0.02");
+  CHECK_REFUSED(rve_lab::laboratory_results<2>(rows, -1.0), "is -1");
+  auto const isotropic = rve_lab::laboratory_results<2>(rows);
   CHECK(std::isnan(isotropic.shear_modulus));
   CHECK(std::isnan(isotropic.secant_modulus));
-  CHECK_REFUSED(scarp::mohr_coulomb_of(isotropic), "mobilises no friction");
-  CHECK_REFUSED(scarp::mean_rows<2>({}), "no test");
-  CHECK_REFUSED(scarp::mean_rows<2>({rows, {rows.front()}}), "1 rows, the first 2");
+  CHECK_REFUSED(rve_lab::mohr_coulomb_of(isotropic), "mobilises no friction");
+  CHECK_REFUSED(rve_lab::mean_rows<2>({}), "no test");
+  CHECK_REFUSED(rve_lab::mean_rows<2>({rows, {rows.front()}}), "1 rows, the first 2");
 }
