@@ -214,7 +214,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->excludes(seed);
   declare_materials(app, choice);
   app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));
-  app.add_option("--dip", choice.dip, "of the fault [degrees]")->check(number_from(0.0, false, 90.0));
+  app.add_option("--dip", choice.dip, "of the fault [degrees]")->check(number_from(1.0, true, 90.0));
   app.add_flag("--reverse", choice.reverse, "the hanging wall is pushed up the fault plane");
   app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]; places that are not given follow it")
       ->check(fault_rupture::place());

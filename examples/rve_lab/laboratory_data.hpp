@@ -58,6 +58,15 @@ struct LabTable {
           "'{}' has no stress_ratio, no q and p, and no volumetric_strain (line 1 names {}; one of these is expected): "
           "name a column so",
           file, scarp::shortened(scarp::listed(table.names())));
+    for (auto const& name : table.names()) {
+      bool const is_stress = name.size() > 1 && std::string_view("qQpP").find(name[0]) != std::string_view::npos &&
+                             std::string_view(" ([").find(name[1]) != std::string_view::npos;
+      if (lab.sine.empty() && is_stress)
+        scarp::reject(
+            "'{}' has a column '{}' that is not read (stresses are q and p, or q_kPa and p_kPa): rename it, or leave "
+            "it out",
+            file, name);
+    }
     for (double& ratio : lab.sine) ratio = triaxial ? 3.0 * ratio / (6.0 + ratio) : ratio / 2.0;
     lab.require_possible(table);
     return lab;
@@ -131,6 +140,9 @@ struct LabTable {
         scarp::reject("{}: the volumetric strain is {} at an axial strain of {} ({}", place(row), volumetric[row],
                       strain[row], why);
       }
+      if (row + 1 == strain.size() && !(strain[row] > strain.front()))
+        scarp::reject("'{}': the axial strain is {} in all rows (it is to increase): check the column", file,
+                      strain[row]);
       double const limit = std::sin(most_angle * std::numbers::pi / 180.0);
       if (!sine.empty() && !(std::abs(sine[row]) <= limit))
         scarp::reject(

@@ -200,7 +200,9 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
   auto const before = std::ranges::find_if(  // a tenth of the path before the end
       means, [&](Row const& row) { return std::abs(means.back().length - row.length) <= 0.1 * std::abs(path); });
   auto const earlier = before == means.begin() ? before : before - 1;
-  results.rises = results.peak.length == means.back().length && growth(means.back()) > 1.05 * growth(*earlier);
+  double const most = growth(results.peak);
+  results.rises = std::abs(means.back().length - results.peak.length) <= 0.1 * std::abs(path) &&
+                  most > 1.05 * growth(*earlier) && growth(means.back()) > 0.95 * most;
   bool const extends = rows.back().axial_strain() < rows.front().axial_strain();  // elastic ground swells then
   for (std::size_t k = 0; k < means.size() && !extends; ++k) {
     constexpr double nearly = 0.9;  // of the peak: before, elastic changes of volume count

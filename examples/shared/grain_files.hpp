@@ -219,6 +219,7 @@ inline GrainFile read_lammps_dump(GrainLines lines) {
     } else if (lines.word(k, 1) == "ATOMS") {
       ++snapshots;
       lines.restart();
+      std::set<std::string> molecules;
       auto const& words = lines.words(k);
       auto const column = [&](std::string_view name) -> std::optional<std::size_t> {
         auto const found = std::find(words.begin(), words.end(), name);
@@ -233,6 +234,12 @@ inline GrainFile read_lammps_dump(GrainLines lines) {
       while (k + 1 < lines.count() && lines.word(k + 1, 0) != "ITEM:") {
         lines.add(++k, at, radii ? 1.0 : 0.5);
         if (auto const type = column("type")) lines.add_kind(k, *type);
+        if (auto const molecule = column("mol");
+            molecule && !molecules.insert(lines.word(k, *molecule)).second && lines.word(k, *molecule) != "0")
+          lines.reject_line(
+              k,
+              fmt::format("the grains of molecule {} are one body, which would fall apart", lines.word(k, *molecule)),
+              "leave mol out where they are free");
       }
     }
   }
@@ -253,11 +260,20 @@ inline GrainFile read_mercury(GrainLines lines) {
     if (key == "xMin") {
       cell = sheared_box({lines.number(k, 3) - lines.number(k, 1), lines.number(k, 7) - lines.number(k, 5),
                           lines.number(k, 11) - lines.number(k, 9)});
+    } else if (key == "Boundaries") {
+      long others = 0;
+      for (auto left = lines.number(k, 1); left > 0.0; --left)
+        if (lines.word(k + static_cast<std::size_t>(left), 0) != "PeriodicBoundary") ++others;
+      if (others > 0) notes.push_back(fmt::format("{} boundaries are not read: the cell is periodic", others));
     } else if (key == "Walls" && lines.number(k, 1) > 0.0) {
       notes.push_back(fmt::format("{} walls are not read: the cell is periodic", lines.word(k, 1)));
+    } else if (key == "SphericalParticle" || key == "BaseParticle") {
+      lines.reject_line(k, "more particles stand here than are announced", "write or copy the file again");
     } else if (key == "Particles") {
       for (auto left = lines.number(k, 1); left > 0.0; --left) {
-        if (lines.word(++k, 0) != "SphericalParticle" && lines.word(k, 0) != "BaseParticle")
+        if (lines.word(++k, 0) == "Interactions")
+          lines.reject_line(k, "fewer particles stand before it than are announced", "write or copy the file again");
+        if (lines.word(k, 0) != "SphericalParticle" && lines.word(k, 0) != "BaseParticle")
           lines.reject_line(k, "spheres are read", "leave other particles out");
         auto const place = lines.behind(k, "position");
         lines.add_kind(k, lines.behind(k, "indSpecies"));

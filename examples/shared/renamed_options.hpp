@@ -57,9 +57,25 @@ inline std::string present_value(std::string_view option, std::string value) {
   return "tied";
 }
 
+/// CLI11 takes 010 for eight and 0x10 for sixteen, files of sands for ten and for nothing.
+inline void require_decimal(CLI::App& app) {
+  CLI::Validator const decimal(
+      [](std::string& given) {
+        auto const digits = given.find_first_not_of("+-");
+        bool const fits = digits == std::string::npos || given[digits] != '0' || digits + 1 == given.size();
+        return fits ? std::string()
+                    : fmt::format("'{}' begins with a zero (a decimal whole number is expected): leave it out", given);
+      },
+      "");
+  auto const is_whole = [](CLI::Option const* one) { return one->get_type_name().starts_with("INT"); };
+  for (CLI::Option* option : app.get_options(is_whole)) option->check(decimal);
+  for (CLI::App* command : app.get_subcommands({})) require_decimal(*command);
+}
+
 /// Reads the command line, also with options by their names from before. \throws CLI::ParseError
 inline void parse(CLI::App& app, int argc, char** argv) {
   app.name(argv[0]);
+  require_decimal(app);
   std::vector<std::string> words(argv + 1, argv + argc);
   std::string last;  // option whose value may follow
   for (auto& word : words) {

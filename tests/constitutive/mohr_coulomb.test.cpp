@@ -437,3 +437,17 @@ TEST_CASE("a residual strength that cannot be is refused as the peak is") {
   soil.strength.softening_strain = 0.0;
   CHECK_REFUSED(soil.initial_state({}), "from peak to residual strength is 0");
 }
+
+TEST_CASE("a state that the strength of these points does not bear is rejected, one at its surface is not") {
+  auto const soil = [](double friction) {
+    return scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>{scarp::IsotropicElasticity::from_young_poisson(2e7, 0.3),
+                                                            {{.friction = friction}},
+                                                            {.surcharge = 1e5, .unit_weight = 1e4, .k0 = 0.5}};
+  };
+  auto const strong = soil(0.7);
+  auto state = strong.initial_state({.depth = 1.0});
+  auto end = state;
+  REQUIRE(strong.respond(state, scarp::Gradient<2>{{0.0, 0.0}, {0.0, -2e-2}}, end).verdict.acceptable());
+  CHECK_NOTHROW(strong.require_fitting(end));
+  CHECK_REFUSED(soil(0.35).require_fitting(end), "another law has made it", "0.35 rad");
+}

@@ -257,6 +257,34 @@ TEST_CASE("a UMAT receives the size and number of its element, and of its point 
   CHECK(umat.respond(alone, shear<2>(1e-3), end).stress == scarp::VoigtStress<2>(1.0, 7.0, 1.0));
 }
 
+TEST_CASE("a UMAT that loses its tangent, requests a step of NaN or leaves its arrays is found out") {
+  auto const umat = [](double wish) {
+    return scarp::UmatProvider<2>{
+        .umat = umats::tangent_once, .name = "loam", .properties = {5e6, wish}, .variables = {0.0}};
+  };
+  auto const strained = [&](double wish) {
+    auto const one = umat(wish);
+    auto const start = one.initial_state({});
+    auto end = start, after = start;
+    scarp::Gradient<2> const increment{{1e-3, 0.0}, {0.0, -2e-3}};
+    if (auto const verdict = one.respond(start, increment, end).verdict; !verdict.acceptable()) return verdict;
+    return one.respond(end, increment, after).verdict;
+  };
+  CHECK_REFUSED(strained(0.0), "'loam'", "leaves DDSDDE zero");
+  CHECK(strained(1.0) == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::no_return});
+  CHECK_REFUSED(strained(2.0), "'loam'", "reads beyond its arrays");
+  CHECK_REFUSED(strained(3.0), "'loam'", "DFGRD1");
+  CHECK(strained(4.0).acceptable());
+}
+
+TEST_CASE("a state of another UMAT is told by its number of variables") {
+  auto const few = umats::hardening<2>();
+  auto more = few;
+  more.variables.push_back(0.0);
+  CHECK_REFUSED(more.require_fitting(few.initial_state({})), "2 state variables", "has 3");
+  CHECK_NOTHROW(few.require_fitting(few.initial_state({})));
+}
+
 TEST_CASE("a UMAT that is written for space serves in plane strain, and is found out with four components") {
   scarp::UmatProvider<2> umat{.umat = umats::of_space, .properties = {4e6}, .variables = {0.0}, .components = 6};
   auto const start = umat.initial_state({});

@@ -71,6 +71,25 @@ inline void forgetful(UMAT_ARGUMENTS) {
   }
 }
 
+/// Elastic with PROPS(1); has a tangent in the first call only, asks for a step of NaN where PROPS(2) is 1, reads PREDEF(2) where it is 2 and
+/// writes DFGRD1(10) where it is 3.
+inline void tangent_once(double* stress, double* statev, double* ddsdde, double*, double*, double*, double*, double*,
+                         double*, double*, double*, double* dstran, double*, double*, double*, double*, double* predef,
+                         double*, char*, int*, int*, int* ntens, int*, double* props, int*, double*, double*,
+                         double* pnewdt, double*, double*, double* dfgrd1, int*, int*, int*, int*, int*, int*,
+                         std::size_t) {
+  bool const is_first = statev[0] == 0.0 || props[1] != 0.0;
+  for (int i = 0; i < *ntens; ++i) {
+    stress[i] += props[0] * dstran[i];
+    if (is_first) ddsdde[i * *ntens + i] = props[0];
+  }
+  statev[0] += 1.0;
+  bool const at_rest = std::all_of(dstran, dstran + *ntens, [](double part) { return part == 0.0; });
+  if (props[1] == 1.0 && !at_rest) *pnewdt = std::numeric_limits<double>::quiet_NaN();
+  if (props[1] == 2.0) stress[0] += predef[1];
+  if (props[1] == 3.0) dfgrd1[9] = 1.0;
+}
+
 /// As an elastic one of six components that never looks at NTENS; STATEV: sum of the shears 13 and 23.
 inline void of_space(UMAT_ARGUMENTS) {
   static_cast<void>(stran), static_cast<void>(cmname), static_cast<void>(nstatv), static_cast<void>(pnewdt),

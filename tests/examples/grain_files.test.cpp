@@ -98,6 +98,8 @@ TEST_CASE("what a file holds beside the grains is told") {
   CHECK(notes("ITEM: UNITS\ncgs\n" + with(dump, "\n9 1 0.5", "\n9 4 0.5")) == Naming{"2 materials", "'cgs'"});
   CHECK(notes(with(mercury, "radius 0.25 invMass 1", "radius 0.25 invMass 0")) == Naming{"1 fixed grains"});
   CHECK(notes(with(mercury, "id 9 indSpecies 0", "id 9 indSpecies 1")) == Naming{"2 materials"});
+  CHECK(notes(with(mercury, "PeriodicBoundary id", "DeletionBoundary id")) == Naming{"1 boundaries are not read"});
+  CHECK_FALSE(samples::contains(notes(mercury), "boundaries"));
   CHECK(notes("#format x_y_z_r_matId\n1 1 1 0.5 0\n1.5 2 3 0.25 2\n") == Naming{"x_y_z_r_matId those behind r"});
   CHECK(notes("#format x_y_z_r_clumpId\n1 1 1 0.5 -1\n1.5 2 3 0.25 -1\n").empty());
 }
@@ -132,7 +134,10 @@ TEST_CASE("what cannot be read is refused with the line") {
   CHECK(complaint(with(lammps, "9 1 0.5 2650 1.5 2 3 0 0 0\n", "")) == Naming{"announces 2 grains and has 1"});
   CHECK(complaint(with(dump, "BOUNDS xy xz yz", "BOUNDS abc origin")) == Naming{"line 15 of", "general triclinic box"});
   CHECK(complaint(with(mercury, "position 1.5 2 3", "place 1.5 2 3")) == Naming{"line 10 of", "has no position"});
-  CHECK(complaint(with(mercury, "Particles 2", "Particles 3")) == Naming{"line 11 of", "begins with 'Interactions'"});
+  CHECK(complaint(with(mercury, "Particles 2", "Particles 3")) == Naming{"line 11 of", "fewer particles"});
+  CHECK(complaint(with(mercury, "Particles 2", "Particles 1")) == Naming{"line 10 of", "more particles"});
+  CHECK(complaint(with(with(dump, "id type diameter", "id mol diameter"), "9 1 0.5", "9 1 0.5")) ==
+        Naming{"molecule 1", "one body"});
   CHECK(complaint(with(mercury, "SphericalParticle", "SuperQuadricParticle")) ==
         Naming{"line 9 of", "spheres are read"});
   CHECK(samples::message_of([&] { read(with(lammps, "9 1 0.5", "9 1 half")).grains.column("r"); }) ==

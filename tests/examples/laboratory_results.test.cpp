@@ -127,6 +127,9 @@ TEST_CASE("a stress ratio that rises to the end is no peak") {
   auto const hyperbola = [](double axial) { return 3.0 * axial / (0.01 + axial); };
   CHECK_FALSE(ends(hyperbola, 0.1));
   CHECK(ends(hyperbola, 0.01));  // half: by 5.5 %
+  // A load that falls when the test ends hides no rise.
+  auto const released = [](double axial) { return axial < 0.0985 ? 20.0 * axial : 1.9; };
+  CHECK(ends(released, 0.1));
   // A plateau that scatters, the last value the largest, and a peak before the end.
   CHECK_FALSE(ends([](double axial) { return 2.0 + 0.01 * std::sin(2000.0 * axial) + axial; }, 0.1));
   CHECK_FALSE(ends([](double axial) { return axial < 0.05 ? 60.0 * axial : 4.5 - 30.0 * axial; }, 0.1));

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -81,6 +82,17 @@ TEST_CASE("a table is read as spreadsheets leave it") {
                   "2\n") == Naming{"'<U+2212>2'"});
   CHECK(complaint("x,y" + std::string(5000, 'y') + "\n1,2\n").size() < 400);
   CHECK(complaint("r\n" + std::string(5000, 'z') + "\n").size() < 400);
+}
+
+TEST_CASE("commas within names do not part the cells of a table with semicolons or tabs") {
+  for (char const separator : {';', '\t'}) {
+    std::string text = "strain, axial|q, kPa\n0.01|5\n";
+    std::ranges::replace(text, '|', separator);
+    CAPTURE(text);
+    scarp::CsvColumns const table(text, "t.csv");
+    CHECK(table.column("q, kPa") == std::vector{5.0});
+  }
+  CHECK_REFUSED(scarp::CsvColumns("a;b\n1;2;3\n", "t.csv"), "line 2", "parted by ';'");
 }
 
 TEST_CASE("a file that is missing, a folder or empty is refused by name") {

@@ -77,6 +77,8 @@ with tempfile.TemporaryDirectory() as scratch:
     for languages in ("C", "NONE"):
         code, said = project(f"of_{languages}", languages, "find_package(scarp CONFIG REQUIRED)", "-D", installed)
         expect(code != 0 and "scarp is a C++ library" in said and "add CXX to project()" in said, code, said)
+        code, said = project(f"part_of_{languages}", languages, f"add_subdirectory({root} part)")
+        expect(code != 0 and "scarp is a C++ library" in said and "add CXX to project()" in said, code, said)
 
     other = scratch / "other"
     (other / "include/scarp/core").mkdir(parents=True)

@@ -77,6 +77,10 @@ void measure_mesh(Choice& choice, std::vector<std::string>& notes) {
   ground.given = scarp::ground_from_file<E>(choice.mesh, &notes, choice.mesh_order).given;
   auto const [left, right] = std::ranges::minmax(ground.given->nodes, {}, [](auto const& node) { return node.x(); });
   choice.depth = ground.depth();
+  constexpr double least = 0.1, most = 1000.0;  // [m], as of --depth
+  if (!(choice.depth >= least && choice.depth <= most))
+    scarp::reject("the ground of '{}' is {:.4g} m deep (from {} m to {} m are expected): give lengths in metres",
+                  choice.mesh, choice.depth, least, most);
   choice.left = left.x();
   choice.width = right.x() - left.x();
   choice.mesh_size = size_along_fault(ground, fault_of(choice));

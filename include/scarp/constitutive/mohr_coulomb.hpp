@@ -60,6 +60,21 @@ struct MohrCoulomb {
     }
   }
 
+  /// For a state that comes from elsewhere.
+  /// \throws InputError where its stress lies outside the strength that its plastic shear strain leaves, since another law has made it
+  void require_fitting(State const& state) const {
+    Vector<3> const values = principal(from_voigt_stress<3, double>(state.stress)).values;
+    Strength const left = strength.at(state.plastic_shear);
+    detail::MohrCoulombReturn const surface(left, elasticity.lame_lambda, elasticity.shear_modulus);
+    constexpr double round_off = 1e-6;
+    if (surface.excess(values) <= round_off * std::max(values.cwiseAbs().maxCoeff(), left.cohesion)) return;
+    reject(
+        "the state has principal stresses of {:.6g}, {:.6g} and {:.6g} Pa (the strength of these points, cohesion {} "
+        "Pa and "
+        "friction {:.6g} rad, does not bear them: another law has made it): give a state of points with one law",
+        values(0), values(1), values(2), left.cohesion, left.friction);
+  }
+
   VoigtStress<Dim> stress(State const& state) const { return part_of_stress<Dim>(state.stress); }
 
   /// Derivative of the last stress update with respect to its strain; before any, the elastic stiffness.

@@ -143,6 +143,16 @@ struct UmatProvider {
     return state;
   }
 
+  /// For a state that comes from elsewhere.
+  /// \throws InputError where it has another number of state variables
+  void require_fitting(State const& state) const {
+    if (state.variables.size() != variables.size())
+      reject(
+          "the state has {} state variables, the UMAT '{}' has {} (another UMAT has made it): give a state of points "
+          "with one UMAT",
+          state.variables.size(), name, variables.size());
+  }
+
   VoigtStress<Dim> stress(State const& state) const { return part_of_stress<Dim>(state.stress); }
 
   VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
@@ -160,6 +170,11 @@ struct UmatProvider {
     next.deformation = deformation * committed.deformation;
     Verdict const verdict = call(next, committed.deformation, turn, turn * strain * turn.transpose());
     if (!verdict.acceptable()) return {stress(committed), verdict};
+    if (next.tangent.isZero(0.0) && !next.stress.isZero(0.0))
+      reject(
+          "the UMAT '{}' leaves DDSDDE zero in an increment (solvers need the stiffness): let it set DDSDDE at every "
+          "call",
+          name);
     trial = std::move(next);
     return {stress(trial), {}};
   }
@@ -180,7 +195,7 @@ struct UmatProvider {
 
   /// state: committed, with the deformation at the end; then the new one, and of no use where the verdict is not acceptable
   /// strain: of the increment, in axes that turn with it
-  Verdict call(State& state, Tensor<3> before, Tensor<3> turn, Tensor<3> const& strain) const {
+  Verdict call(State& state, Tensor<3> const& before, Tensor<3> const& turn, Tensor<3> const& strain) const {
     Tensor<3> const turned = turn * from_voigt_stress<3, double>(state.stress) * turn.transpose();
     Tensor<3> half = from_voigt_stress<3, double>(state.strain);  // its shear is that of engineering
     half += half.diagonal().asDiagonal();
@@ -188,14 +203,19 @@ struct UmatProvider {
     auto const size = detail::index(components);
     detail::FencedNumbers stress(size), statev(state.variables.size()), ddsdde(size * size), props(properties.size());
     detail::FencedNumbers stran(size), dstran(size), ddsddt(size), drplde(size);
+    detail::FencedNumbers time(2), predef(1), dpred(1), coords(3), drot(9), dfgrd0(9), dfgrd1(9);
     copy(to_voigt_stress<3, double>(turned), stress.data());
     std::copy(state.variables.begin(), state.variables.end(), statev.data());
     std::copy(properties.begin(), properties.end(), props.data());
     copy(to_engineering_strain<3, double>(total), stran.data());
     copy(to_engineering_strain<3, double>(strain), dstran.data());
-    double sse = 0.0, spd = 0.0, scd = 0.0, rpl = 0.0, drpldt = 0.0, temp = 0.0, dtemp = 0.0, predef = 0.0, dpred = 0.0;
+    std::fill_n(time.data(), 2, state.time);
+    std::copy_n(state.position.data(), 3, coords.data());
+    std::copy_n(turn.data(), 9, drot.data());
+    std::copy_n(before.data(), 9, dfgrd0.data());
+    std::copy_n(state.deformation.data(), 9, dfgrd1.data());
+    double sse = 0.0, spd = 0.0, scd = 0.0, rpl = 0.0, drpldt = 0.0, temp = 0.0, dtemp = 0.0;
     double pnewdt = 1.0, celent = state.size, dtime = time_step;
-    std::array<double, 2> time{state.time, state.time};
     std::array<char, name_length> cmname;
     cmname.fill(' ');
     std::ranges::transform(name, cmname.begin(), [](char letter) {
@@ -205,12 +225,10 @@ struct UmatProvider {
     int nprops = detail::count(properties), npt = state.place, layer = 1, kspt = 1, noel = state.element;
     std::array<int, 4> kstep{1, 0, 0, 0};
     int kinc = 1 + static_cast<int>(std::lround(state.time / time_step));
-    Vector<3> coords = state.position;
-    Tensor<3> after = state.deformation;
     umat(stress.data(), statev.data(), ddsdde.data(), &sse, &spd, &scd, &rpl, ddsddt.data(), drplde.data(), &drpldt,
-         stran.data(), dstran.data(), time.data(), &dtime, &temp, &dtemp, &predef, &dpred, cmname.data(), &ndi, &nshr,
-         &ntens, &nstatv, props.data(), &nprops, coords.data(), turn.data(), &pnewdt, &celent, before.data(),
-         after.data(), &noel, &npt, &layer, &kspt, kstep.data(), &kinc, name_length);
+         stran.data(), dstran.data(), time.data(), &dtime, &temp, &dtemp, predef.data(), dpred.data(), cmname.data(),
+         &ndi, &nshr, &ntens, &nstatv, props.data(), &nprops, coords.data(), drot.data(), &pnewdt, &celent,
+         dfgrd0.data(), dfgrd1.data(), &noel, &npt, &layer, &kspt, kstep.data(), &kinc, name_length);
     using Named = std::pair<detail::FencedNumbers const*, std::string_view>;
     for (auto const& [array, what] : std::initializer_list<Named>{{&stress, "STRESS"},
                                                                   {&statev, "STATEV"},
@@ -219,7 +237,14 @@ struct UmatProvider {
                                                                   {&stran, "STRAN"},
                                                                   {&dstran, "DSTRAN"},
                                                                   {&ddsddt, "DDSDDT"},
-                                                                  {&drplde, "DRPLDE"}})
+                                                                  {&drplde, "DRPLDE"},
+                                                                  {&time, "TIME"},
+                                                                  {&predef, "PREDEF"},
+                                                                  {&dpred, "DPRED"},
+                                                                  {&coords, "COORDS"},
+                                                                  {&drot, "DROT"},
+                                                                  {&dfgrd0, "DFGRD0"},
+                                                                  {&dfgrd1, "DFGRD1"}})
       array->require_intact(what, name);
     for (int i = 0; i < voigt_size<Dim>; ++i) {
       for (int j = 0; j < voigt_size<Dim>; ++j)
@@ -229,7 +254,7 @@ struct UmatProvider {
     std::copy_n(statev.data(), state.variables.size(), state.variables.begin());
     state.strain = to_engineering_strain<3, double>(total + strain);
     state.time += time_step;
-    if (pnewdt < 1.0) return {Status::not_converged, Reason::no_return};
+    if (!(pnewdt >= 1.0)) return {Status::not_converged, Reason::no_return};
     auto const finite = [](double number) { return std::isfinite(number); };
     if (!state.stress.allFinite() || !state.tangent.allFinite() || !std::ranges::all_of(state.variables, finite))
       return {Status::failed, Reason::not_finite};

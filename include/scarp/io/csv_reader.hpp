@@ -36,8 +36,14 @@ class CsvScanner {
       lines_ = ahead;
     } else {
       while (first.empty() && !ahead.done()) first = ahead.take();
-      for (char const other : {'\t', ';', ','})
-        if (first.find(other) != std::string_view::npos) separator_ = other;
+      // The most frequent one: names may hold commas, `q, kPa;p, kPa` among them, so that of the second line decides where there is one.
+      std::string_view const second = ahead.done() ? std::string_view() : ahead.take();
+      auto const least = [&](char one) {
+        return second.empty() ? outside_quotes(first, one)
+                              : std::min(outside_quotes(first, one), outside_quotes(second, one));
+      };
+      for (char const other : {';', '\t'})
+        if (least(other) > least(separator_)) separator_ = other;
     }
   }
 
@@ -58,7 +64,17 @@ class CsvScanner {
     return false;
   }
 
+  char separator() const { return separator_; }
+
  private:
+  static std::ptrdiff_t outside_quotes(std::string_view line, char wanted) {
+    bool quoted = false;
+    return std::count_if(line.begin(), line.end(), [&](char letter) {
+      if (letter == '"') quoted = !quoted;
+      return letter == wanted && !quoted;
+    });
+  }
+
   std::string plain_cell(std::string_view& text) const {
     std::size_t const end = std::min(text.find(separator_), text.size());
     std::string cell(trimmed(text.substr(0, end)));
@@ -116,8 +132,11 @@ class CsvColumns {
       while (line.cells.size() < names.size() && names[line.cells.size()].empty()) line.cells.emplace_back();
       if (line.cells.size() != names.size()) {
         reject(
-            "line {} of '{}' has {} cells (the header names {} columns): give one cell for each, decimals with points",
-            line.number, file_, line.cells.size(), names.size());
+            "line {} of '{}' has {} cells (line {} names {} columns, parted by {}): give one cell for each, decimals "
+            "with points, "
+            "and no lines but the table's",
+            line.number, file_, line.cells.size(), header_.number, names.size(),
+            scanner.separator() == '\t' ? "tabs" : fmt::format("'{}'", scanner.separator()));
       }
       rows_.push_back(std::move(line));
     }
