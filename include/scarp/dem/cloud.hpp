@@ -66,7 +66,8 @@ struct Cloud {
     packing.population = std::make_shared<Population<Shape, Scalar> const>(sizes, density, thickness);
     constexpr double ball = dim == 2 ? std::numbers::pi : 4.0 / 3.0 * std::numbers::pi;
     double filled = 0.0;
-    for (auto const& size : sizes) filled += ball * std::pow(Shape::bounding_radius(size), dim);
+    auto const& population = *packing.population;
+    for (std::size_t i = 0; i < sizes.size(); ++i) filled += ball * std::pow(population.bounding_radius(i), dim);
     double const side = std::pow(filled / filled_share, 1.0 / dim);
     packing.cell = Tensor<dim>::Identity() * side;
     packing.position.resize(sizes.size());
@@ -78,7 +79,7 @@ struct Cloud {
     std::vector<Vector<dim>> placed;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       InterruptionCheck::run();
-      double const radius = Shape::bounding_radius(sizes[i]);
+      double const radius = population.bounding_radius(i);
       bool free = false;
       for (long trial = 0; !free; ++trial) {
         if (trial == max_trials) {
@@ -91,7 +92,7 @@ struct Cloud {
         for (std::size_t j = 0; j < placed.size() && free; ++j) {
           Vector<dim> branch = placed[j] - place;
           for (int a = 0; a < dim; ++a) branch(a) -= side * std::round(branch(a) / side);
-          free = branch.norm() > radius + Shape::bounding_radius(sizes[j]);
+          free = branch.norm() > radius + population.bounding_radius(j);
         }
         if (free) placed.push_back(place);
       }

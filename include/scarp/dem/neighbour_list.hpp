@@ -135,13 +135,13 @@ std::optional<std::vector<NearPair<Shape::dim>>> find_near_pairs(Population<Shap
   std::vector<NearPair<dim>> found;
   std::vector<RadiusSearchHit> hits;
   for (std::size_t i = 0; i < grains; ++i) {
-    double const own_radius = Shape::bounding_radius(population.size(i));
+    double const own_radius = population.bounding_radius(i);
     double const radius = own_radius + population.largest_radius() + reach;
     hits.clear();
     static_cast<void>(tree.radiusSearch(all.points[i].place.data(), radius * radius, hits, unsorted));
     std::erase_if(hits, [&](auto const& hit) {
       auto const j = detail::index(all.points[hit.first].owner);
-      double const touching = own_radius + Shape::bounding_radius(population.size(j)) + reach;
+      double const touching = own_radius + population.bounding_radius(j) + reach;
       return hit.first <= i || hit.second > touching * touching;
     });
     std::ranges::sort(hits, {}, &RadiusSearchHit::first);

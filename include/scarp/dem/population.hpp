@@ -13,6 +13,7 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/shape/particle_shape.hpp"
+#include "scarp/shape/support_integrals.hpp"
 #include "scarp/simd/soa_array.hpp"
 
 namespace scarp {
@@ -27,7 +28,8 @@ class Population {
   using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;  ///< parameters of one grain [m]
 
   /// density [kg/m3]
-  /// \throws InputError on an empty list, on sizes that are not finite and positive and on those that the shape rejects
+  /// \throws InputError on an empty list, on sizes that are not finite and positive, on those that the shape rejects, and for a shape whose
+  /// area, inertia or bounds are not those of its support function
   Population(std::vector<Size> const& sizes, double density, double thickness)
       : density_(density), thickness_(thickness) {
     require_positive("grain density", density);
@@ -37,7 +39,9 @@ class Population {
     }
     if (sizes.empty())
       reject("a packing of zero grains was requested (nothing can carry stress): give at least one grain");
+    if constexpr (!is_precompiled<Shape>) detail::require_closed_forms<Shape>(sizes.front());
     size_.resize(sizes.size(), Scalar(1));
+    bounding_radius_.reserve(sizes.size());
     inverse_mass_.resize(sizes.size());
     inverse_inertia_.resize(sizes.size());
     for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -60,11 +64,14 @@ class Population {
       mass_ += mass;
       inverse_mass_(i, 0) = static_cast<Scalar>(1.0 / mass);
       inverse_inertia_(i, 0) = static_cast<Scalar>(1.0 / inertia);
-      smallest_radius_ = std::min(smallest_radius_, Shape::bounding_radius(grain));
-      largest_radius_ = std::max(largest_radius_, Shape::bounding_radius(grain));
-      double const width = content / (std::numbers::pi * std::pow(Shape::bounding_radius(grain), Shape::dim - 1));
-      largest_normal_change_ = std::min(largest_normal_change_, 0.01 / (0.5 + Shape::eccentricity(grain) / width));
-      largest_eccentricity_ = std::max(largest_eccentricity_, Shape::eccentricity(grain));
+      double const radius = Shape::bounding_radius(grain);
+      double const eccentricity = Shape::eccentricity(grain);
+      bounding_radius_.push_back(radius);
+      smallest_radius_ = std::min(smallest_radius_, radius);
+      largest_radius_ = std::max(largest_radius_, radius);
+      double const width = content / (std::numbers::pi * std::pow(radius, Shape::dim - 1));
+      largest_normal_change_ = std::min(largest_normal_change_, 0.01 / (0.5 + eccentricity / width));
+      largest_eccentricity_ = std::max(largest_eccentricity_, eccentricity);
     }
     // In a loop of its own: a product that is used twice is fused with no sum, which would change an inertia's last digit.
     if constexpr (HasInnerRadius<Shape>) {
@@ -93,6 +100,8 @@ class Population {
   double smallest_radius() const { return smallest_radius_; }
   /// Greatest bounding radius of a grain [m].
   double largest_radius() const { return largest_radius_; }
+  /// Of one grain [m].
+  double bounding_radius(std::size_t grain) const { return bounding_radius_[grain]; }
   /// Greatest change of a grain's support function per radian [m].
   double largest_eccentricity() const { return largest_eccentricity_; }
 
@@ -124,7 +133,8 @@ class Population {
   template <class Visit>
   static void members(Population const& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(density_, thickness_, content_, mass_, smallest_radius_, largest_radius_, largest_eccentricity_,
-                      largest_normal_change_, unique_minimum_depth_, size_, inverse_mass_, inverse_inertia_);
+                      largest_normal_change_, unique_minimum_depth_, bounding_radius_, size_, inverse_mass_,
+                      inverse_inertia_);
     visit("density", self.density_);
     visit("thickness", self.thickness_);
     visit("content", self.content_);
@@ -170,6 +180,7 @@ class Population {
   double largest_eccentricity_ = 0.0;
   double largest_normal_change_ = 1.0;
   double unique_minimum_depth_ = std::numeric_limits<double>::infinity();
+  std::vector<double> bounding_radius_;
   SoaArray<Scalar, Shape::size_count> size_;
   SoaArray<Scalar, 1> inverse_mass_;
   SoaArray<Scalar, 1> inverse_inertia_;
