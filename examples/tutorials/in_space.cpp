@@ -12,14 +12,13 @@ int main() {
   scarp::LinearFrictional const law{.normal_stiffness = 6e5, .tangential_stiffness = 4e5, .friction = 0.5};
   double const radius = 5e-3, overlap = 1e-5, spacing = 2.0 * radius - overlap;
   // As material of a scene: Region{"soil", soil} on a mesh of Hex8, Hex20, Tet4 or Tet10.
-  scarp::DemRve<Spheres, scarp::SamePacking<Spheres>> const soil{
-      .law = law, .source = {tutorials::lattice<Spheres>({radius}, {spacing, spacing, spacing}, 3)}};
+  scarp::DemRve const soil{law, tutorials::lattice<Spheres>({radius}, {spacing, spacing, spacing}, 3)};
   auto const start = soil.initial_state({});
   bool good = true;
   // After an increment of the displacement gradient from the start: xx, yy, zz, yz, zx, xy [Pa], tension positive.
   auto const stress_after = [&](scarp::Gradient<3> const& increment) {
-    auto trial = start;
-    auto const response = soil.respond(start, increment, trial);
+    auto state = start;
+    auto const response = advance(soil, state, increment);
     good &= response.verdict.acceptable();
     return response.stress;
   };

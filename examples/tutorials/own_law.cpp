@@ -39,8 +39,7 @@ static_assert(scarp::Frictional<Stiffening>);
 int main() {
   Stiffening const law{.coefficient = 1e9, .tangential_stiffness = 5e6, .friction = 0.5};
   double const radius = 5e-3, overlap = 1e-5, spacing = 2.0 * radius - overlap;
-  scarp::SamePacking<Grains> const source{tutorials::lattice<Grains>({radius}, {spacing, spacing})};
-  scarp::DemRve<Grains, scarp::SamePacking<Grains>> const soil{.law = law, .source = source};
+  scarp::DemRve const soil{law, tutorials::lattice<Grains>({radius}, {spacing, spacing})};
   auto const start = soil.initial_state({});
   // One contact of length d along each axis in each cell d x d x 1: stress = force / d.
   double const normal = law.coefficient * overlap * std::sqrt(overlap);
@@ -48,9 +47,8 @@ int main() {
   // Pure shear e: along each axis neighbours slip by e d, which the spring resists up to mu F_n. The branches turn by e, and
   // the normal forces p with them: less 2 p e.
   auto const shear_after = [&](double strain) {
-    auto trial = start;
-    scarp::Gradient<2> const increment{{0.0, strain}, {strain, 0.0}};
-    return soil.respond(start, increment, trial).stress(2);
+    auto state = start;
+    return advance(soil, state, scarp::Gradient<2>{{0.0, strain}, {strain, 0.0}}).stress(2);
   };
   double const pressure = normal / spacing, stuck = 2e-5, slid = 1e-3;
   good &= tutorials::agree("shear stress, no slip [Pa]", shear_after(stuck),

@@ -428,3 +428,26 @@ TEST_CASE("bonded grains are pulled into tension, and their balance counts there
   CHECK(balance.kinetic_share >= 0.0);
   CHECK(balance.kinetic_share < 0.01);
 }
+
+TEST_CASE("a law and a packing make a material, which advances a point by acceptable responses only") {
+  scarp::DemRve sand{samples::study_law(), samples::consolidated<samples::Discs>(40).packing};
+  static_assert(std::same_as<decltype(sand), scarp::DemRve<samples::Discs, scarp::SamePacking<samples::Discs>>>);
+  scarp::Gradient<2> const increment{{1e-4, 0.0}, {0.0, -2e-4}};
+  auto state = sand.initial_state({});
+  auto const start = state;
+  auto trial = start;
+  auto const expected = sand.respond(start, increment, trial);
+  REQUIRE(expected.verdict.acceptable());
+  CHECK(advance(sand, state, increment).stress == expected.stress);
+  CHECK(state.stress == trial.stress);
+  // More steps until the packing is balanced, then none are left.
+  sand.unbalanced_tolerance = 0.5 * trial.unbalanced_ratio;
+  state = start;
+  auto const refined = advance(sand, state, increment);
+  CHECK(refined.verdict.acceptable());
+  CHECK(state.unbalanced_ratio <= sand.unbalanced_tolerance);
+  sand.unbalanced_tolerance = 1e-12;
+  state = start;
+  CHECK(advance(sand, state, increment).verdict.status == scarp::Status::not_converged);
+  CHECK(state.stress == start.stress);
+}

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <utility>
 
 #include "scarp/core/error.hpp"
 #include "scarp/core/named_member.hpp"
@@ -143,6 +144,30 @@ Response<Model::dim> respond_as_planned(Model const& model, typename Model::Stat
     static_cast<void>(plan);
     return model.respond(committed, increment, trial);
   }
+}
+
+/// One increment of a single point: where the response is acceptable, `state` becomes the one at its end. A response that does not
+/// converge is repeated with more inner steps, at most max_refinements times.
+template <ConstitutiveProvider Model>
+Response<Model::dim> advance(Model const& model, typename Model::State& state, Gradient<Model::dim> const& increment,
+                             int max_refinements = 8) {
+  auto trial = state;
+  Response<Model::dim> response;
+  if constexpr (HasPlan<Model>) {
+    auto plan = model.plan(state, increment);
+    response = model.respond(state, increment, trial, plan);
+    for (int k = 0; k < max_refinements && response.verdict.status == Status::not_converged; ++k) {
+      auto more = model.refined(plan);
+      if (static_cast<long>(more) == static_cast<long>(plan)) break;
+      plan = std::move(more);
+      response = model.respond(state, increment, trial, plan);
+    }
+  } else {
+    static_cast<void>(max_refinements);
+    response = model.respond(state, increment, trial);
+  }
+  if (response.verdict.acceptable()) state = std::move(trial);
+  return response;
 }
 
 namespace detail {

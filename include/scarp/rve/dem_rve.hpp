@@ -15,6 +15,7 @@
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/fabric.hpp"
+#include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/tensor/finite_strain.hpp"
 #include "scarp/tensor/principal.hpp"
 
@@ -281,5 +282,9 @@ struct DemRve {
     return {};
   }
 };
+
+/// DemRve{law, packing}: one packing for all points.
+template <class PackingType>
+DemRve(typename PackingType::Law, PackingType) -> DemRve<PackingType, SamePacking<PackingType>>;
 
 }  // namespace scarp

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "scarp/constitutive/constitutive_provider.hpp"
@@ -16,7 +17,10 @@ namespace scarp {
 /// \tparam PackingType a `Packing`
 template <class PackingType>
 struct SamePacking {
-  PackingType packing;  ///< start of every point
+  PackingType packing{};  ///< start of every point
+
+  SamePacking() = default;
+  SamePacking(PackingType start) : packing(std::move(start)) {}  ///< A packing is one.  // NOLINT
 
   PackingType const& at(Site<PackingType::dim> const&) const { return packing; }  ///< The packing, whatever the site.
 };
