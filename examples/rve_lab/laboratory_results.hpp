@@ -72,8 +72,8 @@ struct LaboratoryResults {
 
   Row peak{};      ///< where the mobilised friction is largest; mean over the window, as all rows here
   Row residual{};  ///< over the last window
-  /// Whether the ratio of the outer principal stresses is largest in the last window and still rose in the last tenth of the path, by a
-  /// twentieth of its growth: `peak` is then where the test ended, and no strength.
+  /// Whether the ratio of the outer principal stresses is largest in the last tenth of the path, still rose there by a twentieth of its
+  /// growth, and fell by less than that at the end: `peak` is then where the test ended, and no strength.
   bool rises = false;
   std::optional<Row>
       phase_transformation{};  ///< from contraction to dilation; at constant volume from falling to rising p

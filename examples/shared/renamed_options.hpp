@@ -67,7 +67,9 @@ inline void require_decimal(CLI::App& app) {
                     : fmt::format("'{}' begins with a zero (a decimal whole number is expected): leave it out", given);
       },
       "");
-  auto const is_whole = [](CLI::Option const* one) { return one->get_type_name().starts_with("INT"); };
+  auto const is_whole = [](CLI::Option const* one) {
+    return one->get_type_name().starts_with("INT") || one->get_type_name().starts_with("UINT");
+  };
   for (CLI::Option* option : app.get_options(is_whole)) option->check(decimal);
   for (CLI::App* command : app.get_subcommands({})) require_decimal(*command);
 }

@@ -75,6 +75,7 @@ def check_bad_input():
         check_refusal(program, "zero grains", "--grains", "0", "--grains")
         check_refusal(program, "text for a number", "--grains", "many", "--grains")
         check_refusal(program, "number with a zero before it", "--grains", "0100", "--grains")
+        check_refusal(program, "seed with a zero before it", "--seed", "010", "--seed")
         check_refusal(program, "number with a tail", "--strain-per-dem-step", "1e-5m", "--strain-per-dem-step")
         check_refusal(program, "NaN", "--strain-per-dem-step", "nan", "--strain-per-dem-step")
         check_refusal(program, "infinity", "--strain-per-dem-step", "inf", "--strain-per-dem-step")

@@ -24,8 +24,8 @@ struct CsvLine {
   std::vector<std::string> cells;
 };
 
-/// Parses a table's text, row by row. Lines of nothing but separators and blanks, as spreadsheets leave them, are skipped. Where the first
-/// line holds no comma, semicolons or tabs part the cells; a line `sep=` before it names the separator.
+/// Parses a table's text, row by row. Lines of nothing but separators and blanks, as spreadsheets leave them, are skipped. Of commas,
+/// semicolons and tabs the one parts the cells that the first two lines have most of; a line `sep=` before them names the separator.
 class CsvScanner {
  public:
   CsvScanner(std::string_view text, std::string file) : lines_(text), file_(std::move(file)) {
@@ -36,7 +36,7 @@ class CsvScanner {
       lines_ = ahead;
     } else {
       while (first.empty() && !ahead.done()) first = ahead.take();
-      // The most frequent one: names may hold commas, `q, kPa;p, kPa` among them, so that of the second line decides where there is one.
+      // Names may hold commas, as in `q, kPa;p, kPa`; the second line has fewer.
       std::string_view const second = ahead.done() ? std::string_view() : ahead.take();
       auto const least = [&](char one) {
         return second.empty() ? outside_quotes(first, one)
