@@ -40,6 +40,7 @@ class Scratch:
         major, minor, last = map(int, own.groups())
         self.own, self.patch, self.next = f"{major}.{minor}.{last}", f"{major}.{minor}.{last + 1}", f"{major}.{minor + 1}.0"
         self.made = 0
+        self.objects = {}
 
     def headers(self, version):
         """As they would be in that version: only its number differs."""
@@ -57,9 +58,13 @@ class Scratch:
         subprocess.run([compiler, "-std=c++20", *flags, *map(str, what), "-o", str(made)], check=True)
         return made
 
-    def object(self, source, version, *flags):
-        return self.compile([self.folder / source], "-c", f"-I{self.headers(version)}", "-O1", *flags).rename(
-            self.folder / f"object{self.made}.o")
+    def object(self, *words):
+        """Of a source, with the headers of a version and flags."""
+        if words not in self.objects:
+            source, version, *flags = words
+            made = self.compile([self.folder / source], "-c", f"-I{self.headers(version)}", "-O1", *flags)
+            self.objects[words] = made.rename(self.folder / f"object{self.made}.o")
+        return self.objects[words]
 
     def library(self, source, version, *flags):
         return self.compile([self.folder / source], "-shared", "-fPIC", f"-I{self.headers(version)}", "-O1", *flags)

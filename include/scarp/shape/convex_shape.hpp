@@ -22,6 +22,7 @@ struct AngleJet {
   T first{};   ///< derivative
   T second{};  ///< derivative of that
 
+  /// A constant, without derivatives.
   AngleJet(double constant)
       : AngleJet(broadcast<T>(constant), broadcast<T>(0), broadcast<T>(0)) {}  // NOLINT: as numbers mix
   /// A number of which both derivatives are known.
