@@ -22,7 +22,10 @@ struct Oval {
   static constexpr bool warm_starts_normal = true;
   using Size = std::array<double, 2>;
   static double content(Size const& s) { return std::numbers::pi * s[0] * s[0] * (1.0 - 1.5 * s[1] * s[1]); }
-  static double gyration_squared(Size const& s) { return s[0] * s[0] / 2.0; }
+  static double gyration_squared(Size const& s) {
+    double const square = s[1] * s[1];
+    return s[0] * s[0] / 2.0 * (1.0 - square - 21.0 / 8.0 * square * square) / (1.0 - 1.5 * square);
+  }
   static double bounding_radius(Size const& s) { return s[0] * (1.0 + s[1]); }
   static double eccentricity(Size const& s) { return 2.0 * s[0] * s[1]; }
   template <class T>
