@@ -54,8 +54,8 @@ TEST_CASE_TEMPLATE("a sound mesh of ten kilometres passes all checks", Element, 
 }
 
 TEST_CASE("the extent of nodes reaches to all sides of the first") {
-  CHECK(scarp::detail::extent<2>({{1.0, 0.0}, {0.0, 0.5}, {3.0, -0.5}}) == 3.0);
-  CHECK(scarp::detail::extent<2>({{1.0, 0.0}, {0.0, 0.5}, {1.5, -2.0}}) == 2.5);
+  CHECK(scarp::extent<2>({{1.0, 0.0}, {0.0, 0.5}, {3.0, -0.5}}) == 3.0);
+  CHECK(scarp::extent<2>({{1.0, 0.0}, {0.0, 0.5}, {1.5, -2.0}}) == 2.5);
 }
 
 TEST_CASE("the first node counts among those at one place") {

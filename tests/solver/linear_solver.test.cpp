@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <stdexcept>
+
 #include <Eigen/LU>
 
 #include "scarp/bvp/constraints.hpp"
@@ -143,20 +145,47 @@ Eigen::VectorXd partly(scarp::LinearMap const&, scarp::LinearMap const& inverse,
 }
 
 /// A ground with a second part of its stiffness, of zero, and an iteration of its own.
-struct Iterated {
-  static constexpr int dim = 2;
-  static constexpr bool is_bare = true;
+struct Iterated final : scarp::IncrementalProblem<2> {
   scarp::Constraints held;
   scarp::LinearIteration iterate;
 
-  scarp::Constraints const& constraints() const { return held; }
+  Iterated(scarp::Constraints constraints, scarp::LinearIteration iteration)
+      : held(std::move(constraints)), iterate(iteration) {}
+
+  scarp::Constraints const& constraints() const override { return held; }
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<scarp::VoigtTangent<2>> const&,
-                        scarp::GroundStiffness& stiffness) const {
+                        scarp::GroundStiffness& stiffness) const override {
     stiffness.own.resize(increment.size(), increment.size());
     stiffness.own.setIdentity();
     stiffness.around = std::make_shared<scarp::LinearMap const>([](Eigen::VectorXd const& x) { return 0.0 * x; });
     stiffness.iterate = iterate;
   }
+  bool has_attachment() const override { return false; }
+
+  // A linear step requests nothing else.
+  int dof_count() const override { throw std::logic_error("dof_count"); }
+  scarp::LoadHistory const& loads() const override { throw std::logic_error("loads"); }
+  std::vector<scarp::Gradient<2>> const& gradients() const override { throw std::logic_error("gradients"); }
+  std::vector<scarp::Response<2>> const& responses() const override { throw std::logic_error("responses"); }
+  std::vector<scarp::VoigtStress<2>> committed_stresses() const override { throw std::logic_error("stresses"); }
+  bool have_exact_tangents() const override { throw std::logic_error("have_exact_tangents"); }
+  std::vector<scarp::VoigtTangent<2>> committed_tangents() const override { throw std::logic_error("tangents"); }
+  std::vector<scarp::VoigtTangent<2>> trial_tangents() const override { throw std::logic_error("tangents"); }
+  double max_displacement_gradient() const override { throw std::logic_error("max_displacement_gradient"); }
+  bool turns_stresses() const override { throw std::logic_error("turns_stresses"); }
+  void set_load(double) override { throw std::logic_error("set_load"); }
+  scarp::Verdict plan(Eigen::VectorXd const&, int*) override { throw std::logic_error("plan"); }
+  scarp::Evaluation evaluate(Eigen::VectorXd const&) override { throw std::logic_error("evaluate"); }
+  scarp::Evaluation refine(Eigen::VectorXd const&) override { throw std::logic_error("refine"); }
+  scarp::Evaluation evaluate_committed() override { throw std::logic_error("evaluate_committed"); }
+  double residual(Eigen::VectorXd const&) const override { throw std::logic_error("residual"); }
+  double residual_beside(Eigen::VectorXd const&) const override { throw std::logic_error("residual_beside"); }
+  int first_beside() const override { throw std::logic_error("first_beside"); }
+  double length() const override { throw std::logic_error("length"); }
+  Eigen::VectorXd attached_forces(Eigen::VectorXd const&) override { throw std::logic_error("attached_forces"); }
+  SparseMatrix attached_stiffness() const override { throw std::logic_error("attached_stiffness"); }
+  SparseMatrix stick_stiffness() const override { throw std::logic_error("stick_stiffness"); }
+  void commit(Eigen::VectorXd const&) override { throw std::logic_error("commit"); }
 };
 
 }  // namespace
@@ -171,8 +200,8 @@ TEST_CASE("an iteration that stagnates far from the solution is no solution") {
        {std::pair{&partly<95>, scarp::Verdict{}},
         std::pair{&partly<80>, scarp::Verdict{scarp::Status::not_converged, Reason::iterations_spent}},
         std::pair{&partly<-5>, scarp::Verdict{scarp::Status::failed, Reason::singular_system}}}) {
-    Iterated problem{constraints, iterate};
-    scarp::LinearisedStep<Iterated, scarp::SparseLu> step(problem, 1e-3);
+    Iterated problem(constraints, iterate);
+    scarp::LinearisedStep<2, scarp::SparseLu> step(problem, 1e-3);
     REQUIRE(step.linearise(still, unbalanced, {}).acceptable());
     Eigen::VectorXd increment = still;
     CHECK(step.solve(increment, still) == verdict);

@@ -53,7 +53,7 @@ struct WorkBalanceOf<Problem> {
 /// ... run ...
 /// fmt::print("{}{}", budget_headline(budget.parts()), budget_table(budget.parts()));
 /// \endcode
-/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
+/// \tparam Problem an `EquilibriumProblem`
 template <class Problem>
 class ErrorBudget : public NeverStops {
  public:

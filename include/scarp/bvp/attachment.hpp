@@ -4,7 +4,6 @@
 #include <Eigen/SparseCore>
 
 #include <concepts>
-#include <type_traits>
 #include <vector>
 
 #include "scarp/core/status.hpp"
@@ -33,10 +32,15 @@ concept Attachment = requires(Part& part, Part const& constant, std::vector<Vect
 /// Nothing: the elements alone.
 struct NoAttachment {
   static constexpr int extra_dofs() { return 0; }  ///< It has no degrees of freedom of its own.
+  /// Adds nothing.
+  template <class Nodes>
+  static Verdict add_forces(Nodes const&, Eigen::VectorXd const&, Eigen::VectorXd&) {
+    return {};
+  }
+  static void add_stiffness(std::vector<Eigen::Triplet<double>>&) {}  ///< Adds nothing.
+  /// Keeps nothing.
+  template <class Nodes>
+  static void commit(Nodes const&, Eigen::VectorXd const&) {}
 };
-
-/// An attachment, or `NoAttachment`.
-template <class Part, int Dim>
-concept AttachmentOrNone = std::is_same_v<Part, NoAttachment> || Attachment<Part, Dim>;
 
 }  // namespace scarp

@@ -18,7 +18,7 @@ template <ReferenceElement Element>
 void join(Mesh<Element>& mesh, Mesh<Element> const& part) {
   constexpr int dim = Element::dim;
   validate(part);
-  double const same = 1e-9 * std::max(detail::extent<dim>(mesh.nodes), detail::extent<dim>(part.nodes));
+  double const same = 1e-9 * std::max(extent<dim>(mesh.nodes), extent<dim>(part.nodes));
   detail::PlaceIndex<dim> places(4.0 * same);
   for (int n = 0; n < detail::count(mesh.nodes); ++n) places.add(mesh.nodes[detail::index(n)], n);
   std::vector<int> number_of;

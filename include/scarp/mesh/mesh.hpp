@@ -229,4 +229,17 @@ int region_number(Mesh<Element> const& mesh, std::string_view name) {
   return static_cast<int>(found - mesh.regions.begin());
 }
 
+/// Extent of nodes along the axis where they reach farthest [m].
+template <int Dim>
+double extent(std::vector<Vector<Dim>> const& nodes) {
+  if (nodes.empty()) return 0.0;
+  Vector<Dim> low = nodes.front();
+  Vector<Dim> high = nodes.front();
+  for (auto const& node : nodes) {
+    low = low.cwiseMin(node);
+    high = high.cwiseMax(node);
+  }
+  return (high - low).maxCoeff();
+}
+
 }  // namespace scarp

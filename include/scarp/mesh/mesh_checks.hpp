@@ -17,7 +17,7 @@ namespace scarp {
 template <ReferenceElement Element>
 void require_no_duplicate_nodes(Mesh<Element> const& mesh) {
   constexpr int dim = Element::dim;
-  double const same = 1e-6 * detail::extent<dim>(mesh.nodes);
+  double const same = 1e-6 * extent<dim>(mesh.nodes);
   detail::PlaceIndex<dim> places(4.0 * same);
   std::pair<int, int> first{-1, -1};
   int found = 0;

@@ -6,41 +6,36 @@
 #include <cmath>
 #include <memory>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
+#include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/points/material_points.hpp"
-#include "scarp/solver/detail/attachment_part.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/free_system.hpp"
+#include "scarp/solver/incremental_problem.hpp"
 
 namespace scarp {
 
 /// A boundary-value problem in increments: discretisation, materials, constraints and loads that follow a load factor, and
 /// perhaps something attached to the mesh.
 /// \tparam DiscretisationType a `Discretisation`
-template <class DiscretisationType, ExecutesTasks Executor,
-          AttachmentOrNone<DiscretisationType::dim> Attached = NoAttachment>
-class SCARP_EXPORT EquilibriumProblem final
-    : public detail::AttachmentPart<EquilibriumProblem<DiscretisationType, Executor, Attached>, DiscretisationType::dim,
-                                    Attached> {
-  using Part = detail::AttachmentPart<EquilibriumProblem, DiscretisationType::dim, Attached>;
-
+template <class DiscretisationType, ExecutesTasks Executor, Attachment<DiscretisationType::dim> Attached = NoAttachment>
+class SCARP_EXPORT EquilibriumProblem final : public IncrementalProblem<DiscretisationType::dim> {
  public:
   static constexpr int dim = DiscretisationType::dim;                         ///< of the mesh
   static constexpr bool follows_motion = DiscretisationType::follows_motion;  ///< whether nodes move from step to step
-  using Part::is_bare;
-  /// What solvers see of it.
-  using Interface = std::conditional_t<is_bare, IncrementalProblem<dim>, AttachedProblem<dim>>;
+  static constexpr bool is_bare = std::is_same_v<Attached, NoAttachment>;     ///< nothing is attached to the mesh
 
   /// loads [N], shape (degrees of freedom of mesh and attachment)
   /// \throws InputError for sizes that do not fit together
   EquilibriumProblem(DiscretisationType discretisation, MaterialPoints<dim> points, Constraints constraints,
                      LoadHistory loads, Executor& executor, Attached attached = {})
-      : Part(std::move(attached)),
+      : attached_(std::move(attached)),
         discretisation_(std::move(discretisation)),
         points_(std::move(points)),
         executor_(executor),
@@ -58,17 +53,44 @@ class SCARP_EXPORT EquilibriumProblem final
       reject("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
              loads_.size(), constraints_.dof_count(), dof_count());
     }
-    if constexpr (requires { this->attached_.thickness(); }) {
-      if (this->attached_.thickness() != discretisation_.thickness()) {
+    if constexpr (requires { attached_.thickness(); }) {
+      if (attached_.thickness() != discretisation_.thickness()) {
         reject("what is attached to the mesh is {} m thick out of the plane (the mesh is {} m): give both the same",
-               this->attached_.thickness(), discretisation_.thickness());
+               attached_.thickness(), discretisation_.thickness());
       }
     }
     set_load(0.0);
   }
 
   /// Degrees of freedom of the mesh, then of what is attached.
-  int dof_count() const override { return discretisation_.dof_count() + this->attached().extra_dofs(); }
+  int dof_count() const override { return discretisation_.dof_count() + attached_.extra_dofs(); }
+
+  Attached const& attached() const { return attached_; }  ///< What is attached to the mesh.
+  bool has_attachment() const override { return !is_bare; }
+  int first_beside() const override { return discretisation_.dof_count(); }
+  double length() const override {
+    if constexpr (requires { attached_.length(); }) {
+      return attached_.length();
+    } else {
+      return extent<dim>(discretisation_.mesh().nodes);
+    }
+  }
+  /// Whether they could result is that of the next evaluation.
+  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) override {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
+    static_cast<void>(attached_.add_forces(discretisation_.positions(), increment, forces));
+    return forces;
+  }
+  Eigen::SparseMatrix<double> attached_stiffness() const override {
+    return assembled([&](auto& entries) { attached_.add_stiffness(entries); });
+  }
+  Eigen::SparseMatrix<double> stick_stiffness() const override {
+    if constexpr (requires(std::vector<Eigen::Triplet<double>> & entries) { attached_.add_stick_stiffness(entries); }) {
+      return assembled([&](auto& entries) { attached_.add_stick_stiffness(entries); });
+    } else {
+      return attached_stiffness();
+    }
+  }
 
   void set_load(double load) override { load_now_ = loads_.at(load); }  ///< Forces are measured against its loads.
   DiscretisationType const& discretisation() const { return discretisation_; }  ///< Mesh and elements, committed.
@@ -156,7 +178,7 @@ class SCARP_EXPORT EquilibriumProblem final
     } else {
       discretisation_.stiffness(nodes, points_.stresses(), tangents, stiffness.own);
     }
-    if constexpr (!is_bare) stiffness.conservativeResize(dof_count(), dof_count());
+    stiffness.conservativeResize(dof_count(), dof_count());
   }
 
   /// Largest of all parts' residuals, see `residuals`.
@@ -172,7 +194,7 @@ class SCARP_EXPORT EquilibriumProblem final
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
     std::vector<PartResidual> parts{{"all", residual_of_all(unbalanced)}};
     regions_.list(unbalanced, load_now_, parts);
-    if constexpr (!is_bare) parts.push_back({"attached", residual_beside(unbalanced)});
+    if (!is_bare) parts.push_back({"attached", residual_beside(unbalanced)});
     return parts;
   }
 
@@ -194,7 +216,7 @@ class SCARP_EXPORT EquilibriumProblem final
     require_evaluated("committed", increment);
     points_.commit();  // first, since it may throw
     forget();
-    if constexpr (!is_bare) this->attached_.commit(discretisation_.positions(), increment);
+    attached_.commit(discretisation_.positions(), increment);
     discretisation_.commit(of_nodes(increment));
   }
 
@@ -209,6 +231,14 @@ class SCARP_EXPORT EquilibriumProblem final
   void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
 
  private:
+  template <class Add>
+  Eigen::SparseMatrix<double> assembled(Add const& add) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    add(entries);
+    Eigen::SparseMatrix<double> matrix(dof_count(), dof_count());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
   void forget() { seen_ = evaluated_ = Eigen::VectorXd(); }
   void require_evaluated(std::string_view what, Eigen::VectorXd const& increment) const {
     if (evaluated_.size() == increment.size() && evaluated_ == increment) return;
@@ -225,12 +255,8 @@ class SCARP_EXPORT EquilibriumProblem final
     return std::max({detail::squared_over(prescribed_dofs_, unbalanced), load_now_.squaredNorm(), carried_});
   }
 
-  decltype(auto) of_nodes(Eigen::VectorXd const& increment) const {
-    if constexpr (is_bare) {
-      return (increment);
-    } else {
-      return Eigen::VectorXd(increment.head(discretisation_.dof_count()));
-    }
+  Eigen::VectorXd of_nodes(Eigen::VectorXd const& increment) const {
+    return increment.head(discretisation_.dof_count());
   }
 
   /// Shows the points an increment, unless it is not finite or turns an element inside out.
@@ -270,12 +296,10 @@ class SCARP_EXPORT EquilibriumProblem final
     discretisation_.internal_force(of_nodes(increment), points_.stresses(), evaluation.unbalanced);
     evaluation.unbalanced.conservativeResizeLike(Eigen::VectorXd::Zero(dof_count()));
     carried_ = detail::squared_over(free_dofs_, evaluation.unbalanced);
-    if constexpr (!is_bare) {
-      Eigen::VectorXd const of_elements = evaluation.unbalanced;
-      Verdict const verdict = this->attached_.add_forces(discretisation_.positions(), increment, evaluation.unbalanced);
-      if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
-      carried_ = std::max(carried_, detail::squared_over(free_dofs_, evaluation.unbalanced - of_elements));
-    }
+    Eigen::VectorXd const of_elements = evaluation.unbalanced;
+    Verdict const verdict = attached_.add_forces(discretisation_.positions(), increment, evaluation.unbalanced);
+    if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
+    carried_ = std::max(carried_, detail::squared_over(free_dofs_, evaluation.unbalanced - of_elements));
     evaluation.unbalanced -= load_now_;
     evaluation.residual = residual(evaluation.unbalanced);
     if (!is_bare || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
@@ -284,6 +308,7 @@ class SCARP_EXPORT EquilibriumProblem final
     }
   }
 
+  Attached attached_;
   DiscretisationType discretisation_;
   MaterialPoints<dim> points_;
   Executor& executor_;

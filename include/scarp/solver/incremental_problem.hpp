@@ -17,8 +17,7 @@ namespace scarp {
 template <int Dim>
 class IncrementalProblem {
  public:
-  static constexpr int dim = Dim;        ///< of space
-  static constexpr bool is_bare = true;  ///< nothing is attached to the mesh
+  static constexpr int dim = Dim;  ///< of space
 
   virtual ~IncrementalProblem() = default;
 
@@ -57,6 +56,15 @@ class IncrementalProblem {
   virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;
   /// Relative imbalance of an attached body alone; 0 without one.
   virtual double residual_beside(Eigen::VectorXd const& unbalanced) const = 0;
+  virtual bool has_attachment() const = 0;  ///< Whether something is attached to the mesh.
+  virtual int first_beside() const = 0;     ///< First degree of freedom behind those of the mesh.
+  virtual double length() const = 0;        ///< Size [m] of an attached body, of the mesh where it has none.
+  /// Forces [N] of what is attached alone, at an increment [m], shape (dof_count); its trial state then belongs to it.
+  virtual Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) = 0;
+  /// Derivative of these forces [N/m] where they were requested last, shape (dof_count, dof_count).
+  virtual Eigen::SparseMatrix<double> attached_stiffness() const = 0;
+  /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
+  virtual Eigen::SparseMatrix<double> stick_stiffness() const = 0;
   /// Makes the increment [m] of the last evaluation and the points' trial states the committed ones.
   /// \throws InputError for another increment
   virtual void commit(Eigen::VectorXd const& increment) = 0;
@@ -65,22 +73,6 @@ class IncrementalProblem {
   IncrementalProblem() = default;
   IncrementalProblem(IncrementalProblem const&) = delete;  // sessions and stiffnesses refer to it
   IncrementalProblem& operator=(IncrementalProblem const&) = delete;
-};
-
-/// An `IncrementalProblem` with something attached to the mesh.
-template <int Dim>
-class AttachedProblem : public IncrementalProblem<Dim> {
- public:
-  static constexpr bool is_bare = false;  ///< something is attached to the mesh
-
-  virtual int first_beside() const = 0;  ///< First degree of freedom behind those of the mesh.
-  virtual double length() const = 0;     ///< Size [m] of an attached body, of the mesh where it has none.
-  /// Forces [N] of the attachment at an increment [m], shape (dof_count); its trial state then belongs to it.
-  virtual Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) = 0;
-  /// Derivative of the attachment's last forces [N/m], shape (dof_count, dof_count).
-  virtual Eigen::SparseMatrix<double> attached_stiffness() const = 0;
-  /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
-  virtual Eigen::SparseMatrix<double> stick_stiffness() const = 0;
 };
 
 }  // namespace scarp

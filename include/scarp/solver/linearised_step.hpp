@@ -2,11 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <type_traits>
+#include <optional>
 #include <vector>
 
 #include "scarp/solver/detail/standing_balance.hpp"
 #include "scarp/solver/free_system.hpp"
+#include "scarp/solver/incremental_problem.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/tensor/voigt.hpp"
 
@@ -15,43 +16,56 @@ namespace scarp {
 /// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment has its own
 /// forces: contact that opens, closes or slides is followed here, where no material point is evaluated. Without attachment
 /// this is one linear solve.
-/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
-template <class Problem, LinearSolver Linear>
+template <int Dim, LinearSolver Linear>
 class LinearisedStep {
+  using Problem = IncrementalProblem<Dim>;
+
  public:
   static constexpr double singular = 1e15;  ///< condition beyond which no digit of a solution is left
   static constexpr double stagnated = 0.1;  ///< linear residual of an iteration that found no solution
 
   /// accuracy: residual below which the attachment's forces need no further correction
   LinearisedStep(Problem& problem, double accuracy)
-      : problem_(problem), system_(problem.constraints()), accuracy_(accuracy), beside_(problem) {}
+      : problem_(problem), system_(problem.constraints()), accuracy_(accuracy) {
+    if (problem.has_attachment()) beside_.emplace(problem);
+  }
   LinearisedStep(LinearisedStep const&) = delete;  // the equations refer to the system
   LinearisedStep& operator=(LinearisedStep const&) = delete;
 
   /// Linearises about the increment [m] of the problem's last evaluation, whose unbalanced forces [N] are given.
   Verdict linearise(Eigen::VectorXd const& increment, Eigen::VectorXd const& unbalanced,
-                    std::vector<VoigtTangent<Problem::dim>> const& tangents) {
+                    std::vector<VoigtTangent<Dim>> const& tangents) {
     problem_.ground_stiffness(increment, tangents, ground_);
     centre_ = increment;
     ground_forces_ = unbalanced;
-    if constexpr (!Problem::is_bare) ground_forces_ -= problem_.attached_forces(increment);
+    if (beside_) ground_forces_ -= problem_.attached_forces(increment);
     Verdict const verdict = factorize();
     is_held_ = verdict.acceptable();
-    if constexpr (!Problem::is_bare) {
-      // A body that floats above its ground, as before its weight comes, is no fault yet: `solve` lets it down.
-      if (verdict.reason == Reason::singular_system && !beside_.is_held()) return {};
-    }
+    // A body that floats above its ground, as before its weight comes, is no fault yet: `solve` lets it down.
+    if (beside_ && verdict.reason == Reason::singular_system && !beside_->is_held()) return {};
     return verdict;
+  }
+
+  /// About the committed state, at the load factor that the problem is aimed at.
+  /// \return singular_system also where no digit of a solution is left
+  Verdict linearise_committed(std::vector<VoigtTangent<Dim>> const& tangents) {
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
+    Verdict verdict = linearise(still, problem_.evaluate_committed().unbalanced, tangents);
+    committed_condition_ = verdict.acceptable() ? condition() : 0.0;
+    if (committed_condition_ > singular) verdict = {Status::failed, Reason::singular_system};
+    committed_weak_dof_ = verdict.reason == Reason::singular_system ? weak_dof() : -1;
+    return verdict;
+  }
+  /// Adds what was found out about the committed state.
+  void describe(StepReport& report) const {
+    report.condition = committed_condition_;
+    report.weak_dof = committed_weak_dof_;
   }
 
   /// Moves an increment [m], kept at its prescribed entries, to where forces balance when the loads have grown by `more` [N]
   /// since the linearisation. What cannot be balanced is left to the next linearisation.
   Verdict solve(Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
-    if constexpr (Problem::is_bare) {
-      return correct(increment, ground_imbalance(increment, more));
-    } else {
-      return follow_contact(increment, more);
-    }
+    return beside_ ? follow_contact(increment, more) : correct(increment, ground_imbalance(increment, more));
   }
 
   FreeSystem const& system() const { return system_; }  ///< Numbering of the free degrees of freedom.
@@ -67,10 +81,6 @@ class LinearisedStep {
   static constexpr int max_fruitless = 4;          ///< iterations in a row without a better balance
   static constexpr double min_share = 0.1;         ///< of Newton's correction
   static constexpr double longest_share = 1024.0;  ///< of one with all contacts held
-
-  struct NothingBeside {
-    explicit NothingBeside(Problem const&) {}
-  };
 
   struct Balance {
     Eigen::VectorXd increment;
@@ -93,13 +103,7 @@ class LinearisedStep {
     Eigen::VectorXd ground_along;
   };
 
-  Verdict factorize() {
-    if constexpr (Problem::is_bare) {
-      return factorize(ground_);
-    } else {
-      return factorize(ground_ + problem_.attached_stiffness());
-    }
-  }
+  Verdict factorize() { return beside_ ? factorize(ground_ + problem_.attached_stiffness()) : factorize(ground_); }
 
   /// Without free degrees of freedom, as in a test of a law on one element, there are no equations.
   Verdict factorize(GroundStiffness const& all) {
@@ -127,14 +131,14 @@ class LinearisedStep {
   /// leads to no smaller imbalance, that of held contacts is followed as far as the unbalanced forces do work.
   Verdict follow_contact(Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());
-    beside_.begin();
+    beside_->begin();
     Balance now = balance({increment, still, ground_imbalance(increment, more), still}, 0.0);
     double const goal = std::max(accuracy_, 1e-3 * now.residual);
     Balance best = now;
     int fruitless = 0;
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
       // Once in any case: a small residual may be that of boundary nodes which have moved alone.
-      if (iteration > 0 && (now.residual <= goal || beside_.spent())) break;
+      if (iteration > 0 && (now.residual <= goal || beside_->spent())) break;
       Way way;
       Balance next;
       bool const downhill = factorize().acceptable() && lay(way, now, more).acceptable() && go_downhill(way, now, next);
@@ -196,7 +200,7 @@ class LinearisedStep {
     Balance now;
     now.increment = way.start + share * way.direction;
     Eigen::VectorXd const of_ground = way.ground_at_start + share * way.ground_along;
-    beside_.settle(now.increment, -of_ground, 0.1 * accuracy_);
+    beside_->settle(now.increment, -of_ground, 0.1 * accuracy_);
     now.unbalanced = of_ground + problem_.attached_forces(now.increment);
     now.residual = problem_.residual(now.unbalanced);
     now.beside = problem_.residual_beside(now.unbalanced);
@@ -206,72 +210,15 @@ class LinearisedStep {
   Problem& problem_;
   FreeSystem system_;
   double accuracy_;
-  std::conditional_t<Problem::is_bare, NothingBeside, detail::StandingBalance<Problem>> beside_;
+  std::optional<detail::StandingBalance<Dim>> beside_;  ///< where something is attached
   GroundStiffness ground_;
   detail::GroundEquations<Linear> equations_;  ///< with what is attached
   Eigen::VectorXd centre_;
   Eigen::VectorXd ground_forces_;  ///< internal forces of the elements less the loads, at the centre
   double linear_residual_ = 0.0;
+  double committed_condition_ = 0.0;
+  int committed_weak_dof_ = -1;
   bool is_held_ = false;  ///< all bodies, when the system was linearised
-};
-
-/// What a load step begins with: the system linearised about the committed state, what is
-/// known of it, and the first guess that follows from it.
-/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
-template <class Problem, LinearSolver Linear>
-class LinearPredictor {
- public:
-  /// accuracy: see LinearisedStep
-  LinearPredictor(Problem& problem, double accuracy) : problem_(problem), linearised_(problem, accuracy) {}
-
-  /// At the load factor that the problem is aimed at; reports the weak degree of freedom where the system is singular.
-  Verdict linearise(std::vector<VoigtTangent<Problem::dim>> const& tangents) {
-    Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
-    Verdict verdict = linearised_.linearise(still, problem_.evaluate_committed().unbalanced, tangents);
-    condition_ = verdict.acceptable() ? linearised_.condition() : 0.0;
-    if (condition_ > linearised_.singular) verdict = {Status::failed, Reason::singular_system};
-    weak_dof_ = verdict.reason == Reason::singular_system ? linearised_.weak_dof() : -1;
-    return verdict;
-  }
-
-  /// Adds what was found out about the system.
-  void describe(StepReport& report) const {
-    report.condition = condition_;
-    report.weak_dof = weak_dof_;
-  }
-
-  /// Increment [m] of the free degrees of freedom from the committed state to equilibrium under its own loads; zero where the linear system
-  /// has no solution.
-  Eigen::VectorXd missing() {
-    Eigen::VectorXd increment = Eigen::VectorXd::Zero(problem_.dof_count());
-    static_cast<void>(linearised_.solve(increment, Eigen::VectorXd::Zero(problem_.dof_count())));
-    return linearised_.system().gather(increment);
-  }
-
-  /// Displacement increment between two load factors where it is prescribed, zero elsewhere; from then on forces are
-  /// measured against the loads of the second one.
-  Eigen::VectorXd prescribed(double from, double to) {
-    problem_.set_load(to);
-    return problem_.constraints().displacement(from, to);
-  }
-
-  /// First guess of the whole increment from the linearised system at the load factor `to`.
-  Eigen::VectorXd predict(double from, double to) {
-    Eigen::VectorXd increment = prescribed(from, to);
-    Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
-    // A prediction that fails is no more than a poor first guess.
-    static_cast<void>(linearised_.solve(increment, more_load));
-    return increment;
-  }
-
-  /// Linearisation of the step, for solves within its iteration.
-  LinearisedStep<Problem, Linear>& linearised() { return linearised_; }
-
- private:
-  Problem& problem_;
-  LinearisedStep<Problem, Linear> linearised_;
-  double condition_ = 0.0;
-  int weak_dof_ = -1;
 };
 
 }  // namespace scarp

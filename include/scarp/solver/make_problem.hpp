@@ -42,8 +42,8 @@ MaterialPoints<DiscretisationType::dim> make_points(DiscretisationType const& di
 /// The composition root: one discretisation, a material for each region, constraints and loads, as a problem that a
 /// solver can use. Regions are written as values, `make_problem(..., hana::make_tuple(Region{"soil", soil}))`.
 /// \throws InputError when the parts do not fit together
-template <class DiscretisationType, ExecutesTasks Executor,
-          AttachmentOrNone<DiscretisationType::dim> Attached = NoAttachment, class... Materials>
+template <class DiscretisationType, ExecutesTasks Executor, Attachment<DiscretisationType::dim> Attached = NoAttachment,
+          class... Materials>
 EquilibriumProblem<DiscretisationType, Executor, Attached> make_problem(
     DiscretisationType discretisation, double surface_level, boost::hana::tuple<Region<Materials>...> const& regions,
     Constraints constraints, LoadHistory loads, Executor& executor, Attached attached = {}) {

@@ -8,7 +8,6 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/solver/detail/extrapolated_predictor.hpp"
 #include "scarp/solver/incremental_problem.hpp"
 #include "scarp/solver/linearised_step.hpp"
 #include "scarp/solver/sparse_lu.hpp"
@@ -17,14 +16,14 @@
 
 namespace scarp {
 
-/// The iteration of a `QuasiNewton` on one problem, which may be an `IncrementalProblem`: factorisation and what the points'
-/// tangents have learned. Its members are defined outside so that a library can contain them.
+/// The iteration of a `QuasiNewton` on one problem: factorisation and what the points' tangents have learned. Its members are
+/// defined outside so that a library can contain them.
 /// \tparam Settings a `QuasiNewton`
-/// \tparam Problem an `IncrementalProblem` or `AttachedProblem`
-template <class Settings, class Problem>
+template <class Settings, int Dim>
 class SCARP_EXPORT QuasiNewtonSession {
  public:
-  static constexpr int dim = Problem::dim;  ///< of the problem
+  static constexpr int dim = Dim;           ///< of the problem
+  using Problem = IncrementalProblem<Dim>;  ///< whatever its elements and materials are
 
   /// The problem must outlive the session.
   /// \throws InputError for a setting outside of its range
@@ -33,12 +32,12 @@ class SCARP_EXPORT QuasiNewtonSession {
         problem_(problem),
         exact_(problem.have_exact_tangents()),
         tolerance_(settings.tolerance.value_or(exact_ ? 1e-6 : 5e-3)),
-        start_(problem, 0.1 * tolerance_) {}
+        linearised_(problem, 0.1 * tolerance_) {}
 
   /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
   Verdict begin(double load);
   /// Adds the condition and the weak degree of freedom that begin() found.
-  void describe(StepReport& report) const { start_.describe(report); }
+  void describe(StepReport& report) const { linearised_.describe(report); }
   /// First guess of the increment [m] between two load factors: the last step's motion where it is known, and what that step left
   /// unbalanced; else a linear solve.
   Eigen::VectorXd predict(double from, double to);
@@ -50,7 +49,7 @@ class SCARP_EXPORT QuasiNewtonSession {
   void accept(Eigen::VectorXd const& increment);
 
   /// State that persists from step to step.
-  SCARP_MEMBERS_EXCEPT((settings_, problem_, exact_, tolerance_, start_, mark_, tangent_seconds_, working_,
+  SCARP_MEMBERS_EXCEPT((settings_, problem_, exact_, tolerance_, linearised_, mark_, tangent_seconds_, working_,
                         last_gradients_, last_stresses_, missing_, growth_),
                        first_, provider_, steps_of_provider_, learned_, motion_)
 
@@ -59,9 +58,17 @@ class SCARP_EXPORT QuasiNewtonSession {
   using Rule = typename Settings::RuleType;
   using Linear = typename Settings::LinearType;
 
+  /// How the free degrees of freedom moved in the last accepted load step.
+  struct Motion {
+    std::vector<double> motion_;  ///< [m], less what the step before had left to it; empty where it is not known
+    double growth_ = 0.0;         ///< of the load factor, positive
+
+    SCARP_MEMBERS(motion_, growth_)
+  };
+
   void iterate(Eigen::VectorXd& increment, StepReport& report, StopCondition const& stop);
   Evaluation recorded(StepReport& report, Eigen::VectorXd const& increment, bool refine);
-  std::vector<VoigtTangent<Problem::dim>> timed_tangents(bool of_trial_states);
+  std::vector<VoigtTangent<Dim>> timed_tangents(bool of_trial_states);
   void learn();
   template <class RuleType>
   void learn_from_responses(RuleType const& rule);
@@ -79,23 +86,23 @@ class SCARP_EXPORT QuasiNewtonSession {
   Problem& problem_;
   bool exact_;        ///< whether all tangents of materials are derivatives
   double tolerance_;  ///< of the residual
-  LinearPredictor<Problem, Linear> start_;
-  Clock::time_point mark_{};                       ///< end of the last response of the points in this step
-  double tangent_seconds_ = 0.0;                   ///< that no evaluation has counted yet
-  std::vector<VoigtTangent<Problem::dim>> first_;  ///< of the state that the session began with
-  std::vector<VoigtTangent<Problem::dim>> provider_;
+  LinearisedStep<Dim, Linear> linearised_;
+  Clock::time_point mark_{};              ///< end of the last response of the points in this step
+  double tangent_seconds_ = 0.0;          ///< that no evaluation has counted yet
+  std::vector<VoigtTangent<Dim>> first_;  ///< of the state that the session began with
+  std::vector<VoigtTangent<Dim>> provider_;
   int steps_of_provider_ = 0;  ///< accepted since these tangents were evaluated
-  std::vector<VoigtTangent<Problem::dim>> working_;
-  std::vector<VoigtTangent<Problem::dim>> learned_;
+  std::vector<VoigtTangent<Dim>> working_;
+  std::vector<VoigtTangent<Dim>> learned_;
   std::vector<Gradient<dim>> last_gradients_;
   std::vector<VoigtStress<dim>> last_stresses_;
-  detail::ExtrapolatedPredictor motion_;
+  Motion motion_;
   Eigen::VectorXd missing_;  ///< [m] from the committed state to equilibrium; 0 without a motion
   double growth_ = 0.0;      ///< of the load factor in the last prediction
 };
 
-template <class Settings, class Problem>
-Verdict QuasiNewtonSession<Settings, Problem>::begin(double load) {
+template <class Settings, int Dim>
+Verdict QuasiNewtonSession<Settings, Dim>::begin(double load) {
   problem_.set_load(load);
   if (steps_of_provider_ == 0) provider_ = timed_tangents(false);
   if (first_.empty()) first_ = provider_;
@@ -104,41 +111,51 @@ Verdict QuasiNewtonSession<Settings, Problem>::begin(double load) {
   with_rule([&](auto const& rule) {
     for (std::size_t k = 0; k < working_.size(); ++k) working_[k] = rule.template start<dim>(provider_[k], learned_[k]);
   });
-  Verdict const verdict = start_.linearise(working_);
-  missing_ = Eigen::VectorXd::Zero(start_.linearised().system().free_count());
-  if (verdict.acceptable() && motion_.known()) missing_ = start_.missing();
+  Verdict const verdict = linearised_.linearise_committed(working_);
+  missing_ = Eigen::VectorXd::Zero(linearised_.system().free_count());
+  if (verdict.acceptable() && !motion_.motion_.empty()) {
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem_.dof_count());
+    Eigen::VectorXd increment = still;
+    static_cast<void>(linearised_.solve(increment, still));  // zero where the linear system has no solution
+    missing_ = linearised_.system().gather(increment);
+  }
   return verdict;
 }
 
-template <class Settings, class Problem>
-Eigen::VectorXd QuasiNewtonSession<Settings, Problem>::predict(double from, double to) {
+template <class Settings, int Dim>
+Eigen::VectorXd QuasiNewtonSession<Settings, Dim>::predict(double from, double to) {
   growth_ = to - from;
-  if (!motion_.known() || !(growth_ > 0.0)) return start_.predict(from, to);
-  Eigen::VectorXd increment = start_.prescribed(from, to);
-  start_.linearised().system().scatter(motion_.over(growth_, missing_), increment);
+  problem_.set_load(to);
+  Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
+  if (motion_.motion_.empty() || !(growth_ > 0.0)) {
+    Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
+    static_cast<void>(linearised_.solve(increment, more_load));  // one that fails is no more than a poor first guess
+  } else {  // what is missing is made good, and the last motion was too small by as much
+    Eigen::Map<Eigen::VectorXd const> const last(motion_.motion_.data(), missing_.size());
+    linearised_.system().scatter(growth_ / motion_.growth_ * (last + missing_) + missing_, increment);
+  }
   return increment;
 }
 
-template <class Settings, class Problem>
-void QuasiNewtonSession<Settings, Problem>::correct(Eigen::VectorXd& increment, StepReport& report,
-                                                    StopCondition const& stop) {
+template <class Settings, int Dim>
+void QuasiNewtonSession<Settings, Dim>::correct(Eigen::VectorXd& increment, StepReport& report,
+                                                StopCondition const& stop) {
   iterate(increment, report, stop);
   // What led to a rejected step is not repeated; one that was interrupted counts as never made.
   if (report.verdict.acceptable() || report.interrupted()) return;
-  motion_.forget();
+  motion_.motion_.clear();
   steps_of_provider_ = 0;
 }
 
-template <class Settings, class Problem>
-void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, StepReport& report,
-                                                    StopCondition const& stop) {
+template <class Settings, int Dim>
+void QuasiNewtonSession<Settings, Dim>::iterate(Eigen::VectorXd& increment, StepReport& report,
+                                                StopCondition const& stop) {
   report.verdict = problem_.plan(increment, &report.worst_point);
   if (!report.verdict.acceptable()) return;
   report.max_displacement_gradient = problem_.max_displacement_gradient();
   mark_ = Clock::now();
   last_gradients_.assign(working_.size(), Gradient<dim>::Zero());
   last_stresses_ = problem_.committed_stresses();
-  auto& linearised = start_.linearised();
   double linear_residual = 0.0;
   Eigen::VectorXd const no_more = Eigen::VectorXd::Zero(increment.size());
   for (;;) {
@@ -161,31 +178,32 @@ void QuasiNewtonSession<Settings, Problem>::iterate(Eigen::VectorXd& increment, 
     }
     if (report.stopped(stop)) return;
     Eigen::VectorXd next = increment;
-    report.verdict = linearised.linearise(increment, evaluation.unbalanced, working_);
-    if (report.verdict.acceptable()) report.verdict = linearised.solve(next, no_more);
+    report.verdict = linearised_.linearise(increment, evaluation.unbalanced, working_);
+    if (report.verdict.acceptable()) report.verdict = linearised_.solve(next, no_more);
     if (!report.verdict.acceptable()) {
-      if (report.verdict.reason == Reason::singular_system) report.weak_dof = linearised.weak_dof();
+      if (report.verdict.reason == Reason::singular_system) report.weak_dof = linearised_.weak_dof();
       return;
     }
-    linear_residual = linearised.linear_residual();
+    linear_residual = linearised_.linear_residual();
     Eigen::VectorXd const correction = next - increment;
     increment += correction;
   }
 }
 
-template <class Settings, class Problem>
-void QuasiNewtonSession<Settings, Problem>::accept(Eigen::VectorXd const& increment) {
+template <class Settings, int Dim>
+void QuasiNewtonSession<Settings, Dim>::accept(Eigen::VectorXd const& increment) {
   problem_.commit(increment);
   learned_ = working_;
   steps_of_provider_ = (steps_of_provider_ + 1) % settings_.tangent_interval;
-  if (settings_.repeats_motion && growth_ > 0.0)
-    motion_.remember(start_.linearised().system().gather(increment) - missing_, growth_);
+  if (!settings_.repeats_motion || !(growth_ > 0.0)) return;
+  Eigen::VectorXd const motion = linearised_.system().gather(increment) - missing_;
+  motion_ = {{motion.begin(), motion.end()}, growth_};
 }
 
 /// Evaluates all points and adds the cost to the report.
-template <class Settings, class Problem>
-Evaluation QuasiNewtonSession<Settings, Problem>::recorded(StepReport& report, Eigen::VectorXd const& increment,
-                                                           bool refine) {
+template <class Settings, int Dim>
+Evaluation QuasiNewtonSession<Settings, Dim>::recorded(StepReport& report, Eigen::VectorXd const& increment,
+                                                       bool refine) {
   auto const started = Clock::now();
   Evaluation evaluation = refine ? problem_.refine(increment) : problem_.evaluate(increment);
   auto& record = report.history.back();
@@ -205,16 +223,16 @@ Evaluation QuasiNewtonSession<Settings, Problem>::recorded(StepReport& report, E
 }
 
 /// The points' tangents; their time belongs to the evaluation that follows.
-template <class Settings, class Problem>
-std::vector<VoigtTangent<Problem::dim>> QuasiNewtonSession<Settings, Problem>::timed_tangents(bool of_trial_states) {
+template <class Settings, int Dim>
+std::vector<VoigtTangent<Dim>> QuasiNewtonSession<Settings, Dim>::timed_tangents(bool of_trial_states) {
   auto const started = Clock::now();
   auto tangents = of_trial_states ? problem_.trial_tangents() : problem_.committed_tangents();
   tangent_seconds_ += std::chrono::duration<double>(Clock::now() - started).count();
   return tangents;
 }
 
-template <class Settings, class Problem>
-void QuasiNewtonSession<Settings, Problem>::learn() {
+template <class Settings, int Dim>
+void QuasiNewtonSession<Settings, Dim>::learn() {
   with_rule([&]<class RuleType>(RuleType const& rule) {
     if constexpr (FollowsTrialTangent<RuleType, dim>) {
       auto const trial = timed_tangents(true);
@@ -226,9 +244,9 @@ void QuasiNewtonSession<Settings, Problem>::learn() {
   });
 }
 
-template <class Settings, class Problem>
+template <class Settings, int Dim>
 template <class RuleType>
-void QuasiNewtonSession<Settings, Problem>::learn_from_responses(RuleType const& rule) {
+void QuasiNewtonSession<Settings, Dim>::learn_from_responses(RuleType const& rule) {
   for (std::size_t k = 0; k < working_.size(); ++k) {
     Gradient<dim> const& gradient = problem_.gradients()[k];
     VoigtStress<dim> const& stress = problem_.responses()[k].stress;
@@ -271,17 +289,16 @@ struct QuasiNewton {
   using RuleType = Rule;      ///< for sessions
   using LinearType = Linear;  ///< for sessions
 
-  /// The iteration on one problem, seen as an `IncrementalProblem`.
+  /// The iteration on one problem.
   template <class Problem>
-  using Session = QuasiNewtonSession<QuasiNewton, typename Problem::Interface>;
+  using Session = QuasiNewtonSession<QuasiNewton, Problem::dim>;
 };
 
 #ifdef SCARP_PRECOMPILED
 /// DECLARE: `extern template`, or `template` in the library.
-#define SCARP_SESSIONS(DECLARE)                                           \
-  DECLARE class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<2>>; \
-  DECLARE class QuasiNewtonSession<QuasiNewton<>, AttachedProblem<2>>;    \
-  DECLARE class QuasiNewtonSession<QuasiNewton<>, IncrementalProblem<3>>;
+#define SCARP_SESSIONS(DECLARE)                       \
+  DECLARE class QuasiNewtonSession<QuasiNewton<>, 2>; \
+  DECLARE class QuasiNewtonSession<QuasiNewton<>, 3>;
 SCARP_SESSIONS(extern template)
 #endif
 

@@ -10,19 +10,6 @@
 
 namespace scarp::detail {
 
-/// Extent of nodes along the axis where they reach farthest [m].
-template <int Dim>
-double extent(std::vector<Vector<Dim>> const& nodes) {
-  if (nodes.empty()) return 0.0;
-  Vector<Dim> low = nodes.front();
-  Vector<Dim> high = nodes.front();
-  for (auto const& node : nodes) {
-    low = low.cwiseMin(node);
-    high = high.cwiseMax(node);
-  }
-  return (high - low).maxCoeff();
-}
-
 /// Numbers at places, to be found by boxes in space: buckets of one edge length, hashed.
 template <int Dim>
 class PlaceIndex {

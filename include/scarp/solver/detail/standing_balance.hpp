@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scarp/solver/free_system.hpp"
+#include "scarp/solver/incremental_problem.hpp"
 
 namespace scarp::detail {
 
@@ -57,8 +58,10 @@ std::optional<double> zero_power_step(Work const& work, double most) {
 /// stiffness along its base, and there its imbalance is flat: then the stiffness of held contacts, which is positive,
 /// gives a direction along which the unbalanced forces do work, and the body goes as far as they do (the least potential
 /// along a line; friction and unilateral springs have one as long as the pressures stay).
-template <class Problem>
+template <int Dim>
 class StandingBalance {
+  using Problem = IncrementalProblem<Dim>;
+
  public:
   explicit StandingBalance(Problem& problem)
       : problem_(problem), length_(problem.length()), own_(dofs_beside(problem), problem.dof_count()) {}
