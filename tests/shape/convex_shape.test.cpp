@@ -43,6 +43,11 @@ struct Egg : scarp::ConvexShape<Egg, 2> {
   }
 };
 
+/// An ellipse whose area is that of its rectangle.
+struct Wide : Ellipse {
+  static double content(Size<double> const& size) { return 4.0 * size[0] * size[1]; }
+};
+
 /// An ellipse whose inertia is wrong by the factor 2.
 struct Heavy : Ellipse {
   static double gyration_squared(Size<double> const& size) { return 2.0 * Ellipse::gyration_squared(size); }
@@ -121,5 +126,6 @@ TEST_CASE("grains that are not convex, are off their centre or have a wrong clos
   CHECK_NOTHROW(Triangle::check({1.0, 0.12}));
   CHECK_REFUSED(Egg::check({1.0, 0.25}), "centre of mass 0.25 m");
   CHECK_NOTHROW(scarp::Population<Oblong>({{5e-3, 4e-3}}, 2650.0, 1.0));
+  CHECK_REFUSED(scarp::Population<Wide>({{2.0, 1.0}}, 2650.0, 1.0), "content of a grain", "is 8 (", "has 6.28319");
   CHECK_REFUSED(scarp::Population<Heavy>({{5e-3, 4e-3}}, 2650.0, 1.0), "radius of gyration", "correct");
 }

@@ -100,6 +100,7 @@ struct ConvexShape {
   static double bounding_radius(Size<double> const& size) { return integrals(size).bounding_radius; }
   /// Largest change of the support function per radian [m].
   static double eccentricity(Size<double> const& size) { return integrals(size).eccentricity; }
+
   /// Axis and numbers as they are.
   template <class T>
   static Pose<T> pose(Size<T> const& size, std::array<T, 2> const& axis) {
