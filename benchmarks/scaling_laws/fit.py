@@ -118,7 +118,7 @@ class Model:
         ground, time in the points."""
         rows = []
         for run in self.sand.values():
-            least, each = option(run, "--min-dem-steps", 20.0 if "--local" in run["options"] else 8.0), option(run, "--strain-per-dem-step", 1e-5 if "--local" in run["options"] else 2e-5)
+            least, each = option(run, "--min-dem-steps", 20.0 if "--local" in run["options"] else 10.0), option(run, "--strain-per-dem-step", 1e-5 if "--local" in run["options"] else 2e-5)
             for step in throws(run):
                 answers = step["dem_steps"] / step["iterations"] / run["elements"]
                 if answers > 1.3 * least:

@@ -164,7 +164,7 @@ examples::Sand sand_of(Choice const& choice);
 /// (docs/notes/performance.md).
 inline void set_few_dem_steps(Choice& choice) {
   choice.strain_per_step = 2e-5;
-  choice.min_dem_steps = 8;
+  choice.min_dem_steps = 10;
   choice.unbalanced_tolerance = 0.1;
 }
 
