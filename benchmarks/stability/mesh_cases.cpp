@@ -106,7 +106,7 @@ scarp::Mesh<Element> slanted(double degrees, double aspect) {
 /// A block of crossed triangles that is pressed to nothing and beyond.
 struct Pressed {
   using Grid = scarp::Discretisation<scarp::Tri3>;
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
+  using Problem = scarp::EquilibriumProblem<Grid>;
 
   static Problem make(scarp::SerialExecutor& executor) {
     Grid grid(samples::CrossedRectangle{.columns = 2, .rows = 2}.generate());

@@ -33,7 +33,7 @@ struct Block {
   enum class Top { pressed, loaded };
 
   using Grid = scarp::Discretisation<scarp::Tri3>;
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
+  using Problem = scarp::EquilibriumProblem<Grid>;
 
   SofteningSoil material = ground();
   Top top = Top::pressed;

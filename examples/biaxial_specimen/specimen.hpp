@@ -30,7 +30,7 @@ class Specimen {
  public:
   using Grid = scarp::Discretisation<Element>;
   using Lateral = scarp::FollowingPressure<typename Element::Facet>;
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor, Lateral>;
+  using Problem = scarp::EquilibriumProblem<Grid, Lateral>;
 
   /// \throws InputError, PreparationError
   Specimen(Choice const& choice, scarp::Mesh<Element> mesh, scarp::ThreadExecutor& executor)

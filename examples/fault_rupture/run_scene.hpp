@@ -132,7 +132,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   std::optional<scarp::ThreadExecutor> own_threads;
   auto& threads = begun.threads != nullptr ? *begun.threads : own_threads.emplace(threads_of_a_process(choice.threads));
   decltype(auto) executor = make_team(threads);
-  if (broadcast_flag(executor, files.resumes()) != files.resumes()) {
+  if (executor.agree(files.resumes()) != files.resumes()) {
     scarp::reject(
         "checkpoints in '{}' are not the same for all ranks (each must see them to resume): use a folder that all "
         "share",

@@ -210,7 +210,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["dem_steps"] = run.inner_steps;
   json["share_of_time_in_points"] = run.seconds > 0.0 ? run.material_seconds / run.seconds : 0.0;
   json["share_of_time_outside_points"] = 1.0 - json["share_of_time_in_points"].get<double>();
-  json["threads"] = threads_of(problem.executor());
+  json["threads"] = problem.executor().threads();
   if (ranks() > 1) json["ranks"] = ranks();
   json["cpu_seconds"] = notes.used.cpu_seconds();
   json["wall_seconds"] = notes.used.wall_seconds();

@@ -16,7 +16,7 @@
 namespace fault_rupture {
 
 #ifdef SCARP_WITH_RANKS
-using Team = scarp::RankExecutor<scarp::ThreadExecutor>;
+using Team = scarp::RankExecutor;
 using Session = scarp::MpiSession;
 inline int ranks() {
   int count = 1;
@@ -34,7 +34,6 @@ inline int threads_of_a_process(int asked) {
   return asked > 0 ? asked : std::clamp(share, 1, scarp::usable_processors());
 }
 inline Team make_team(scarp::ThreadExecutor& threads) { return Team(threads); }
-inline int threads_of(Team const& team) { return team.local().threads(); }
 [[noreturn]] inline void give_up(int exit_code) { scarp::MpiSession::abort(exit_code); }  // others may be waiting
 #else
 using Team = scarp::ThreadExecutor;
@@ -45,7 +44,6 @@ inline int ranks() { return 1; }
 inline int rank() { return 0; }
 inline int threads_of_a_process(int asked) { return asked; }
 inline Team& make_team(scarp::ThreadExecutor& threads) { return threads; }
-inline int threads_of(Team const& team) { return team.threads(); }
 [[noreturn]] inline void give_up(int exit_code) { std::exit(exit_code); }
 #endif
 

@@ -18,7 +18,7 @@ namespace nonlocal_band {
 using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength>;
 using Varied = scarp::VariedParameters<Soil>;
 using Grid = examples::PlaneGrid<scarp::Quad8, scarp::ReducedIntegration>;
-using Problem = scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor>;
+using Problem = scarp::EquilibriumProblem<Grid>;
 
 inline constexpr double pressure = 100e3;  ///< that confines the specimen [Pa]
 inline constexpr double width = 1.0;       ///< [m]

@@ -44,8 +44,8 @@ struct Wall {
     return found;
   }
 
-  template <scarp::ConstitutiveProvider Soil, class Executor>
-  auto problem(Soil const& soil, Movement movement, Executor& executor) const {
+  template <scarp::ConstitutiveProvider Soil>
+  auto problem(Soil const& soil, Movement movement, scarp::Executor const& executor) const {
     Grid ground = grid();
     scarp::Constraints constraints(ground.mesh());
     for (int const node : boundary_nodes(ground.mesh(), "left")) constraints.move(node, 0, sign_of(movement) * length);

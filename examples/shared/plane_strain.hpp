@@ -21,7 +21,7 @@ using PlaneGrid = scarp::Discretisation<Element, scarp::SmallStrain, Scheme>;
 
 /// A body of one material in small strain.
 template <class Element, class Scheme, class Attached = scarp::NoAttachment>
-using PlaneProblem = scarp::EquilibriumProblem<PlaneGrid<Element, Scheme>, scarp::SerialExecutor, Attached>;
+using PlaneProblem = scarp::EquilibriumProblem<PlaneGrid<Element, Scheme>, Attached>;
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 

@@ -78,8 +78,8 @@ ColumnResult column_test(Packing const& packing, Choice const& choice) {
 
   Sand const sand{.law = contact_law(), .source = {packing}};
   scarp::ThreadExecutor executor;
-  scarp::EquilibriumProblem<Grid, scarp::ThreadExecutor> problem(std::move(grid), {sand, sites}, std::move(constraints),
-                                                                 std::move(confining), executor);
+  scarp::EquilibriumProblem<Grid> problem(std::move(grid), {sand, sites}, std::move(constraints), std::move(confining),
+                                          executor);
   result.rows.push_back(Watch::row(problem, 0.0));
   Watch watch{result.rows};
   scarp::QuasiNewton<> const solver{.tolerance = choice.tolerance};

@@ -23,7 +23,7 @@ using Tied = scarp::CohesiveBond<scarp::LinearFrictional>;
 template <class Law>
 using Footed = scarp::Interface<Law, scarp::RigidFooting>;
 template <class Law>
-using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Footed<Law>>;
+using Problem = scarp::EquilibriumProblem<Grid, Footed<Law>>;
 using Newton = scarp::QuasiNewton<>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -310,8 +310,8 @@ TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whe
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
     scarp::SerialExecutor executor;
-    scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Contact> problem(
-        grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, loads, executor, interface);
+    scarp::EquilibriumProblem<Grid, Contact> problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints,
+                                                     loads, executor, interface);
     scarp::NoObserver no_observer;
     auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
     REQUIRE(run.verdict.acceptable());

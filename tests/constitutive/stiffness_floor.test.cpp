@@ -48,7 +48,7 @@ struct Fluidised {
 };
 
 using Floor = scarp::StiffnessFloor<Fluidised>;
-using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
+using Problem = scarp::EquilibriumProblem<Grid>;
 
 /// A column of four elements between smooth walls, whose foot moves up by the load factor [m]; its upper half is loose.
 template <class Soil>

@@ -28,8 +28,7 @@ double reaction(Grid grid, scarp::MaterialPoints<2> points, double rate, double 
     if (height == 1.0) constraints.move(node, 1, rate);
   }
   scarp::SerialExecutor serial;
-  scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(std::move(grid), std::move(points),
-                                                                 std::move(constraints), {}, serial);
+  scarp::EquilibriumProblem<Grid> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
   scarp::NoObserver no_observer;
   CHECK(scarp::generalised_reaction(problem) == 0.0);
   CHECK(scarp::LoadStepping{}.run(scarp::QuasiNewton<>{}, problem, 0.0, load, no_observer).verdict == scarp::Verdict{});

@@ -57,15 +57,8 @@ void strain(Points& points, double size) {
 
 /// One of two processes, that of the even points; the other one sends nothing.
 struct EvenPoints : scarp::SerialExecutor {
-  bool owns(int point) const { return point % 2 == 0; }
-  template <class Value>
-  void share(std::vector<Value>&) const {}
-  template <class Work>
-  void together(Work const& work) const {
-    work();
-  }
+  int ranks() const override { return 2; }
 };
-static_assert(scarp::SharesPoints<EvenPoints>);
 
 }  // namespace
 

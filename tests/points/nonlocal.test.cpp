@@ -226,8 +226,8 @@ TEST_CASE("means and what is solved with them are the same bits on any number of
     samples::Softening const soil{.reference_strain = 0.02};
     auto const local = Local::make(soil, serial());
     auto const& grid = local.discretisation();
-    scarp::EquilibriumProblem<Local::Grid, std::remove_reference_t<decltype(executor)>> problem(
-        grid, {wide(soil, {.length = 0.5}), sites(grid), volumes(grid)}, local.constraints(), local.loads(), executor);
+    scarp::EquilibriumProblem<Local::Grid> problem(grid, {wide(soil, {.length = 0.5}), sites(grid), volumes(grid)},
+                                                   local.constraints(), local.loads(), executor);
     scarp::NoObserver no_observer;
     auto const run = scarp::LoadStepping{.first = 0.005}.run(scarp::QuasiNewton<>{.tolerance = 1e-6}, problem, 0.0,
                                                              0.01, no_observer);

@@ -27,7 +27,7 @@ struct FullDisk {
 
 void stop_by_file() {
   scarp::SerialExecutor serial;
-  scarp::RankExecutor<> executor(serial);
+  scarp::RankExecutor executor(serial);
   auto problem = watched::block(scarp::LinearElastic<2>::from_young_poisson(1e7, 0.3), executor);
   scarp::OnRootRank observer(executor, [] { return FullDisk{}; });
   watched::NoNotes notes;
@@ -42,7 +42,7 @@ void stop_by_file() {
 
 void run(std::string_view who) {
   scarp::SerialExecutor serial;
-  scarp::RankExecutor<> executor(serial);
+  scarp::RankExecutor executor(serial);
   std::vector<scarp::Response<2>> answers(7);
   executor.together([&] {
     for (int point = 0; point < 7; ++point) {

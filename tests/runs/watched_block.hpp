@@ -28,11 +28,10 @@
 /// A block whose top is pulled until it is fluid, seen by all observers that remember something, on one process or several.
 namespace watched {
 
-template <class Executor>
-using Problem = scarp::EquilibriumProblem<scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>, Executor>;
+using Problem = scarp::EquilibriumProblem<scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>>;
 
-template <class Provider, class Executor>
-Problem<Executor> block(Provider const& provider, Executor& executor) {
+template <class Provider>
+Problem block(Provider const& provider, scarp::Executor const& executor) {
   auto mesh = samples::CrossedRectangle{.columns = 2, .rows = 2}.generate();
   mesh.boundaries["surface"] = mesh.boundaries.at("top");
   scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> grid(std::move(mesh));
@@ -41,7 +40,7 @@ Problem<Executor> block(Provider const& provider, Executor& executor) {
   for (int const node : scarp::boundary_nodes(grid.mesh(), "top")) constraints.move(node, 1, 1.0);
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
-  scarp::MaterialPoints<2> points(provider, sites, {}, [&](int point) { return scarp::owns_point(executor, point); });
+  scarp::MaterialPoints<2> points(provider, sites, {}, [&](int point) { return executor.owns(point); });
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(grid.dof_count());
   return {std::move(grid), std::move(points), std::move(constraints), std::move(loads), executor};
 }
@@ -98,9 +97,9 @@ inline std::string without_times(std::filesystem::path const& file) {
   return kept;
 }
 
-template <class Provider, class Executor>
-Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path const& folder, Pull const& wanted,
-             scarp::CheckpointFiles files = {}, int attempts = 1000) {
+template <class Provider>
+Outcome pull(Provider const& provider, scarp::Executor const& executor, std::filesystem::path const& folder,
+             Pull const& wanted, scarp::CheckpointFiles files = {}, int attempts = 1000) {
   double const to = wanted.to;
   auto problem = block(provider, executor);
   Outcome outcome;
@@ -146,8 +145,8 @@ Outcome pull(Provider const& provider, Executor& executor, std::filesystem::path
 }
 
 /// The same in parts, each by new objects that go on from a checkpoint, one attempt long.
-template <class Provider, class Executor>
-Outcome pull_in_parts(Provider const& provider, Executor& executor, std::filesystem::path const& folder,
+template <class Provider>
+Outcome pull_in_parts(Provider const& provider, scarp::Executor const& executor, std::filesystem::path const& folder,
                       Pull const& wanted) {
   scarp::CheckpointSettings const settings{
       .folder = folder / "states", .resume = true, .every_seconds = 1e9, .locks = scarp::is_root_rank(executor)};

@@ -16,7 +16,7 @@ namespace {
 using Soil = scarp::LinearElastic<2>;
 using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
 template <class Attached = scarp::NoAttachment>
-using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Attached>;
+using Problem = scarp::EquilibriumProblem<Grid, Attached>;
 using Newton = scarp::QuasiNewton<>;
 
 constexpr double pressure = 1e4;  // [Pa]

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <stdexcept>
+#include <memory>
 
 #include <Eigen/LU>
 
@@ -144,48 +144,16 @@ Eigen::VectorXd partly(scarp::LinearMap const&, scarp::LinearMap const& inverse,
   return percent / 100.0 * inverse(right);
 }
 
-/// A ground with a second part of its stiffness, of zero, and an iteration of its own.
-struct Iterated final : scarp::IncrementalProblem<2> {
-  scarp::Constraints held;
-  scarp::LinearIteration iterate;
-
-  Iterated(scarp::Constraints constraints, scarp::LinearIteration iteration)
-      : held(std::move(constraints)), iterate(iteration) {}
-
-  scarp::Constraints const& constraints() const override { return held; }
-  void ground_stiffness(Eigen::VectorXd const& increment, std::vector<scarp::VoigtTangent<2>> const&,
-                        scarp::GroundStiffness& stiffness) const override {
-    stiffness.own.resize(increment.size(), increment.size());
-    stiffness.own.setIdentity();
-    stiffness.around = std::make_shared<scarp::LinearMap const>([](Eigen::VectorXd const& x) { return 0.0 * x; });
-    stiffness.iterate = iterate;
+/// Elements of unit stiffness without strains: means over neighbours add a second part of zero.
+using Elements = Grid;
+struct UnitGrid : Elements {
+  using Elements::Elements;
+  void stiffness(Eigen::VectorXd const&, std::span<scarp::VoigtStress<2> const>,
+                 std::span<scarp::VoigtTangent<2> const>, SparseMatrix& out) const override {
+    out.resize(dof_count(), dof_count());
+    out.setIdentity();
   }
-  bool has_attachment() const override { return false; }
-
-  // A linear step requests nothing else.
-  int dof_count() const override { throw std::logic_error("dof_count"); }
-  scarp::LoadHistory const& loads() const override { throw std::logic_error("loads"); }
-  std::vector<scarp::Gradient<2>> const& gradients() const override { throw std::logic_error("gradients"); }
-  std::vector<scarp::Response<2>> const& responses() const override { throw std::logic_error("responses"); }
-  std::vector<scarp::VoigtStress<2>> committed_stresses() const override { throw std::logic_error("stresses"); }
-  bool have_exact_tangents() const override { throw std::logic_error("have_exact_tangents"); }
-  std::vector<scarp::VoigtTangent<2>> committed_tangents() const override { throw std::logic_error("tangents"); }
-  std::vector<scarp::VoigtTangent<2>> trial_tangents() const override { throw std::logic_error("tangents"); }
-  double max_displacement_gradient() const override { throw std::logic_error("max_displacement_gradient"); }
-  bool turns_stresses() const override { throw std::logic_error("turns_stresses"); }
-  void set_load(double) override { throw std::logic_error("set_load"); }
-  scarp::Verdict plan(Eigen::VectorXd const&, int*) override { throw std::logic_error("plan"); }
-  scarp::Evaluation evaluate(Eigen::VectorXd const&) override { throw std::logic_error("evaluate"); }
-  scarp::Evaluation refine(Eigen::VectorXd const&) override { throw std::logic_error("refine"); }
-  scarp::Evaluation evaluate_committed() override { throw std::logic_error("evaluate_committed"); }
-  double residual(Eigen::VectorXd const&) const override { throw std::logic_error("residual"); }
-  double residual_beside(Eigen::VectorXd const&) const override { throw std::logic_error("residual_beside"); }
-  int first_beside() const override { throw std::logic_error("first_beside"); }
-  double length() const override { throw std::logic_error("length"); }
-  Eigen::VectorXd attached_forces(Eigen::VectorXd const&) override { throw std::logic_error("attached_forces"); }
-  SparseMatrix attached_stiffness() const override { throw std::logic_error("attached_stiffness"); }
-  SparseMatrix stick_stiffness() const override { throw std::logic_error("stick_stiffness"); }
-  void commit(Eigen::VectorXd const&) override { throw std::logic_error("commit"); }
+  SparseMatrix strain_operator(Eigen::VectorXd const&) const override { return {3 * point_count(), dof_count()}; }
 };
 
 }  // namespace
@@ -196,13 +164,29 @@ TEST_CASE("an iteration that stagnates far from the solution is no solution") {
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) constraints.fix(node);
   Eigen::VectorXd const still = Eigen::VectorXd::Zero(constraints.dof_count());
   Eigen::VectorXd const unbalanced = Eigen::VectorXd::Constant(constraints.dof_count(), 2.0);
+  Grid const grid(mesh);
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+  std::vector const tangents(sites.size(), scarp::VoigtTangent<2>(scarp::VoigtTangent<2>::Identity()));
+  auto const soil = Soil::from_young_poisson(20e6, 0.3);
+  std::vector<std::size_t> first{0};
+  std::vector<scarp::NeighbourMean::Share> shares;  // all see all
+  for (int point = 0; point < grid.point_count(); ++point) {
+    for (auto const& site : sites) shares.push_back({site.index, 1.0 / static_cast<double>(sites.size())});
+    first.push_back(shares.size());
+  }
+  scarp::NeighbourMean const mean(first, shares);
+  std::vector const hoods(sites.size(), scarp::Neighbourhood{.length = 1.0});
+  scarp::SerialExecutor const serial;
   for (auto const& [iterate, verdict] :
        {std::pair{&partly<95>, scarp::Verdict{}},
         std::pair{&partly<80>, scarp::Verdict{scarp::Status::not_converged, Reason::iterations_spent}},
         std::pair{&partly<-5>, scarp::Verdict{scarp::Status::failed, Reason::singular_system}}}) {
-    Iterated problem(constraints, iterate);
+    scarp::MaterialPoints<2> points(soil, sites);
+    points.average({mean, hoods, tangents, iterate});
+    scarp::Problem<2> problem(std::make_unique<UnitGrid>(mesh), std::move(points), constraints, still, serial);
     scarp::LinearisedStep<2, scarp::SparseLu> step(problem, 1e-3);
-    REQUIRE(step.linearise(still, unbalanced, {}).acceptable());
+    REQUIRE(step.linearise(still, unbalanced, tangents).acceptable());
     Eigen::VectorXd increment = still;
     CHECK(step.solve(increment, still) == verdict);
     CHECK(step.linear_residual() == samples::Approx(1.0 - iterate(
@@ -236,8 +220,8 @@ TEST_CASE("a body that nothing holds is found out: a singular system, and which 
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
   Eigen::VectorXd const load = Eigen::VectorXd::Ones(grid.dof_count());
   scarp::SerialExecutor executor;
-  scarp::EquilibriumProblem<Grid, scarp::SerialExecutor> problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites},
-                                                                 constraints, load, executor);
+  scarp::EquilibriumProblem<Grid> problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, load,
+                                          executor);
   scarp::NoObserver no_observer;
   auto const run = scarp::LoadStepping{.first = 1.0}.run(scarp::QuasiNewton<>{}, problem, 0.0, 1.0, no_observer);
   CHECK(run.verdict.reason == Reason::singular_system);

@@ -24,7 +24,7 @@ template <class Element>
 using Grid = scarp::Discretisation<Element, scarp::SmallStrain, scarp::DefaultIntegration<Element>>;
 
 template <class Element>
-using Problem = scarp::EquilibriumProblem<Grid<Element>, scarp::SerialExecutor>;
+using Problem = scarp::EquilibriumProblem<Grid<Element>>;
 
 template <class Element, class Hold>
 Problem<Element> distorted_body(int cells, scarp::SerialExecutor& executor, Hold const& hold, double young = 1e7) {

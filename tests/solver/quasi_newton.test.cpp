@@ -218,7 +218,7 @@ TEST_CASE("contact is followed within the linear system: material that is linear
   auto const bare = samples::Block<samples::Softening>::make({}, serial);
   auto const& grid = bare.discretisation();
   Wall const wall{.place = 1e-4, .stiffness = 1e9, .nodes = scarp::boundary_nodes(grid.mesh(), "left")};
-  scarp::EquilibriumProblem<samples::Block<samples::Softening>::Grid, scarp::SerialExecutor, Wall> problem(
+  scarp::EquilibriumProblem<samples::Block<samples::Softening>::Grid, Wall> problem(
       grid, bare.points(), bare.constraints(), bare.loads(), serial, wall);
   scarp::NoObserver no_observer;
   // The block is stretched: its left side comes inwards and meets the wall.

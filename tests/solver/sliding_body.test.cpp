@@ -20,7 +20,7 @@ namespace {
 using Grid = scarp::Discretisation<scarp::Tri3>;
 using Soil = scarp::LinearElastic<2>;
 using Contact = scarp::Interface<scarp::LinearFrictional, scarp::RigidFooting>;
-using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor, Contact>;
+using Problem = scarp::EquilibriumProblem<Grid, Contact>;
 
 constexpr double friction = 0.5;
 constexpr double stiffness = 1e8;  // [Pa/m]

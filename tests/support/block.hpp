@@ -123,7 +123,7 @@ static_assert(scarp::ConstitutiveProvider<Softening> && !scarp::HasPlan<Softenin
 template <class Provider, class Motion = scarp::SmallStrain>
 struct Block {
   using Grid = scarp::Discretisation<scarp::Tri3, Motion>;
-  using Problem = scarp::EquilibriumProblem<Grid, scarp::SerialExecutor>;
+  using Problem = scarp::EquilibriumProblem<Grid>;
 
   static Problem make(Provider provider, scarp::SerialExecutor& executor, bool moved_top = true) {
     Grid grid(samples::CrossedRectangle{.columns = 3, .rows = 2}.generate());

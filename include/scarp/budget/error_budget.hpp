@@ -19,24 +19,21 @@ namespace scarp {
 
 namespace detail {
 
-/// For problems whose work is not added up: what is attached, points of other processes.
+/// For problems whose work is not added up: what is attached.
 struct NoWorkBalance {
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}
+  static double gap() { return 0.0; }
   template <class Self, class Visit>
   static void members(Self&, Visit&&) {}
 };
-
-template <class Problem>
-inline constexpr bool adds_up_work =
-    Problem::is_bare && !SharesPoints<std::remove_cvref_t<decltype(std::declval<Problem const&>().executor())>>;
 
 template <class Problem>
 struct WorkBalanceOf {
   using Type = NoWorkBalance;
 };
 template <class Problem>
-  requires adds_up_work<Problem>
+  requires(Problem::is_bare)
 struct WorkBalanceOf<Problem> {
   using Type = WorkBalance<Problem>;
 };
@@ -62,14 +59,17 @@ class ErrorBudget : public NeverStops {
   /// Begins with the stresses that the points carry now.
   /// \throws InputError for points that the problem does not have, numbers that are negative or not finite
   explicit ErrorBudget(Problem const& problem, ErrorBounds const& bounds = {}, ErrorSampling const& sampling = {})
-      : bounds_(bounds), sampling_(sampling), iterates_equations_(problem.points().means() != nullptr) {
+      : bounds_(bounds),
+        sampling_(sampling),
+        iterates_equations_(problem.points().means() != nullptr),
+        adds_up_work_(Problem::is_bare && problem.executor().ranks() == 1) {
     bounds.validate();
     sampling.validate();
     int const points = problem.points().size();
     at_rest_.resize(detail::index(points));
     double const least = sampling.pressure_floor * std::sqrt(static_cast<double>(dim));
     for (int point = 0; point < points; ++point) {
-      if (!owns_point(problem.executor(), point)) continue;
+      if (!problem.executor().owns(point)) continue;
       seen_.push_back(point);
       at_rest_[detail::index(point)] = std::max(stress_size<dim>(problem.points().committed_stress(point)), least);
     }
@@ -86,7 +86,7 @@ class ErrorBudget : public NeverStops {
     condition_ = nan_max(condition_, report.condition);
     if (!report.verdict.acceptable()) return;
     residual_ = nan_max(residual_, report.residual());
-    balance_.attempted(problem, report);
+    if (adds_up_work_) balance_.attempted(problem, report);
     packings_.look(problem, seen_);
     tracked_.follow(problem, at_rest_);
     auto const affordable = static_cast<long>(sampling_.share * static_cast<double>(all_work()));
@@ -102,8 +102,7 @@ class ErrorBudget : public NeverStops {
     };
     add("residual", residual_, bounds_.residual,
         "largest force residual of an accepted step, over the forces that act");
-    if constexpr (detail::adds_up_work<Problem>)
-      add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
+    if (adds_up_work_) add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
     add("linear_residual", linear_residual_,
         iterates_equations_ ? bounds_.iterated_linear_residual : bounds_.linear_residual, "largest of a linear system");
     add("condition", condition_, bounds_.condition, "largest estimate for a stiffness");
@@ -137,8 +136,8 @@ class ErrorBudget : public NeverStops {
   DoubledSamples const& samples() const { return samples_; }  ///< repetitions of single increments so far
   TrackedPoints const& tracked() const { return tracked_; }   ///< repetitions of whole paths so far
 
-  SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, seen_, at_rest_), balance_, packings_, samples_,
-                       tracked_, residual_, linear_residual_, condition_, work_, answers_)
+  SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, adds_up_work_, seen_, at_rest_), balance_, packings_,
+                       samples_, tracked_, residual_, linear_residual_, condition_, work_, answers_)
 
  private:
   long all_work() const { return work_ > 0 ? work_ : answers_; }
@@ -151,6 +150,7 @@ class ErrorBudget : public NeverStops {
   ErrorBounds bounds_;
   ErrorSampling sampling_;
   bool iterates_equations_;      ///< where points see means: linear systems are not factorised
+  bool adds_up_work_;            ///< not of what is attached, nor of points of other processes
   std::vector<int> seen_;        ///< points of this process
   std::vector<double> at_rest_;  ///< [Pa], size of each point's stress when the run began
   typename detail::WorkBalanceOf<Problem>::Type balance_;

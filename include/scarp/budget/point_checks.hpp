@@ -187,7 +187,7 @@ struct TrackedPoints {
     for (int const point : sampling.tracked) {
       if (point < 0 || point >= count)
         reject("point {} is to be tracked (there are points 0 to {}): choose one of these", point, count - 1);
-      if (owns_point(problem.executor(), point)) chosen.push_back(point);
+      if (problem.executor().owns(point)) chosen.push_back(point);
     }
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());

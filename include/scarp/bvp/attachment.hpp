@@ -2,11 +2,15 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-
 #include <concepts>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "scarp/core/status.hpp"
+#include "scarp/io/state_bits.hpp"
 #include "scarp/tensor/tensor.hpp"
 
 namespace scarp {
@@ -30,17 +34,76 @@ concept Attachment = requires(Part& part, Part const& constant, std::vector<Vect
 };
 
 /// Nothing: the elements alone.
-struct NoAttachment {
-  static constexpr int extra_dofs() { return 0; }  ///< It has no degrees of freedom of its own.
-  /// Adds nothing.
-  template <class Nodes>
-  static Verdict add_forces(Nodes const&, Eigen::VectorXd const&, Eigen::VectorXd&) {
-    return {};
-  }
-  static void add_stiffness(std::vector<Eigen::Triplet<double>>&) {}  ///< Adds nothing.
-  /// Keeps nothing.
-  template <class Nodes>
-  static void commit(Nodes const&, Eigen::VectorXd const&) {}
+struct NoAttachment {};
+
+namespace detail {
+
+/// An `Attachment` of any type.
+template <int Dim>
+class AttachedPart {
+ public:
+  using Nodes = std::vector<Vector<Dim>>;
+  using Entries = std::vector<Eigen::Triplet<double>>;
+
+  virtual ~AttachedPart() = default;
+  virtual int extra_dofs() const = 0;
+  virtual Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) = 0;
+  virtual void add_stiffness(Entries& entries) const = 0;
+  virtual void add_stick_stiffness(Entries& entries) const = 0;
+  virtual void commit(Nodes const& nodes, Eigen::VectorXd const& increment) = 0;
+  virtual std::optional<double> thickness() const = 0;
+  virtual std::optional<double> length() const = 0;
+  virtual void write(StateWriter& writer) const = 0;
+  virtual void read(StateReader& reader) = 0;
 };
+
+template <int Dim, class Part>
+class AttachedPartOf final : public AttachedPart<Dim> {
+  static_assert(Attachment<Part, Dim>);
+
+ public:
+  using typename AttachedPart<Dim>::Nodes, typename AttachedPart<Dim>::Entries;
+
+  explicit AttachedPartOf(Part part) : part_(std::move(part)) {}
+  Part const& part() const { return part_; }
+
+  int extra_dofs() const override { return part_.extra_dofs(); }
+  Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) override {
+    return part_.add_forces(nodes, increment, forces);
+  }
+  void add_stiffness(Entries& entries) const override { part_.add_stiffness(entries); }
+  void add_stick_stiffness(Entries& entries) const override {
+    if constexpr (requires { part_.add_stick_stiffness(entries); }) {
+      part_.add_stick_stiffness(entries);
+    } else {
+      part_.add_stiffness(entries);
+    }
+  }
+  void commit(Nodes const& nodes, Eigen::VectorXd const& increment) override { part_.commit(nodes, increment); }
+  std::optional<double> thickness() const override {
+    if constexpr (requires { part_.thickness(); }) return part_.thickness();
+    return std::nullopt;
+  }
+  std::optional<double> length() const override {
+    if constexpr (requires { part_.length(); }) return part_.length();
+    return std::nullopt;
+  }
+  void write(StateWriter& writer) const override { described(writer, part_); }
+  void read(StateReader& reader) override { described(reader, part_); }
+
+ private:
+  template <class Visit, class Visited>
+  static void described(Visit& visit, Visited& part) {
+    if constexpr (Described<Part>) {
+      visit("attached", part);
+    } else {
+      reject("what is attached to the mesh cannot be saved (it names no members): give it a function members");
+    }
+  }
+
+  Part part_;
+};
+
+}  // namespace detail
 
 }  // namespace scarp

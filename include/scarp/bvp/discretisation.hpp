@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "scarp/bvp/grid.hpp"
 #include "scarp/bvp/integration.hpp"
 #include "scarp/bvp/kinematics.hpp"
 #include "scarp/bvp/sparsity.hpp"
-#include "scarp/constitutive/constitutive_provider.hpp"
-#include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
-/// Finite elements on a mesh: displacement increments to gradients at the integration points, stresses at the points to
-/// nodal forces and stiffness. Has no material; its only state is the committed positions of the nodes.
-/// Degree of freedom = dim * node + axis; point = (number of an element's material points) * element + its own number,
+/// Finite elements on a mesh, see `Grid`: point = (number of an element's material points) * element + its own number,
 /// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
 /// gives the same bits. Members that cost much to compile are defined outside, so that a library can contain them.
 template <CheckedElement Element, Kinematics Motion = UpdatedLagrangian, Integration<Element> Scheme = FullIntegration>
-class SCARP_EXPORT Discretisation {
+class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
+  using Base = Grid<Element::dim>;
+  using Base::moved, Base::require_length;
+
  public:
+  using Base::dof_count, Base::node_count, Base::positions;
   using ElementType = Element;  ///< type of all elements of the mesh
   static constexpr bool follows_motion = Motion::follows_motion;
   static constexpr int dim = Element::dim;  ///< of the elements and of space
@@ -34,42 +37,31 @@ class SCARP_EXPORT Discretisation {
   /// \throws InputError for an invalid mesh or thickness
   explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0);
 
-  Mesh<Element> const& mesh() const { return mesh_; }            ///< with the nodes where they were at the start
-  double thickness() const { return thickness_; }                ///< out of the plane [m]
-  int node_count() const { return detail::count(mesh_.nodes); }  ///< of the mesh
-  int dof_count() const { return dim * node_count(); }           ///< of all nodes
-  /// Material points of all elements.
-  int point_count() const { return points_per_element * detail::count(mesh_.elements); }
+  Mesh<Element> const& mesh() const { return mesh_; }  ///< with the nodes where they were at the start
+  std::vector<Vector<dim>> const& nodes() const override { return mesh_.nodes; }
+  std::vector<std::string> const& regions() const override { return mesh_.regions; }
+  std::vector<std::vector<int>> regions_of_nodes() const override;
+  double thickness() const override { return thickness_; }
+  bool turns_stresses() const override { return follows_motion; }
+  int point_count() const override { return points_per_element * detail::count(mesh_.elements); }
+  int first_point(int element) const override { return points_per_element * element; }
 
   /// Where a point is on the reference element, with its weight.
   static QuadraturePoint<dim> local_point(int point) {
     return Scheme::template points<Element>()[detail::index(point % points_per_element)];
   }
 
-  /// Committed positions of the nodes [m].
-  std::vector<Vector<dim>> const& positions() const { return positions_; }
-
   /// Where a point is in the committed configuration; surface_level [m] is the height of the ground surface.
-  Site<Element::dim> site(int point, double surface_level) const;
+  Site<Element::dim> site(int point, double surface_level) const override;
 
-  /// Displacement gradient of the increment at every point, for the material.
-  /// increment [m], shape (dof_count); out: shape (point_count), always filled
-  /// \return the first element whose Jacobian is not positive (or NaN) after the increment, if there is one
-  /// \throws InputError for arrays of other lengths
-  std::optional<int> gradients(Eigen::VectorXd const& increment, std::span<Gradient<dim>> out) const;
+  std::optional<int> gradients(Eigen::VectorXd const& increment, std::span<Gradient<dim>> out) const override;
 
-  /// \f$ f_{a} = \int \sigma \nabla N_a\,dv \f$ [N] as Scheme sums it; out: shape (dof_count), overwritten
-  /// stresses [Pa] at the end of the increment, shape (point_count)
-  /// \throws InputError for arrays of other lengths
+  /// \f$ f_{a} = \int \sigma \nabla N_a\,dv \f$ [N] as Scheme sums it
   void internal_force(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
-                      Eigen::VectorXd& out) const;
+                      Eigen::VectorXd& out) const override;
 
-  /// Derivative of the internal force [N/m] with respect to a further displacement from the end of the increment.
-  /// tangents [Pa]: change of the co-rotated Cauchy stress with the strain of that further displacement
-  /// out: overwritten; its memory is used again when it comes from an earlier call
-  /// \throws InputError for arrays of other lengths
   void stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
-                 std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const;
+                 std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const override;
 
   /// The stiffness [N/m] as a matrix of its own, shape (dof_count, dof_count).
   /// \throws InputError for arrays of other lengths
@@ -80,55 +72,25 @@ class SCARP_EXPORT Discretisation {
     return matrix;
   }
 
-  /// Engineering strains of all points for a small further displacement from the end of the increment [m], as Scheme forms
-  /// them; row = voigt_size * point + component, shape (voigt_size * point_count, dof_count)
-  /// \throws InputError for an increment of another length
-  Eigen::SparseMatrix<double> strain_operator(Eigen::VectorXd const& increment) const;
-
-  /// Volume [m3] of each point, thickness included, in the configuration that forces are balanced in.
-  /// \throws InputError for an increment of another length
-  std::vector<double> volumes(Eigen::VectorXd const& increment) const;
-
-  /// Makes the configuration at the end of the increment the committed one.
-  /// \throws InputError when the increment is not finite or has another length; nothing has moved then
-  void commit(Eigen::VectorXd const& increment) {
-    require_length("displacement increment", increment.size(), dof_count());
-    if (!increment.allFinite()) {
-      reject("the displacement increment is not finite (a diverged step must not be committed): cut the load step");
-    }
-    positions_ = moved(increment);
-  }
-
-  /// What evolves: the committed positions.
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    SCARP_ALL_MEMBERS(mesh_, thickness_, positions_, sparsity_);
-    visit("positions of nodes", std::span(self.positions_));
-  }
+  Eigen::SparseMatrix<double> strain_operator(Eigen::VectorXd const& increment) const override;
+  std::vector<double> volumes(Eigen::VectorXd const& increment) const override;
 
  private:
   using Shapes = ElementShapes<Element, material_points<Scheme, Element>>;
 
-  static constexpr std::size_t first_point(int element) { return detail::index(points_per_element * element); }
+  static constexpr std::size_t first_of(int element) { return detail::index(points_per_element * element); }
 
   /// The entries of an array of all points that belong to an element.
   template <class Value>
   static std::span<Value const, material_points<Scheme, Element>> of_element(std::span<Value const> values,
                                                                              int element) {
-    return values.subspan(first_point(element)).template first<material_points<Scheme, Element>>();
-  }
-
-  static void require_length(char const* what, std::ptrdiff_t length, int wanted) {
-    if (length != wanted) {
-      reject("{}: {} entries are given ({} are needed): size it by dof_count, point_count or node_count", what, length,
-             wanted);
-    }
+    return values.subspan(first_of(element)).template first<material_points<Scheme, Element>>();
   }
 
   /// Configuration that gradients of an increment refer to.
   std::vector<Vector<dim>> const& reference() const {
     if constexpr (Motion::follows_motion) {
-      return positions_;
+      return positions();
     } else {
       return mesh_.nodes;
     }
@@ -141,14 +103,6 @@ class SCARP_EXPORT Discretisation {
     } else {
       return mesh_.nodes;
     }
-  }
-
-  std::vector<Vector<dim>> moved(Eigen::VectorXd const& increment) const {
-    auto nodes = positions_;
-    for (int n = 0; n < node_count(); ++n) {
-      nodes[detail::index(n)] += increment.template segment<dim>(dim * n);
-    }
-    return nodes;
   }
 
   Corners<Element, dim> element_part(Eigen::VectorXd const& field, int element) const {
@@ -182,13 +136,12 @@ class SCARP_EXPORT Discretisation {
 
   Mesh<Element> mesh_;
   double thickness_;
-  std::vector<Vector<dim>> positions_;
   Sparsity sparsity_;
 };
 
 template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, double thickness)
-    : mesh_((validate(mesh), std::move(mesh))), thickness_(thickness), positions_(mesh_.nodes), sparsity_(mesh_) {
+    : Base((validate(mesh), mesh.nodes)), mesh_(std::move(mesh)), thickness_(thickness), sparsity_(mesh_) {
   require_positive("thickness", thickness);
   if (dim == 3 && thickness != 1.0) {
     reject("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
@@ -196,9 +149,22 @@ Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, doub
 }
 
 template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
+std::vector<std::vector<int>> Discretisation<Element, Motion, Scheme>::regions_of_nodes() const {
+  std::vector<std::vector<int>> regions_of(mesh_.nodes.size());
+  for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
+    for (int const node : mesh_.elements[e]) {
+      auto& regions = regions_of[detail::index(node)];
+      if (std::ranges::find(regions, mesh_.element_region[e]) == regions.end())
+        regions.push_back(mesh_.element_region[e]);
+    }
+  }
+  return regions_of;
+}
+
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 Site<Element::dim> Discretisation<Element, Motion, Scheme>::site(int point, double surface_level) const {
   int const element = point / points_per_element;
-  auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions_);
+  auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions());
   Vector<dim> const position = rows.transpose() * Element::shape(local_point(point).xi);
   double volume = 0.0;
   for (auto const& shape : shapes_at(rows, std::make_index_sequence<material_points<Scheme, Element>>{}))
@@ -222,7 +188,7 @@ std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::Vec
   for_each_element(reference(), [&](int element, Shapes const& shapes) {
     auto const gradients = Scheme::template gradients<Motion>(shapes, element_part(increment, element));
     for (std::size_t p = 0; p < gradients.size(); ++p) {
-      out[first_point(element) + p] = Motion::template material_gradient<dim>(gradients[p]);
+      out[first_of(element) + p] = Motion::template material_gradient<dim>(gradients[p]);
       if (Motion::follows_motion && !inverted && !((Tensor<dim>::Identity() + gradients[p]).determinant() > 0.0)) {
         inverted = element;
       }
@@ -300,7 +266,7 @@ std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::Vect
   std::vector<double> volumes(detail::index(point_count()));
   for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
     for (std::size_t p = 0; p < shapes.size(); ++p) {
-      volumes[first_point(element) + p] = shapes[p].volume;
+      volumes[first_of(element) + p] = shapes[p].volume;
     }
   });
   return volumes;

@@ -1,59 +1,83 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <concepts>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <type_traits>
 #include <vector>
+
+#include "scarp/core/error.hpp"
 
 namespace scarp {
 
-/// for_each(count, task): calls task(i) once for every i in [0, count), in any order, perhaps at the same time.
-template <class Executor>
-concept ExecutesTasks = requires(Executor& executor, void (&task)(int)) {
-  executor.for_each(0, task);
+namespace detail {
+
+/// How a value that processes share is sent: as its bytes, where it may be copied so.
+template <class Value>
+struct LyingInMemory {
+  static_assert(std::is_trivially_copyable_v<Value>, "scarp: values that ranks share are copied byte by byte");
+  static constexpr std::size_t size = sizeof(Value);
+  static void write(Value const& value, std::byte* to) { std::memcpy(to, &value, size); }
+  static void read(std::byte const* from, Value& value) { std::memcpy(&value, from, size); }
 };
 
-/// One of several processes that run the same program, each of which owns some of the material points.
-/// owns(point): whether this process owns a point; share(values): completes an array over all points of which
-/// every process has the entries of its own; together(work): does it, and throws everywhere what it throws on one process. All
-/// processes must call share and together alike.
-template <class Executor>
-concept SharesPoints = ExecutesTasks<Executor> && requires(Executor& executor, std::vector<double>& values) {
-  { executor.owns(0) } -> std::same_as<bool>;
-  executor.share(values);
-  executor.together([] {});
+}  // namespace detail
+
+/// Runs tasks. This class is one process; an heir such as `RankExecutor` is one of several that run the same program, each of which
+/// owns some of the material points. All of them must call together(), agree(), on_first() and share() alike.
+class Executor {
+ public:
+  virtual ~Executor() = default;
+
+  /// Calls task(i) once for every i in [0, count), in any order, perhaps at the same time.
+  virtual void for_each(int count, std::function<void(int)> const& task) const = 0;
+
+  virtual int ranks() const { return 1; }                                     ///< Number of processes.
+  virtual int rank() const { return 0; }                                      ///< Number of this process, from zero.
+  virtual int threads() const { return 1; }                                   ///< That this process works with.
+  virtual bool owns(int point) const { return point % ranks() == rank(); }    ///< Whether this process has a point.
+  virtual void together(std::function<void()> const& work) const { work(); }  ///< What it throws is thrown on all.
+  virtual bool agree(bool flag) const { return flag; }                        ///< \return the first process' flag
+
+  /// The first process does a task, which may fetch points; the others serve meanwhile: bytes_of(point) returns the bytes. What
+  /// one throws ends all.
+  virtual void on_first(std::function<void()> const& task, std::function<std::string(int)> const&) const { task(); }
+
+  /// On the first process, within on_first(): what the owner of a point returns.
+  /// \throws InputError with the owner's words where it could not
+  virtual std::string fetch(int point) const {
+    reject("point {} was requested from another process (there is none): read it here", point);
+  }
+
+  /// Completes an array over all points of which every process has the entries of its own.
+  template <class Value>
+  void share(std::vector<Value>& values) const {
+    if (ranks() == 1) return;
+    using Lying = detail::LyingInMemory<Value>;
+    exchange({values.size(), Lying::size, [&](std::size_t k, std::byte* to) { Lying::write(values[k], to); },
+              [&](std::size_t k, std::byte const* from) { Lying::read(from, values[k]); }});
+  }
+
+ protected:
+  /// An array over all points as bytes.
+  struct Shared {
+    std::size_t count;                                        ///< of the entries
+    std::size_t bytes;                                        ///< of an entry
+    std::function<void(std::size_t, std::byte*)> write;       ///< an entry
+    std::function<void(std::size_t, std::byte const*)> read;  ///< an entry
+  };
+  virtual void exchange(Shared const&) const {}  ///< Sends the entries of own points, receives those of others.
 };
 
 /// One task after the other on the calling thread.
-struct SerialExecutor {
+class SerialExecutor : public Executor {
+ public:
   /// Calls task(i) for i from 0 to count - 1, in this order.
-  template <std::invocable<int> Task>
-  void for_each(int count, Task&& task) const {
+  void for_each(int count, std::function<void(int)> const& task) const override {
     for (int i = 0; i < count; ++i) task(i);
   }
 };
-
-static_assert(ExecutesTasks<SerialExecutor> && !SharesPoints<SerialExecutor>);
-
-/// Whether this process owns a point; always, unless the executor shares points out.
-template <ExecutesTasks Executor>
-bool owns_point(Executor const& executor, int point) {
-  if constexpr (SharesPoints<Executor>) {
-    return executor.owns(point);
-  } else {
-    static_cast<void>(executor), static_cast<void>(point);
-    return true;
-  }
-}
-
-/// Work that all processes begin alike: what it throws on one of them is thrown on all.
-template <ExecutesTasks Executor, class Work>
-void together(Executor const& executor, Work const& work) {
-  if constexpr (SharesPoints<Executor>) {
-    executor.together(work);
-  } else {
-    static_cast<void>(executor);
-    work();
-  }
-}
 
 }  // namespace scarp

@@ -84,13 +84,12 @@ concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid
 
 namespace detail {
 /// What a fault scene gives to solvers.
-template <class Scene, class Executor>
+template <class Structure, class Grid>
 struct ProblemOfFault {
-  using Structure = decltype(Scene::structure);
-  using Grid = typename Scene::Grid;
-  static_assert(StandsOnGround<Structure, Grid>);
+  static_assert(StandsOnGround<Structure, Grid>,
+                "scarp: a structure needs edges(), put_on(), extra_dofs(), start(), add_loads() and attached()");
   using Attached = decltype(std::declval<Structure const&>().attached(std::declval<Grid const&>()));
-  using Type = EquilibriumProblem<Grid, Executor, Attached>;
+  using Type = EquilibriumProblem<Grid, Attached>;
 };
 }  // namespace detail
 
@@ -134,8 +133,7 @@ struct SCARP_EXPORT FaultScene {
   }
 
   /// \throws InputError for parts that do not fit, and for soil that does not carry the weight
-  template <class Executor>
-  typename detail::ProblemOfFault<FaultScene, Executor>::Type problem(Executor& executor) const;
+  typename detail::ProblemOfFault<Structure, Grid>::Type problem(Executor const& executor) const;
 
   /// First stage: the ground as prepared is brought into equilibrium.
   template <class ProblemType, class Observer>
@@ -176,8 +174,6 @@ struct SCARP_EXPORT FaultScene {
 
 template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
 Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::mesh() const {
-  static_assert(StandsOnGround<Structure, Grid>,
-                "scarp: a structure needs edges(), put_on(), extra_dofs(), start(), add_loads() and attached()");
   static_assert(std::same_as<typename GroundType::Element, typename Grid::ElementType>,
                 "the grid is of the ground's element");
   auto made = ground.mesh(structure.edges());
@@ -187,9 +183,8 @@ Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundTyp
 }
 
 template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
-template <class Executor>
-typename detail::ProblemOfFault<FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>, Executor>::Type
-FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Executor& executor) const {
+typename detail::ProblemOfFault<Structure, GridType>::Type
+FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Executor const& executor) const {
   require_not_negative("unit weight", unit_weight);
   require_not_negative("surcharge", surcharge);
   require_positive("throw", throw_to);
@@ -217,14 +212,12 @@ FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Execu
   DECLARE void require_node_at_tip(Mesh<ELEMENT> const&, double);                                              \
   DECLARE Constraints bedrock_constraints(Mesh<ELEMENT> const&, NormalFault const&, int, TimeFunction const&); \
   DECLARE Eigen::VectorXd body_force(DefaultGrid<ELEMENT> const&, std::vector<Vector<2>> const&);              \
-  DECLARE Eigen::VectorXd traction(DefaultGrid<ELEMENT> const&, std::string_view, Vector<2> const&);           \
-  DECLARE detail::RegionResiduals<2>::RegionResiduals(Mesh<ELEMENT> const&, Constraints const&);
+  DECLARE Eigen::VectorXd traction(DefaultGrid<ELEMENT> const&, std::string_view, Vector<2> const&);
 
 SCARP_GROUND(extern template, Tri3)
 SCARP_GROUND(extern template, Tri6)
 SCARP_GROUND(extern template, Quad4)
 SCARP_GROUND(extern template, Quad8)
-extern template class EquilibriumProblem<DefaultGrid<Tri3>, ThreadExecutor>;
 #endif
 
 }  // namespace scarp

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "scarp/core/described.hpp"
@@ -138,6 +139,8 @@ class FieldSeries : public NeverStops {
       fields.at_elements.push_back({name, 1, std::span<double const>(column), {}});
     }
     auto const file = std::filesystem::path("fields") / fmt::format("step_{:04}.vtu", frame_++);
+    std::error_code unmade;  // writing the file rejects it
+    std::filesystem::create_directories(folder_ / "fields", unmade);
     write_vtu(folder_ / file, mesh, grid.positions(), fields);
     series_.add(load / schedule_.unit, file);
   }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/points/detail/shared_values.hpp"
 #include "scarp/points/point_states.hpp"
 #include "scarp/points/point_survey.hpp"
 
@@ -24,9 +24,9 @@ namespace scarp {
 /// if (report.verdict.acceptable()) points.commit();  // else: another increment, smaller perhaps
 /// \endcode
 /// Gradients are those of the displacement since the last commit by the positions at that time. Where points are shared out among
-/// processes (see SharesPoints), each evaluates its own and all know all responses.
+/// processes (see Executor), each evaluates its own and all know all responses.
 template <int Dim>
-class MaterialPoints : public PointStates<Dim> {
+class SCARP_EXPORT MaterialPoints : public PointStates<Dim> {
   using States = PointStates<Dim>;
   using States::batch, States::existing, States::local;
   using States::batches_, States::has_trial_, States::is_planned_, States::means_, States::owned_;
@@ -45,8 +45,7 @@ class MaterialPoints : public PointStates<Dim> {
   /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit, and anew for gradients that
   /// need half as many again; points that do not converge take more, at most max_refinements times, and keep them until the next commit.
   /// \throws InputError for gradients that are not finite
-  template <ExecutesTasks Executor>
-  ResponseReport respond(Executor& executor, int max_refinements = 8) {
+  ResponseReport respond(Executor const& executor, int max_refinements = 8) {
     for (int point = 0; point < size(); ++point) {
       if (!own_[detail::index(point)].allFinite())
         reject("the displacement gradient of point {} is not finite: take a smaller step", point);
@@ -63,8 +62,7 @@ class MaterialPoints : public PointStates<Dim> {
   }
 
   /// Sets all points' own gradients, and what the points see of them.
-  template <ExecutesTasks Executor>
-  void set_gradients(Gradients own, Executor& executor) {
+  void set_gradients(Gradients own, Executor const& executor) {
     if (std::ssize(own) != size())
       reject("{} displacement gradients are given for {} points: give one to each", own.size(), size());
     own_ = std::move(own);
@@ -78,14 +76,10 @@ class MaterialPoints : public PointStates<Dim> {
   }
 
   /// All points respond from their committed states to what they see, with the work that is planned, or more where that is far too little.
-  template <ExecutesTasks Executor>
-  ResponseReport evaluate(Executor& executor) {
-    return evaluate(owned_, executor);
-  }
+  ResponseReport evaluate(Executor const& executor) { return evaluate(owned_, executor); }
 
   /// Points whose last response is not converged take more inner steps, now and until the next plan; one that cannot would only repeat its response.
-  template <ExecutesTasks Executor>
-  ResponseReport refine(Executor& executor) {
+  ResponseReport refine(Executor const& executor) {
     std::vector<int> unconverged;
     for (int const point : owned_) {
       if (responses_[detail::index(point)].verdict.status == Status::not_converged && batch(point).refine(local(point)))
@@ -95,8 +89,7 @@ class MaterialPoints : public PointStates<Dim> {
   }
 
   /// The committed stresses as responses: no point has moved.
-  template <ExecutesTasks Executor>
-  void evaluate_committed(Executor& executor) {
+  void evaluate_committed(Executor const& executor) {
     auto const committed = committed_stresses(executor);
     for (std::size_t k = 0; k < committed.size(); ++k) responses_[k] = {committed[k], {}};
     set_gradients(Gradients(committed.size(), Gradient<Dim>::Zero()), executor);
@@ -132,16 +125,14 @@ class MaterialPoints : public PointStates<Dim> {
     return values;
   }
   /// Cauchy stresses [Pa] of all points' committed states, without the stabilising stress of means.
-  template <ExecutesTasks Executor>
-  Stresses committed_stresses(Executor& executor) const {
+  Stresses committed_stresses(Executor const& executor) const {
     Stresses values(detail::index(size()));
     for (int const point : owned_) values[detail::index(point)] = this->committed_stress(point);
-    share(values, executor);
+    executor.share(values);
     return values;
   }
   /// Committed stresses with the committed stabilising stress: those that balance the loads.
-  template <ExecutesTasks Executor>
-  Stresses balanced_stresses(Executor& executor) const {
+  Stresses balanced_stresses(Executor const& executor) const {
     Stresses values = committed_stresses(executor);
     if (!means_) return values;
     for (std::size_t k = 0; k < values.size(); ++k) values[k] += means_->committed_tau(static_cast<int>(k));
@@ -150,13 +141,11 @@ class MaterialPoints : public PointStates<Dim> {
   /// Tangent [Pa] of a point's trial state.
   VoigtTangent<Dim> tangent(int point) const { return batch(point).trial_tangent(local(point)); }
   /// Tangents [Pa] of all points' committed states for engineering strain.
-  template <ExecutesTasks Executor>
-  Tangents committed_tangents(Executor& executor) const {
+  Tangents committed_tangents(Executor const& executor) const {
     return all_tangents(executor, [&](int point) { return this->committed_tangent(point); });
   }
   /// Tangents [Pa] of all points' trial states for engineering strain.
-  template <ExecutesTasks Executor>
-  Tangents tangents(Executor& executor) const {
+  Tangents tangents(Executor const& executor) const {
     return all_tangents(executor, [&](int point) { return tangent(point); });
   }
   /// Right after a commit: the committed response once more from its initial state, with twice the inner steps.
@@ -170,15 +159,8 @@ class MaterialPoints : public PointStates<Dim> {
   }
 
  private:
-  /// Completes an array over all points by what other processes know.
-  template <class Value, class Executor>
-  static void share(std::vector<Value>& values, Executor& executor) {
-    if constexpr (SharesPoints<Executor>) executor.share(values);
-  }
-
   /// selected: points of this process
-  template <class Executor>
-  ResponseReport evaluate(std::vector<int> selected, Executor& executor) {
+  ResponseReport evaluate(std::vector<int> selected, Executor const& executor) {
     // The longest responses first: one that begins last would keep the other threads waiting.
     std::ranges::stable_sort(selected, std::ranges::greater{}, [&](int point) { return work(point); });
     std::vector<int> own;
@@ -194,7 +176,7 @@ class MaterialPoints : public PointStates<Dim> {
     }
     if (!selected.empty()) first.push_back(detail::count(selected));
     has_trial_ = false;  // until all have responded: one may throw
-    together(executor, [&] {
+    executor.together([&] {
       executor.for_each(detail::count(first) - 1, [&](int task) {
         auto const from = detail::index(first[detail::index(task)]);
         auto const count = detail::index(first[detail::index(task + 1)]) - from;
@@ -209,8 +191,8 @@ class MaterialPoints : public PointStates<Dim> {
       if (!response.stress.allFinite()) response.verdict = {Status::failed, Reason::not_finite};
       worked[detail::index(point)] = work(point);
     }
-    share(responses_, executor);
-    share(worked, executor);
+    executor.share(responses_);
+    executor.share(worked);
     has_trial_ = true;
     ResponseReport report;
     for (int point = 0; point < size(); ++point) {
@@ -229,16 +211,16 @@ class MaterialPoints : public PointStates<Dim> {
     return report;
   }
 
-  template <class Executor, class TangentOf>
-  Tangents all_tangents(Executor& executor, TangentOf const& tangent_of) const {
+  template <class TangentOf>
+  Tangents all_tangents(Executor const& executor, TangentOf const& tangent_of) const {
     Tangents values(detail::index(size()));
-    together(executor, [&] {
+    executor.together([&] {
       executor.for_each(detail::count(owned_), [&](int task) {
         int const point = owned_[detail::index(task)];
         values[detail::index(point)] = tangent_of(point);
       });
     });
-    share(values, executor);
+    executor.share(values);
     return values;
   }
 
@@ -247,5 +229,12 @@ class MaterialPoints : public PointStates<Dim> {
   Responses responses_ = Responses(detail::index(size()));
   std::vector<long> works_ = std::vector<long>(detail::index(size()));  ///< inner steps of the points' last responses
 };
+
+#ifdef SCARP_PRECOMPILED
+extern template class PointStates<2>;
+extern template class PointStates<3>;
+extern template class MaterialPoints<2>;
+extern template class MaterialPoints<3>;
+#endif
 
 }  // namespace scarp

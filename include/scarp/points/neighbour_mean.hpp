@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
 
 namespace scarp {
@@ -54,9 +55,9 @@ class NeighbourMean {
   }
 
   /// The means around all points, by an executor's for_each; the same bits for any.
-  template <class Value, class Executor>
+  template <class Value>
   std::vector<Value> means(std::vector<Value> const& values, std::span<double const> factors,
-                           Executor& executor) const {
+                           Executor const& executor) const {
     constexpr int block = 64;
     std::vector<Value> all(values.size());
     executor.for_each((size() + block - 1) / block, [&](int part) {

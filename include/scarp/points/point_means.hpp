@@ -9,6 +9,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/linear_map.hpp"
 #include "scarp/points/neighbour_mean.hpp"
@@ -90,15 +91,14 @@ class PointMeans {
   NeighbourMean const& mean() const { return mean_; }   ///< Neighbours and weights in the reference configuration.
   LinearIteration iterate() const { return iterate_; }  ///< Solver for stiffnesses that are not assembled.
 
-  /// Means of the values of all points, with the volumes after the last commit. The executor has for_each(count, task).
-  template <class Value, class Executor>
-  std::vector<Value> means(std::vector<Value> const& values, Executor& executor) const {
+  /// Means of the values of all points, with the volumes after the last commit.
+  template <class Value>
+  std::vector<Value> means(std::vector<Value> const& values, Executor const& executor) const {
     return mean_.means(values, volume_, executor);
   }
 
   /// What the points see of their own gradients; tau belongs to it from then on.
-  template <class Executor>
-  Gradients average(Gradients const& own, Executor& executor) {
+  Gradients average(Gradients const& own, Executor const& executor) {
     Gradients mean = means(own, executor);
     for (std::size_t k = 0; k < own.size(); ++k) {
       trial_volume_[k] = volume_[k] * (Tensor<Dim>::Identity() + own[k]).determinant();

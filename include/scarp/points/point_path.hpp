@@ -114,8 +114,7 @@ class PointPath {
 
   /// Continues by a length, negative for the way back, in one increment or, where it does not converge, in several; each is committed.
   /// \return iterations_spent, unreachable (for a strain beyond a tenth) or the reason of a point's response, with what was committed before
-  template <ExecutesTasks Executor>
-  PathReport advance(double length, Executor& executor) {
+  PathReport advance(double length, Executor const& executor) {
     require_finite("length of a path", length);
     PathReport report;
     double const least = std::ldexp(1.0, -settings_.max_halvings);
@@ -225,8 +224,7 @@ class PointPath {
     }
   }
 
-  template <class Executor>
-  Verdict increment(double length, PathReport& report, Executor& executor) {
+  Verdict increment(double length, PathReport& report, Executor const& executor) {
     auto const fail = [&](Verdict const& verdict) {  // whatever was learned was of no use
       for (int k = 0; k < points_.size(); ++k) courses_[detail::index(k)].tangent = points_.committed_tangent(k);
       return verdict;

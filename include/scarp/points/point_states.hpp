@@ -6,7 +6,7 @@
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
 #include <concepts>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,16 +17,15 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/points/detail/point_batch.hpp"
-#include "scarp/points/point_means.hpp"
-#include "scarp/points/region.hpp"
+#include "scarp/core/precompiled.hpp"
+#include "scarp/points/any_provider.hpp"
 
 namespace scarp {
 
 /// The states of material points of one or several providers, as `MaterialPoints` holds them: made at sites, read by name or type,
 /// copied, sent and saved. Types of providers are hidden: what a state holds is read by name (`quantities`), or by its type (`state`).
 template <int Dim>
-class PointStates {
+class SCARP_EXPORT PointStates {
  public:
   static constexpr int dim = Dim;                   ///< of the points
   using Stresses = std::vector<VoigtStress<Dim>>;   ///< one for each point [Pa]
@@ -36,11 +35,11 @@ class PointStates {
   /// Points of several regions; a site's region is the number of its name in `names`.
   /// volumes [m3]: weights of means, empty where no region has means; owned(number of a point): whether this process evaluates it
   /// \throws InputError for a region that has no name here, is given twice or has no material, and for counts that differ
-  template <class... Materials, std::predicate<int> Owned>
-  PointStates(boost::hana::tuple<Region<Materials>...> const& regions, std::span<std::string const> names,
-              std::span<Site<Dim> const> sites, std::span<double const> volumes, Owned const& owned) {
+  PointStates(std::vector<Region<AnyProvider<Dim>>> const& regions, std::span<std::string const> names,
+              std::span<Site<Dim> const> sites, std::span<double const> volumes,
+              std::function<bool(int)> const& owned) {
     std::vector<int> numbers(names.size(), -1);
-    boost::hana::for_each(regions, [&](auto const& region) {
+    for (auto const& region : regions) {
       auto const named = std::ranges::find(names, region.name);
       if (named == names.end()) {
         reject("there is no region '{}' (the mesh has: {}): use one of these names", region.name, listed(names));
@@ -48,7 +47,7 @@ class PointStates {
       int& number = numbers[static_cast<std::size_t>(named - names.begin())];
       if (number >= 0) reject("region '{}' is given two providers (only one can respond): leave one out", region.name);
       number = add_material(region.provider);
-    });
+    }
     for (std::size_t k = 0; k < sites.size(); ++k) {
       int const region = sites[k].region;
       if (region < 0 || region >= std::ssize(numbers) || numbers[detail::index(region)] < 0) {
@@ -56,23 +55,31 @@ class PointStates {
                region < 0 || region >= std::ssize(names) ? fmt::to_string(region) : names[detail::index(region)], k);
       }
     }
-    fill(
-        sites, volumes, [&](Site<Dim> const& site) { return numbers[detail::index(site.region)]; }, owned);
+    fill(sites, volumes, owned, [&](Site<Dim> const& site) { return numbers[detail::index(site.region)]; });
   }
 
-  /// Points of one material, whatever their regions are; means do not reach across these.
+  /// As above, with regions of different types.
+  template <class... Materials>
+  PointStates(boost::hana::tuple<Region<Materials>...> const& regions, std::span<std::string const> names,
+              std::span<Site<Dim> const> sites, std::span<double const> volumes, std::function<bool(int)> const& owned)
+      : PointStates(listed_regions(regions), names, sites, volumes, owned) {}
+
+  /// Points of one material, whatever their regions are; means do not reach across these. owned: without, all are of this process
   /// \throws InputError for counts that differ
-  template <CheckedMaterial MaterialType, std::predicate<int> Owned>
-  PointStates(MaterialType const& material, std::span<Site<Dim> const> sites, std::span<double const> volumes,
-              Owned const& owned) {
+  PointStates(
+      AnyProvider<Dim> const& material, std::span<Site<Dim> const> sites, std::span<double const> volumes = {},
+      std::function<bool(int)> const& owned = [](int) { return true; }) {
     int const number = add_material(material);
-    fill(
-        sites, volumes, [&](Site<Dim> const&) { return number; }, owned);
+    fill(sites, volumes, owned, [&](Site<Dim> const&) { return number; });
   }
-  /// Points of one material, all of them of this process.
+
+  /// As above, for a material of any type.
   template <CheckedMaterial MaterialType>
-  PointStates(MaterialType const& material, std::span<Site<Dim> const> sites, std::span<double const> volumes = {})
-      : PointStates(material, sites, volumes, [](int) { return true; }) {}
+    requires(MaterialType::dim == Dim)
+  PointStates(
+      MaterialType const& material, std::span<Site<Dim> const> sites, std::span<double const> volumes = {},
+      std::function<bool(int)> const& owned = [](int) { return true; })
+      : PointStates(AnyProvider<Dim>(material), sites, volumes, owned) {}
 
   int size() const { return detail::count(places_); }  ///< Number of points, those of other processes included.
   /// Lets the points see means of their gradients from now on; nothing where every mean is the value itself.
@@ -231,32 +238,25 @@ class PointStates {
   bool has_trial_ = false;                         ///< whether there is a response since the last commit or discard
 
  private:
-  using Search = PointMeans<Dim> (*)(std::span<Site<Dim> const>, std::span<double const>,
-                                     std::span<Neighbourhood const>, Tangents const&);
+  template <class... Materials>
+  static std::vector<Region<AnyProvider<Dim>>> listed_regions(boost::hana::tuple<Region<Materials>...> const& regions) {
+    static_assert(((Materials::dim == Dim) && ...), "scarp: all materials have the dimension of the points");
+    std::vector<Region<AnyProvider<Dim>>> list;
+    boost::hana::for_each(regions, [&](auto const& region) { list.push_back({region.name, region.provider}); });
+    return list;
+  }
 
   /// \return number of its batch
-  template <class MaterialType>
-  int add_material(MaterialType const& material) {
-    static_assert(MaterialType::dim == Dim, "scarp: all materials have the dimension of the points");
-    if constexpr (ConstitutiveProvider<MaterialType>) {
-      batches_.emplace_back(
-          std::make_unique<detail::PointBatchOf<MaterialType>>(std::make_shared<MaterialType const>(material)));
-    } else if constexpr (requires { material.batch(); }) {
-      batches_.emplace_back(material.batch());
-    } else {
-      add_material(material.provider);
-      neighbourhoods_.back() = detail::validated(material.neighbourhood());
-      search_ = MaterialType::means;
-      return detail::count(batches_) - 1;
-    }
-    neighbourhoods_.emplace_back();
+  int add_material(AnyProvider<Dim> const& material) {
+    batches_.emplace_back(material.batch());
+    neighbourhoods_.push_back(material.own_neighbourhood());
+    if (material.means()) search_ = material.means();
     return detail::count(batches_) - 1;
   }
 
   /// Every process makes states for all points where some see means, since the stiffness against fluctuation strain follows from them.
-  template <class BatchOf, class Owned>
-  void fill(std::span<Site<Dim> const> sites, std::span<double const> volumes, BatchOf const& batch_of,
-            Owned const& owned) {
+  void fill(std::span<Site<Dim> const> sites, std::span<double const> volumes, std::function<bool(int)> const& owned,
+            std::function<int(Site<Dim> const&)> const& batch_of) {
     if (!volumes.empty() && volumes.size() != sites.size())
       reject("{} volumes are given for {} points: give one to each, or none", volumes.size(), sites.size());
     for (int point = 0; point < std::ssize(sites); ++point) {
@@ -293,8 +293,8 @@ class PointStates {
     among->add(site, size() - 1, here);
   }
 
-  std::vector<Neighbourhood> neighbourhoods_;  ///< of the batches
-  Search search_ = nullptr;                    ///< where points see means
+  std::vector<Neighbourhood> neighbourhoods_;          ///< of the batches
+  typename AnyProvider<Dim>::Means search_ = nullptr;  ///< where points see means
   std::vector<Place> places_;
   SharedParts shared_;  ///< of states that were unpacked
 };

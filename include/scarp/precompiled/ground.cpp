@@ -6,5 +6,4 @@ SCARP_GROUND(template, Tri3)
 SCARP_GROUND(template, Tri6)
 SCARP_GROUND(template, Quad4)
 SCARP_GROUND(template, Quad8)
-template class EquilibriumProblem<DefaultGrid<Tri3>, ThreadExecutor>;
 }  // namespace scarp

@@ -2,5 +2,11 @@
 #include "scarp/solver/quasi_newton.hpp"
 
 namespace scarp {
+template class PointStates<2>;
+template class PointStates<3>;
+template class MaterialPoints<2>;
+template class MaterialPoints<3>;
+template class Problem<2>;
+template class Problem<3>;
 SCARP_SESSIONS(template)
 }  // namespace scarp

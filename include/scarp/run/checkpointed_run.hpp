@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <type_traits>
 #include <utility>
 
 #include "scarp/io/checkpoint_files.hpp"
@@ -14,23 +13,17 @@ namespace scarp {
 /// Leaves only the states of points that this process owns.
 template <class Problem>
 void keep_own_states(Problem& problem) {
-  using Executor = std::remove_cvref_t<decltype(problem.executor())>;
-  if constexpr (SharesPoints<Executor>) {
-    for (int point = 0; point < problem.points().size(); ++point) {
-      if (!problem.executor().owns(point)) problem.points().release(point);
-    }
+  for (int point = 0; point < problem.points().size(); ++point) {
+    if (!problem.executor().owns(point)) problem.points().release(point);
   }
 }
 
 /// Runs a task on the root rank, where all points have their committed states as long as it lasts; the other ranks send theirs.
 template <class Problem, class Task>
 void with_all_states(Problem& problem, Task const& task) {
-  using Executor = std::remove_cvref_t<decltype(problem.executor())>;
   on_root_rank(problem, [&] {
-    if constexpr (SharesPoints<Executor>) {
-      for (int point = 0; point < problem.points().size(); ++point) {
-        if (!problem.executor().owns(point)) problem.points().unpack(point, problem.executor().fetch(point));
-      }
+    for (int point = 0; point < problem.points().size(); ++point) {
+      if (!problem.executor().owns(point)) problem.points().unpack(point, problem.executor().fetch(point));
     }
     task();
     keep_own_states(problem);
@@ -119,7 +112,7 @@ class CheckpointedRun {
     double const seconds = std::chrono::duration<double>(Clock::now() - saved_).count();
     bool const due =
         seconds >= settings.every_seconds || (settings.every_attempts > 0 && attempts_ >= settings.every_attempts);
-    if (broadcast_flag(problem.executor(), due) && attempts_ > 0) save(problem, session, state);
+    if (problem.executor().agree(due) && attempts_ > 0) save(problem, session, state);
   }
 
   /// Makes a checkpoint of the state that a stage ends in, unless it has just been made.
@@ -158,7 +151,7 @@ class CheckpointedRun {
       if (is_root_rank(problem.executor())) throw;
       elsewhere = std::current_exception();
     }
-    stopped_ = broadcast_flag(problem.executor(), !trouble_.empty());
+    stopped_ = problem.executor().agree(!trouble_.empty());
     if (elsewhere && !stopped_) std::rethrow_exception(elsewhere);
   }
 

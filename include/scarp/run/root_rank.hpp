@@ -15,11 +15,8 @@ namespace scarp {
 /// is for the root rank, inside on_root_rank: it gets a copy of what another rank has.
 template <class Problem, class Visit>
 void visit_point(Problem const& problem, int point, Visit const& visit) {
-  if constexpr (SharesPoints<std::remove_cvref_t<decltype(problem.executor())>>) {
-    if (!problem.executor().owns(point))
-      return visit(problem.points().extract(point, problem.executor().fetch(point)), 0);
-  }
-  visit(problem.points(), point);
+  if (problem.executor().owns(point)) return visit(problem.points(), point);
+  visit(problem.points().extract(point, problem.executor().fetch(point)), 0);
 }
 
 /// Cauchy stress [Pa] of a point's committed state, in the same way.
@@ -31,50 +28,24 @@ VoigtStress<Problem::dim> committed_stress(Problem const& problem, int point) {
 }
 
 /// Whether this process is the first, or the only one.
-template <ExecutesTasks Executor>
-bool is_root_rank(Executor const& executor) {
-  if constexpr (SharesPoints<Executor>) {
-    return executor.rank() == 0;
-  } else {
-    static_cast<void>(executor);
-    return true;
-  }
-}
-
-/// \return the root rank's flag, on every rank
-template <ExecutesTasks Executor>
-bool broadcast_flag(Executor const& executor, bool flag) {
-  if constexpr (SharesPoints<Executor>) {
-    return executor.agree(flag);
-  } else {
-    static_cast<void>(executor);
-    return flag;
-  }
-}
+inline bool is_root_rank(Executor const& executor) { return executor.rank() == 0; }
 
 /// Runs a task on the root rank only, which may read the points of all ranks by visit_point; the others serve meanwhile.
 /// What one of them throws ends all.
 template <class Problem, class Task>
 void on_root_rank(Problem const& problem, Task const& task) {
-  auto const& executor = problem.executor();
-  using Executor = std::remove_cvref_t<decltype(executor)>;
-  if constexpr (SharesPoints<Executor>) {
-    executor.on_first(task, [&](int point) { return problem.points().pack(point); });
-  } else {
-    task();
-  }
+  problem.executor().on_first(task, [&](int point) { return problem.points().pack(point); });
 }
 
 /// Observers that live on the root rank; all ranks stop when they want to.
-/// \tparam Executor an `ExecutesTasks`
 /// \tparam Observers an `ObservesSteps` with ended(problem, load)
-template <class Executor, class Observers>
+template <class Observers>
 class OnRootRank {
  public:
   /// make(): the observers, called on the root rank only
   template <std::invocable Make>
   OnRootRank(Executor const& executor, Make const& make) : executor_(executor) {
-    together(executor, [&] {
+    executor.together([&] {
       if (is_root_rank(executor)) observers_.emplace(make());
     });
   }
@@ -94,8 +65,8 @@ class OnRootRank {
   /// Whether an observer of the root rank stops the run, on every rank.
   bool wants_stop() const {
     bool flag = false;
-    together(executor_, [&] { flag = observers_ && observers_->wants_stop(); });
-    return broadcast_flag(executor_, flag);
+    executor_.together([&] { flag = observers_ && observers_->wants_stop(); });
+    return executor_.agree(flag);
   }
 
   /// Of the observers; nothing on other ranks.
@@ -109,7 +80,7 @@ class OnRootRank {
   std::optional<Observers> observers_;
 };
 
-template <class Executor, class Make>
-OnRootRank(Executor const&, Make const&) -> OnRootRank<Executor, std::invoke_result_t<Make>>;
+template <class Make>
+OnRootRank(Executor const&, Make const&) -> OnRootRank<std::invoke_result_t<Make>>;
 
 }  // namespace scarp

@@ -283,6 +283,18 @@ struct DemRve {
   }
 };
 
+namespace detail {
+/// The packing that a source has for a site.
+template <int Dim, class Source>
+auto packing_from(Source const& source, Site<Dim> const& site) -> std::remove_cvref_t<decltype(source.at(site))>;
+}  // namespace detail
+
+/// DemRve{law, source}: the packings of a source, such as `PackingsByDepth` or `RandomPackings`.
+template <class Source>
+DemRve(auto, Source) -> DemRve<decltype(detail::packing_from<2>(std::declval<Source const&>(), {})), Source>;
+template <class Source>
+DemRve(auto, Source const&) -> DemRve<decltype(detail::packing_from<3>(std::declval<Source const&>(), {})), Source>;
+
 /// DemRve{law, packing}: one packing for all points.
 template <class PackingType>
 DemRve(typename PackingType::Law, PackingType) -> DemRve<PackingType, SamePacking<PackingType>>;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/dem/cloud.hpp"
@@ -94,10 +95,8 @@ struct RandomPackings {
     return settled(std::move(prepared), "of point", site.index);
   }
 
-  /// executor.for_each(count, task) calls the tasks in any order
   /// \throws PreparationError, naming the number in the pool; InputError for a pool of no packings
-  template <class Executor>
-  RandomChoice<SamePacking<Packing>> pool(int count, Executor&& executor) const {
+  RandomChoice<SamePacking<Packing>> pool(int count, Executor const& executor) const {
     if (count < 1) reject("a pool of {} packings was requested (points need one to draw): request at least one", count);
     std::vector<std::optional<Prepared<Packing>>> prepared(detail::index(count));
     executor.for_each(

@@ -7,7 +7,7 @@
 
 #include "scarp/solver/detail/standing_balance.hpp"
 #include "scarp/solver/free_system.hpp"
-#include "scarp/solver/incremental_problem.hpp"
+#include "scarp/solver/problem.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/tensor/voigt.hpp"
 
@@ -18,7 +18,7 @@ namespace scarp {
 /// this is one linear solve.
 template <int Dim, LinearSolver Linear>
 class LinearisedStep {
-  using Problem = IncrementalProblem<Dim>;
+  using Problem = scarp::Problem<Dim>;
 
  public:
   static constexpr double singular = 1e15;  ///< condition beyond which no digit of a solution is left

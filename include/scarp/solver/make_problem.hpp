@@ -14,16 +14,15 @@
 
 namespace scarp {
 
-/// The material points of a discretisation. surface_level [m]: height of the ground surface, from which depths are measured
+/// The material points of a grid. surface_level [m]: height of the ground surface, from which depths are measured; regions: a
+/// list, or a tuple of regions of different types
 /// \throws InputError for a region that the mesh does not have, one given twice, one of the mesh without material, and
 /// a surface above or below the mesh
-template <class DiscretisationType, ExecutesTasks Executor, class... Materials>
-MaterialPoints<DiscretisationType::dim> make_points(DiscretisationType const& discretisation, double surface_level,
-                                                    boost::hana::tuple<Region<Materials>...> const& regions,
-                                                    Executor const& executor) {
-  constexpr int up = DiscretisationType::dim - 1;
-  auto const [low, high] =
-      std::ranges::minmax(discretisation.mesh().nodes, {}, [](auto const& node) { return node(up); });
+template <int Dim, class Regions>
+MaterialPoints<Dim> make_points(Grid<Dim> const& grid, double surface_level, Regions const& regions,
+                                Executor const& executor) {
+  constexpr int up = Dim - 1;
+  auto const [low, high] = std::ranges::minmax(grid.nodes(), {}, [](auto const& node) { return node(up); });
   double const nearly = 0.01 * (high(up) - low(up));
   if (!(surface_level >= low(up) - nearly && surface_level <= high(up) + nearly)) {
     reject(
@@ -31,24 +30,22 @@ MaterialPoints<DiscretisationType::dim> make_points(DiscretisationType const& di
         "upper nodes; ground above them counts as surcharge",
         surface_level, low(up), high(up));
   }
-  std::vector<Site<DiscretisationType::dim>> sites;
-  for (int point = 0; point < discretisation.point_count(); ++point)
-    sites.push_back(discretisation.site(point, surface_level));
-  auto const volumes = discretisation.volumes(Eigen::VectorXd::Zero(discretisation.dof_count()));
-  return {regions, discretisation.mesh().regions, sites, volumes,
-          [&](int point) { return owns_point(executor, point); }};
+  std::vector<Site<Dim>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, surface_level));
+  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  return {regions, grid.regions(), sites, volumes, [&](int point) { return executor.owns(point); }};
 }
 
 /// The composition root: one discretisation, a material for each region, constraints and loads, as a problem that a
 /// solver can use. Regions are written as values, `make_problem(..., hana::make_tuple(Region{"soil", soil}))`.
 /// \throws InputError when the parts do not fit together
-template <class DiscretisationType, ExecutesTasks Executor, Attachment<DiscretisationType::dim> Attached = NoAttachment,
-          class... Materials>
-EquilibriumProblem<DiscretisationType, Executor, Attached> make_problem(
-    DiscretisationType discretisation, double surface_level, boost::hana::tuple<Region<Materials>...> const& regions,
-    Constraints constraints, LoadHistory loads, Executor& executor, Attached attached = {}) {
+template <class DiscretisationType, class Attached = NoAttachment, class... Materials>
+EquilibriumProblem<DiscretisationType, Attached> make_problem(DiscretisationType discretisation, double surface_level,
+                                                              boost::hana::tuple<Region<Materials>...> const& regions,
+                                                              Constraints constraints, LoadHistory loads,
+                                                              Executor const& executor, Attached attached = {}) {
   std::optional<MaterialPoints<DiscretisationType::dim>> points;
-  together(executor, [&] { points.emplace(make_points(discretisation, surface_level, regions, executor)); });
+  executor.together([&] { points.emplace(make_points(discretisation, surface_level, regions, executor)); });
   return {std::move(discretisation), std::move(*points), std::move(constraints),
           std::move(loads),          executor,           std::move(attached)};
 }

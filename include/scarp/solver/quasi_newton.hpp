@@ -8,8 +8,8 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/solver/incremental_problem.hpp"
 #include "scarp/solver/linearised_step.hpp"
+#include "scarp/solver/problem.hpp"
 #include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/solver/tangent_rules.hpp"
@@ -22,8 +22,8 @@ namespace scarp {
 template <class Settings, int Dim>
 class SCARP_EXPORT QuasiNewtonSession {
  public:
-  static constexpr int dim = Dim;           ///< of the problem
-  using Problem = IncrementalProblem<Dim>;  ///< whatever its elements and materials are
+  static constexpr int dim = Dim;       ///< of the problem
+  using Problem = scarp::Problem<Dim>;  ///< whatever its elements and materials are
 
   /// The problem must outlive the session.
   /// \throws InputError for a setting outside of its range

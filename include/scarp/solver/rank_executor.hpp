@@ -5,14 +5,12 @@
 
 #include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/core/index.hpp"
@@ -43,52 +41,13 @@ class MpiSession {
   }
 };
 
-namespace detail {
-
-/// How a value is sent: as its bytes, where it may be copied so.
-template <class Value>
-struct LyingInMemory {
-  static_assert(std::is_trivially_copyable_v<Value>, "scarp: values that ranks share are copied byte by byte");
-  static constexpr std::size_t size = sizeof(Value);
-  static void write(Value const& value, std::byte* to) { std::memcpy(to, &value, size); }
-  static void read(std::byte const* from, Value& value) { std::memcpy(&value, from, size); }
-};
-
-/// Eigen's matrices of fixed size are copied by functions of their own; their numbers lie side by side.
-template <class Scalar, int Rows, int Columns, int Options>
-struct LyingInMemory<Eigen::Matrix<Scalar, Rows, Columns, Options, Rows, Columns>> {
-  using Value = Eigen::Matrix<Scalar, Rows, Columns, Options, Rows, Columns>;
-  static_assert(Rows > 0 && Columns > 0, "scarp: values that ranks share own no memory");
-  static constexpr std::size_t size = sizeof(Scalar) * static_cast<std::size_t>(Rows * Columns);
-  static void write(Value const& value, std::byte* to) { std::memcpy(to, value.data(), size); }
-  static void read(std::byte const* from, Value& value) { std::memcpy(value.data(), from, size); }
-};
-
-template <int Dim>
-struct LyingInMemory<Response<Dim>> {
-  using Stress = LyingInMemory<VoigtStress<Dim>>;
-  using Outcome = LyingInMemory<Verdict>;
-  static constexpr std::size_t size = Stress::size + Outcome::size;
-  static void write(Response<Dim> const& value, std::byte* to) {
-    Stress::write(value.stress, to);
-    Outcome::write(value.verdict, to + Stress::size);
-  }
-  static void read(std::byte const* from, Response<Dim>& value) {
-    Stress::read(from, value.stress);
-    Outcome::read(from + Stress::size, value.verdict);
-  }
-};
-
-}  // namespace detail
-
 /// An MPI rank: all ranks run the same solver, points are distributed cyclically, each rank holds the states of its own.
 /// Gradients are known everywhere; only stresses, tangents and verdicts travel. Neighbouring points, whose packings
-/// cost alike, belong to different ranks, so that work is shared out evenly. `Local` runs the tasks within the rank.
-template <ExecutesTasks Local = SerialExecutor>
-class RankExecutor {
+/// cost alike, belong to different ranks, so that work is shared out evenly. Another executor runs the tasks within the rank.
+class RankExecutor : public Executor {
  public:
   /// MPI must have been initialised (by MpiSession or by the program).
-  explicit RankExecutor(Local& local, MPI_Comm communicator = MPI_COMM_WORLD)
+  explicit RankExecutor(Executor const& local, MPI_Comm communicator = MPI_COMM_WORLD)
       : local_(local), communicator_(communicator) {
     int initialised = 0;
     MPI_Initialized(&initialised);
@@ -98,24 +57,20 @@ class RankExecutor {
     MPI_Comm_size(communicator_, &ranks_);
   }
 
-  int rank() const { return rank_; }       ///< Number of this rank, from zero.
-  int ranks() const { return ranks_; }     ///< Number of ranks of the communicator.
-  Local& local() const { return local_; }  ///< Runs tasks within this rank.
+  int rank() const override { return rank_; }
+  int ranks() const override { return ranks_; }
+  int threads() const override { return local_.threads(); }
   /// Points are dealt out in turn: point k belongs to rank k modulo ranks().
-  bool owns(int point) const { return point % ranks_ == rank_; }
-  /// Wall time [s] that this rank has spent in share(), mostly waiting for slower ones.
+  bool owns(int point) const override { return point % ranks_ == rank_; }
+  /// Wall time [s] that this rank has spent in exchanges, mostly waiting for slower ones.
   double seconds_sharing() const { return seconds_sharing_; }
 
   /// All tasks, on this rank.
-  template <std::invocable<int> Task>
-  void for_each(int count, Task&& task) const {
-    local_.for_each(count, std::forward<Task>(task));
-  }
+  void for_each(int count, std::function<void(int)> const& task) const override { local_.for_each(count, task); }
 
   /// Work that all ranks begin alike. What it throws on one of them is thrown on all: there as it is, elsewhere as InputError with
   /// the same words and the rank.
-  template <std::invocable Work>
-  void together(Work const& work) const {
+  void together(std::function<void()> const& work) const override {
     std::exception_ptr own;
     std::string words;
     try {
@@ -139,47 +94,13 @@ class RankExecutor {
     reject("rank {} has stopped ({}): see the messages of that rank", first, words);
   }
 
-  /// The bytes of numbers are sent: ranks run the same binary on machines of one kind.
-  template <class Value>
-  void share(std::vector<Value>& values) {
-    using Lying = detail::LyingInMemory<Value>;
-    double const started = MPI_Wtime();
-    auto const count = values.size();
-    auto const ranks = static_cast<std::size_t>(ranks_);
-    // Counted in values: of those there are no more than an int can count, of their bytes perhaps.
-    std::vector<int> lengths(ranks);
-    std::vector<int> starts(ranks);
-    for (std::size_t r = 0, at = 0; r < ranks; at += owned(count, r++)) {
-      lengths[r] = static_cast<int>(owned(count, r));
-      starts[r] = static_cast<int>(at);
-    }
-    std::vector<std::byte> mine(owned(count, detail::index(rank_)) * Lying::size);
-    std::byte* to = mine.data();
-    for (auto k = detail::index(rank_); k < count; k += ranks, to += Lying::size) Lying::write(values[k], to);
-    std::vector<std::byte> all(count * Lying::size);
-    MPI_Datatype one;
-    MPI_Type_contiguous(static_cast<int>(Lying::size), MPI_BYTE, &one);
-    MPI_Type_commit(&one);
-    MPI_Allgatherv(mine.data(), lengths[detail::index(rank_)], one, all.data(), lengths.data(), starts.data(), one,
-                   communicator_);
-    MPI_Type_free(&one);
-    for (std::size_t r = 0; r < ranks; ++r) {
-      std::byte const* from = all.data() + static_cast<std::size_t>(starts[r]) * Lying::size;
-      for (std::size_t k = r; k < count; k += ranks, from += Lying::size) Lying::read(from, values[k]);
-    }
-    seconds_sharing_ += MPI_Wtime() - started;
-  }
-
-  /// \return the root rank's flag
-  bool agree(bool flag) const {
+  bool agree(bool flag) const override {
     int roots = flag ? 1 : 0;
     MPI_Bcast(&roots, 1, MPI_INT, 0, communicator_);
     return roots != 0;
   }
 
-  /// On the root rank: what the owner of a point returns while it serves.
-  /// \throws InputError with the owner's words where it could not
-  std::string fetch(int point) const {
+  std::string fetch(int point) const override {
     int const owner = point % ranks_;
     MPI_Send(&point, 1, MPI_INT, owner, request, communicator_);
     MPI_Status status;
@@ -193,10 +114,7 @@ class RankExecutor {
     return bytes;
   }
 
-  /// The root rank does a task, which may request points; the others serve meanwhile: bytes_of(point) returns the bytes. What one throws
-  /// ends all.
-  template <std::invocable Task, std::invocable<int> BytesOf>
-  void on_first(Task const& task, BytesOf const& bytes_of) const {
+  void on_first(std::function<void()> const& task, std::function<std::string(int)> const& bytes_of) const override {
     together([&] {
       if (rank_ != 0) return serve(bytes_of);
       struct Dismissal {
@@ -216,9 +134,36 @@ class RankExecutor {
   static constexpr int reply = 2;
   static constexpr int failure = 3;
 
+  /// The bytes of numbers are sent: ranks run the same binary on machines of one kind.
+  void exchange(Shared const& values) const override {
+    double const started = MPI_Wtime();
+    auto const ranks = static_cast<std::size_t>(ranks_);
+    // Counted in values: of those there are no more than an int can count, of their bytes perhaps.
+    std::vector<int> lengths(ranks);
+    std::vector<int> starts(ranks);
+    for (std::size_t r = 0, at = 0; r < ranks; at += owned(values.count, r++)) {
+      lengths[r] = static_cast<int>(owned(values.count, r));
+      starts[r] = static_cast<int>(at);
+    }
+    std::vector<std::byte> mine(owned(values.count, detail::index(rank_)) * values.bytes);
+    std::byte* to = mine.data();
+    for (auto k = detail::index(rank_); k < values.count; k += ranks, to += values.bytes) values.write(k, to);
+    std::vector<std::byte> all(values.count * values.bytes);
+    MPI_Datatype one;
+    MPI_Type_contiguous(static_cast<int>(values.bytes), MPI_BYTE, &one);
+    MPI_Type_commit(&one);
+    MPI_Allgatherv(mine.data(), lengths[detail::index(rank_)], one, all.data(), lengths.data(), starts.data(), one,
+                   communicator_);
+    MPI_Type_free(&one);
+    for (std::size_t r = 0; r < ranks; ++r) {
+      std::byte const* from = all.data() + static_cast<std::size_t>(starts[r]) * values.bytes;
+      for (std::size_t k = r; k < values.count; k += ranks, from += values.bytes) values.read(k, from);
+    }
+    seconds_sharing_ += MPI_Wtime() - started;
+  }
+
   /// Until the root rank has no more requests; then what a request has thrown is thrown.
-  template <class BytesOf>
-  void serve(BytesOf const& bytes_of) const {
+  void serve(std::function<std::string(int)> const& bytes_of) const {
     std::exception_ptr thrown;
     for (;;) {
       int point = -1;
@@ -248,13 +193,11 @@ class RankExecutor {
     return rank < count ? (count - rank + ranks - 1) / ranks : 0;
   }
 
-  Local& local_;
+  Executor const& local_;
   MPI_Comm communicator_;
   int rank_ = 0;
   int ranks_ = 1;
-  double seconds_sharing_ = 0.0;
+  mutable double seconds_sharing_ = 0.0;
 };
-
-static_assert(SharesPoints<RankExecutor<>>);
 
 }  // namespace scarp

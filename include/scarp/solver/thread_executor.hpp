@@ -24,7 +24,7 @@ namespace scarp {
 /// A fixed team of threads that take the next task when they have finished one, so that tasks of very different length
 /// share out evenly. Tasks write only their own results: the result has the same bits for any number of threads.
 /// In a process that was forked none of the threads exists: there the first call makes another team.
-class ThreadExecutor {
+class ThreadExecutor : public Executor {
  public:
   /// threads, the calling one included; 0: as many as the process may use
   /// \throws InputError for a negative number, or more than can be started
@@ -33,19 +33,18 @@ class ThreadExecutor {
   ThreadExecutor(ThreadExecutor const&) = delete;
   ThreadExecutor& operator=(ThreadExecutor const&) = delete;
 
-  ~ThreadExecutor() {
+  ~ThreadExecutor() override {
     if (team_.load()->is_here()) delete team_.load();
   }
 
-  int threads() const { return team_.load()->size(); }  ///< The calling thread included.
+  int threads() const override { return team_.load()->size(); }  ///< The calling thread included.
 
   /// An exception of a task is rethrown here after all threads have come to rest. A task that calls a team which is at work,
   /// its own or another one, does its tasks one after the other on its own thread; otherwise calls of several threads wait for
   /// one another.
-  template <std::invocable<int> Task>
-  void for_each(int count, Task&& task) {
+  void for_each(int count, std::function<void(int)> const& task) const override {
     Team& team = this->team();
-    if (!team.begin_round(count, std::ref(task))) {
+    if (!team.begin_round(count, task)) {
       for (int i = 0; i < count; ++i) task(i);
       return;
     }
@@ -78,12 +77,12 @@ class ThreadExecutor {
     bool is_here() const { return process_ == detail::process_number(); }
 
     /// \return false for a task of this or another team while this one is at work: waiting might never end
-    bool begin_round(int count, std::function<void(int)> task) {
+    bool begin_round(int count, std::function<void(int)> const& task) {
       std::unique_lock lock(mutex_);
       if (in_round_ && within_task_) return false;
       free_.wait(lock, [this] { return !in_round_; });
       in_round_ = true;
-      task_ = std::move(task);
+      task_ = &task;
       check_ = InterruptionCheck::now();
       count_ = count;
       next_ = 0;
@@ -99,7 +98,7 @@ class ThreadExecutor {
       InterruptionCheck const checked(check_);
       for (int i = next_++; i < count_; i = next_++) {
         try {
-          task_(i);
+          (*task_)(i);
         } catch (...) {
           std::lock_guard const lock(mutex_);
           fail();
@@ -166,8 +165,8 @@ class ThreadExecutor {
     std::condition_variable free_;
     std::condition_variable begin_;
     std::condition_variable end_;
-    std::function<void(int)> task_;
-    std::function<void()> const* check_ = nullptr;  ///< of the caller
+    std::function<void(int)> const* task_ = nullptr;  ///< of the caller
+    std::function<void()> const* check_ = nullptr;    ///< of the caller
     int count_ = 0;
     std::atomic<int> next_ = 0;
     int busy_ = 0;
@@ -180,7 +179,7 @@ class ThreadExecutor {
 
   /// The team of this process. One of the process that this was forked from is forgotten: its threads cannot be joined, and its
   /// mutex may be locked for ever.
-  Team& team() {
+  Team& team() const {
     Team* own = team_;
     if (!own->is_here()) {
       auto made = std::make_unique<Team>(own->size());
@@ -189,9 +188,7 @@ class ThreadExecutor {
     return *own;
   }
 
-  std::atomic<Team*> team_;
+  mutable std::atomic<Team*> team_;
 };
-
-static_assert(ExecutesTasks<ThreadExecutor>);
 
 }  // namespace scarp

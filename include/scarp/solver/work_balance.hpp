@@ -79,17 +79,14 @@ class WorkBalance {
     turned_over_ += std::abs(work);
     for (std::size_t k = 0; k < next.stresses.size(); ++k) {
       VoigtStress<dim> const stress = (now_.volumes[k] * now_.stresses[k] + next.volumes[k] * next.stresses[k]) / 2.0;
-      internal_ += stress.dot(to_engineering_strain<dim, double>(from_middle(problem.own_gradients()[k])));
+      internal_ += stress.dot(
+          to_engineering_strain<dim, double>(from_middle(problem.own_gradients()[k], problem.turns_stresses())));
     }
   }
 
   /// An increment's gradient with respect to the middle of its motion: the strain that a mean stress works on.
-  static Gradient<dim> from_middle(Gradient<dim> const& gradient) {
-    if constexpr (Problem::follows_motion) {
-      return gradient * (Gradient<dim>::Identity() + gradient / 2.0).inverse();
-    } else {
-      return gradient;
-    }
+  static Gradient<dim> from_middle(Gradient<dim> const& gradient, bool moves) {
+    return moves ? Gradient<dim>(gradient * (Gradient<dim>::Identity() + gradient / 2.0).inverse()) : gradient;
   }
 
   Snapshot now_;

@@ -174,7 +174,7 @@ auto const region = Region{"soil", Wrong{}};
 // also: wants_stop(
 namespace case_19 {
 struct Wrong {};
-void watched(EquilibriumProblem<Grid, SerialExecutor>& problem, Wrong& wrong) {
+void watched(EquilibriumProblem<Grid>& problem, Wrong& wrong) {
   LoadStepping{}.settle(QuasiNewton<>{}, problem, 0.0, wrong);
 }
 }  // namespace case_19

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "scarp/bvp/constraints.hpp"
+#include "scarp/bvp/grid.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
-#include "scarp/mesh/mesh.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/tensor/tensor.hpp"
 
@@ -45,20 +45,20 @@ inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd
 template <int Dim>
 class SCARP_EXPORT RegionResiduals {
  public:
-  template <class Element>
-  RegionResiduals(Mesh<Element> const& mesh, Constraints const& constraints) {
-    if (mesh.regions.size() < 2) return;
-    auto const regions_of = regions_of_nodes(mesh);
-    std::vector<bool> held(mesh.regions.size(), false);
+  RegionResiduals(Grid<Dim> const& grid, Constraints const& constraints) {
+    auto const& names = grid.regions();
+    if (names.size() < 2) return;
+    auto const regions_of = grid.regions_of_nodes();
+    std::vector<bool> held(names.size(), false);
     for (int const dof : constraints.prescribed_dofs()) {
-      if (dof < Dim * count(mesh.nodes))
+      if (dof < grid.dof_count())
         for (int const region : regions_of[index(dof / Dim)]) held[index(region)] = true;
     }
-    for (int region = 0; region < count(mesh.regions); ++region) {
+    for (int region = 0; region < count(names); ++region) {
       if (held[index(region)]) continue;
-      Part part{.name = mesh.regions[index(region)]};
+      Part part{.name = names[index(region)]};
       std::vector<int> shared;
-      for (int node = 0; node < count(mesh.nodes); ++node) {
+      for (int node = 0; node < grid.node_count(); ++node) {
         auto const& regions = regions_of[index(node)];
         if (std::find(regions.begin(), regions.end(), region) == regions.end()) continue;
         (regions.size() == 1 ? part.nodes : shared).push_back(node);
@@ -66,7 +66,7 @@ class SCARP_EXPORT RegionResiduals {
       part.own = part.nodes.size();
       part.nodes.insert(part.nodes.end(), shared.begin(), shared.end());
       if (part.nodes.empty()) continue;
-      for (int const node : part.nodes) part.arms.push_back(mesh.nodes[index(node)]);
+      for (int const node : part.nodes) part.arms.push_back(grid.nodes()[index(node)]);
       centre(part.arms);
       parts_.push_back(std::move(part));
     }
@@ -123,20 +123,6 @@ class SCARP_EXPORT RegionResiduals {
     double squares = 0.0;
     for (auto& place : places) squares += (place -= mean).squaredNorm();
     for (auto& place : places) place /= std::sqrt(squares / static_cast<double>(places.size()));
-  }
-
-  /// For each node the regions of its elements, each once.
-  template <class Element>
-  static std::vector<std::vector<int>> regions_of_nodes(Mesh<Element> const& mesh) {
-    std::vector<std::vector<int>> regions_of(mesh.nodes.size());
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      for (int const node : mesh.elements[e]) {
-        auto& regions = regions_of[index(node)];
-        if (std::find(regions.begin(), regions.end(), mesh.element_region[e]) == regions.end())
-          regions.push_back(mesh.element_region[e]);
-      }
-    }
-    return regions_of;
   }
 
   std::vector<Part> parts_;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scarp/solver/free_system.hpp"
-#include "scarp/solver/incremental_problem.hpp"
+#include "scarp/solver/problem.hpp"
 
 namespace scarp::detail {
 
@@ -60,7 +60,7 @@ std::optional<double> zero_power_step(Work const& work, double most) {
 /// along a line; friction and unilateral springs have one as long as the pressures stay).
 template <int Dim>
 class StandingBalance {
-  using Problem = IncrementalProblem<Dim>;
+  using Problem = scarp::Problem<Dim>;
 
  public:
   explicit StandingBalance(Problem& problem)

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "scarp/solver/load_stepping.hpp"
+#include "scarp/solver/model.hpp"
+#include "scarp/solver/quasi_newton.hpp"
+#include "scarp/solver/thread_executor.hpp"
+
+namespace scarp {
+
+/// How an `Analysis` goes through its load factor.
+struct AnalysisSettings {
+  QuasiNewton<> solver{};                                                  ///< of each load step
+  LoadStepping stepping{.first = 0.05, .smallest = 1e-4, .largest = 0.1};  ///< of the load factor
+  int threads = 0;                                                         ///< 0: as many as the process may use
+};
+
+/// A `Model` on its way: a problem, a solver and threads. The load factor begins at 0 and only grows.
+/// \code
+/// Analysis analysis(model, {.solver = {.tolerance = 1e-3}});
+/// FieldSeries series("output/slope", 1.0, 4, 1.0);
+/// RunReport const run = analysis.to(1.0, series);
+/// if (!run.verdict.acceptable()) fmt::print(stderr, "{}\n", analysis.why(run));
+/// fmt::print("{} m, {} N\n", analysis.displacement("crest", 1), analysis.reaction("bottom").y());
+/// \endcode
+template <class GridType>
+class Analysis {
+ public:
+  static constexpr int dim = GridType::dim;      ///< of space
+  using Problem = EquilibriumProblem<GridType>;  ///< what solvers and observers get
+
+  /// \throws InputError when the model's parts do not fit together
+  explicit Analysis(Model<GridType> const& model, AnalysisSettings const& settings = {})
+      : settings_(settings),
+        executor_(settings.threads),
+        problem_(model.problem(executor_)),
+        external_(model.external_loads()),
+        session_(settings_.solver, problem_) {}
+
+  Problem const& problem() const { return problem_; }  ///< Mesh, points, committed state.
+  Problem& problem() { return problem_; }              ///< For callers that change states between stages.
+  double load() const { return load_; }                ///< Load factor of the committed state.
+
+  /// Raises the load factor, watched by an observer.
+  /// \return how far it came
+  template <class Observer>
+  RunReport to(double load, Observer& observer) {
+    RunReport const run = settings_.stepping.advance(session_, problem_, load_, load, observer);
+    load_ = run.load;
+    return run;
+  }
+  RunReport to(double load) {
+    NoObserver observer;
+    return to(load, observer);
+  }
+
+  /// Displacement [m] of a boundary's node that has moved farthest along an axis, with its sign.
+  /// \throws InputError for an unknown boundary
+  double displacement(std::string_view side, int axis) const {
+    auto const& grid = problem_.discretisation();
+    double farthest = 0.0;
+    for (int const node : boundary_nodes(grid.mesh(), side)) {
+      auto const k = detail::index(node);
+      double const moved = grid.positions()[k](axis) - grid.nodes()[k](axis);
+      if (std::abs(moved) > std::abs(farthest)) farthest = moved;
+    }
+    return farthest;
+  }
+
+  /// Force [N] of the support of a boundary: what its nodes carry less their loads.
+  /// \throws InputError for an unknown boundary
+  Vector<dim> reaction(std::string_view side) const {
+    auto const& grid = problem_.discretisation();
+    Eigen::VectorXd forces;
+    grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.balanced_stresses(), forces);
+    forces -= external_.at(load_);
+    Vector<dim> sum = Vector<dim>::Zero();
+    for (int const node : boundary_nodes(grid.mesh(), side)) sum += forces.template segment<dim>(dim * node);
+    return sum;
+  }
+
+  /// A run's end in words: where it stopped and why the last attempt was rejected.
+  std::string why(RunReport const& run) const {
+    if (run.verdict.acceptable()) return fmt::format("the load factor {:.6g} was reached", run.load);
+    std::string words = fmt::format("stopped at the load factor {:.6g}: {}", run.load, name(run.verdict.reason));
+    if (run.last_failure != Reason::none && run.last_failure != run.verdict.reason)
+      words += fmt::format(", after {}", name(run.last_failure));
+    if (run.worst_point >= 0) {
+      auto const site = problem_.grid().site(run.worst_point, 0.0);
+      words +=
+          fmt::format(" at point {} (region {}, at {})", run.worst_point,
+                      problem_.grid().regions()[detail::index(site.region)], listed(site.position, ", ", "{:.4g}"));
+    }
+    if (run.weak_dof >= 0) words += ", nothing holds " + describe_dof(problem_.discretisation().mesh(), run.weak_dof);
+    return words;
+  }
+
+ private:
+  AnalysisSettings settings_;
+  ThreadExecutor executor_;
+  Problem problem_;
+  LoadHistory external_;
+  typename QuasiNewton<>::template Session<Problem> session_;
+  double load_ = 0.0;
+};
+
+}  // namespace scarp

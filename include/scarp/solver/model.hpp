@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/loads.hpp"
+#include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/solver/make_problem.hpp"
+
+namespace scarp {
+
+/// A boundary-value problem as it is written down: boundaries held and loaded by name, materials by region, weight.
+/// \code
+/// Model model(read_gmsh<Tri6>("slope.msh"));
+/// model.fix({"left", "right"}, 0);
+/// model.fix({"bottom"}, 1);
+/// model.gravity(18e3);
+/// model.material("soil", LinearElastic<2, GeostaticStress<2>>::from_young_poisson(50e6, 0.3, model.geostatic(0.5)));
+/// Analysis analysis(model);
+/// RunReport const run = analysis.to(1.0);
+/// \endcode
+/// The materials' initial stresses need not balance the loads: what is missing is held by forces which fade while the load factor
+/// goes from 0 to 1, and the loads grow meanwhile. That is how ground is balanced, and how it is excavated: give the mesh without
+/// what is taken away, and the stress that was there. Then the load factor drives what has an amplitude of its own.
+/// \tparam GridType a `Discretisation`
+template <class GridType>
+class Model {
+ public:
+  static constexpr int dim = GridType::dim;               ///< of space
+  using Sides = std::initializer_list<std::string_view>;  ///< names of boundaries
+
+  /// Elements, kinematics and integration of the program's choice.
+  explicit Model(GridType grid)
+      : grid_(std::move(grid)), constraints_(grid_.mesh()), weights_(grid_.mesh().regions.size()) {}
+  /// Updated Lagrangian elements with their default integration; thickness [m] out of the plane.
+  explicit Model(Mesh<typename GridType::ElementType> mesh, double thickness = 1.0)
+      : Model(GridType(std::move(mesh), thickness)) {}
+
+  GridType const& grid() const { return grid_; }  ///< Mesh and elements.
+
+  /// Height [m] from which depths are measured: that of the highest node unless it was set.
+  double surface_level() const {
+    if (level_) return *level_;
+    auto const above = [](auto const& a, auto const& b) { return a(dim - 1) < b(dim - 1); };
+    return (*std::ranges::max_element(grid_.nodes(), above))(dim - 1);
+  }
+  void set_surface_level(double height) { level_ = require_finite("level of the ground surface", height); }  ///< [m]
+
+  /// Where the material points of a region are, of all without a name.
+  /// \throws InputError for an unknown region
+  std::vector<Site<dim>> sites(std::string_view region = {}) const {
+    int const number = region.empty() ? -1 : region_number(grid_.mesh(), region);
+    std::vector<Site<dim>> found;
+    for (int point = 0; point < grid_.point_count(); ++point) {
+      auto const site = grid_.site(point, surface_level());
+      if (number < 0 || site.region == number) found.push_back(site);
+    }
+    return found;
+  }
+  /// Their depths [m].
+  /// \throws InputError for an unknown region
+  std::vector<double> depths(std::string_view region = {}) const {
+    std::vector<double> found;
+    for (auto const& site : sites(region)) found.push_back(site.depth);
+    return found;
+  }
+
+  /// Holds boundaries along an axis.
+  /// \throws InputError for an unknown boundary or axis
+  void fix(Sides sides, int axis) { move(sides, axis, 0.0); }
+  /// Holds boundaries along all axes.
+  /// \throws InputError for an unknown boundary
+  void fix(Sides sides) {
+    for (int axis = 0; axis < dim; ++axis) fix(sides, axis);
+  }
+  /// Moves boundaries along an axis by rate [m] times the growth of `amplitude` since the load factor 0.
+  /// \throws InputError for an unknown boundary or axis, and nodes that are moved in another way already
+  void move(Sides sides, int axis, double rate, TimeFunction const& amplitude = {}) {
+    for (auto const side : sides)
+      for (int const node : boundary_nodes(grid_.mesh(), side)) constraints_.move(node, axis, rate, amplitude);
+  }
+
+  /// Any provider, or a `Nonlocal` one, for the points of a region.
+  template <CheckedMaterial MaterialType>
+    requires(MaterialType::dim == dim)
+  void material(std::string region, MaterialType const& of_points) {
+    regions_.push_back({std::move(region), of_points});
+  }
+
+  /// Weight of all regions [N/m3], downwards along the last axis.
+  void gravity(double unit_weight) { std::ranges::fill(weights_, require_not_negative("unit weight", unit_weight)); }
+  /// Weight of one region [N/m3].
+  /// \throws InputError for an unknown region
+  void gravity(std::string_view region, double unit_weight) {
+    weights_[detail::index(region_number(grid_.mesh(), region))] = require_not_negative("unit weight", unit_weight);
+  }
+  /// Force per area [Pa] on boundaries of the initial mesh, grown to its full size at the load factor 1, or with an amplitude.
+  /// \throws InputError for an unknown boundary
+  void traction(Sides sides, Vector<dim> const& per_area, std::optional<TimeFunction> amplitude = {}) {
+    for (auto const side : sides) {
+      Eigen::VectorXd const forces = scarp::traction(grid_, side, per_area);
+      if (amplitude) {
+        later_.add(forces, *amplitude);
+      } else {
+        tractions_.push_back(forces);
+      }
+    }
+  }
+  /// Vertical pressure [Pa], downwards along the last axis, on boundaries of the initial mesh, as a traction.
+  /// \throws InputError for an unknown boundary
+  void surcharge(Sides sides, double pressure, std::optional<TimeFunction> amplitude = {}) {
+    traction(sides, -pressure * Vector<dim>::Unit(dim - 1), std::move(amplitude));
+    if (!amplitude) surcharge_ = pressure;
+  }
+
+  /// Stress of ground at rest below the last surcharge, with the unit weight of a region, or that of the first one.
+  /// \throws InputError for an unknown region
+  GeostaticStress<dim> geostatic(double k0, std::string_view region = {}) const {
+    int const number = region.empty() ? 0 : region_number(grid_.mesh(), region);
+    return {.surcharge = surcharge_, .unit_weight = weights_[detail::index(number)], .k0 = k0};
+  }
+
+  /// Weight and surcharges [N], shape (dof_count), without those that have an amplitude of their own.
+  Eigen::VectorXd dead_loads() const {
+    Eigen::VectorXd forces = body_force(grid_, [&](int region) -> Vector<dim> {
+      return -weights_[detail::index(region)] * Vector<dim>::Unit(dim - 1);
+    });
+    for (auto const& traction : tractions_) forces += traction;
+    return forces;
+  }
+  /// External forces [N] by load factor, without those that hold what the initial stresses leave unbalanced.
+  LoadHistory external_loads() const {
+    LoadHistory loads = later_;
+    loads.add(dead_loads(), TimeFunction::constant(1.0));
+    return loads;
+  }
+
+  /// For solvers. The executor outlives the problem.
+  /// \throws InputError when the parts do not fit together
+  EquilibriumProblem<GridType> problem(Executor const& executor) const {
+    std::optional<MaterialPoints<dim>> points;
+    executor.together([&] { points.emplace(make_points(grid_, surface_level(), regions_, executor)); });
+    Eigen::VectorXd before;
+    grid_.internal_force(Eigen::VectorXd::Zero(grid_.dof_count()), points->balanced_stresses(executor), before);
+    LoadHistory loads = later_;
+    loads.add(before, TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
+    loads.add(dead_loads(), TimeFunction::ramp(0.0, 1.0));
+    return {grid_, std::move(*points), constraints_, std::move(loads), executor};
+  }
+
+ private:
+  GridType grid_;
+  Constraints constraints_;
+  std::vector<Region<AnyProvider<dim>>> regions_;
+  std::vector<double> weights_;  ///< of the regions [N/m3]
+  double surcharge_ = 0.0;       ///< [Pa]
+  std::vector<Eigen::VectorXd> tractions_;
+  LoadHistory later_;  ///< with amplitudes of their own
+  std::optional<double> level_;
+};
+
+template <class Element>
+Model(Mesh<Element>, double = 1.0) -> Model<DefaultGrid<Element>>;
+
+}  // namespace scarp

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/constraints.hpp"
+#include "scarp/bvp/grid.hpp"
+#include "scarp/bvp/load_history.hpp"
+#include "scarp/core/executor.hpp"
+#include "scarp/core/precompiled.hpp"
+#include "scarp/points/material_points.hpp"
+#include "scarp/solver/detail/part_residuals.hpp"
+#include "scarp/solver/ground_stiffness.hpp"
+#include "scarp/solver/step_report.hpp"
+
+namespace scarp {
+
+/// A boundary-value problem in increments: elements, materials, constraints and loads that follow a load factor, and perhaps
+/// something attached to the mesh. Solvers and load stepping know nothing else, whatever the parts are made of.
+template <int Dim>
+class SCARP_EXPORT Problem {
+ public:
+  static constexpr int dim = Dim;  ///< of the mesh
+
+  /// loads [N], shape (degrees of freedom of mesh and attachment); attached: null for the elements alone
+  /// \throws InputError for sizes that do not fit together
+  Problem(std::unique_ptr<Grid<Dim>> grid, MaterialPoints<Dim> points, Constraints constraints, LoadHistory loads,
+          Executor const& executor, std::unique_ptr<detail::AttachedPart<Dim>> attached = nullptr)
+      : attached_(std::move(attached)),
+        grid_(std::move(grid)),
+        points_(std::move(points)),
+        executor_(executor),
+        constraints_(std::move(constraints)),
+        loads_(std::move(loads)),
+        free_dofs_(constraints_.free_dofs()),
+        prescribed_dofs_(constraints_.prescribed_dofs()),
+        regions_(*grid_, constraints_) {
+    if (points_.size() != grid_->point_count()) {
+      reject("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
+             grid_->point_count());
+    }
+    if (loads_.size() == 0) loads_ = LoadHistory(Eigen::VectorXd::Zero(dof_count()));
+    if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count()) {
+      reject("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
+             loads_.size(), constraints_.dof_count(), dof_count());
+    }
+    if (auto const thickness = attached_ ? attached_->thickness() : std::nullopt;
+        thickness && *thickness != grid_->thickness()) {
+      reject("what is attached to the mesh is {} m thick out of the plane (the mesh is {} m): give both the same",
+             *thickness, grid_->thickness());
+    }
+    set_load(0.0);
+  }
+  Problem(Problem const&) = delete;  // sessions and stiffnesses refer to it
+  Problem& operator=(Problem const&) = delete;
+
+  /// Degrees of freedom of the mesh, then of what is attached.
+  int dof_count() const { return grid_->dof_count() + (attached_ ? attached_->extra_dofs() : 0); }
+
+  bool has_attachment() const { return attached_ != nullptr; }  ///< Whether something is attached to the mesh.
+  int first_beside() const { return grid_->dof_count(); }       ///< First degree of freedom behind those of the mesh.
+  /// Size [m] of an attached body, of the mesh where it has none.
+  double length() const {
+    auto const own = attached_ ? attached_->length() : std::nullopt;
+    return own ? *own : extent<Dim>(grid_->nodes());
+  }
+  /// Forces [N] of what is attached alone, at an increment [m], shape (dof_count); its trial state then belongs to it. Whether they
+  /// could result is that of the next evaluation.
+  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
+    if (attached_) static_cast<void>(attached_->add_forces(grid_->positions(), increment, forces));
+    return forces;
+  }
+  /// Derivative of these forces [N/m] where they were requested last, shape (dof_count, dof_count).
+  Eigen::SparseMatrix<double> attached_stiffness() const {
+    return assembled([&](auto& entries) { attached_->add_stiffness(entries); });
+  }
+  /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
+  Eigen::SparseMatrix<double> stick_stiffness() const {
+    return assembled([&](auto& entries) { attached_->add_stick_stiffness(entries); });
+  }
+
+  void set_load(double load) { load_now_ = loads_.at(load); }    ///< Forces are measured against its loads.
+  Grid<Dim> const& grid() const { return *grid_; }               ///< Mesh and elements, committed.
+  MaterialPoints<Dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
+  MaterialPoints<Dim>& points() { return points_; }  ///< For callers that exchange states between load steps.
+  Constraints const& constraints() const { return constraints_; }   ///< Prescribed displacements [m].
+  std::vector<int> const& free_dofs() const { return free_dofs_; }  ///< Without a prescribed displacement, increasing.
+  LoadHistory const& loads() const { return loads_; }               ///< Forces [N] by load factor.
+  Executor const& executor() const { return executor_; }            ///< Runs the points' tasks; outlives the problem.
+  /// Displacement gradients that the points saw in the last evaluation.
+  std::vector<Gradient<Dim>> const& gradients() const { return points_.gradients(); }
+  /// Stress [Pa], tension positive, and verdict of each point in the last evaluation.
+  std::vector<Response<Dim>> const& responses() const { return points_.responses(); }
+  /// Gradients of the elements in the last plan or evaluation: those that points see, or the ones that they see means of.
+  std::vector<Gradient<Dim>> const& own_gradients() const { return points_.own_gradients(); }
+  /// Cauchy stress [Pa] of each point, tension positive, without what a field of means adds.
+  std::vector<VoigtStress<Dim>> committed_stresses() const { return points_.committed_stresses(executor_); }
+  /// Committed stresses [Pa] with what a field of means adds: those that balance the loads.
+  std::vector<VoigtStress<Dim>> balanced_stresses() const { return points_.balanced_stresses(executor_); }
+
+  /// Largest component of all points' gradients in the last plan or evaluation.
+  double max_displacement_gradient() const {
+    double largest = 0.0;
+    for (auto const& gradient : gradients()) largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
+    return largest;
+  }
+
+  /// Whether the rotation in a gradient turns the stress that is there.
+  bool turns_stresses() const { return grid_->turns_stresses(); }
+
+  /// Fixes every point's work for the load step from a predicted increment [m], shape (dof_count); the points' gradients are stored.
+  /// \param worst_point where given, a point of the element that the increment turns inside out, -1 for none
+  Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) {
+    Verdict const verdict = look(increment, worst_point);
+    if (verdict.acceptable()) points_.plan();
+    return verdict;
+  }
+
+  /// Lets every point respond to an increment from its committed state and adds up the forces.
+  Evaluation evaluate(Eigen::VectorXd const& increment) {
+    Evaluation evaluation;
+    evaluation.verdict = look(increment, &evaluation.worst_point);
+    if (evaluation.verdict.acceptable()) {
+      static_cast<ResponseReport&>(evaluation) = points_.evaluate(executor_);
+      evaluated_ = increment;
+      add_up(increment, evaluation);
+    }
+    return evaluation;
+  }
+
+  /// Evaluates the points whose last response is not converged with more inner steps, now and for the rest of the load step, at the increment
+  /// of the last evaluation.
+  /// \throws InputError for another increment
+  Evaluation refine(Eigen::VectorXd const& increment) {
+    require_evaluated("refined", increment);
+    Evaluation evaluation{points_.refine(executor_)};
+    add_up(increment, evaluation);
+    return evaluation;
+  }
+
+  /// Forces of the committed state.
+  Evaluation evaluate_committed() {
+    points_.evaluate_committed(executor_);
+    forget();
+    Evaluation evaluation;
+    add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
+    largest_scale_ = std::max(largest_scale_, scale(evaluation.unbalanced));
+    return evaluation;
+  }
+
+  /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses. Where points see means it
+  /// refers to this problem.
+  void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<Dim>> const& tangents,
+                        GroundStiffness& stiffness) const {
+    auto const& nodes = of_nodes(increment);
+    stiffness.around = nullptr;
+    if (auto const* means = points_.means()) {
+      auto parts = means->split(tangents);
+      grid_->stiffness(nodes, points_.stresses(), parts.by_own, stiffness.own);
+      auto const volumes = grid_->volumes(nodes);
+      for (std::size_t k = 0; k < volumes.size(); ++k) parts.by_mean[k] *= volumes[k];
+      stiffness.around =
+          std::make_shared<LinearMap const>(forces_around(grid_->strain_operator(nodes), std::move(parts.by_mean)));
+      stiffness.iterate = means->iterate();
+    } else {
+      grid_->stiffness(nodes, points_.stresses(), tangents, stiffness.own);
+    }
+    stiffness.conservativeResize(dof_count(), dof_count());
+  }
+
+  /// Largest of all parts' residuals of unbalanced forces [N], without unit, see `residuals`.
+  double residual(Eigen::VectorXd const& unbalanced) const {
+    return std::max(
+        {residual_of_all(unbalanced), regions_.largest(unbalanced, load_now_), residual_beside(unbalanced)});
+  }
+
+  /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads|
+  /// and what the elements and the attachment carried there last, Euclidean norms, or a thousandth of the largest that
+  /// a committed state had, since an unloaded body has none. Then follows each region of the mesh that is held nowhere,
+  /// by its name, unless it is the only one, as a rigid body, and "attached", each over its own loads (0 without them).
+  std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
+    std::vector<PartResidual> parts{{"all", residual_of_all(unbalanced)}};
+    regions_.list(unbalanced, load_now_, parts);
+    if (attached_) parts.push_back({"attached", residual_beside(unbalanced)});
+    return parts;
+  }
+
+  /// Imbalance of an attached body over its own loads, since reactions of the ground would hide it; 0 without loads.
+  double residual_beside(Eigen::VectorXd const& unbalanced) const {
+    return detail::residual_beside(unbalanced, load_now_, free_dofs_, grid_->dof_count());
+  }
+
+  /// Whether all materials' tangents are the derivatives of their responses.
+  bool have_exact_tangents() const { return points_.have_exact_tangents(); }
+  /// Tangents of all points' committed states.
+  std::vector<VoigtTangent<Dim>> committed_tangents() const { return points_.committed_tangents(executor_); }
+  /// Tangents of all points' trial states, which belong to the last evaluation.
+  std::vector<VoigtTangent<Dim>> trial_tangents() const { return points_.tangents(executor_); }
+
+  /// Makes the increment and the points' trial states the committed ones.
+  /// \throws InputError unless the increment is the last one that was evaluated: trial states belong to that one
+  void commit(Eigen::VectorXd const& increment) {
+    require_evaluated("committed", increment);
+    points_.commit();  // first, since it may throw
+    forget();
+    if (attached_) attached_->commit(grid_->positions(), increment);
+    grid_->commit(of_nodes(increment));
+  }
+
+  /// What evolves from step to step: a new problem with these resumes as the one that they were saved from.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    visit("discretisation", *self.grid_);
+    visit("materials", self.points_);
+    visit("largest_scale", self.largest_scale_);
+    if (!self.attached_) return;
+    if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateWriter>) self.attached_->write(visit);
+    if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateReader>) self.attached_->read(visit);
+  }
+  void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
+
+ protected:
+  detail::AttachedPart<Dim> const* attached_part() const { return attached_.get(); }  ///< Null for the elements alone.
+
+ private:
+  template <class Add>
+  Eigen::SparseMatrix<double> assembled(Add const& add) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    add(entries);
+    Eigen::SparseMatrix<double> matrix(dof_count(), dof_count());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+  void forget() { seen_ = evaluated_ = Eigen::VectorXd(); }
+  void require_evaluated(std::string_view what, Eigen::VectorXd const& increment) const {
+    if (evaluated_.size() == increment.size() && evaluated_ == increment) return;
+    reject("the increment to be {} is not the one that was evaluated last: evaluate it first, and commit it once",
+           what);
+  }
+  double residual_of_all(Eigen::VectorXd const& unbalanced) const {
+    constexpr double least = 1e-3 * 1e-3;  // of the largest scale, squared
+    double const free = detail::squared_over(free_dofs_, unbalanced);
+    return free == 0.0 ? 0.0 : std::sqrt(free / std::max(scale(unbalanced), least * largest_scale_));
+  }
+  /// Of "all", squared [N2]. Reactions alone may be round-off: those of a body that is pressed from all sides.
+  double scale(Eigen::VectorXd const& unbalanced) const {
+    return std::max({detail::squared_over(prescribed_dofs_, unbalanced), load_now_.squaredNorm(), carried_});
+  }
+
+  Eigen::VectorXd of_nodes(Eigen::VectorXd const& increment) const { return increment.head(grid_->dof_count()); }
+
+  /// Shows the points an increment, unless it is not finite or turns an element inside out.
+  Verdict look(Eigen::VectorXd const& increment, int* worst_point) {
+    if (worst_point) *worst_point = -1;
+    if (!increment.allFinite()) return {Status::failed, Reason::not_finite};
+    if (seen_.size() == increment.size() && seen_ == increment) return {};
+    std::vector<Gradient<Dim>> gradients(detail::index(grid_->point_count()));
+    if (auto const inverted = grid_->gradients(of_nodes(increment), gradients)) {
+      if (worst_point) *worst_point = grid_->first_point(*inverted);
+      return {Status::failed, Reason::element_inverted};
+    }
+    evaluated_.resize(0);
+    points_.set_gradients(std::move(gradients), executor_);
+    seen_ = increment;
+    return {};
+  }
+
+  /// Forces [N] of the mesh's degrees of freedom by the means of strains: strains from displacements, and stresses times volume
+  /// [N m] from means.
+  LinearMap forces_around(Eigen::SparseMatrix<double> strains, std::vector<VoigtTangent<Dim>> tangents) const {
+    return [this, strains = std::move(strains), tangents = std::move(tangents)](Eigen::VectorXd const& displacement) {
+      Eigen::VectorXd values = strains * displacement.head(strains.cols());
+      auto const of_point = [&](std::size_t k) {
+        constexpr int size = voigt_size<Dim>;
+        return values.segment<size>(static_cast<Eigen::Index>(size * k));
+      };
+      std::vector<EngineeringStrain<Dim>> means(tangents.size());
+      for (std::size_t k = 0; k < tangents.size(); ++k) means[k] = of_point(k);
+      means = points_.means()->means(means, executor_);
+      for (std::size_t k = 0; k < tangents.size(); ++k) of_point(k) = tangents[k] * means[k];
+      return Eigen::VectorXd(strains.transpose() * values);
+    };
+  }
+
+  void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) {
+    grid_->internal_force(of_nodes(increment), points_.stresses(), evaluation.unbalanced);
+    evaluation.unbalanced.conservativeResizeLike(Eigen::VectorXd::Zero(dof_count()));
+    carried_ = detail::squared_over(free_dofs_, evaluation.unbalanced);
+    Eigen::VectorXd const of_elements = evaluation.unbalanced;
+    Verdict const verdict =
+        attached_ ? attached_->add_forces(grid_->positions(), increment, evaluation.unbalanced) : Verdict{};
+    if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
+    carried_ = std::max(carried_, detail::squared_over(free_dofs_, evaluation.unbalanced - of_elements));
+    evaluation.unbalanced -= load_now_;
+    evaluation.residual = residual(evaluation.unbalanced);
+    if (attached_ || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
+    if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable()) {
+      evaluation.verdict = {Status::failed, Reason::not_finite};
+    }
+  }
+
+  std::unique_ptr<detail::AttachedPart<Dim>> attached_;
+  std::unique_ptr<Grid<Dim>> grid_;
+  MaterialPoints<Dim> points_;
+  Executor const& executor_;
+  Constraints constraints_;
+  LoadHistory loads_;
+  Eigen::VectorXd load_now_;
+  Eigen::VectorXd seen_;        ///< increment whose gradients the points have; empty after a commit
+  Eigen::VectorXd evaluated_;   ///< increment that the points' trial states belong to; empty after a commit
+  double carried_ = 0.0;        ///< at free degrees of freedom in the last evaluation, squared [N2]
+  double largest_scale_ = 0.0;  ///< of the committed states that were evaluated, squared [N2]
+  std::vector<int> free_dofs_, prescribed_dofs_;
+  detail::RegionResiduals<Dim> regions_;
+};
+
+#ifdef SCARP_PRECOMPILED
+extern template class Problem<2>;
+extern template class Problem<3>;
+#endif
+
+}  // namespace scarp

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/solver/model.hpp"
+
+#include <doctest/doctest.h>
+
+#include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/element/quad4.hpp"
+#include "scarp/mesh/box_mesh.hpp"
+#include "scarp/points/nonlocal.hpp"
+#include "scarp/solver/analysis.hpp"
+#include "support/approx.hpp"
+#include "support/refusals.hpp"
+
+namespace {
+
+using samples::Approx;
+using Grid = scarp::Discretisation<scarp::Quad4, scarp::SmallStrain, scarp::BBar>;
+
+constexpr double height = 4.0, weight = 18e3, young = 40e6;
+
+/// A column of ground, 2 m wide, on rollers.
+scarp::Model<Grid> column() {
+  scarp::Model<Grid> model(
+      Grid(scarp::BoxMesh<scarp::Quad4>{.lengths = scarp::Vector<2>(2.0, height), .cells = {2, 8}}.generate()));
+  model.fix({"left", "right"}, 0);
+  model.fix({"bottom"});
+  model.gravity(weight);
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("ground at rest does not move, and its base carries it") {
+  auto model = column();
+  model.surcharge({"top"}, 5e3);
+  using Soil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
+  model.material("soil", Soil::from_young_poisson(young, 0.25, model.geostatic(0.4)));
+  scarp::Analysis analysis(model, {.threads = 1});
+  auto const run = analysis.to(1.0);
+  REQUIRE(run.verdict.acceptable());
+  CHECK(std::abs(analysis.displacement("top", 1)) < 1e-9 * height);
+  CHECK(analysis.reaction("bottom").y() == Approx(2.0 * (height * weight + 5e3)).epsilon(1e-9));
+  CHECK(analysis.reaction("left").x() == Approx(0.4 * height * (5e3 + weight * height / 2.0)).epsilon(1e-9));
+  CHECK(model.dead_loads().sum() == Approx(-2.0 * (height * weight + 5e3)).epsilon(1e-9));
+}
+
+TEST_CASE("weight that the initial stress does not balance settles the ground, later loads have their own amplitude") {
+  auto model = column();
+  model.material("soil", scarp::LinearElastic<2>::from_young_poisson(young, 0.25));
+  model.surcharge({"top"}, 30e3, scarp::TimeFunction::ramp(1.0, 2.0));
+  scarp::Analysis analysis(model, {.threads = 1});
+  double const modulus = young * 0.75 / (1.25 * 0.5);  // one-dimensional compression
+  REQUIRE(analysis.to(1.0).verdict.acceptable());
+  double const by_weight =
+      weight * height * height / (2.0 * modulus);  // analytic, exact at the nodes but for logarithms of strains of 1e-3
+  CHECK(analysis.displacement("top", 1) == Approx(-by_weight).epsilon(1e-4));
+  REQUIRE(analysis.to(2.0).verdict.acceptable());
+  CHECK(analysis.load() == 2.0);
+  CHECK(analysis.displacement("top", 1) == Approx(-by_weight - 30e3 * height / modulus).epsilon(1e-4));
+  CHECK(analysis.reaction("bottom").y() == Approx(2.0 * (height * weight + 30e3)).epsilon(1e-6));
+}
+
+TEST_CASE("a boundary that is moved pulls what it carries, and a run that ends early says where and why") {
+  auto model = column();
+  model.move({"top"}, 1, 0.01, scarp::TimeFunction::ramp(1.0, 2.0));
+  using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
+  model.material("soil", scarp::Nonlocal{Soil{.elasticity = scarp::IsotropicElasticity::from_young_poisson(young, 0.25),
+                                              .strength = {{.cohesion = 10e3, .friction = 0.5}},
+                                              .initial = model.geostatic(0.5)},
+                                         1.0});
+  scarp::Analysis analysis(model, {.threads = 1});
+  auto const first = analysis.to(1.0);
+  CHECK(analysis.why(first) == "the load factor 1 was reached");
+  REQUIRE(analysis.to(1.1).verdict.acceptable());
+  CHECK(analysis.displacement("top", 1) == Approx(1e-3).epsilon(1e-9));
+  scarp::AnalysisSettings impatient{.solver = {.max_iterations = 1}, .threads = 1};
+  scarp::Analysis other(model, impatient);
+  auto const run = other.to(2.0);
+  REQUIRE(!run.verdict.acceptable());
+  CHECK(other.why(run).starts_with("stopped at the load factor "));
+}
+
+TEST_CASE("names that the mesh does not have, and regions without material, are rejected in words") {
+  auto model = column();
+  CHECK(samples::message_of([&] { model.fix({"botom"}, 1); }) == samples::Naming{"there is no boundary 'botom'"});
+  CHECK(samples::message_of([&] { model.gravity("clay", 1e4); }) == samples::Naming{"there is no region 'clay'"});
+  CHECK(samples::message_of([&] { static_cast<void>(model.depths("clay")); }) ==
+        samples::Naming{"there is no region 'clay'"});
+  CHECK(samples::message_of([&] { model.gravity(-1.0); }) == samples::Naming{"unit weight"});
+  CHECK(samples::message_of([&] { scarp::Analysis{model}; }) ==
+        samples::Naming{"region 'soil' of the mesh has no provider"});
+  model.material("clay", scarp::LinearElastic<2>::from_young_poisson(young, 0.25));
+  CHECK(samples::message_of([&] { scarp::Analysis{model}; }) == samples::Naming{"there is no region 'clay'"});
+}
+
+TEST_CASE("depths are those below the highest node, or below a level that is given") {
+  auto model = column();
+  auto const depths = model.depths("soil");
+  REQUIRE(std::ssize(depths) == model.grid().point_count());
+  CHECK(*std::ranges::max_element(depths) < height);
+  CHECK(*std::ranges::min_element(depths) > 0.0);
+  model.set_surface_level(height + 1.0);
+  CHECK(model.depths("soil").front() == Approx(depths.front() + 1.0).epsilon(1e-12));
+}
