@@ -30,7 +30,7 @@ class Specimen {
  public:
   using Grid = scarp::Discretisation<Element>;
   using Lateral = scarp::FollowingPressure<typename Element::Facet>;
-  using Problem = scarp::EquilibriumProblem<Grid, Lateral>;
+  using Problem = scarp::EquilibriumProblem<Grid>;
 
   /// \throws InputError, PreparationError
   Specimen(Choice const& choice, scarp::Mesh<Element> mesh, scarp::ThreadExecutor& executor)
@@ -59,7 +59,7 @@ class Specimen {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(grid.dof_count());
     Eigen::VectorXd forces;
     grid.internal_force(still, problem_.committed_stresses(), forces);
-    auto const verdict = problem_.attached().add_forces(grid.positions(), still, forces);
+    auto const verdict = problem_.template attached<Lateral>().add_forces(grid.positions(), still, forces);
     double sum = verdict.acceptable() ? 0.0 : std::nan("");
     for (int const node : sides_.top) sum -= forces(2 * node + 1);
     return sum;

@@ -94,7 +94,7 @@ Motion rigid_footing(Layer const& layer, Law const& law, bool sliding) {
   auto problem = examples::plane_problem(std::move(grid), Soil::from_young_poisson(layer.young, layer.poisson),
                                          layer.width, constraints, loads, std::move(interface));
   auto const run = load_once(problem);
-  auto const& body = problem.attached().body().body();
+  auto const& body = problem.template attached<decltype(interface)>().body().body();
   return {layer.centre().y() - body.reference().y(),
           body.rotation(),
           {static_cast<int>(ground.elements.size()), constraints.dof_count(), 0.0, run, watch.seconds()}};

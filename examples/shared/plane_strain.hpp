@@ -20,16 +20,16 @@ template <class Element, class Scheme>
 using PlaneGrid = scarp::Discretisation<Element, scarp::SmallStrain, Scheme>;
 
 /// A body of one material in small strain.
-template <class Element, class Scheme, class Attached = scarp::NoAttachment>
-using PlaneProblem = scarp::EquilibriumProblem<PlaneGrid<Element, Scheme>, Attached>;
+template <class Element, class Scheme>
+using PlaneProblem = scarp::EquilibriumProblem<PlaneGrid<Element, Scheme>>;
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// surface_level [m]: height from which depths are measured
 template <class Element, class Scheme, class Provider, class Attached = scarp::NoAttachment>
-PlaneProblem<Element, Scheme, Attached> plane_problem(PlaneGrid<Element, Scheme> grid, Provider const& provider,
-                                                      double surface_level, scarp::Constraints constraints,
-                                                      scarp::LoadHistory loads, Attached attached = {}) {
+PlaneProblem<Element, Scheme> plane_problem(PlaneGrid<Element, Scheme> grid, Provider const& provider,
+                                            double surface_level, scarp::Constraints constraints,
+                                            scarp::LoadHistory loads, Attached attached = {}) {
   static scarp::SerialExecutor executor;
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, surface_level));

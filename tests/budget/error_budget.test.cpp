@@ -55,11 +55,11 @@ static_assert(scarp::HasPlan<Relaxing>);
 class Points {
  public:
   static constexpr int dim = 2;
-  static constexpr bool is_bare = false;  // no work is added up
 
   template <class Material>
   Points(Material const& material, int count) : points_(material, numbered(count)) {}
 
+  static bool has_attachment() { return true; }  // no work is added up
   auto const& points() const { return points_; }
   auto const& gradients() const { return points_.gradients(); }
   scarp::SerialExecutor& executor() const { return serial_; }

@@ -22,8 +22,7 @@ using Soil = scarp::LinearElastic<2>;
 using Tied = scarp::CohesiveBond<scarp::LinearFrictional>;
 template <class Law>
 using Footed = scarp::Interface<Law, scarp::RigidFooting>;
-template <class Law>
-using Problem = scarp::EquilibriumProblem<Grid, Footed<Law>>;
+using Problem = scarp::EquilibriumProblem<Grid>;
 using Newton = scarp::QuasiNewton<>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -39,8 +38,8 @@ struct Bed {
   scarp::SerialExecutor executor{};
 
   template <class Law>
-  Problem<Law> problem(Law const& law, scarp::Vector<2> const& force, double moment,
-                       scarp::TimeFunction const& amplitude = {}) {
+  Problem problem(Law const& law, scarp::Vector<2> const& force, double moment,
+                  scarp::TimeFunction const& amplitude = {}) {
     samples::CrossedRectangle const shape{.width = 6.0, .height = 2.0, .columns = columns, .rows = columns / 3};
     Grid grid(shape.generate());
     auto const& mesh = grid.mesh();
@@ -94,7 +93,7 @@ TEST_CASE("a law that an interface cannot have is refused") {
 TEST_CASE("the points of a footing are at their places before the first step") {
   scarp::LinearFrictional const springs{.normal_stiffness = 5e7, .tangential_stiffness = 5e7, .friction = 0.5};
   auto const problem = Bed{}.problem(springs, {0.0, -1.0}, 0.0);
-  for (auto const& point : problem.attached().points()) {
+  for (auto const& point : problem.attached<Footed<scarp::LinearFrictional>>().points()) {
     CHECK(point.place.y() == samples::Approx(2.0));
     CHECK(std::abs(point.place.x() - 3.0) < 1.0);
   }
@@ -110,7 +109,7 @@ TEST_CASE("a rigid footing on springs settles and tilts as Winkler's bed") {
   scarp::NoObserver no_observer;
   auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
   REQUIRE(run.verdict.acceptable());
-  auto const& body = problem.attached().body().body();
+  auto const& body = problem.attached<Footed<scarp::LinearFrictional>>().body().body();
   // Analytic: settlement W/(k B), tilt M/(k B^3/12); second order in the tilt, 1e-7.
   CHECK(2.0 - body.reference().y() == samples::Approx(force / (k * 2.0)).epsilon(1e-6));
   CHECK(body.rotation() == samples::Approx(moment / (k * 8.0 / 12.0)).epsilon(1e-6));
@@ -125,7 +124,8 @@ TEST_CASE("the part of a footing that overhangs the ground carries nothing") {
   scarp::NoObserver no_observer;
   REQUIRE(one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer).verdict.acceptable());
   // Analytic: Winkler's bed over the 6 m of the block.
-  CHECK(2.0 - problem.attached().body().body().reference().y() == samples::Approx(force / (k * 6.0)).epsilon(1e-6));
+  CHECK(2.0 - problem.attached<Footed<scarp::LinearFrictional>>().body().body().reference().y() ==
+        samples::Approx(force / (k * 6.0)).epsilon(1e-6));
 }
 
 TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle, none is negative, forces balance") {
@@ -142,7 +142,7 @@ TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle
   double sum = 0.0;
   double contact = 0.0;
   double highest = 0.0;
-  for (auto const& point : problem.attached().points()) {
+  for (auto const& point : problem.attached<Footed<scarp::LinearFrictional>>().points()) {
     CHECK(point.pressure >= 0.0);
     sum += point.stress.y() * point.area;
     if (point.pressure > 0.0) contact += point.area;
@@ -170,8 +170,8 @@ TEST_CASE("a block slides when the tangential load passes friction, not before")
   loads.add(push, {});
   auto grid = problem.discretisation();
   scarp::SerialExecutor executor;
-  Problem<scarp::LinearFrictional> sliding(grid, problem.points(), problem.constraints(), loads, executor,
-                                           problem.attached());
+  Problem sliding(grid, problem.points(), problem.constraints(), loads, executor,
+                  problem.attached<Footed<scarp::LinearFrictional>>());
   scarp::NoObserver no_observer;
   scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-7, .max_displacement_gradient = 1.0};
   Newton const newton{.tolerance = 1e-9, .max_iterations = 12};
@@ -258,11 +258,11 @@ TEST_CASE("a stiff tied interface carries the load of a footing on an elastic be
   auto const run = one_step().run(newton, problem, 0.0, 1.0, no_observer);
   REQUIRE(run.verdict.acceptable());
   CHECK(run.iterations <= 5);
-  auto const& body = problem.attached().body().body();
+  auto const& body = problem.attached<Footed<Tied>>().body().body();
   CHECK(body.reference().y() < 2.0);
   CHECK(body.rotation() > 0.0);
   double sum = 0.0;
-  for (auto const& point : problem.attached().points()) sum += point.pressure * point.area;
+  for (auto const& point : problem.attached<Footed<Tied>>().points()) sum += point.pressure * point.area;
   CHECK(sum == samples::Approx(1e3).epsilon(1e-6));
 }
 
@@ -310,8 +310,7 @@ TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whe
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 2.0));
     scarp::SerialExecutor executor;
-    scarp::EquilibriumProblem<Grid, Contact> problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints,
-                                                     loads, executor, interface);
+    Problem problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, loads, executor, interface);
     scarp::NoObserver no_observer;
     auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
     REQUIRE(run.verdict.acceptable());
@@ -319,7 +318,7 @@ TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whe
     // stiffness over the soil's, 50, times the residual.
     for (auto const& stress : problem.committed_stresses())
       CHECK(stress(1) == samples::Approx(-pressure).epsilon(1e-9));
-    for (auto const& point : problem.attached().points())
+    for (auto const& point : problem.attached<Contact>().points())
       CHECK(point.pressure == samples::Approx(pressure).epsilon(1e-9));
   }
 }

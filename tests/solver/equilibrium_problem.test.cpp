@@ -15,8 +15,7 @@ namespace {
 
 using Soil = scarp::LinearElastic<2>;
 using Grid = scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>;
-template <class Attached = scarp::NoAttachment>
-using Problem = scarp::EquilibriumProblem<Grid, Attached>;
+using Problem = scarp::EquilibriumProblem<Grid>;
 using Newton = scarp::QuasiNewton<>;
 
 constexpr double pressure = 1e4;  // [Pa]
@@ -65,7 +64,7 @@ TEST_CASE("a body that is pressed from all sides by dead loads, with reactions o
   auto const loads = on_all_sides(grid);
   auto constraints = held_as_a_body(grid);
   auto points = points_on(grid);
-  Problem<> problem(std::move(grid), std::move(points), std::move(constraints), loads, serial);
+  Problem problem(std::move(grid), std::move(points), std::move(constraints), loads, serial);
   scarp::NoObserver no_observer;
   auto const run = scarp::LoadStepping{}.settle(Newton{.tolerance = 1e-3}, problem, 0.0, no_observer);
   CHECK(run.verdict == scarp::Verdict{});
@@ -83,8 +82,8 @@ TEST_CASE("a body that a fluid presses from all sides converges, though there ar
   }
   auto constraints = held_as_a_body(grid);
   auto points = points_on(grid);
-  Problem<scarp::FollowingPressure<>> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial,
-                                              scarp::FollowingPressure<>(facets, pressure));
+  Problem problem(std::move(grid), std::move(points), std::move(constraints), {}, serial,
+                  scarp::FollowingPressure<>(facets, pressure));
   scarp::NoObserver no_observer;
   auto const run = scarp::LoadStepping{}.settle(Newton{.tolerance = 1e-3}, problem, 0.0, no_observer);
   CHECK(run.verdict == scarp::Verdict{});
@@ -103,7 +102,7 @@ TEST_CASE_TEMPLATE("a law is tested on one element all of whose nodes are moved"
   }
   REQUIRE(constraints.free_count() == 0);
   auto points = points_on(grid);
-  Problem<> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
+  Problem problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
   scarp::NoObserver no_observer;
   auto const run = scarp::LoadStepping{}.run(Solver{}, problem, 0.0, 1e-4, no_observer);
   CHECK(run.verdict == scarp::Verdict{});
@@ -119,7 +118,7 @@ TEST_CASE("only the increment that was evaluated is refined and committed, and a
   auto grid = square();
   auto constraints = held_as_a_body(grid);
   auto points = points_on(grid);
-  Problem<> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
+  Problem problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
   auto const before = problem.discretisation().positions();
   Eigen::VectorXd const increment = Eigen::VectorXd::Constant(problem.dof_count(), 1e-4);
   REQUIRE(problem.evaluate(increment).verdict.acceptable());
@@ -137,7 +136,7 @@ TEST_CASE("parts that do not fit together are refused") {
   auto const constraints = held_as_a_body(grid);
   Grid const smaller(samples::CrossedRectangle{}.generate());
   auto const make = [&](scarp::MaterialPoints<2> points, scarp::Constraints const& held, scarp::LoadHistory loads) {
-    Problem<> const problem(grid, std::move(points), held, std::move(loads), serial);
+    Problem const problem(grid, std::move(points), held, std::move(loads), serial);
   };
   CHECK_REFUSED(make(points_on(smaller), constraints, {}), fmt::format("for {} points", smaller.point_count()),
                 fmt::format("the mesh has {}", grid.point_count()));
@@ -152,7 +151,7 @@ TEST_CASE("an increment is committed once, after its own evaluation") {
   auto grid = square();
   auto constraints = held_as_a_body(grid);
   auto points = points_on(grid);
-  Problem<> problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
+  Problem problem(std::move(grid), std::move(points), std::move(constraints), {}, serial);
   Eigen::VectorXd const first = Eigen::VectorXd::LinSpaced(problem.dof_count(), 0.0, 1e-4);
   CHECK_REFUSED(problem.commit(first), "increment", "evaluate");
   REQUIRE(problem.evaluate(first).verdict.acceptable());

@@ -218,8 +218,8 @@ TEST_CASE("contact is followed within the linear system: material that is linear
   auto const bare = samples::Block<samples::Softening>::make({}, serial);
   auto const& grid = bare.discretisation();
   Wall const wall{.place = 1e-4, .stiffness = 1e9, .nodes = scarp::boundary_nodes(grid.mesh(), "left")};
-  scarp::EquilibriumProblem<samples::Block<samples::Softening>::Grid, Wall> problem(
-      grid, bare.points(), bare.constraints(), bare.loads(), serial, wall);
+  scarp::EquilibriumProblem<samples::Block<samples::Softening>::Grid> problem(grid, bare.points(), bare.constraints(),
+                                                                              bare.loads(), serial, wall);
   scarp::NoObserver no_observer;
   // The block is stretched: its left side comes inwards and meets the wall.
   scarp::QuasiNewton<> const newton{.tolerance = 1e-9, .repeats_motion = false};
@@ -227,6 +227,6 @@ TEST_CASE("contact is followed within the linear system: material that is linear
   REQUIRE(run.verdict.acceptable());
   CHECK(run.iterations == run.steps);
   int touching = 0;
-  for (bool const touches : problem.attached().touched) touching += touches ? 1 : 0;
+  for (bool const touches : problem.attached<Wall>().touched) touching += touches ? 1 : 0;
   CHECK(touching > 0);
 }

@@ -20,7 +20,7 @@ namespace {
 using Grid = scarp::Discretisation<scarp::Tri3>;
 using Soil = scarp::LinearElastic<2>;
 using Contact = scarp::Interface<scarp::LinearFrictional, scarp::RigidFooting>;
-using Problem = scarp::EquilibriumProblem<Grid, Contact>;
+using Problem = scarp::EquilibriumProblem<Grid>;
 
 constexpr double friction = 0.5;
 constexpr double stiffness = 1e8;  // [Pa/m]
@@ -82,10 +82,11 @@ TEST_CASE(
     // the middle, 0.106 m from it each (Gauss points of facets of 0.5 m), and to the elastic slip.
     double const elastic = friction * weight / 2.0 / stiffness;
     double const between = 0.25 * (1.0 - 1.0 / std::sqrt(3.0)) * std::abs(strain);
-    CHECK(std::abs(problem.attached().body().body().reference().x() - 3.0 * (1.0 + strain)) < elastic + between);
+    CHECK(std::abs(problem.attached<Contact>().body().body().reference().x() - 3.0 * (1.0 + strain)) <
+          elastic + between);
     double across = 0.0;
     double up = 0.0;
-    for (auto const& point : problem.attached().points()) {
+    for (auto const& point : problem.attached<Contact>().points()) {
       across += point.stress.x() * point.area;
       up += point.stress.y() * point.area;
     }
@@ -103,7 +104,7 @@ TEST_CASE("a footing that floats above its ground is let down on it") {
     auto const run = in_one_step(problem);
     CHECK(run.verdict.acceptable());
     double up = 0.0;
-    for (auto const& point : problem.attached().points()) up += point.stress.y() * point.area;
+    for (auto const& point : problem.attached<Contact>().points()) up += point.stress.y() * point.area;
     CHECK(up == samples::Approx(weight).epsilon(1e-8));
   }
 }
@@ -129,7 +130,7 @@ TEST_CASE(
     CHECK(run.verdict.acceptable());
     if (run.refused > 0) ++refused;
     double up = 0.0;
-    for (auto const& point : problem.attached().points()) up += point.stress.y() * point.area;
+    for (auto const& point : problem.attached<Contact>().points()) up += point.stress.y() * point.area;
     CHECK(up == samples::Approx(weight).epsilon(1e-8));
   }
   MESSAGE(refused << " of " << draws << " tried again in smaller steps");
@@ -148,7 +149,7 @@ TEST_CASE("a footing of a centrifuge's model, or of a thousand times the size, a
     auto const run = in_one_step(problem, 0.01);
     REQUIRE(run.verdict.acceptable());
     iterations = run.iterations;
-    auto const& body = problem.attached().body().body();
+    auto const& body = problem.attached<Contact>().body().body();
     return scarp::Vector<3>(body.reference().x() / scale, body.reference().y() / scale, body.rotation());
   };
   long iterations = 0;

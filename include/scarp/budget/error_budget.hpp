@@ -19,7 +19,7 @@ namespace scarp {
 
 namespace detail {
 
-/// For problems whose work is not added up: what is attached.
+/// For points without a mesh.
 struct NoWorkBalance {
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}
@@ -33,7 +33,7 @@ struct WorkBalanceOf {
   using Type = NoWorkBalance;
 };
 template <class Problem>
-  requires(Problem::is_bare)
+  requires requires(Problem const& problem) { problem.discretisation(); }
 struct WorkBalanceOf<Problem> {
   using Type = WorkBalance<Problem>;
 };
@@ -62,7 +62,7 @@ class ErrorBudget : public NeverStops {
       : bounds_(bounds),
         sampling_(sampling),
         iterates_equations_(problem.points().means() != nullptr),
-        adds_up_work_(Problem::is_bare && problem.executor().ranks() == 1) {
+        adds_up_work_(!problem.has_attachment() && problem.executor().ranks() == 1) {
     bounds.validate();
     sampling.validate();
     int const points = problem.points().size();

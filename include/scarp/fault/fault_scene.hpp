@@ -82,17 +82,6 @@ concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid
   structure.attached(grid);
 };
 
-namespace detail {
-/// What a fault scene gives to solvers.
-template <class Structure, class Grid>
-struct ProblemOfFault {
-  static_assert(StandsOnGround<Structure, Grid>,
-                "scarp: a structure needs edges(), put_on(), extra_dofs(), start(), add_loads() and attached()");
-  using Attached = decltype(std::declval<Structure const&>().attached(std::declval<Grid const&>()));
-  using Type = EquilibriumProblem<Grid, Attached>;
-};
-}  // namespace detail
-
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
 /// carry the geostatic stress; the load factor is the throw [m] once it is positive. Soil, ground, motion of the
 /// bedrock, structure, solver and grid (element, integration, kinematics) are chosen independently of one another.
@@ -133,7 +122,7 @@ struct SCARP_EXPORT FaultScene {
   }
 
   /// \throws InputError for parts that do not fit, and for soil that does not carry the weight
-  typename detail::ProblemOfFault<Structure, Grid>::Type problem(Executor const& executor) const;
+  EquilibriumProblem<Grid> problem(Executor const& executor) const;
 
   /// First stage: the ground as prepared is brought into equilibrium.
   template <class ProblemType, class Observer>
@@ -174,6 +163,8 @@ struct SCARP_EXPORT FaultScene {
 
 template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
 Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::mesh() const {
+  static_assert(StandsOnGround<Structure, Grid>,
+                "scarp: a structure needs edges(), put_on(), extra_dofs(), start(), add_loads() and attached()");
   static_assert(std::same_as<typename GroundType::Element, typename Grid::ElementType>,
                 "the grid is of the ground's element");
   auto made = ground.mesh(structure.edges());
@@ -183,8 +174,8 @@ Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundTyp
 }
 
 template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
-typename detail::ProblemOfFault<Structure, GridType>::Type
-FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(Executor const& executor) const {
+EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(
+    Executor const& executor) const {
   require_not_negative("unit weight", unit_weight);
   require_not_negative("surcharge", surcharge);
   require_positive("throw", throw_to);

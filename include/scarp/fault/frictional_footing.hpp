@@ -62,12 +62,12 @@ struct FrictionalFooting {
   /// Motion [m, rad] of the rigid body, and the interface's points, whatever part of its weight acts.
   template <class Problem>
   FootingMotion motion(Problem const& problem, double = 0.0) const {
-    auto const& body = problem.attached().body().body();
+    auto const& attached = problem.template attached<Interface<Law, RigidFooting>>();
+    auto const& body = attached.body().body();
     auto const& mesh = problem.discretisation().mesh();
     int const node = boundary(mesh, "footing_base").front().front();
     Vector<2> const start(footing.centre, mesh.nodes[detail::index(node)].y());
-    return {start.y() - body.reference().y(), body.reference().x() - start.x(), -body.rotation(),
-            problem.attached().points()};
+    return {start.y() - body.reference().y(), body.reference().x() - start.x(), -body.rotation(), attached.points()};
   }
 };
 

@@ -39,15 +39,14 @@ MaterialPoints<Dim> make_points(Grid<Dim> const& grid, double surface_level, Reg
 /// The composition root: one discretisation, a material for each region, constraints and loads, as a problem that a
 /// solver can use. Regions are written as values, `make_problem(..., hana::make_tuple(Region{"soil", soil}))`.
 /// \throws InputError when the parts do not fit together
-template <class DiscretisationType, class Attached = NoAttachment, class... Materials>
-EquilibriumProblem<DiscretisationType, Attached> make_problem(DiscretisationType discretisation, double surface_level,
-                                                              boost::hana::tuple<Region<Materials>...> const& regions,
-                                                              Constraints constraints, LoadHistory loads,
-                                                              Executor const& executor, Attached attached = {}) {
-  std::optional<MaterialPoints<DiscretisationType::dim>> points;
-  executor.together([&] { points.emplace(make_points(discretisation, surface_level, regions, executor)); });
-  return {std::move(discretisation), std::move(*points), std::move(constraints),
-          std::move(loads),          executor,           std::move(attached)};
+template <class GridType, class Attached = NoAttachment, class... Materials>
+EquilibriumProblem<GridType> make_problem(GridType grid, double surface_level,
+                                          boost::hana::tuple<Region<Materials>...> const& regions,
+                                          Constraints constraints, LoadHistory loads, Executor const& executor,
+                                          Attached attached = {}) {
+  std::optional<MaterialPoints<GridType::dim>> points;
+  executor.together([&] { points.emplace(make_points(grid, surface_level, regions, executor)); });
+  return {std::move(grid), std::move(*points), std::move(constraints), std::move(loads), executor, std::move(attached)};
 }
 
 }  // namespace scarp

@@ -66,7 +66,14 @@ class SCARP_EXPORT Problem {
   int dof_count() const { return grid_->dof_count() + (attached_ ? attached_->extra_dofs() : 0); }
 
   bool has_attachment() const { return attached_ != nullptr; }  ///< Whether something is attached to the mesh.
-  int first_beside() const { return grid_->dof_count(); }       ///< First degree of freedom behind those of the mesh.
+  /// What is attached to the mesh. \throws InputError unless it is of this type
+  template <class Part>
+  Part const& attached() const {
+    auto const* found = dynamic_cast<detail::AttachedPartOf<Dim, Part> const*>(attached_.get());
+    if (!found) reject("what is attached to the mesh is requested as another type: take the one that was given");
+    return found->part();
+  }
+  int first_beside() const { return grid_->dof_count(); }  ///< First degree of freedom behind those of the mesh.
   /// Size [m] of an attached body, of the mesh where it has none.
   double length() const {
     auto const own = attached_ ? attached_->length() : std::nullopt;
@@ -227,9 +234,6 @@ class SCARP_EXPORT Problem {
     if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateReader>) self.attached_->read(visit);
   }
   void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
-
- protected:
-  detail::AttachedPart<Dim> const* attached_part() const { return attached_.get(); }  ///< Null for the elements alone.
 
  private:
   template <class Add>

@@ -15,11 +15,10 @@ namespace scarp {
 /// Observer that adds up the work of a run by the trapezoidal rule over its accepted steps: external, of loads and of reactions at
 /// prescribed displacements, and internal, of the points' stresses on their strains, which they store or dissipate. They differ
 /// by what the residual lets through and by the rule, at second order in the step.
-/// \tparam Problem an `EquilibriumProblem` without attachment
+/// \tparam Problem an `EquilibriumProblem`; the work of what is attached to it is not counted
 template <class Problem>
 class WorkBalance {
  public:
-  static_assert(Problem::is_bare, "the work of what is attached to the mesh is not counted");
   static constexpr int dim = Problem::dim;  ///< of the problem
 
   /// From the first accepted step on.

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scarp/solver/analysis.hpp"
+
+namespace scarp {
+
+/// When ground has failed. A load step that becomes too small is no failure by itself: one packing or one bad element can cause it.
+struct CollapseSettings {
+  double failed = 100.0;  ///< largest displacement gradient per load, over that of the first step: the ground fails
+  double failing =
+      10.0;  ///< the same where a run has no further equilibrium: less means that something else stopped it
+  double tolerance = 0.01;  ///< of a factor of safety
+  AnalysisSettings analysis{
+      .solver = {.tolerance = 1e-4, .max_iterations = 40, .rule = {.exact = {.floor = 1e-4}}},
+      .stepping = {.first = 0.05, .smallest = 1e-4, .largest = 0.05, .max_displacement_gradient = 0.1}};
+
+  /// \throws InputError for ratios below 1 and a tolerance that is not positive
+  void validate() const {
+    require_at_least("ratio of displacement gradients per load of ground that fails", failing, 1.0);
+    require_at_least("ratio of displacement gradients per load of ground that has failed", failed, failing);
+    require_positive("tolerance of a factor of safety", tolerance);
+  }
+};
+
+/// Observer of the largest displacement gradient of a step per load, and of how it grows. Stops a run when the ground has failed.
+class CollapseWatch {
+ public:
+  /// failed: ratio at which it stops a run
+  explicit CollapseWatch(double failed) : failed_(failed) {}
+
+  /// Measures a step in which the load has grown, or in which no equilibrium was found although all points responded.
+  template <class Problem>
+  void attempted(Problem const& problem, StepReport const& report) {
+    if (!(report.load_increment > 0.0) || report.history.empty()) return;
+    double const compliance = problem.max_displacement_gradient() / report.load_increment;
+    bool const accepted = report.verdict.acceptable();
+    if (accepted && first_ == 0.0) first_ = compliance;
+    double const ratio = first_ > 0.0 ? compliance / first_ : 1.0;
+    if (accepted) {
+      ratio_ = beyond_ = ratio;
+    } else {
+      beyond_ = report.worst_point < 0 ? std::max(ratio_, ratio) : ratio_;
+    }
+  }
+  bool wants_stop() const { return ratio_ >= failed_; }  ///< Whether the ground has failed.
+  double ratio() const { return ratio_; }                ///< Gradient per load of the last step over that of the first.
+  double beyond() const {
+    return beyond_;
+  }  ///< The same of the last attempt, the last step's where a point has stopped it.
+
+ private:
+  double failed_;
+  double first_ = 0.0;
+  double ratio_ = 1.0;
+  double beyond_ = 1.0;
+};
+
+/// How a load ended.
+struct Collapse {
+  bool failed = false;  ///< the ground has failed, at the load factor after this one
+  double load = 0.0;    ///< last load factor in equilibrium
+  double ratio = 1.0;   ///< displacement gradient per load of the last attempt over that of the first step
+  RunReport run{};      ///< all that is known of the run
+  std::string why{};    ///< in words
+
+  bool stands() const { return run.verdict.acceptable(); }  ///< Whether the load was carried.
+};
+
+/// Raises the load factor of an analysis to `to`, or until the ground fails.
+/// \throws InputError for settings outside of their range
+template <class GridType>
+Collapse find_collapse(Analysis<GridType>& analysis, double to, CollapseSettings const& settings = {}) {
+  detail::validated(settings);
+  CollapseWatch watch(settings.failed);
+  Collapse end;
+  end.run = analysis.to(to, watch);
+  end.load = end.run.load;
+  end.ratio = watch.beyond();
+  bool const is_out_of_balance = end.run.verdict.reason == Reason::step_too_small && end.ratio >= settings.failing;
+  end.failed = !end.stands() && (watch.wants_stop() || is_out_of_balance);
+  end.why =
+      end.failed
+          ? fmt::format(
+                "the ground fails beyond the load factor {:.6g}: displacement gradients per load are {:.3g} times "
+                "those of the first step",
+                end.load, end.ratio)
+          : analysis.why(end.run);
+  return end;
+}
+
+/// Factor by which a strength can be divided.
+struct SafetyFactor {
+  double stands = 0.0;  ///< largest factor in equilibrium
+  double fails = 0.0;   ///< smallest factor at which the ground fails; 0 where none was found
+  std::string why{};    ///< how the last run ended that was not in equilibrium
+
+  bool is_found() const { return stands > 0.0 && fails > 0.0; }  ///< Whether both are known.
+};
+
+/// Strength reduction: make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. Each is loaded to
+/// the load factor 1, between the factors `from` and `to`, which are halved until they are within the tolerance.
+/// \return stands 0 where `from` fails, fails 0 where `to` stands or a run is stopped by something else than failure
+/// \throws InputError for factors that are not positive or not increasing
+template <class MakeModel>
+SafetyFactor reduce_strength(MakeModel const& make_model, double from, double to,
+                             CollapseSettings const& settings = {}) {
+  require_positive("least factor of safety", from);
+  require_at_least("largest factor of safety", to, from);
+  SafetyFactor found;
+  auto const stands = [&](double factor) {
+    auto const model = make_model(factor);
+    Analysis analysis(model, settings.analysis);
+    Collapse const end = find_collapse(analysis, 1.0, settings);
+    if (!end.stands()) found.why = fmt::format("factor {:.4g}: {}", factor, end.why);
+    if (end.stands()) found.stands = factor;
+    if (end.failed) found.fails = factor;
+    return end.stands() || end.failed;
+  };
+  if (!stands(from) || found.fails > 0.0 || !stands(to) || found.stands == to) return found;
+  while (found.fails > found.stands * (1.0 + settings.tolerance)) {
+    if (!stands((found.stands + found.fails) / 2.0)) {
+      found.fails = 0.0;
+      return found;
+    }
+  }
+  return found;
+}
+
+}  // namespace scarp
