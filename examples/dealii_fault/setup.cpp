@@ -151,10 +151,10 @@ void Ground::make_points() {
   std::vector<Row> rows;
   std::vector<dealii::Point<2>> places;
   std::vector<double> volumes;
-  for (auto const& [index, region, at, depth] : sites_) {
+  for (auto const& one : sites_) {
     volumes.push_back(cells_[rows.size() / cell_points].at_rest[rows.size() % cell_points].volume);
-    rows.push_back({1.0 * index, at.x(), at.y(), depth, volumes.back()});
-    places.emplace_back(at.x(), at.y());
+    rows.push_back({1.0 * one.index, one.position.x(), one.position.y(), one.depth, volumes.back()});
+    places.emplace_back(one.position.x(), one.position.y());
   }
   if (!maker_) {
     Sites all;

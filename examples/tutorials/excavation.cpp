@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 // User-defined boundary-value problem: a trench is cut into sand of packings on elastic rock, on a mesh from Gmsh.
-#include <fmt/core.h>
-
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/contact/linear_frictional.hpp"
@@ -14,11 +12,9 @@
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/solver/analysis.hpp"
 
-using Grains = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>;
-
 int main(int count, char** arguments) try {
-  scarp::Model model(scarp::read_gmsh<scarp::Tri6>(
-      count > 1 ? arguments[1] : std::filesystem::path(__FILE__).replace_filename("excavation.msh")));
+  auto const own = std::filesystem::path(__FILE__).replace_filename("excavation.msh");
+  scarp::Model model(scarp::read_gmsh<scarp::Tri6>(count > 1 ? arguments[1] : own));
   model.fix({"left", "right"}, 0);  // rollers
   model.fix({"bottom"}, 1);
   model.gravity(16e3);                                  // [N/m3]
@@ -27,14 +23,11 @@ int main(int count, char** arguments) try {
   model.material("rock", scarp::LinearElastic<2, scarp::GeostaticStress<2>>::from_young_poisson(500e6, 0.25, at_rest));
   // For every depth of the sand a packing that was compressed to the overburden; springs in N/m.
   scarp::LinearFrictional const law{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
-  scarp::LevelGround<scarp::EllipseGrading> const column{
-      .cloud = {.grading = {4e-3, 6e-3, 0.6}, .grains = 200, .density = 2650.0, .thickness = 0.2},
-      .unit_weight = at_rest.unit_weight,
-      .surcharge = at_rest.surcharge};
-  scarp::DemRve sand{law, column.make<Grains>(law, model.depths())};
+  scarp::LevelGround<scarp::EllipseGrading> ground{.unit_weight = at_rest.unit_weight, .surcharge = at_rest.surcharge};
+  ground.cloud = {.grading = {4e-3, 6e-3, 0.6}, .grains = 200, .density = 2650.0, .thickness = 0.2};
+  scarp::DemRve sand{law, ground.make<scarp::Packing<scarp::Ellipse, scarp::LinearFrictional>>(law, model.depths())};
   sand.pressure_floor = at_rest.surcharge / 2.0;
   model.material("sand", scarp::StiffnessFloor{sand});
-
   scarp::Analysis analysis(model, {.solver = {.tolerance = 2e-3, .max_iterations = 40}});
   scarp::FieldSeries series("output/excavation", 1.0, 4, 1.0);  // to load 1, 4 files
   fmt::print("excavated  heave of the floor [mm]  base reaction [kN/m]  steps  iterations\n");
@@ -48,6 +41,5 @@ int main(int count, char** arguments) try {
   fmt::print("base reaction over weight and surcharge: {:.5f}\n", share);  // it carries what is left above it
   return std::abs(share - 1.0) < 2e-3 ? 0 : 1;
 } catch (std::exception const& problem) {
-  fmt::print(stderr, "excavation: {}\n", problem.what());
-  return 2;
+  return fmt::print(stderr, "excavation: {}\n", problem.what()), 2;
 }

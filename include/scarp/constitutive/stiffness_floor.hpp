@@ -110,6 +110,9 @@ struct StiffnessFloor {
   }
 };
 
+template <class Provider, class... Numbers>
+StiffnessFloor(Provider, Numbers...) -> StiffnessFloor<Provider>;
+
 static_assert(ConstitutiveProvider<StiffnessFloor<LinearElastic<2>>>);
 
 }  // namespace scarp
