@@ -98,7 +98,7 @@ Outcome mechanism() {
   bool const named =
       run.verdict.reason == scarp::Reason::singular_system || run.last_failure == scarp::Reason::singular_system;
   return {named && run.weak_dof >= 0 && run.weak_dof % 2 == 0 && watch.attempts < 100,
-          static_cast<double>(watch.attempts), "attempts", describe_dof(problem.discretisation().mesh(), run.weak_dof)};
+          static_cast<double>(watch.attempts), "attempts", describe_dof(problem.grid(), run.weak_dof)};
 }
 
 }  // namespace

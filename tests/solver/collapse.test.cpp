@@ -19,9 +19,9 @@ using Soil = scarp::MohrCoulomb<2>;
 scarp::IsotropicElasticity stiffness() { return scarp::IsotropicElasticity::from_young_poisson(100e6, 0.3); }
 
 /// A slope of 2 to 1 on a rough base, 10 m high, as in Griffiths and Lane (1999), example 1: phi = 20 degrees, c = 0.05 gamma H, no dilation.
-scarp::Model<Grid> slope(double factor) {
+scarp::Model<2> slope(double factor) {
   double const height = 10.0, crest = 12.0, weight = 20e3;
-  scarp::Model<Grid> model(Grid(scarp::BoxMesh<scarp::Quad8>{
+  scarp::Model<2> model(Grid(scarp::BoxMesh<scarp::Quad8>{
       .lengths = scarp::Vector<2>(1.0, height), .cells = {16, 8}, .map = [=](scarp::Vector<2> const& box) {
         return scarp::Vector<2>(box.x() * (crest + 2.0 * (height - box.y())), box.y());
       }}.generate()));
@@ -45,7 +45,7 @@ TEST_CASE("a slope's factor of safety is that of its reference") {
 }
 
 TEST_CASE("a block of clay between smooth platens carries 2 c, and less is carried in words") {
-  scarp::Model<Grid> model(
+  scarp::Model<2> model(
       Grid(scarp::BoxMesh<scarp::Quad8>{.lengths = scarp::Vector<2>(2.0, 2.0), .cells = {2, 2}}.generate()));
   model.fix({"left"}, 0);
   model.fix({"bottom"}, 1);

@@ -226,7 +226,7 @@ TEST_CASE("a body that nothing holds is found out: a singular system, and which 
   auto const run = scarp::LoadStepping{.first = 1.0}.run(scarp::QuasiNewton<>{}, problem, 0.0, 1.0, no_observer);
   CHECK(run.verdict.reason == Reason::singular_system);
   REQUIRE(run.weak_dof >= 0);
-  auto const words = describe_dof(grid.mesh(), run.weak_dof);
+  auto const words = describe_dof(grid, run.weak_dof);
   CHECK(words.find("region adrift") != std::string::npos);
   CHECK(words.find("node ") != std::string::npos);
 }

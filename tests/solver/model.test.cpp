@@ -20,8 +20,8 @@ using Grid = scarp::Discretisation<scarp::Quad4, scarp::SmallStrain, scarp::BBar
 constexpr double height = 4.0, weight = 18e3, young = 40e6;
 
 /// A column of ground, 2 m wide, on rollers.
-scarp::Model<Grid> column() {
-  scarp::Model<Grid> model(
+scarp::Model<2> column() {
+  scarp::Model<2> model(
       Grid(scarp::BoxMesh<scarp::Quad4>{.lengths = scarp::Vector<2>(2.0, height), .cells = {2, 8}}.generate()));
   model.fix({"left", "right"}, 0);
   model.fix({"bottom"});

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "scarp/bvp/grid.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
@@ -25,6 +25,11 @@ class Constraints {
   template <class Element>
   explicit Constraints(Mesh<Element> const& mesh, int extra_dofs = 0)
       : dim_(Element::dim), nodes_(detail::count(mesh.nodes)), motions_(detail::index(dim_ * nodes_ + extra_dofs)) {}
+
+  /// extra_dofs: degrees of freedom that follow those of the nodes
+  template <int Dim>
+  explicit Constraints(Grid<Dim> const& grid, int extra_dofs = 0)
+      : dim_(Dim), nodes_(grid.node_count()), motions_(detail::index(grid.dof_count() + extra_dofs)) {}
 
   /// Holds a node along an axis of space at its place.
   /// \throws InputError for a node or axis that does not exist, or one that is already moved
@@ -128,23 +133,5 @@ class Constraints {
   int nodes_;
   std::vector<std::optional<Motion>> motions_;  ///< by degree of freedom; none of free ones
 };
-
-/// A degree of freedom in words: node, place, axis and the regions that the node belongs to.
-template <class Element>
-std::string describe_dof(Mesh<Element> const& mesh, int dof) {
-  constexpr int dim = Element::dim;
-  int const node = dof / dim;
-  if (dof < 0) return "an unknown degree of freedom";
-  if (node >= detail::count(mesh.nodes))
-    return fmt::format("extra degree of freedom {}", dof - dim * detail::count(mesh.nodes));
-  std::set<std::string> regions;
-  for (int e = 0; e < detail::count(mesh.elements); ++e) {
-    auto const& nodes = mesh.elements[detail::index(e)];
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
-      regions.insert(mesh.regions[detail::index(mesh.element_region[detail::index(e)])]);
-  }
-  return fmt::format("node {} at ({}), axis {}, region {}", node,
-                     listed(mesh.nodes[detail::index(node)], ", ", "{:.6g}"), dof % dim, listed(regions, " and "));
-}
 
 }  // namespace scarp

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +19,25 @@
 #include "scarp/core/precompiled.hpp"
 
 namespace scarp {
+
+namespace detail {
+/// Adds the nodal forces [N] of a cell at its places on the initial mesh: \f$ \int N_a b \f$ with b =
+/// force_at(corners, shape values) over the points of a rule. thickness [m]
+template <class Cell, int Dim, class Rule, class ForceAt>
+void add_cell_forces(std::vector<Vector<Dim>> const& places, double thickness,
+                     std::array<int, Cell::nodes> const& nodes, Rule const& rule, ForceAt const& force_at,
+                     Eigen::VectorXd& forces) {
+  auto const rows = corners<Cell, Dim>(nodes, places);
+  for (auto const& where : rule) {
+    ShapeValues<Cell> const shape = Cell::shape(where.xi);
+    Vector<Dim> const force = force_at(rows, shape);
+    double const size = thickness * where.weight * measure<Cell, Dim>(rows, where.xi);
+    for (int a = 0; a < Cell::nodes; ++a) {
+      forces.template segment<Dim>(Dim * nodes[index(a)]) += shape(a) * size * force;
+    }
+  }
+}
+}  // namespace detail
 
 /// Finite elements on a mesh, see `Grid`: point = (number of an element's material points) * element + its own number,
 /// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
@@ -40,7 +62,13 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   Mesh<Element> const& mesh() const { return mesh_; }  ///< with the nodes where they were at the start
   std::vector<Vector<dim>> const& nodes() const override { return mesh_.nodes; }
   std::vector<std::string> const& regions() const override { return mesh_.regions; }
+  std::unique_ptr<Base> copy() const override { return std::make_unique<Discretisation>(*this); }
+  Cells cells() const override { return cells_of(mesh_); }
+  std::vector<int> boundary_nodes(std::string_view name) const override { return scarp::boundary_nodes(mesh_, name); }
   std::vector<std::vector<int>> regions_of_nodes() const override;
+  Tensor<Element::dim> deformation(int point) const override;
+  Eigen::VectorXd body_force(std::vector<Vector<dim>> const& per_volume) const override;
+  Eigen::VectorXd traction(std::string_view boundary, Vector<dim> const& per_area) const override;
   double thickness() const override { return thickness_; }
   bool turns_stresses() const override { return follows_motion; }
   int point_count() const override { return points_per_element * detail::count(mesh_.elements); }
@@ -159,6 +187,42 @@ std::vector<std::vector<int>> Discretisation<Element, Motion, Scheme>::regions_o
     }
   }
   return regions_of;
+}
+
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
+Tensor<Element::dim> Discretisation<Element, Motion, Scheme>::deformation(int point) const {
+  auto const& nodes = mesh_.elements[detail::index(point / points_per_element)];
+  auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, mesh_.nodes), local_point(point));
+  return corners<Element, dim>(nodes, positions()).transpose().lazyProduct(shape.gradients);
+}
+
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
+Eigen::VectorXd Discretisation<Element, Motion, Scheme>::body_force(std::vector<Vector<dim>> const& per_volume) const {
+  if (per_volume.size() != mesh_.regions.size()) {
+    reject("forces per volume are given for {} regions (the mesh has {}: {}): give one for each", per_volume.size(),
+           mesh_.regions.size(), listed(mesh_.regions));
+  }
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
+  for (int e = 0; e < detail::count(mesh_.elements); ++e) {
+    auto const& force = per_volume[detail::index(mesh_.element_region[detail::index(e)])];
+    detail::add_cell_forces<Element>(
+        mesh_.nodes, thickness_, mesh_.elements[detail::index(e)],
+        Element::quadrature(), [&](auto const&, auto const&) -> auto const& { return force; }, forces);
+  }
+  return forces;
+}
+
+template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
+Eigen::VectorXd Discretisation<Element, Motion, Scheme>::traction(std::string_view boundary,
+                                                                  Vector<dim> const& per_area) const {
+  using Facet = typename Element::Facet;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
+  for (auto const& facet : scarp::boundary(mesh_, boundary)) {
+    detail::add_cell_forces<Facet>(
+        mesh_.nodes, thickness_, facet,
+        Facet::quadrature(), [&](auto const&, auto const&) -> auto const& { return per_area; }, forces);
+  }
+  return forces;
 }
 
 template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/mesh/cells.hpp"
 
 namespace scarp {
 
@@ -29,14 +33,33 @@ class Grid {
   int node_count() const { return detail::count(positions_); }              ///< of the mesh
   int dof_count() const { return Dim * node_count(); }                      ///< of all nodes
 
-  virtual std::vector<Vector<Dim>> const& nodes() const = 0;           ///< Positions [m] at the start.
-  virtual std::vector<std::string> const& regions() const = 0;         ///< Names, by number.
+  virtual std::vector<Vector<Dim>> const& nodes() const = 0;    ///< Positions [m] at the start.
+  virtual std::vector<std::string> const& regions() const = 0;  ///< Names, by number.
+  virtual std::unique_ptr<Grid> copy() const = 0;               ///< With the same committed positions.
+  virtual Cells cells() const = 0;                              ///< Its elements.
+  /// Nodes of a boundary, sorted, each once. \throws InputError for an unknown or empty one
+  virtual std::vector<int> boundary_nodes(std::string_view name) const = 0;
   virtual std::vector<std::vector<int>> regions_of_nodes() const = 0;  ///< Regions of each node's elements, each once.
   virtual double thickness() const = 0;                                ///< out of the plane [m]; 1 in space
   virtual bool turns_stresses() const = 0;                             ///< Whether nodes move from step to step.
   virtual int point_count() const = 0;                                 ///< Material points of all elements.
   virtual int first_point(int element) const = 0;                      ///< Those of an element follow one another.
   virtual Site<Dim> site(int point, double surface_level) const = 0;   ///< Where a point is, and its depth [m].
+
+  /// Gradient of the committed with respect to the initial position at a point; what its material sees may differ, see
+  /// MeanDilatation.
+  virtual Tensor<Dim> deformation(int point) const = 0;
+
+  /// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
+  /// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
+  /// per_volume: b [N/m3] of every region of the mesh
+  /// \throws InputError unless there is one for each region
+  virtual Eigen::VectorXd body_force(std::vector<Vector<Dim>> const& per_volume) const = 0;
+
+  /// Nodal forces [N], shape (dof_count), consistent with a force per area [Pa] on a boundary of the initial mesh:
+  /// \f$ f_a = \int N_a t\,dA \f$. A dead load: it follows neither the size nor the direction of the deformed boundary.
+  /// \throws InputError for an unknown boundary
+  virtual Eigen::VectorXd traction(std::string_view boundary, Vector<Dim> const& per_area) const = 0;
 
   /// Displacement gradient of the increment at every point.
   /// increment [m], shape (dof_count); out: shape (point_count), always filled
@@ -106,5 +129,24 @@ class Grid {
  private:
   std::vector<Vector<Dim>> positions_;
 };
+
+/// Number of a region. \throws InputError for an unknown name, listing the known ones
+template <int Dim>
+int region_number(Grid<Dim> const& grid, std::string_view name) {
+  return detail::region_among(grid.regions(), name);
+}
+
+/// A degree of freedom in words: node, place, axis and the regions that the node belongs to.
+template <int Dim>
+std::string describe_dof(Grid<Dim> const& grid, int dof) {
+  int const node = dof / Dim;
+  if (dof < 0) return "an unknown degree of freedom";
+  if (node >= grid.node_count()) return fmt::format("extra degree of freedom {}", dof - grid.dof_count());
+  std::set<std::string> regions;
+  auto const of_nodes = grid.regions_of_nodes();
+  for (int const region : of_nodes[detail::index(node)]) regions.insert(grid.regions()[detail::index(region)]);
+  return fmt::format("node {} at ({}), axis {}, region {}", node,
+                     listed(grid.nodes()[detail::index(node)], ", ", "{:.6g}"), dof % Dim, listed(regions, " and "));
+}
 
 }  // namespace scarp

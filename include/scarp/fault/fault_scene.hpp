@@ -198,12 +198,10 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
 #ifdef SCARP_PRECOMPILED
 /// What `scarp::precompiled` has of level ground over a normal fault: meshes and loads of the usual elements, and the problem of triangles.
 /// DECLARE: `extern template`, or `template` in the library.
-#define SCARP_GROUND(DECLARE, ELEMENT)                                                                         \
-  DECLARE Mesh<ELEMENT> FaultMesh::generate<ELEMENT>(std::vector<double> const&) const;                        \
-  DECLARE void require_node_at_tip(Mesh<ELEMENT> const&, double);                                              \
-  DECLARE Constraints bedrock_constraints(Mesh<ELEMENT> const&, NormalFault const&, int, TimeFunction const&); \
-  DECLARE Eigen::VectorXd body_force(DefaultGrid<ELEMENT> const&, std::vector<Vector<2>> const&);              \
-  DECLARE Eigen::VectorXd traction(DefaultGrid<ELEMENT> const&, std::string_view, Vector<2> const&);
+#define SCARP_GROUND(DECLARE, ELEMENT)                                                  \
+  DECLARE Mesh<ELEMENT> FaultMesh::generate<ELEMENT>(std::vector<double> const&) const; \
+  DECLARE void require_node_at_tip(Mesh<ELEMENT> const&, double);                       \
+  DECLARE Constraints bedrock_constraints(Mesh<ELEMENT> const&, NormalFault const&, int, TimeFunction const&);
 
 SCARP_GROUND(extern template, Tri3)
 SCARP_GROUND(extern template, Tri6)

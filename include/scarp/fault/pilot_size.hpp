@@ -77,7 +77,7 @@ std::vector<Vector<2>> strained_places(Problem const& problem, double share) {
   for (int point = 0; point < grid.point_count(); ++point) {
     auto& part = parts[detail::index(point / Grid::points_per_element)];
     double const volume = volumes[detail::index(point)];
-    double const strain = volume * geo::strain<2>(total_deformation(grid, point)).deviatoric;
+    double const strain = volume * geo::strain<2>(grid.deformation(point)).deviatoric;
     part.volume += volume;
     part.strain += strain;
     all += strain;

@@ -19,7 +19,7 @@
 #include "scarp/core/error.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/json.hpp"
-#include "scarp/mesh/mesh.hpp"
+#include "scarp/mesh/cells.hpp"
 
 namespace scarp {
 
@@ -173,50 +173,52 @@ inline std::string vtu_fields(std::vector<VtuField> const& fields, std::string_v
   return text + fmt::format("</{}>\n", tag);
 }
 
-template <class Element>
-std::string vtu_cells(Mesh<Element> const& mesh) {
-  std::vector<std::int32_t> connectivity;
+inline std::string vtu_cells(Cells const& cells) {
   std::vector<std::int32_t> offsets;
-  for (auto const& element : mesh.elements) {
-    connectivity.insert(connectivity.end(), element.begin(), element.end());
-    offsets.push_back(count(connectivity));
-  }
-  std::vector<std::uint8_t> const types(mesh.elements.size(), static_cast<std::uint8_t>(Element::vtk_cell_type));
-  return "<Cells>\n" + vtu_array("connectivity", 1, connectivity) + vtu_array("offsets", 1, offsets) +
+  for (int end = 1; end <= cells.count(); ++end) offsets.push_back(end * cells.nodes);
+  std::vector<std::uint8_t> const types(cells.regions.size(), cells.vtk_type);
+  return "<Cells>\n" + vtu_array("connectivity", 1, cells.connectivity) + vtu_array("offsets", 1, offsets) +
          vtu_array("types", 1, types) + "</Cells>\n";
 }
 
 }  // namespace detail
 
 /// Writes an unstructured grid for ParaView and the like: XML with inline base64 binary, in full precision.
-/// positions [m]: of the nodes, such as the deformed ones, shape (nodes of the mesh). The region of every element is
-/// added as the cell field "region".
-/// \throws InputError for fields or positions of the wrong length, and for names of fields that are there twice or no text
+/// positions [m]: of the nodes, such as the deformed ones. The region of every element is added as the cell field "region".
+/// \throws InputError for fields of the wrong length, and for names of fields that are there twice or no text
 /// \throws FileError when the file cannot be written; an older file of this name is then untouched
-template <class Element>
-void write_vtu(std::filesystem::path const& path, Mesh<Element> const& mesh,
-               std::vector<Vector<Element::dim>> const& positions, VtuFields const& fields = {}) {
-  constexpr int dim = Element::dim;
+template <int Dim>
+void write_vtu(std::filesystem::path const& path, Cells const& cells, std::vector<Vector<Dim>> const& positions,
+               VtuFields const& fields = {}) {
+  constexpr int dim = Dim;
   constexpr bool little = std::endian::native == std::endian::little;
-  if (positions.size() != mesh.nodes.size()) {
-    reject("{} positions are given (the mesh has {} nodes): give one for each", positions.size(), mesh.nodes.size());
-  }
   std::vector<double> flat;
   for (auto const& position : positions) {
     flat.insert(flat.end(), position.begin(), position.end());
   }
   auto at_elements = fields.at_elements;
-  at_elements.push_back({"region", 1, std::span<int const>(mesh.element_region), {}});
+  at_elements.push_back({"region", 1, std::span<int const>(cells.regions), {}});
   auto const points = detail::vtk_padded<double>(flat, 1, dim, 1, 3);
   write_file(
       path, fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
                         "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" "
                         "NumberOfCells=\"{}\">\n",
-                        little ? "LittleEndian" : "BigEndian", mesh.nodes.size(), mesh.elements.size()) +
-                "<Points>\n" + detail::vtu_array("Points", 3, points) + "</Points>\n" + detail::vtu_cells(mesh) +
-                detail::vtu_fields(fields.at_nodes, "PointData", mesh.nodes.size(), "nodes", dim) +
-                detail::vtu_fields(at_elements, "CellData", mesh.elements.size(), "elements", dim) +
+                        little ? "LittleEndian" : "BigEndian", positions.size(), cells.count()) +
+                "<Points>\n" + detail::vtu_array("Points", 3, points) + "</Points>\n" + detail::vtu_cells(cells) +
+                detail::vtu_fields(fields.at_nodes, "PointData", positions.size(), "nodes", dim) +
+                detail::vtu_fields(at_elements, "CellData", cells.regions.size(), "elements", dim) +
                 "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+}
+
+/// Of a mesh.
+/// \throws InputError also for another number of positions than nodes
+template <class Element>
+void write_vtu(std::filesystem::path const& path, Mesh<Element> const& mesh,
+               std::vector<Vector<Element::dim>> const& positions, VtuFields const& fields = {}) {
+  if (positions.size() != mesh.nodes.size()) {
+    reject("{} positions are given (the mesh has {} nodes): give one for each", positions.size(), mesh.nodes.size());
+  }
+  write_vtu<Element::dim>(path, cells_of(mesh), positions, fields);
 }
 
 /// A time series of VTU files in one folder, listed in `<folder>/<name>.pvd`, which ParaView opens as one animation.

@@ -219,14 +219,21 @@ std::vector<int> boundary_nodes(Mesh<Element> const& mesh, std::string_view name
   return numbers;
 }
 
+namespace detail {
+/// \throws InputError for an unknown name, listing the known ones
+inline int region_among(std::vector<std::string> const& regions, std::string_view name) {
+  auto const found = std::find(regions.begin(), regions.end(), name);
+  if (found == regions.end()) {
+    reject("there is no region '{}' (the mesh has: {}): use one of these names", name, listed(regions));
+  }
+  return static_cast<int>(found - regions.begin());
+}
+}  // namespace detail
+
 /// \throws InputError for an unknown name, listing the known ones
 template <class Element>
 int region_number(Mesh<Element> const& mesh, std::string_view name) {
-  auto const found = std::find(mesh.regions.begin(), mesh.regions.end(), name);
-  if (found == mesh.regions.end()) {
-    reject("there is no region '{}' (the mesh has: {}): use one of these names", name, listed(mesh.regions));
-  }
-  return static_cast<int>(found - mesh.regions.begin());
+  return detail::region_among(mesh.regions, name);
 }
 
 /// Extent of nodes along the axis where they reach farthest [m].

@@ -53,7 +53,7 @@ Distortion<DiscretisationType::dim> largest_distortion(DiscretisationType const&
     auto const nodes = corners<Element, dim>(grid.mesh().elements[static_cast<std::size_t>(element)], grid.positions());
     double const ratio = mean_ratio<Element>(nodes, DiscretisationType::local_point(point).xi);
     if (worst.element >= 0 && ratio >= worst.mean_ratio) continue;
-    Tensor<dim> const moved = total_deformation(grid, point);
+    Tensor<dim> const moved = grid.deformation(point);
     double const volume = moved.determinant();
     double const lengths = volume > 0.0 ? moved.squaredNorm() / std::pow(volume, 2.0 / dim) - dim : 0.0;
     worst = {ratio, std::sqrt(std::max(lengths, 0.0)), element, nodes.colwise().mean().transpose()};

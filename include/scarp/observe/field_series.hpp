@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
+#include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/observe/deformation.hpp"
@@ -43,22 +44,22 @@ struct ElementFields {
 /// Means over the elements' points of what is committed, weighted by the points' present volumes.
 template <class Problem>
 ElementFields element_fields(Problem const& problem) {
-  auto const& grid = problem.discretisation();
-  using Grid = std::remove_cvref_t<decltype(grid)>;
-  std::size_t const elements = grid.mesh().elements.size();
+  constexpr int dim = Problem::dim;
+  auto const& grid = problem.grid();
+  std::size_t const elements = index(grid.cells().count());
   ElementFields fields;
   auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
   for (std::size_t e = 0; e < elements; ++e) {
-    VoigtStress<Grid::dim> stress = VoigtStress<Grid::dim>::Zero();
+    VoigtStress<dim> stress = VoigtStress<dim>::Zero();
     geo::Strain strain{};
     std::map<std::string, Mean> means;  // of the points that have the quantity
     Status worst = Status::ok;
     double whole = 0.0;
-    for (int k = 0; k < Grid::points_per_element; ++k) {
-      int const point = Grid::points_per_element * static_cast<int>(e) + k;
+    int const element = static_cast<int>(e);
+    for (int point = grid.first_point(element); point < grid.first_point(element + 1); ++point) {
       double const volume = volumes[static_cast<std::size_t>(point)];
       whole += volume;
-      auto const here = geo::strain<Grid::dim>(total_deformation(grid, point));
+      auto const here = geo::strain<dim>(grid.deformation(point));
       strain.volumetric += volume * here.volumetric;
       strain.deviatoric += volume * here.deviatoric;
       worst = std::max(worst, problem.responses()[static_cast<std::size_t>(point)].verdict.status);
@@ -114,21 +115,19 @@ class FieldSeries : public NeverStops {
  private:
   template <class Problem>
   void write(Problem const& problem, double load) {
-    auto const& grid = problem.discretisation();
-    auto const& mesh = grid.mesh();
-    using Grid = std::remove_cvref_t<decltype(grid)>;
+    constexpr int dim = Problem::dim;
+    auto const& grid = problem.grid();
     std::vector<double> displacement;
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-      auto const moved = (grid.positions()[n] - mesh.nodes[n]).eval();
+    for (std::size_t n = 0; n < grid.nodes().size(); ++n) {
+      auto const moved = (grid.positions()[n] - grid.nodes()[n]).eval();
       displacement.insert(displacement.end(), moved.begin(), moved.end());
     }
     auto const at_elements = detail::element_fields(problem);
     VtuFields fields;
-    fields.at_nodes.push_back({"displacement", Grid::dim, std::span<double const>(displacement), {}});
+    fields.at_nodes.push_back({"displacement", dim, std::span<double const>(displacement), {}});
     std::vector<std::string> components{"xx", "yy", "xy"};
-    if constexpr (Grid::dim == 3) components = {"xx", "yy", "zz", "yz", "zx", "xy"};
-    fields.at_elements.push_back(
-        {"stress", voigt_size<Grid::dim>, std::span<double const>(at_elements.stress), components});
+    if constexpr (dim == 3) components = {"xx", "yy", "zz", "yz", "zx", "xy"};
+    fields.at_elements.push_back({"stress", voigt_size<dim>, std::span<double const>(at_elements.stress), components});
     fields.at_elements.push_back({"volumetric_strain", 1, std::span<double const>(at_elements.volumetric), {}});
     fields.at_elements.push_back({"deviatoric_strain", 1, std::span<double const>(at_elements.deviatoric), {}});
     fields.at_elements.push_back({"status", 1, std::span<int const>(at_elements.status), {}});
@@ -141,7 +140,7 @@ class FieldSeries : public NeverStops {
     auto const file = std::filesystem::path("fields") / fmt::format("step_{:04}.vtu", frame_++);
     std::error_code unmade;  // writing the file rejects it
     std::filesystem::create_directories(folder_ / "fields", unmade);
-    write_vtu(folder_ / file, mesh, grid.positions(), fields);
+    write_vtu<dim>(folder_ / file, grid.cells(), grid.positions(), fields);
     series_.add(load / schedule_.unit, file);
   }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "scarp/bvp/constraints.hpp"
+#include "scarp/bvp/grid.hpp"
 #include "scarp/observe/observers.hpp"
 
 namespace scarp {
@@ -52,10 +52,9 @@ class Progress : public NeverStops {
 
   template <class Problem>
   static std::string where(Problem const& problem, StepReport const& report) {
-    if (report.weak_dof >= 0)
-      return fmt::format(", nothing holds {}", describe_dof(problem.discretisation().mesh(), report.weak_dof));
+    if (report.weak_dof >= 0) return fmt::format(", nothing holds {}", describe_dof(problem.grid(), report.weak_dof));
     if (report.worst_point < 0) return "";
-    auto const place = problem.discretisation().site(report.worst_point, 0.0).position;
+    auto const place = problem.grid().site(report.worst_point, 0.0).position;
     return fmt::format(" at point {} ({:.2f}, {:.2f})", report.worst_point, place(0), place(1));
   }
 

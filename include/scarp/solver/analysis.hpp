@@ -29,14 +29,14 @@ struct AnalysisSettings {
 /// if (!run.verdict.acceptable()) fmt::print(stderr, "{}\n", analysis.why(run));
 /// fmt::print("{} m, {} N\n", analysis.displacement("crest", 1), analysis.reaction("bottom").y());
 /// \endcode
-template <class GridType>
+template <int Dim>
 class Analysis {
  public:
-  static constexpr int dim = GridType::dim;      ///< of space
-  using Problem = EquilibriumProblem<GridType>;  ///< what solvers and observers get
+  static constexpr int dim = Dim;       ///< of space
+  using Problem = scarp::Problem<Dim>;  ///< what solvers and observers get
 
   /// \throws InputError when the model's parts do not fit together
-  explicit Analysis(Model<GridType> const& model, AnalysisSettings const& settings = {})
+  explicit Analysis(Model<Dim> const& model, AnalysisSettings const& settings = {})
       : settings_(settings),
         executor_(settings.threads),
         problem_(model.problem(executor_)),
@@ -63,9 +63,9 @@ class Analysis {
   /// Displacement [m] of a boundary's node that has moved farthest along an axis, with its sign.
   /// \throws InputError for an unknown boundary
   double displacement(std::string_view side, int axis) const {
-    auto const& grid = problem_.discretisation();
+    auto const& grid = problem_.grid();
     double farthest = 0.0;
-    for (int const node : boundary_nodes(grid.mesh(), side)) {
+    for (int const node : grid.boundary_nodes(side)) {
       auto const k = detail::index(node);
       double const moved = grid.positions()[k](axis) - grid.nodes()[k](axis);
       if (std::abs(moved) > std::abs(farthest)) farthest = moved;
@@ -76,12 +76,12 @@ class Analysis {
   /// Force [N] of the support of a boundary: what its nodes carry less their loads.
   /// \throws InputError for an unknown boundary
   Vector<dim> reaction(std::string_view side) const {
-    auto const& grid = problem_.discretisation();
+    auto const& grid = problem_.grid();
     Eigen::VectorXd forces;
     grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.balanced_stresses(), forces);
     forces -= external_.at(load_);
     Vector<dim> sum = Vector<dim>::Zero();
-    for (int const node : boundary_nodes(grid.mesh(), side)) sum += forces.template segment<dim>(dim * node);
+    for (int const node : grid.boundary_nodes(side)) sum += forces.template segment<dim>(dim * node);
     return sum;
   }
 
@@ -97,7 +97,7 @@ class Analysis {
           fmt::format(" at point {} (region {}, at {})", run.worst_point,
                       problem_.grid().regions()[detail::index(site.region)], listed(site.position, ", ", "{:.4g}"));
     }
-    if (run.weak_dof >= 0) words += ", nothing holds " + describe_dof(problem_.discretisation().mesh(), run.weak_dof);
+    if (run.weak_dof >= 0) words += ", nothing holds " + describe_dof(problem_.grid(), run.weak_dof);
     return words;
   }
 

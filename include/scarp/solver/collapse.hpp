@@ -74,8 +74,8 @@ struct Collapse {
 
 /// Raises the load factor of an analysis to `to`, or until the ground fails.
 /// \throws InputError for settings outside of their range
-template <class GridType>
-Collapse find_collapse(Analysis<GridType>& analysis, double to, CollapseSettings const& settings = {}) {
+template <int Dim>
+Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings const& settings = {}) {
   detail::validated(settings);
   CollapseWatch watch(settings.failed);
   Collapse end;

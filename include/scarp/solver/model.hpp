@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,37 +31,40 @@ namespace scarp {
 /// The materials' initial stresses need not balance the loads: what is missing is held by forces which fade while the load factor
 /// goes from 0 to 1, and the loads grow meanwhile. That is how ground is balanced, and how it is excavated: give the mesh without
 /// what is taken away, and the stress that was there. Then the load factor drives what has an amplitude of its own.
-/// \tparam GridType a `Discretisation`
-template <class GridType>
+template <int Dim>
 class Model {
  public:
-  static constexpr int dim = GridType::dim;               ///< of space
+  static constexpr int dim = Dim;                         ///< of space
   using Sides = std::initializer_list<std::string_view>;  ///< names of boundaries
 
   /// Elements, kinematics and integration of the program's choice.
-  explicit Model(GridType grid)
-      : grid_(std::move(grid)), constraints_(grid_.mesh()), weights_(grid_.mesh().regions.size()) {}
+  explicit Model(std::unique_ptr<Grid<Dim>> grid)
+      : grid_(std::move(grid)), constraints_(*grid_), weights_(grid_->regions().size()) {}
+  /// As above, by value.
+  template <std::derived_from<Grid<Dim>> GridType>
+  explicit Model(GridType grid) : Model(std::make_unique<GridType>(std::move(grid))) {}
   /// Updated Lagrangian elements with their default integration; thickness [m] out of the plane.
-  explicit Model(Mesh<typename GridType::ElementType> mesh, double thickness = 1.0)
-      : Model(GridType(std::move(mesh), thickness)) {}
+  template <class Element>
+  explicit Model(Mesh<Element> mesh, double thickness = 1.0)
+      : Model(DefaultGrid<Element>(std::move(mesh), thickness)) {}
 
-  GridType const& grid() const { return grid_; }  ///< Mesh and elements.
+  Grid<Dim> const& grid() const { return *grid_; }  ///< Mesh and elements.
 
   /// Height [m] from which depths are measured: that of the highest node unless it was set.
   double surface_level() const {
     if (level_) return *level_;
     auto const above = [](auto const& a, auto const& b) { return a(dim - 1) < b(dim - 1); };
-    return (*std::ranges::max_element(grid_.nodes(), above))(dim - 1);
+    return (*std::ranges::max_element(grid_->nodes(), above))(dim - 1);
   }
   void set_surface_level(double height) { level_ = require_finite("level of the ground surface", height); }  ///< [m]
 
   /// Where the material points of a region are, of all without a name.
   /// \throws InputError for an unknown region
   std::vector<Site<dim>> sites(std::string_view region = {}) const {
-    int const number = region.empty() ? -1 : region_number(grid_.mesh(), region);
+    int const number = region.empty() ? -1 : region_number(*grid_, region);
     std::vector<Site<dim>> found;
-    for (int point = 0; point < grid_.point_count(); ++point) {
-      auto const site = grid_.site(point, surface_level());
+    for (int point = 0; point < grid_->point_count(); ++point) {
+      auto const site = grid_->site(point, surface_level());
       if (number < 0 || site.region == number) found.push_back(site);
     }
     return found;
@@ -84,7 +89,7 @@ class Model {
   /// \throws InputError for an unknown boundary or axis, and nodes that are moved in another way already
   void move(Sides sides, int axis, double rate, TimeFunction const& amplitude = {}) {
     for (auto const side : sides)
-      for (int const node : boundary_nodes(grid_.mesh(), side)) constraints_.move(node, axis, rate, amplitude);
+      for (int const node : grid_->boundary_nodes(side)) constraints_.move(node, axis, rate, amplitude);
   }
 
   /// Any provider, or a `Nonlocal` one, for the points of a region.
@@ -99,13 +104,13 @@ class Model {
   /// Weight of one region [N/m3].
   /// \throws InputError for an unknown region
   void gravity(std::string_view region, double unit_weight) {
-    weights_[detail::index(region_number(grid_.mesh(), region))] = require_not_negative("unit weight", unit_weight);
+    weights_[detail::index(region_number(*grid_, region))] = require_not_negative("unit weight", unit_weight);
   }
   /// Force per area [Pa] on boundaries of the initial mesh, grown to its full size at the load factor 1, or with an amplitude.
   /// \throws InputError for an unknown boundary
   void traction(Sides sides, Vector<dim> const& per_area, std::optional<TimeFunction> amplitude = {}) {
     for (auto const side : sides) {
-      Eigen::VectorXd const forces = scarp::traction(grid_, side, per_area);
+      Eigen::VectorXd const forces = grid_->traction(side, per_area);
       if (amplitude) {
         later_.add(forces, *amplitude);
       } else {
@@ -123,13 +128,13 @@ class Model {
   /// Stress of ground at rest below the last surcharge, with the unit weight of a region, or that of the first one.
   /// \throws InputError for an unknown region
   GeostaticStress<dim> geostatic(double k0, std::string_view region = {}) const {
-    int const number = region.empty() ? 0 : region_number(grid_.mesh(), region);
+    int const number = region.empty() ? 0 : region_number(*grid_, region);
     return {.surcharge = surcharge_, .unit_weight = weights_[detail::index(number)], .k0 = k0};
   }
 
   /// Weight and surcharges [N], shape (dof_count), without those that have an amplitude of their own.
   Eigen::VectorXd dead_loads() const {
-    Eigen::VectorXd forces = body_force(grid_, [&](int region) -> Vector<dim> {
+    Eigen::VectorXd forces = body_force(*grid_, [&](int region) -> Vector<dim> {
       return -weights_[detail::index(region)] * Vector<dim>::Unit(dim - 1);
     });
     for (auto const& traction : tractions_) forces += traction;
@@ -144,19 +149,19 @@ class Model {
 
   /// For solvers. The executor outlives the problem.
   /// \throws InputError when the parts do not fit together
-  EquilibriumProblem<GridType> problem(Executor const& executor) const {
+  Problem<Dim> problem(Executor const& executor) const {
     std::optional<MaterialPoints<dim>> points;
-    executor.together([&] { points.emplace(make_points(grid_, surface_level(), regions_, executor)); });
+    executor.together([&] { points.emplace(make_points(*grid_, surface_level(), regions_, executor)); });
     Eigen::VectorXd before;
-    grid_.internal_force(Eigen::VectorXd::Zero(grid_.dof_count()), points->balanced_stresses(executor), before);
+    grid_->internal_force(Eigen::VectorXd::Zero(grid_->dof_count()), points->balanced_stresses(executor), before);
     LoadHistory loads = later_;
     loads.add(before, TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
     loads.add(dead_loads(), TimeFunction::ramp(0.0, 1.0));
-    return {grid_, std::move(*points), constraints_, std::move(loads), executor};
+    return {grid_->copy(), std::move(*points), constraints_, std::move(loads), executor};
   }
 
  private:
-  GridType grid_;
+  std::unique_ptr<Grid<Dim>> grid_;
   Constraints constraints_;
   std::vector<Region<AnyProvider<dim>>> regions_;
   std::vector<double> weights_;  ///< of the regions [N/m3]
@@ -167,6 +172,8 @@ class Model {
 };
 
 template <class Element>
-Model(Mesh<Element>, double = 1.0) -> Model<DefaultGrid<Element>>;
+Model(Mesh<Element>, double = 1.0) -> Model<Element::dim>;
+template <class GridType>
+Model(GridType) -> Model<GridType::dim>;
 
 }  // namespace scarp
