@@ -29,11 +29,11 @@ using DefaultGrid = Discretisation<Element, UpdatedLagrangian, DefaultIntegratio
 
 #ifdef SCARP_PRECOMPILED
 /// DECLARE: `extern template`, or `template` in the library.
-#define SCARP_GRIDS(DECLARE)                                                         \
-  DECLARE class Discretisation<Tri3, UpdatedLagrangian, DefaultIntegration<Tri3>>;   \
-  DECLARE class Discretisation<Tri6, UpdatedLagrangian, DefaultIntegration<Tri6>>;   \
-  DECLARE class Discretisation<Quad4, UpdatedLagrangian, DefaultIntegration<Quad4>>; \
-  DECLARE class Discretisation<Quad8, UpdatedLagrangian, DefaultIntegration<Quad8>>;
+#define SCARP_GRIDS(DECLARE) \
+  SCARP_GRID(DECLARE, Tri3) SCARP_GRID(DECLARE, Tri6) SCARP_GRID(DECLARE, Quad4) SCARP_GRID(DECLARE, Quad8)
+#define SCARP_GRID(DECLARE, ELEMENT)           \
+  DECLARE void validate(Mesh<ELEMENT> const&); \
+  DECLARE class Discretisation<ELEMENT, UpdatedLagrangian, DefaultIntegration<ELEMENT>>;
 SCARP_GRIDS(extern template)
 #endif
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/element/map.hpp"
 #include "scarp/mesh/windings.hpp"
 
@@ -177,7 +178,7 @@ void validate_boundaries(Mesh<Element> const& mesh) {
 /// \throws InputError for an empty mesh, wrong node or region numbers, positions that are not finite, unused nodes,
 /// elements without positive volume, boundary facets that are no element's side, and such that are there twice
 template <class Element>
-void validate(Mesh<Element> const& mesh) {
+SCARP_EXPORT void validate(Mesh<Element> const& mesh) {
   detail::validate_sizes(mesh);
   detail::validate_nodes(mesh);
   detail::validate_jacobians(mesh);

@@ -30,18 +30,13 @@ struct AnalysisSettings {
 /// fmt::print("{} m, {} N\n", analysis.displacement("crest", 1), analysis.reaction("bottom").y());
 /// \endcode
 template <int Dim>
-class Analysis {
+class SCARP_EXPORT Analysis {
  public:
   static constexpr int dim = Dim;       ///< of space
   using Problem = scarp::Problem<Dim>;  ///< what solvers and observers get
 
   /// \throws InputError when the model's parts do not fit together
-  explicit Analysis(Model<Dim> const& model, AnalysisSettings const& settings = {})
-      : settings_(settings),
-        executor_(settings.threads),
-        problem_(model.problem(executor_)),
-        external_(model.external_loads()),
-        session_(settings_.solver, problem_) {}
+  explicit Analysis(Model<Dim> const& model, AnalysisSettings const& settings = {});
 
   Problem const& problem() const { return problem_; }  ///< Mesh, points, committed state.
   Problem& problem() { return problem_; }              ///< For callers that change states between stages.
@@ -55,51 +50,18 @@ class Analysis {
     load_ = run.load;
     return run;
   }
-  RunReport to(double load) {
-    NoObserver observer;
-    return to(load, observer);
-  }
+  RunReport to(double load);  ///< Without an observer.
 
   /// Displacement [m] of a boundary's node that has moved farthest along an axis, with its sign.
   /// \throws InputError for an unknown boundary
-  double displacement(std::string_view side, int axis) const {
-    auto const& grid = problem_.grid();
-    double farthest = 0.0;
-    for (int const node : grid.boundary_nodes(side)) {
-      auto const k = detail::index(node);
-      double const moved = grid.positions()[k](axis) - grid.nodes()[k](axis);
-      if (std::abs(moved) > std::abs(farthest)) farthest = moved;
-    }
-    return farthest;
-  }
+  double displacement(std::string_view side, int axis) const;
 
   /// Force [N] of the support of a boundary: what its nodes carry less their loads.
   /// \throws InputError for an unknown boundary
-  Vector<dim> reaction(std::string_view side) const {
-    auto const& grid = problem_.grid();
-    Eigen::VectorXd forces;
-    grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.balanced_stresses(), forces);
-    forces -= external_.at(load_);
-    Vector<dim> sum = Vector<dim>::Zero();
-    for (int const node : grid.boundary_nodes(side)) sum += forces.template segment<dim>(dim * node);
-    return sum;
-  }
+  Vector<Dim> reaction(std::string_view side) const;
 
   /// A run's end in words: where it stopped and why the last attempt was rejected.
-  std::string why(RunReport const& run) const {
-    if (run.verdict.acceptable()) return fmt::format("the load factor {:.6g} was reached", run.load);
-    std::string words = fmt::format("stopped at the load factor {:.6g}: {}", run.load, name(run.verdict.reason));
-    if (run.last_failure != Reason::none && run.last_failure != run.verdict.reason)
-      words += fmt::format(", after {}", name(run.last_failure));
-    if (run.worst_point >= 0) {
-      auto const site = problem_.grid().site(run.worst_point, 0.0);
-      words +=
-          fmt::format(" at point {} (region {}, at {})", run.worst_point,
-                      problem_.grid().regions()[detail::index(site.region)], listed(site.position, ", ", "{:.4g}"));
-    }
-    if (run.weak_dof >= 0) words += ", nothing holds " + describe_dof(problem_.grid(), run.weak_dof);
-    return words;
-  }
+  std::string why(RunReport const& run) const;
 
  private:
   AnalysisSettings settings_;
@@ -109,5 +71,64 @@ class Analysis {
   typename QuasiNewton<>::template Session<Problem> session_;
   double load_ = 0.0;
 };
+
+// Outside of the class, so that a library can contain them.
+
+template <int Dim>
+Analysis<Dim>::Analysis(Model<Dim> const& model, AnalysisSettings const& settings)
+    : settings_(settings),
+      executor_(settings.threads),
+      problem_(model.problem(executor_)),
+      external_(model.external_loads()),
+      session_(settings_.solver, problem_) {}
+
+template <int Dim>
+RunReport Analysis<Dim>::to(double load) {
+  NoObserver observer;
+  return to(load, observer);
+}
+
+template <int Dim>
+double Analysis<Dim>::displacement(std::string_view side, int axis) const {
+  auto const& grid = problem_.grid();
+  double farthest = 0.0;
+  for (int const node : grid.boundary_nodes(side)) {
+    auto const k = detail::index(node);
+    double const moved = grid.positions()[k](axis) - grid.nodes()[k](axis);
+    if (std::abs(moved) > std::abs(farthest)) farthest = moved;
+  }
+  return farthest;
+}
+
+template <int Dim>
+Vector<Dim> Analysis<Dim>::reaction(std::string_view side) const {
+  auto const& grid = problem_.grid();
+  Eigen::VectorXd forces;
+  grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.balanced_stresses(), forces);
+  forces -= external_.at(load_);
+  Vector<dim> sum = Vector<dim>::Zero();
+  for (int const node : grid.boundary_nodes(side)) sum += forces.template segment<dim>(dim * node);
+  return sum;
+}
+
+template <int Dim>
+std::string Analysis<Dim>::why(RunReport const& run) const {
+  if (run.verdict.acceptable()) return fmt::format("the load factor {:.6g} was reached", run.load);
+  std::string words = fmt::format("stopped at the load factor {:.6g}: {}", run.load, name(run.verdict.reason));
+  if (run.last_failure != Reason::none && run.last_failure != run.verdict.reason)
+    words += fmt::format(", after {}", name(run.last_failure));
+  if (run.worst_point >= 0) {
+    auto const site = problem_.grid().site(run.worst_point, 0.0);
+    words += fmt::format(" at point {} (region {}, at {})", run.worst_point,
+                         problem_.grid().regions()[detail::index(site.region)], listed(site.position, ", ", "{:.4g}"));
+  }
+  if (run.weak_dof >= 0) words += ", nothing holds " + describe_dof(problem_.grid(), run.weak_dof);
+  return words;
+}
+
+#ifdef SCARP_PRECOMPILED
+extern template class Analysis<2>;
+extern template class Analysis<3>;
+#endif
 
 }  // namespace scarp

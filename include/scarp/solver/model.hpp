@@ -32,14 +32,13 @@ namespace scarp {
 /// goes from 0 to 1, and the loads grow meanwhile. That is how ground is balanced, and how it is excavated: give the mesh without
 /// what is taken away, and the stress that was there. Then the load factor drives what has an amplitude of its own.
 template <int Dim>
-class Model {
+class SCARP_EXPORT Model {
  public:
   static constexpr int dim = Dim;                         ///< of space
   using Sides = std::initializer_list<std::string_view>;  ///< names of boundaries
 
   /// Elements, kinematics and integration of the program's choice.
-  explicit Model(std::unique_ptr<Grid<Dim>> grid)
-      : grid_(std::move(grid)), constraints_(*grid_), weights_(grid_->regions().size()) {}
+  explicit Model(std::unique_ptr<Grid<Dim>> grid);
   /// As above, by value.
   template <std::derived_from<Grid<Dim>> GridType>
   explicit Model(GridType grid) : Model(std::make_unique<GridType>(std::move(grid))) {}
@@ -60,22 +59,10 @@ class Model {
 
   /// Where the material points of a region are, of all without a name.
   /// \throws InputError for an unknown region
-  std::vector<Site<dim>> sites(std::string_view region = {}) const {
-    int const number = region.empty() ? -1 : region_number(*grid_, region);
-    std::vector<Site<dim>> found;
-    for (int point = 0; point < grid_->point_count(); ++point) {
-      auto const site = grid_->site(point, surface_level());
-      if (number < 0 || site.region == number) found.push_back(site);
-    }
-    return found;
-  }
+  std::vector<Site<Dim>> sites(std::string_view region = {}) const;
   /// Their depths [m].
   /// \throws InputError for an unknown region
-  std::vector<double> depths(std::string_view region = {}) const {
-    std::vector<double> found;
-    for (auto const& site : sites(region)) found.push_back(site.depth);
-    return found;
-  }
+  std::vector<double> depths(std::string_view region = {}) const;
 
   /// Holds boundaries along an axis.
   /// \throws InputError for an unknown boundary or axis
@@ -87,10 +74,7 @@ class Model {
   }
   /// Moves boundaries along an axis by rate [m] times the growth of `amplitude` since the load factor 0.
   /// \throws InputError for an unknown boundary or axis, and nodes that are moved in another way already
-  void move(Sides sides, int axis, double rate, TimeFunction const& amplitude = {}) {
-    for (auto const side : sides)
-      for (int const node : grid_->boundary_nodes(side)) constraints_.move(node, axis, rate, amplitude);
-  }
+  void move(Sides sides, int axis, double rate, TimeFunction const& amplitude = {});
 
   /// Any provider, or a `Nonlocal` one, for the points of a region.
   template <CheckedMaterial MaterialType>
@@ -108,16 +92,7 @@ class Model {
   }
   /// Force per area [Pa] on boundaries of the initial mesh, grown to its full size at the load factor 1, or with an amplitude.
   /// \throws InputError for an unknown boundary
-  void traction(Sides sides, Vector<dim> const& per_area, std::optional<TimeFunction> amplitude = {}) {
-    for (auto const side : sides) {
-      Eigen::VectorXd const forces = grid_->traction(side, per_area);
-      if (amplitude) {
-        later_.add(forces, *amplitude);
-      } else {
-        tractions_.push_back(forces);
-      }
-    }
-  }
+  void traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> amplitude = {});
   /// Vertical pressure [Pa], downwards along the last axis, on boundaries of the initial mesh, as a traction.
   /// \throws InputError for an unknown boundary
   void surcharge(Sides sides, double pressure, std::optional<TimeFunction> amplitude = {}) {
@@ -133,32 +108,13 @@ class Model {
   }
 
   /// Weight and surcharges [N], shape (dof_count), without those that have an amplitude of their own.
-  Eigen::VectorXd dead_loads() const {
-    Eigen::VectorXd forces = body_force(*grid_, [&](int region) -> Vector<dim> {
-      return -weights_[detail::index(region)] * Vector<dim>::Unit(dim - 1);
-    });
-    for (auto const& traction : tractions_) forces += traction;
-    return forces;
-  }
+  Eigen::VectorXd dead_loads() const;
   /// External forces [N] by load factor, without those that hold what the initial stresses leave unbalanced.
-  LoadHistory external_loads() const {
-    LoadHistory loads = later_;
-    loads.add(dead_loads(), TimeFunction::constant(1.0));
-    return loads;
-  }
+  LoadHistory external_loads() const;
 
   /// For solvers. The executor outlives the problem.
   /// \throws InputError when the parts do not fit together
-  Problem<Dim> problem(Executor const& executor) const {
-    std::optional<MaterialPoints<dim>> points;
-    executor.together([&] { points.emplace(make_points(*grid_, surface_level(), regions_, executor)); });
-    Eigen::VectorXd before;
-    grid_->internal_force(Eigen::VectorXd::Zero(grid_->dof_count()), points->balanced_stresses(executor), before);
-    LoadHistory loads = later_;
-    loads.add(before, TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
-    loads.add(dead_loads(), TimeFunction::ramp(0.0, 1.0));
-    return {grid_->copy(), std::move(*points), constraints_, std::move(loads), executor};
-  }
+  Problem<Dim> problem(Executor const& executor) const;
 
  private:
   std::unique_ptr<Grid<Dim>> grid_;
@@ -171,9 +127,83 @@ class Model {
   std::optional<double> level_;
 };
 
+// Outside of the class, so that a library can contain them.
+
+template <int Dim>
+Model<Dim>::Model(std::unique_ptr<Grid<Dim>> grid)
+    : grid_(std::move(grid)), constraints_(*grid_), weights_(grid_->regions().size()) {}
+
+template <int Dim>
+std::vector<Site<Dim>> Model<Dim>::sites(std::string_view region) const {
+  int const number = region.empty() ? -1 : region_number(*grid_, region);
+  std::vector<Site<dim>> found;
+  for (int point = 0; point < grid_->point_count(); ++point) {
+    auto const site = grid_->site(point, surface_level());
+    if (number < 0 || site.region == number) found.push_back(site);
+  }
+  return found;
+}
+
+template <int Dim>
+std::vector<double> Model<Dim>::depths(std::string_view region) const {
+  std::vector<double> found;
+  for (auto const& site : sites(region)) found.push_back(site.depth);
+  return found;
+}
+
+template <int Dim>
+void Model<Dim>::move(Sides sides, int axis, double rate, TimeFunction const& amplitude) {
+  for (auto const side : sides)
+    for (int const node : grid_->boundary_nodes(side)) constraints_.move(node, axis, rate, amplitude);
+}
+
+template <int Dim>
+void Model<Dim>::traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> amplitude) {
+  for (auto const side : sides) {
+    Eigen::VectorXd const forces = grid_->traction(side, per_area);
+    if (amplitude) {
+      later_.add(forces, *amplitude);
+    } else {
+      tractions_.push_back(forces);
+    }
+  }
+}
+
+template <int Dim>
+Eigen::VectorXd Model<Dim>::dead_loads() const {
+  Eigen::VectorXd forces = body_force(
+      *grid_, [&](int region) -> Vector<dim> { return -weights_[detail::index(region)] * Vector<dim>::Unit(dim - 1); });
+  for (auto const& traction : tractions_) forces += traction;
+  return forces;
+}
+
+template <int Dim>
+LoadHistory Model<Dim>::external_loads() const {
+  LoadHistory loads = later_;
+  loads.add(dead_loads(), TimeFunction::constant(1.0));
+  return loads;
+}
+
+template <int Dim>
+Problem<Dim> Model<Dim>::problem(Executor const& executor) const {
+  std::optional<MaterialPoints<dim>> points;
+  executor.together([&] { points.emplace(make_points(*grid_, surface_level(), regions_, executor)); });
+  Eigen::VectorXd before;
+  grid_->internal_force(Eigen::VectorXd::Zero(grid_->dof_count()), points->balanced_stresses(executor), before);
+  LoadHistory loads = later_;
+  loads.add(before, TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
+  loads.add(dead_loads(), TimeFunction::ramp(0.0, 1.0));
+  return {grid_->copy(), std::move(*points), constraints_, std::move(loads), executor};
+}
+
 template <class Element>
 Model(Mesh<Element>, double = 1.0) -> Model<Element::dim>;
 template <class GridType>
 Model(GridType) -> Model<GridType::dim>;
+
+#ifdef SCARP_PRECOMPILED
+extern template class Model<2>;
+extern template class Model<3>;
+#endif
 
 }  // namespace scarp
