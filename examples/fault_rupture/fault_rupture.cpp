@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Where does a normal fault reach the surface of sand, and what does a footing do to it? The reference study's scenes.
 #include <algorithm>
+#include <chrono>
 #include <map>
 
 #include "../shared/command_line.hpp"

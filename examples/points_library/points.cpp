@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // The C functions of scarp_points.h.
+#include <mutex>
 #include "handles.hpp"
 #include "materials.hpp"
 #include "scarp/core/process.hpp"

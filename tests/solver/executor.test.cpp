@@ -14,6 +14,8 @@
 #include <thread>
 #include <vector>
 
+#include "scarp/core/interruption.hpp"
+#include "scarp/core/process.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace {

@@ -94,6 +94,14 @@ TEST_CASE("names that the mesh does not have, and regions without material, are 
   CHECK(samples::message_of([&] { scarp::Analysis{model}; }) == samples::Naming{"there is no region 'clay'"});
 }
 
+TEST_CASE("the stress at rest belongs to a weight that is given before") {
+  auto model = column();
+  model.gravity(0.0);
+  CHECK_REFUSED(model.geostatic(0.5), "give gravity first");
+  model.gravity("soil", weight);
+  CHECK(model.geostatic(0.5).unit_weight == weight);
+}
+
 TEST_CASE("depths are those below the highest node, or below a level that is given") {
   auto model = column();
   auto const depths = model.depths("soil");

@@ -3,7 +3,7 @@
 
 #include "scarp/core/linear_map.hpp"
 #include "scarp/core/precompiled.hpp"
-#if !defined(SCARP_PRECOMPILED) || defined(SCARP_GMRES_DEFINITIONS)
+#ifdef SCARP_DEFINITIONS
 #include <Eigen/Householder>
 #include <Eigen/Jacobi>
 #include <cmath>
@@ -19,13 +19,9 @@ namespace scarp {
 SCARP_EXPORT Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& preconditioner,
                                    Eigen::VectorXd const& right);
 
-#ifndef SCARP_PRECOMPILED
-/// Keyword of gmres() where the header defines it; undefined where the precompiled library does.
-#define SCARP_GMRES_DEFINITIONS inline
-#endif
-#ifdef SCARP_GMRES_DEFINITIONS  // empty in the library that contains them
-SCARP_GMRES_DEFINITIONS Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& preconditioner,
-                                              Eigen::VectorXd const& right) {
+#ifdef SCARP_DEFINITIONS
+SCARP_DEFINITIONS Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& preconditioner,
+                                        Eigen::VectorXd const& right) {
   // Iterations of a load step are as many with 1e-3 as with 1e-8.
   constexpr double accuracy = 1e-4;  // of the preconditioned residual
   constexpr Eigen::Index directions = 60;
@@ -88,6 +84,5 @@ SCARP_GMRES_DEFINITIONS Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap
   }
 }
 #endif
-#undef SCARP_GMRES_DEFINITIONS
 
 }  // namespace scarp

@@ -20,6 +20,12 @@ inline constexpr bool has_library = false;
 
 }  // namespace scarp
 
+/// Before definitions of functions that are no templates, which are seen only where this is defined: `inline` in programs without
+/// the library, nothing in the one source of the library that has them.
+#ifndef SCARP_PRECOMPILED
+#define SCARP_DEFINITIONS inline
+#endif
+
 /// Before definitions that the library exports where it is a shared one. In other programs they are hidden where their flags hide
 /// symbols, so that libraries of different flags or versions keep theirs apart.
 #if defined(SCARP_SHARED) && defined(__GNUC__)

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: BSL-1.0
-#define SCARP_GMRES_DEFINITIONS
+#define SCARP_DEFINITIONS
 #include "scarp/core/gmres.hpp"

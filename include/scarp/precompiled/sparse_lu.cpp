@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: BSL-1.0
-#define SCARP_SPARSE_LU_DEFINITIONS
+#define SCARP_DEFINITIONS
 #include "scarp/solver/sparse_lu.hpp"

@@ -101,9 +101,11 @@ class SCARP_EXPORT Model {
   }
 
   /// Stress of ground at rest below the last surcharge, with the unit weight of a region, or that of the first one.
-  /// \throws InputError for an unknown region
+  /// \throws InputError for an unknown region, and for one without weight and surcharge
   GeostaticStress<dim> geostatic(double k0, std::string_view region = {}) const {
     int const number = region.empty() ? 0 : region_number(*grid_, region);
+    if (weights_[detail::index(number)] == 0.0 && surcharge_ == 0.0)
+      reject("the stress at rest is requested of ground without weight and surcharge: give gravity first");
     return {.surcharge = surcharge_, .unit_weight = weights_[detail::index(number)], .k0 = k0};
   }
 

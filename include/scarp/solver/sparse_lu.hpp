@@ -27,23 +27,16 @@ class SCARP_EXPORT SparseLu {
 
 static_assert(LinearSolver<SparseLu>);
 
-#ifndef SCARP_PRECOMPILED
-/// Specifier of the member functions: empty in the library that contains them, `inline` elsewhere.
-#define SCARP_SPARSE_LU_DEFINITIONS inline
-#endif
-#ifdef SCARP_SPARSE_LU_DEFINITIONS  // empty in the library that contains them
-SCARP_SPARSE_LU_DEFINITIONS Verdict SparseLu::factorize(SparseMatrix const& matrix) {
+#ifdef SCARP_DEFINITIONS
+SCARP_DEFINITIONS Verdict SparseLu::factorize(SparseMatrix const& matrix) {
   return detail::factorize_with(solver_, pattern_, matrix);
 }
 
-SCARP_SPARSE_LU_DEFINITIONS Eigen::VectorXd SparseLu::solve(Eigen::VectorXd const& right) const {
-  return solver_.solve(right);
-}
+SCARP_DEFINITIONS Eigen::VectorXd SparseLu::solve(Eigen::VectorXd const& right) const { return solver_.solve(right); }
 
-SCARP_SPARSE_LU_DEFINITIONS Eigen::VectorXd SparseLu::solve_transposed(Eigen::VectorXd const& right) const {
+SCARP_DEFINITIONS Eigen::VectorXd SparseLu::solve_transposed(Eigen::VectorXd const& right) const {
   return solver_.transpose().solve(right);
 }
 #endif
-#undef SCARP_SPARSE_LU_DEFINITIONS
 
 }  // namespace scarp
