@@ -71,7 +71,7 @@ struct Record {
 /// The ground comes to rest, then the wall moves to a strain of the ground.
 template <class Soil, class Solver>
 Outcome move_wall(Wall const& wall, Soil const& soil, Movement movement, Friction friction, Solver const& solver,
-                  scarp::LoadStepping const& stepping, double strain, scarp::Executor const& executor) {
+                  scarp::LoadStepping const& stepping, double strain, scarp::Executor& executor) {
   auto problem = wall.problem(soil, movement, executor);
   Record record{wall};
   auto run = stepping.settle(solver, problem, 0.0, record);

@@ -45,7 +45,7 @@ struct Wall {
   }
 
   template <scarp::ConstitutiveProvider Soil>
-  auto problem(Soil const& soil, Movement movement, scarp::Executor const& executor) const {
+  auto problem(Soil const& soil, Movement movement, scarp::Executor& executor) const {
     Grid ground = grid();
     scarp::Constraints constraints(ground.mesh());
     for (int const node : boundary_nodes(ground.mesh(), "left")) constraints.move(node, 0, sign_of(movement) * length);

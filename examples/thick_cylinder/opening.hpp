@@ -87,7 +87,7 @@ Excavated excavate(Opening const& opening, int cells) {
   for (int const node : boundary_nodes(mesh, "left")) wall.segment<2>(2 * node).swap(far.segment<2>(2 * node));
   scarp::LoadHistory loads(far);
   loads.add(wall, scarp::TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
-  auto problem = examples::plane_problem(std::move(grid), rock, 0.0, constraints, loads);
+  auto problem = examples::plane_problem(std::move(grid), rock, opening.outer, constraints, loads);
   examples::Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-9}}};
   scarp::LoadStepping const stepping{.first = 0.1, .smallest = 1e-5, .largest = 0.1, .max_displacement_gradient = 1e3};
   scarp::NoObserver no_observer;

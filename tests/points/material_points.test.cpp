@@ -58,6 +58,7 @@ void strain(Points& points, double size) {
 /// One of two processes, that of the even points; the other one sends nothing.
 struct EvenPoints : scarp::SerialExecutor {
   int ranks() const override { return 2; }
+  void exchange(Shared const&) const override {}
 };
 
 }  // namespace

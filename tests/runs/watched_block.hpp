@@ -31,7 +31,7 @@ namespace watched {
 using Problem = scarp::EquilibriumProblem<scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>>;
 
 template <class Provider>
-Problem block(Provider const& provider, scarp::Executor const& executor) {
+Problem block(Provider const& provider, scarp::Executor& executor) {
   auto mesh = samples::CrossedRectangle{.columns = 2, .rows = 2}.generate();
   mesh.boundaries["surface"] = mesh.boundaries.at("top");
   scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> grid(std::move(mesh));
@@ -98,7 +98,7 @@ inline std::string without_times(std::filesystem::path const& file) {
 }
 
 template <class Provider>
-Outcome pull(Provider const& provider, scarp::Executor const& executor, std::filesystem::path const& folder,
+Outcome pull(Provider const& provider, scarp::Executor& executor, std::filesystem::path const& folder,
              Pull const& wanted, scarp::CheckpointFiles files = {}, int attempts = 1000) {
   double const to = wanted.to;
   auto problem = block(provider, executor);
@@ -146,7 +146,7 @@ Outcome pull(Provider const& provider, scarp::Executor const& executor, std::fil
 
 /// The same in parts, each by new objects that go on from a checkpoint, one attempt long.
 template <class Provider>
-Outcome pull_in_parts(Provider const& provider, scarp::Executor const& executor, std::filesystem::path const& folder,
+Outcome pull_in_parts(Provider const& provider, scarp::Executor& executor, std::filesystem::path const& folder,
                       Pull const& wanted) {
   scarp::CheckpointSettings const settings{
       .folder = folder / "states", .resume = true, .every_seconds = 1e9, .locks = scarp::is_root_rank(executor)};

@@ -37,37 +37,106 @@ scarp::Model<2> slope(double factor) {
 }  // namespace
 
 TEST_CASE("a slope's factor of safety is that of its reference") {
-  auto const found = scarp::reduce_strength(slope, 1.0, 2.0, {.tolerance = 0.02});
+  auto const found = scarp::reduce_strength(slope, {.to = 2.0, .tolerance = 0.02});
   INFO(found.why);
   REQUIRE(found.is_found());
   CHECK(found.stands < 1.43);  // 1.4 by finite elements, 1.38 by Bishop and Morgenstern's charts
   CHECK(found.fails > 1.36);
 }
 
-TEST_CASE("a block of clay between smooth platens carries 2 c, and less is carried in words") {
+TEST_CASE("a block of clay between smooth platens carries 2 c, and what is less is no failure") {
   scarp::Model<2> model(
       Grid(scarp::BoxMesh<scarp::Quad8>{.lengths = scarp::Vector<2>(2.0, 2.0), .cells = {2, 2}}.generate()));
   model.fix({"left"}, 0);
   model.fix({"bottom"}, 1);
   model.surcharge({"top"}, 1e3, scarp::TimeFunction::after(1.0));
   model.material("soil", Soil{.elasticity = stiffness(), .strength = {{.cohesion = 10e3}}});
-  scarp::CollapseSettings settings;
-  settings.analysis.stepping = {.first = 1.0, .smallest = 1e-3, .largest = 2.0};
-  scarp::Analysis analysis(model, settings.analysis);
+  auto settings = scarp::StrengthReduction{}.analysis;
+  settings.stepping = {.first = 1.0, .smallest = 1e-3, .largest = 2.0};
+  scarp::Analysis analysis(model, settings);
   REQUIRE(analysis.to(1.0).verdict.acceptable());
-  auto const carried = find_collapse(analysis, 11.0, settings);
+  auto const carried = find_collapse(analysis, 11.0);
   CHECK(carried.stands());
   CHECK(!carried.failed);
   CHECK(carried.ratio == samples::Approx(1.0).epsilon(1e-4));  // logarithms of strains of 1e-4
-  auto const end = find_collapse(analysis, 41.0, settings);
+  auto const end = find_collapse(analysis, 41.0);
   INFO(end.why, end.ratio);
   CHECK(end.failed);
   CHECK(end.why.starts_with("the ground fails beyond the load factor 2"));
   CHECK(1e3 * (end.load - 1.0) == samples::Approx(20e3).epsilon(1e-3));  // analytic
 }
 
+TEST_CASE("ground at rest that is loaded later does not fail: round-off is no stiffness") {
+  scarp::Model<2> model(
+      Grid(scarp::BoxMesh<scarp::Quad8>{.lengths = scarp::Vector<2>(2.0, 4.0), .cells = {1, 2}}.generate()));
+  model.fix({"left", "right"}, 0);
+  model.fix({"bottom"}, 1);
+  model.gravity(18e3);
+  model.surcharge({"top"}, 50e3, scarp::TimeFunction::ramp(1.0, 2.0));
+  model.material(
+      "soil", scarp::LinearElastic<2, scarp::GeostaticStress<2>>::from_young_poisson(40e6, 0.25, model.geostatic(0.5)));
+  scarp::Analysis analysis(model, {.threads = 1});
+  auto const end = find_collapse(analysis, 2.0);
+  CHECK(end.stands());
+  CHECK(!end.failed);
+}
+
+namespace {
+
+/// Elastic, without a response beyond a strain.
+struct Brittle : scarp::LinearElastic<2> {
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    auto response = scarp::LinearElastic<2>::respond(committed, increment, trial);
+    if (response.stress(1) < -10e3) response.verdict = {scarp::Status::not_converged, scarp::Reason::unbalanced};
+    return response;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a point that does not respond is no failure of the ground") {
+  scarp::Model<2> model(
+      Grid(scarp::BoxMesh<scarp::Quad8>{.lengths = scarp::Vector<2>(2.0, 2.0), .cells = {1, 1}}.generate()));
+  model.fix({"left"}, 0);
+  model.fix({"bottom"}, 1);
+  model.surcharge({"top"}, 20e3);
+  model.material("soil", Brittle{scarp::LinearElastic<2>::from_young_poisson(40e6, 0.25)});
+  scarp::Analysis analysis(model, {.threads = 1});
+  auto const end = find_collapse(analysis, 1.0);
+  CHECK(!end.stands());
+  CHECK(!end.failed);
+  CHECK(end.load == samples::Approx(0.5).epsilon(1e-2));  // 10 of 20 kPa
+  CHECK(end.why.find("step_too_small, after unbalanced at point") != std::string::npos);
+  auto const found = scarp::reduce_strength([&](double) {
+    scarp::Model<2> again(model.grid().copy());
+    again.fix({"left"}, 0);
+    again.fix({"bottom"}, 1);
+    again.surcharge({"top"}, 20e3);
+    again.material("soil", Brittle{scarp::LinearElastic<2>::from_young_poisson(40e6, 0.25)});
+    return again;
+  });
+  CHECK(!found.is_found());
+  CHECK(found.why.find("factor 1: ") != std::string::npos);
+}
+
+TEST_CASE("a strength that the first factor does not leave, and one that the last one leaves, are told apart") {
+  auto const early = scarp::reduce_strength(slope, {.from = 1.8, .to = 2.0});
+  CHECK(early.stands == 0.0);
+  CHECK(early.fails == 1.8);
+  auto const late = scarp::reduce_strength(slope, {.from = 1.0, .to = 1.1});
+  CHECK(late.stands == 1.1);
+  CHECK(late.fails == 0.0);
+}
+
 TEST_CASE("settings that make no sense are rejected") {
-  CHECK_REFUSED(scarp::reduce_strength(slope, 0.0, 2.0), "least factor of safety");
-  CHECK_REFUSED(scarp::reduce_strength(slope, 2.0, 1.0), "largest factor of safety");
+  CHECK_REFUSED(scarp::reduce_strength(slope, {.from = 0.0}), "least factor of safety");
+  CHECK_REFUSED(scarp::reduce_strength(slope, {.from = 2.0, .to = 1.0}), "largest factor of safety");
+  CHECK_REFUSED(scarp::reduce_strength(slope, {.tolerance = 1e-17}), "tolerance of a factor of safety");
   CHECK_REFUSED(scarp::detail::validated(scarp::CollapseSettings{.failed = 5.0}), "has failed");
+  auto const later = [](double factor) {
+    auto model = slope(factor);
+    model.surcharge({"top"}, 1e3, scarp::TimeFunction::ramp(1.0, 2.0));
+    return model;
+  };
+  CHECK_REFUSED(scarp::reduce_strength(later), "loads change at 2");
 }

@@ -177,7 +177,7 @@ TEST_CASE("an iteration that stagnates far from the solution is no solution") {
   }
   scarp::NeighbourMean const mean(first, shares);
   std::vector const hoods(sites.size(), scarp::Neighbourhood{.length = 1.0});
-  scarp::SerialExecutor const serial;
+  scarp::SerialExecutor serial;
   for (auto const& [iterate, verdict] :
        {std::pair{&partly<95>, scarp::Verdict{}},
         std::pair{&partly<80>, scarp::Verdict{scarp::Status::not_converged, Reason::iterations_spent}},

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <stdexcept>
+
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/element/quad4.hpp"
@@ -74,11 +76,15 @@ TEST_CASE("a boundary that is moved pulls what it carries, and a run that ends e
   CHECK(analysis.why(first) == "the load factor 1 was reached");
   REQUIRE(analysis.to(1.1).verdict.acceptable());
   CHECK(analysis.displacement("top", 1) == Approx(1e-3).epsilon(1e-9));
+  double const modulus = young * 0.75 / (1.25 * 0.5);  // one-dimensional
+  double const pulled = modulus * 1e-3 / height * 2.0;
+  CHECK(analysis.reaction("top").y() == Approx(pulled).epsilon(1e-3));  // analytic, logarithms of strains of 1e-4
   scarp::AnalysisSettings impatient{.solver = {.max_iterations = 1}, .threads = 1};
   scarp::Analysis other(model, impatient);
   auto const run = other.to(2.0);
   REQUIRE(!run.verdict.acceptable());
-  CHECK(other.why(run).starts_with("stopped at the load factor "));
+  CHECK(other.why(run).starts_with(fmt::format("stopped at the load factor {:.6g}: ", run.load)));
+  CHECK(other.why(run).ends_with("step_too_small, after iterations_spent"));
 }
 
 TEST_CASE("names that the mesh does not have, and regions without material, are rejected in words") {
@@ -94,12 +100,52 @@ TEST_CASE("names that the mesh does not have, and regions without material, are 
   CHECK(samples::message_of([&] { scarp::Analysis{model}; }) == samples::Naming{"there is no region 'clay'"});
 }
 
+TEST_CASE("an observer that throws leaves the analysis where its last step is") {
+  auto model = column();
+  model.move({"top"}, 1, -0.01, scarp::TimeFunction::ramp(1.0, 2.0));
+  model.material("soil", scarp::LinearElastic<2, scarp::GeostaticStress<2>>::from_young_poisson(young, 0.25,
+                                                                                                model.geostatic(0.5)));
+  struct FullDisk {
+    int steps = 0;
+    void attempted(scarp::Problem<2> const&, scarp::StepReport const&) {
+      if (++steps == 3) throw std::runtime_error("disk full");
+    }
+    static bool wants_stop() { return false; }
+  } observer;
+  scarp::Analysis analysis(model, {.threads = 1});
+  REQUIRE(analysis.to(1.0).verdict.acceptable());
+  CHECK_THROWS_WITH_AS(static_cast<void>(analysis.to(2.0, observer)), "disk full", std::runtime_error);
+  CHECK(analysis.load() > 1.0);
+  CHECK(analysis.displacement("top", 1) == Approx(-0.01 * (analysis.load() - 1.0)).epsilon(1e-9));
+  REQUIRE(analysis.to(2.0).verdict.acceptable());
+  CHECK(analysis.displacement("top", 1) == Approx(-0.01).epsilon(1e-9));
+  CHECK_REFUSED(analysis.displacement("top", 2), "axis 2");
+}
+
+TEST_CASE("elements that copy themselves as another type are rejected") {
+  using Elements = Grid;
+  struct Own : Elements {
+    using Elements::Elements;
+  };
+  CHECK_REFUSED(scarp::Model<2>(Own(scarp::BoxMesh<scarp::Quad4>{.cells = {1, 1}}.generate())), "override it");
+}
+
 TEST_CASE("the stress at rest belongs to a weight that is given before") {
   auto model = column();
   model.gravity(0.0);
   CHECK_REFUSED(model.geostatic(0.5), "give gravity first");
   model.gravity("soil", weight);
-  CHECK(model.geostatic(0.5).unit_weight == weight);
+  model.surcharge({"top"}, 20e3);
+  model.surcharge({"top"}, 5e3);
+  auto const at_rest = model.geostatic(0.5);
+  CHECK(at_rest.unit_weight == weight);
+  CHECK(at_rest.surcharge == 25e3);
+  CHECK_REFUSED(model.gravity(1e3), "give them before");
+  CHECK_REFUSED(model.surcharge({"top"}, 1e3), "give them before");
+  auto other = column();
+  other.surcharge({"top"}, 1e3);
+  other.surcharge({"left"}, 2e3);
+  CHECK_REFUSED(other.geostatic(0.5), "surcharges of");
 }
 
 TEST_CASE("depths are those below the highest node, or below a level that is given") {

@@ -33,7 +33,7 @@ struct WorkBalanceOf {
   using Type = NoWorkBalance;
 };
 template <class Problem>
-  requires requires(Problem const& problem) { problem.discretisation(); }
+  requires requires(Problem const& problem) { problem.grid(); }
 struct WorkBalanceOf<Problem> {
   using Type = WorkBalance<Problem>;
 };
@@ -62,7 +62,7 @@ class ErrorBudget : public NeverStops {
       : bounds_(bounds),
         sampling_(sampling),
         iterates_equations_(problem.points().means() != nullptr),
-        adds_up_work_(!problem.has_attachment() && problem.executor().ranks() == 1) {
+        adds_up_work_(has_grid && !problem.has_attachment() && problem.executor().ranks() == 1) {
     bounds.validate();
     sampling.validate();
     int const points = problem.points().size();
@@ -140,6 +140,8 @@ class ErrorBudget : public NeverStops {
                        samples_, tracked_, residual_, linear_residual_, condition_, work_, answers_)
 
  private:
+  static constexpr bool has_grid = requires(Problem const& problem) { problem.grid(); };
+
   long all_work() const { return work_ > 0 ? work_ : answers_; }
 
   double share_of_checks() const {

@@ -5,7 +5,6 @@
 #include <concepts>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -59,7 +58,8 @@ class AttachedPart {
 
 template <int Dim, class Part>
 class AttachedPartOf final : public AttachedPart<Dim> {
-  static_assert(Attachment<Part, Dim>);
+  static_assert(Attachment<Part, Dim>,
+                "scarp: what is attached needs extra_dofs(), add_forces(), add_stiffness() and commit()");
 
  public:
   using typename AttachedPart<Dim>::Nodes, typename AttachedPart<Dim>::Entries;

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "scarp/constitutive/constitutive_provider.hpp"
-#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/mesh/cells.hpp"
@@ -34,7 +33,7 @@ class Grid {
   int dof_count() const { return Dim * node_count(); }                      ///< of all nodes
 
   virtual std::vector<Vector<Dim>> const& nodes() const = 0;    ///< Positions [m] at the start.
-  virtual std::vector<std::string> const& regions() const = 0;  ///< Names, by number.
+  virtual std::vector<std::string> const& regions() const = 0;  ///< Names of the regions; elements have their numbers.
   virtual std::unique_ptr<Grid> copy() const = 0;               ///< With the same committed positions.
   virtual Cells cells() const = 0;                              ///< Its elements.
   /// Nodes of a boundary, sorted, each once. \throws InputError for an unknown or empty one
@@ -129,6 +128,15 @@ class Grid {
  private:
   std::vector<Vector<Dim>> positions_;
 };
+
+namespace detail {
+/// \throws InputError where there is no grid
+template <int Dim>
+std::unique_ptr<Grid<Dim>> present(std::unique_ptr<Grid<Dim>> grid) {
+  if (!grid) reject("a problem has no grid (its pointer is null): give it elements on a mesh");
+  return grid;
+}
+}  // namespace detail
 
 /// Number of a region. \throws InputError for an unknown name, listing the known ones
 template <int Dim>

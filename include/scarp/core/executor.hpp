@@ -36,13 +36,12 @@ class Executor {
 
   virtual int ranks() const { return 1; }                                     ///< Number of processes.
   virtual int rank() const { return 0; }                                      ///< Number of this process, from zero.
-  virtual int threads() const { return 1; }                                   ///< That this process works with.
+  virtual int threads() const { return 1; }                                   ///< Of this process.
   virtual bool owns(int point) const { return point % ranks() == rank(); }    ///< Whether this process has a point.
   virtual void together(std::function<void()> const& work) const { work(); }  ///< What it throws is thrown on all.
   virtual bool agree(bool flag) const { return flag; }                        ///< \return the first process' flag
 
-  /// The first process does a task, which may fetch points; the others serve meanwhile: bytes_of(point) returns the bytes. What
-  /// one throws ends all.
+  /// The first process does a task, which may fetch points; the others serve meanwhile: bytes_of(point) returns the bytes. What one of them throws ends the work of all.
   virtual void on_first(std::function<void()> const& task, std::function<std::string(int)> const&) const { task(); }
 
   /// On the first process, within on_first(): what the owner of a point returns.
@@ -68,7 +67,10 @@ class Executor {
     std::function<void(std::size_t, std::byte*)> write;       ///< an entry
     std::function<void(std::size_t, std::byte const*)> read;  ///< an entry
   };
-  virtual void exchange(Shared const&) const {}  ///< Sends the entries of own points, receives those of others.
+  /// Sends the entries of own points, receives those of others.
+  virtual void exchange(Shared const&) const {
+    reject("values of points of other processes are needed (this executor exchanges none): let it override exchange");
+  }
 };
 
 /// One task after the other on the calling thread.

@@ -18,7 +18,6 @@
 #include "scarp/solver/quasi_newton.hpp"
 #ifdef SCARP_PRECOMPILED
 #include "scarp/fault/fault_mesh.hpp"
-#include "scarp/solver/thread_executor.hpp"
 #endif
 
 namespace scarp::detail {
@@ -122,7 +121,7 @@ struct SCARP_EXPORT FaultScene {
   }
 
   /// \throws InputError for parts that do not fit, and for soil that does not carry the weight
-  EquilibriumProblem<Grid> problem(Executor const& executor) const;
+  EquilibriumProblem<Grid> problem(Executor& executor) const;
 
   /// First stage: the ground as prepared is brought into equilibrium.
   template <class ProblemType, class Observer>

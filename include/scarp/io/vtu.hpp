@@ -210,7 +210,7 @@ void write_vtu(std::filesystem::path const& path, Cells const& cells, std::vecto
                 "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
 }
 
-/// Of a mesh.
+/// Writes a mesh with its nodes at other positions.
 /// \throws InputError also for another number of positions than nodes
 template <class Element>
 void write_vtu(std::filesystem::path const& path, Mesh<Element> const& mesh,

@@ -19,7 +19,7 @@ struct Cells {
   int count() const { return detail::count(regions); }  ///< Number of elements.
 };
 
-/// Those of a mesh.
+/// The elements of a mesh as cells.
 template <class Element>
 Cells cells_of(Mesh<Element> const& mesh) {
   Cells cells{Element::nodes, static_cast<std::uint8_t>(Element::vtk_cell_type), {}, mesh.element_region};

@@ -92,6 +92,9 @@ class CheckpointedRun {
   void begins(Problem& problem, Session& session, RunState& state) {
     if (std::exchange(begun_, stage_) == stage_)
       reject("a stage has two paths of the load factor (a checkpoint belongs to one): make each a stage of its own");
+    if constexpr (requires { problem.require_described(); }) {
+      if (files_.saves()) problem.require_described();
+    }
     if (!files_.resumes() || stage_ != first_) return;
     files_.load([&](StateReader& reader) {
       read_place(reader);

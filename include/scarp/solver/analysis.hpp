@@ -46,17 +46,20 @@ class SCARP_EXPORT Analysis {
   /// \return how far it came
   template <class Observer>
   RunReport to(double load, Observer& observer) {
-    RunReport const run = settings_.stepping.advance(session_, problem_, load_, load, observer);
-    load_ = run.load;
-    return run;
+    static_assert(
+        !requires { typename Observer::WatchesAll; },
+        "scarp: a CheckpointedRun restores a session of its own: use LoadStepping with model.problem()");
+    Follower<Observer> follower{observer, load_};
+    return settings_.stepping.advance(session_, problem_, load_, load, follower);
   }
   RunReport to(double load);  ///< Without an observer.
 
   /// Displacement [m] of a boundary's node that has moved farthest along an axis, with its sign.
-  /// \throws InputError for an unknown boundary
+  /// \throws InputError for an unknown boundary or axis
   double displacement(std::string_view side, int axis) const;
 
-  /// Force [N] of the support of a boundary: what its nodes carry less their loads.
+  /// Force [N] of the support of a boundary: what its nodes carry less their loads. Below the load factor 1 it is that of ground
+  /// which was in equilibrium at first, so that the whole weight counts.
   /// \throws InputError for an unknown boundary
   Vector<Dim> reaction(std::string_view side) const;
 
@@ -64,6 +67,19 @@ class SCARP_EXPORT Analysis {
   std::string why(RunReport const& run) const;
 
  private:
+  /// Knows the load factor of the committed state, whatever an observer throws.
+  template <class Observer>
+  struct Follower {
+    Observer& observer;
+    double& load;
+
+    void attempted(Problem const& problem, StepReport const& report) {
+      if (report.verdict.acceptable()) load = report.load;
+      observer.attempted(problem, report);
+    }
+    bool wants_stop() const { return observer.wants_stop(); }
+  };
+
   AnalysisSettings settings_;
   ThreadExecutor executor_;
   Problem problem_;
@@ -90,6 +106,8 @@ RunReport Analysis<Dim>::to(double load) {
 
 template <int Dim>
 double Analysis<Dim>::displacement(std::string_view side, int axis) const {
+  if (axis < 0 || axis >= Dim)
+    reject("displacements along axis {} are requested (space has the axes 0 to {}): take one of these", axis, Dim - 1);
   auto const& grid = problem_.grid();
   double farthest = 0.0;
   for (int const node : grid.boundary_nodes(side)) {

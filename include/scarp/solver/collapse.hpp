@@ -2,9 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "scarp/solver/analysis.hpp"
 
@@ -13,18 +12,32 @@ namespace scarp {
 /// When ground has failed. A load step that becomes too small is no failure by itself: one packing or one bad element can cause it.
 struct CollapseSettings {
   double failed = 100.0;  ///< largest displacement gradient per load, over that of the first step: the ground fails
-  double failing =
-      10.0;  ///< the same where a run has no further equilibrium: less means that something else stopped it
-  double tolerance = 0.01;  ///< of a factor of safety
+  double failing = 10.0;  ///< the same where no equilibrium follows: less means that something else stopped it
+
+  /// \throws InputError for ratios below 1
+  void validate() const {
+    require_at_least("ratio of displacement gradients per load of ground that fails", failing, 1.0);
+    require_at_least("ratio of displacement gradients per load of ground that has failed", failed, failing);
+  }
+};
+
+/// How `reduce_strength` looks for a factor of safety.
+struct StrengthReduction {
+  double from = 1.0;        ///< factor that is tried first
+  double to = 3.0;          ///< largest factor that is tried
+  double tolerance = 0.01;  ///< of the factor, relative
+  double load = 1.0;        ///< load factor that is to be carried, beyond all knots of loads
+  CollapseSettings collapse{};
   AnalysisSettings analysis{
       .solver = {.tolerance = 1e-4, .max_iterations = 40, .rule = {.exact = {.floor = 1e-4}}},
       .stepping = {.first = 0.05, .smallest = 1e-4, .largest = 0.05, .max_displacement_gradient = 0.1}};
 
-  /// \throws InputError for ratios below 1 and a tolerance that is not positive
+  /// \throws InputError for factors that are not positive or not increasing, and a tolerance outside of 1e-6 to 1
   void validate() const {
-    require_at_least("ratio of displacement gradients per load of ground that fails", failing, 1.0);
-    require_at_least("ratio of displacement gradients per load of ground that has failed", failed, failing);
-    require_positive("tolerance of a factor of safety", tolerance);
+    require_positive("least factor of safety", from);
+    require_at_least("largest factor of safety", to, from);
+    require_between("tolerance of a factor of safety", tolerance, 1e-6, 1.0);
+    detail::validated(collapse);
   }
 };
 
@@ -40,7 +53,8 @@ class CollapseWatch {
     if (!(report.load_increment > 0.0) || report.history.empty()) return;
     double const compliance = problem.max_displacement_gradient() / report.load_increment;
     bool const accepted = report.verdict.acceptable();
-    if (accepted && first_ == 0.0) first_ = compliance;
+    constexpr double round_off = 1e-9;  // of a gradient: ground at rest does not move
+    if (accepted && first_ == 0.0 && problem.max_displacement_gradient() > round_off) first_ = compliance;
     double const ratio = first_ > 0.0 ? compliance / first_ : 1.0;
     if (accepted) {
       ratio_ = beyond_ = ratio;
@@ -49,10 +63,8 @@ class CollapseWatch {
     }
   }
   bool wants_stop() const { return ratio_ >= failed_; }  ///< Whether the ground has failed.
-  double ratio() const { return ratio_; }                ///< Gradient per load of the last step over that of the first.
-  double beyond() const {
-    return beyond_;
-  }  ///< The same of the last attempt, the last step's where a point has stopped it.
+  /// Gradient per load of the last attempt over that of the first step that moved; of the last step where a point has stopped it.
+  double ratio() const { return beyond_; }
 
  private:
   double failed_;
@@ -72,7 +84,8 @@ struct Collapse {
   bool stands() const { return run.verdict.acceptable(); }  ///< Whether the load was carried.
 };
 
-/// Raises the load factor of an analysis to `to`, or until the ground fails.
+/// Raises the load factor of an analysis to `to`, or until the ground fails. The first step of this call that moves is what later
+/// ones are compared with: begin where the ground is still stiff.
 /// \throws InputError for settings outside of their range
 template <int Dim>
 Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings const& settings = {}) {
@@ -81,7 +94,7 @@ Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings cons
   Collapse end;
   end.run = analysis.to(to, watch);
   end.load = end.run.load;
-  end.ratio = watch.beyond();
+  end.ratio = watch.ratio();
   bool const is_out_of_balance = end.run.verdict.reason == Reason::step_too_small && end.ratio >= settings.failing;
   end.failed = !end.stands() && (watch.wants_stop() || is_out_of_balance);
   end.why =
@@ -103,26 +116,28 @@ struct SafetyFactor {
   bool is_found() const { return stands > 0.0 && fails > 0.0; }  ///< Whether both are known.
 };
 
-/// Strength reduction: make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. Each is loaded to
-/// the load factor 1, between the factors `from` and `to`, which are halved until they are within the tolerance.
+/// Strength reduction: make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. Factors are
+/// halved until they are within the tolerance. Use small strain: in large strain ground may stiffen by its new shape.
 /// \return stands 0 where `from` fails, fails 0 where `to` stands or a run is stopped by something else than failure
-/// \throws InputError for factors that are not positive or not increasing
+/// \throws InputError for settings outside of their range, and for a model with loads that change beyond the load factor
 template <class MakeModel>
-SafetyFactor reduce_strength(MakeModel const& make_model, double from, double to,
-                             CollapseSettings const& settings = {}) {
-  require_positive("least factor of safety", from);
-  require_at_least("largest factor of safety", to, from);
+SafetyFactor reduce_strength(MakeModel const& make_model, StrengthReduction const& settings = {}) {
+  detail::validated(settings);
   SafetyFactor found;
   auto const stands = [&](double factor) {
     auto const model = make_model(factor);
+    if (double const knot = model.external_loads().next_knot(settings.load); std::isfinite(knot)) {
+      reject("a factor of safety is requested at the load factor {} (loads change at {}): give it a larger load factor",
+             settings.load, knot);
+    }
     Analysis analysis(model, settings.analysis);
-    Collapse const end = find_collapse(analysis, 1.0, settings);
+    Collapse const end = find_collapse(analysis, settings.load, settings.collapse);
     if (!end.stands()) found.why = fmt::format("factor {:.4g}: {}", factor, end.why);
     if (end.stands()) found.stands = factor;
     if (end.failed) found.fails = factor;
     return end.stands() || end.failed;
   };
-  if (!stands(from) || found.fails > 0.0 || !stands(to) || found.stands == to) return found;
+  if (!stands(settings.from) || found.fails > 0.0 || !stands(settings.to) || found.stands == settings.to) return found;
   while (found.fails > found.stands * (1.0 + settings.tolerance)) {
     if (!stands((found.stands + found.fails) / 2.0)) {
       found.fails = 0.0;

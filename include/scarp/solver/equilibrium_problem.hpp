@@ -20,7 +20,7 @@ class EquilibriumProblem final : public Problem<GridType::dim> {
   /// \throws InputError for sizes that do not fit together
   template <class Attached = NoAttachment>
   EquilibriumProblem(GridType grid, MaterialPoints<dim> points, Constraints constraints, LoadHistory loads,
-                     Executor const& executor, Attached attached = {})
+                     Executor& executor, Attached attached = {})
       : Problem<dim>(std::make_unique<GridType>(std::move(grid)), std::move(points), std::move(constraints),
                      std::move(loads), executor, part_of(std::move(attached))) {}
 

@@ -14,6 +14,17 @@
 
 namespace scarp {
 
+namespace detail {
+/// The material points of a grid, whatever the level [m] is that depths are measured from.
+template <int Dim, class Regions>
+MaterialPoints<Dim> points_at(Grid<Dim> const& grid, double level, Regions const& regions, Executor const& executor) {
+  std::vector<Site<Dim>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, level));
+  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  return {regions, grid.regions(), sites, volumes, [&](int point) { return executor.owns(point); }};
+}
+}  // namespace detail
+
 /// The material points of a grid. surface_level [m]: height of the ground surface, from which depths are measured; regions: a
 /// list, or a tuple of regions of different types
 /// \throws InputError for a region that the mesh does not have, one given twice, one of the mesh without material, and
@@ -30,10 +41,7 @@ MaterialPoints<Dim> make_points(Grid<Dim> const& grid, double surface_level, Reg
         "upper nodes; ground above them counts as surcharge",
         surface_level, low(up), high(up));
   }
-  std::vector<Site<Dim>> sites;
-  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, surface_level));
-  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
-  return {regions, grid.regions(), sites, volumes, [&](int point) { return executor.owns(point); }};
+  return detail::points_at(grid, surface_level, regions, executor);
 }
 
 /// The composition root: one discretisation, a material for each region, constraints and loads, as a problem that a
@@ -42,7 +50,7 @@ MaterialPoints<Dim> make_points(Grid<Dim> const& grid, double surface_level, Reg
 template <class GridType, class Attached = NoAttachment, class... Materials>
 EquilibriumProblem<GridType> make_problem(GridType grid, double surface_level,
                                           boost::hana::tuple<Region<Materials>...> const& regions,
-                                          Constraints constraints, LoadHistory loads, Executor const& executor,
+                                          Constraints constraints, LoadHistory loads, Executor& executor,
                                           Attached attached = {}) {
   std::optional<MaterialPoints<GridType::dim>> points;
   executor.together([&] { points.emplace(make_points(grid, surface_level, regions, executor)); });

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <concepts>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -39,9 +41,14 @@ class SCARP_EXPORT Model {
 
   /// Elements, kinematics and integration of the program's choice.
   explicit Model(std::unique_ptr<Grid<Dim>> grid);
-  /// As above, by value.
+  /// Elements, kinematics and integration of the program's choice, by value.
+  /// \throws InputError for elements that do not copy themselves
   template <std::derived_from<Grid<Dim>> GridType>
-  explicit Model(GridType grid) : Model(std::make_unique<GridType>(std::move(grid))) {}
+  explicit Model(GridType grid) : Model(std::make_unique<GridType>(std::move(grid))) {
+    auto const copy = grid_->copy();
+    if (auto const& own = *copy; typeid(own) != typeid(GridType))
+      reject("the elements of a model are copied as another type (their class has no copy() of its own): override it");
+  }
   /// Updated Lagrangian elements with their default integration; thickness [m] out of the plane.
   template <class Element>
   explicit Model(Mesh<Element> mesh, double thickness = 1.0)
@@ -55,7 +62,8 @@ class SCARP_EXPORT Model {
     auto const above = [](auto const& a, auto const& b) { return a(dim - 1) < b(dim - 1); };
     return (*std::ranges::max_element(grid_->nodes(), above))(dim - 1);
   }
-  void set_surface_level(double height) { level_ = require_finite("level of the ground surface", height); }  ///< [m]
+  /// height [m], also above the mesh, where the former surface is taken away.
+  void set_surface_level(double height) { level_ = require_finite("level of the ground surface", height); }
 
   /// Where the material points of a region are, of all without a name.
   /// \throws InputError for an unknown region
@@ -84,29 +92,43 @@ class SCARP_EXPORT Model {
   }
 
   /// Weight of all regions [N/m3], downwards along the last axis.
-  void gravity(double unit_weight) { std::ranges::fill(weights_, require_not_negative("unit weight", unit_weight)); }
+  /// \throws InputError after the stress at rest was taken
+  void gravity(double unit_weight) {
+    require_not_at_rest();
+    std::ranges::fill(weights_, require_not_negative("unit weight", unit_weight));
+  }
   /// Weight of one region [N/m3].
-  /// \throws InputError for an unknown region
+  /// \throws InputError for an unknown region, and after the stress at rest was taken
   void gravity(std::string_view region, double unit_weight) {
+    require_not_at_rest();
     weights_[detail::index(region_number(*grid_, region))] = require_not_negative("unit weight", unit_weight);
   }
   /// Force per area [Pa] on boundaries of the initial mesh, grown to its full size at the load factor 1, or with an amplitude.
   /// \throws InputError for an unknown boundary
-  void traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> amplitude = {});
+  void traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude = {});
   /// Vertical pressure [Pa], downwards along the last axis, on boundaries of the initial mesh, as a traction.
-  /// \throws InputError for an unknown boundary
-  void surcharge(Sides sides, double pressure, std::optional<TimeFunction> amplitude = {}) {
-    traction(sides, -pressure * Vector<dim>::Unit(dim - 1), std::move(amplitude));
-    if (!amplitude) surcharge_ = pressure;
+  /// \throws InputError for an unknown boundary, and without amplitude after the stress at rest was taken
+  void surcharge(Sides sides, double pressure, std::optional<TimeFunction> const& amplitude = {}) {
+    if (!amplitude) require_not_at_rest();
+    traction(sides, -pressure * Vector<dim>::Unit(dim - 1), amplitude);
+    if (amplitude) return;
+    for (auto const side : sides) surcharges_[std::string(side)] += pressure;
   }
 
-  /// Stress of ground at rest below the last surcharge, with the unit weight of a region, or that of the first one.
-  /// \throws InputError for an unknown region, and for one without weight and surcharge
+  /// Stress of level ground at rest, of one unit weight below one surcharge: those of a region, or of the first one, and of all
+  /// sides with a surcharge. Others belong to the material itself.
+  /// \throws InputError for an unknown region, one without weight, and surcharges that differ
   GeostaticStress<dim> geostatic(double k0, std::string_view region = {}) const {
-    int const number = region.empty() ? 0 : region_number(*grid_, region);
-    if (weights_[detail::index(number)] == 0.0 && surcharge_ == 0.0)
-      reject("the stress at rest is requested of ground without weight and surcharge: give gravity first");
-    return {.surcharge = surcharge_, .unit_weight = weights_[detail::index(number)], .k0 = k0};
+    double const weight = weights_[detail::index(region.empty() ? 0 : region_number(*grid_, region))];
+    double const surcharge = surcharges_.empty() ? 0.0 : surcharges_.begin()->second;
+    if (weight == 0.0) reject("the stress at rest is requested of ground without weight: give gravity first");
+    for (auto const& [side, pressure] : surcharges_) {
+      if (pressure != surcharge)
+        reject("the stress at rest is requested below surcharges of {} and {} Pa: give the material its own stress",
+               surcharge, pressure);
+    }
+    is_at_rest_ = true;
+    return {.surcharge = surcharge, .unit_weight = weight, .k0 = k0};
   }
 
   /// Weight and surcharges [N], shape (dof_count), without those that have an amplitude of their own.
@@ -116,14 +138,19 @@ class SCARP_EXPORT Model {
 
   /// For solvers. The executor outlives the problem.
   /// \throws InputError when the parts do not fit together
-  Problem<Dim> problem(Executor const& executor) const;
+  Problem<Dim> problem(Executor& executor) const;
 
  private:
+  void require_not_at_rest() const {
+    if (is_at_rest_) reject("weight or surcharge are given after the stress at rest was taken: give them before");
+  }
+
   std::unique_ptr<Grid<Dim>> grid_;
   Constraints constraints_;
   std::vector<Region<AnyProvider<dim>>> regions_;
-  std::vector<double> weights_;  ///< of the regions [N/m3]
-  double surcharge_ = 0.0;       ///< [Pa]
+  std::vector<double> weights_;               ///< of the regions [N/m3]
+  std::map<std::string, double> surcharges_;  ///< of the sides [Pa], without those with an amplitude
+  mutable bool is_at_rest_ = false;           ///< whether the stress at rest was taken
   std::vector<Eigen::VectorXd> tractions_;
   LoadHistory later_;  ///< with amplitudes of their own
   std::optional<double> level_;
@@ -133,7 +160,7 @@ class SCARP_EXPORT Model {
 
 template <int Dim>
 Model<Dim>::Model(std::unique_ptr<Grid<Dim>> grid)
-    : grid_(std::move(grid)), constraints_(*grid_), weights_(grid_->regions().size()) {}
+    : grid_(detail::present(std::move(grid))), constraints_(*grid_), weights_(grid_->regions().size()) {}
 
 template <int Dim>
 std::vector<Site<Dim>> Model<Dim>::sites(std::string_view region) const {
@@ -160,7 +187,7 @@ void Model<Dim>::move(Sides sides, int axis, double rate, TimeFunction const& am
 }
 
 template <int Dim>
-void Model<Dim>::traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> amplitude) {
+void Model<Dim>::traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude) {
   for (auto const side : sides) {
     Eigen::VectorXd const forces = grid_->traction(side, per_area);
     if (amplitude) {
@@ -187,9 +214,9 @@ LoadHistory Model<Dim>::external_loads() const {
 }
 
 template <int Dim>
-Problem<Dim> Model<Dim>::problem(Executor const& executor) const {
+Problem<Dim> Model<Dim>::problem(Executor& executor) const {
   std::optional<MaterialPoints<dim>> points;
-  executor.together([&] { points.emplace(make_points(*grid_, surface_level(), regions_, executor)); });
+  executor.together([&] { points.emplace(detail::points_at(*grid_, surface_level(), regions_, executor)); });
   Eigen::VectorXd before;
   grid_->internal_force(Eigen::VectorXd::Zero(grid_->dof_count()), points->balanced_stresses(executor), before);
   LoadHistory loads = later_;

@@ -33,9 +33,9 @@ class SCARP_EXPORT Problem {
   /// loads [N], shape (degrees of freedom of mesh and attachment); attached: null for the elements alone
   /// \throws InputError for sizes that do not fit together
   Problem(std::unique_ptr<Grid<Dim>> grid, MaterialPoints<Dim> points, Constraints constraints, LoadHistory loads,
-          Executor const& executor, std::unique_ptr<detail::AttachedPart<Dim>> attached = nullptr)
+          Executor& executor, std::unique_ptr<detail::AttachedPart<Dim>> attached = nullptr)
       : attached_(std::move(attached)),
-        grid_(std::move(grid)),
+        grid_(detail::present(std::move(grid))),
         points_(std::move(points)),
         executor_(executor),
         constraints_(std::move(constraints)),
@@ -88,11 +88,15 @@ class SCARP_EXPORT Problem {
   }
   /// Derivative of these forces [N/m] where they were requested last, shape (dof_count, dof_count).
   Eigen::SparseMatrix<double> attached_stiffness() const {
-    return assembled([&](auto& entries) { attached_->add_stiffness(entries); });
+    return assembled([&](auto& entries) {
+      if (attached_) attached_->add_stiffness(entries);
+    });
   }
   /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
   Eigen::SparseMatrix<double> stick_stiffness() const {
-    return assembled([&](auto& entries) { attached_->add_stick_stiffness(entries); });
+    return assembled([&](auto& entries) {
+      if (attached_) attached_->add_stick_stiffness(entries);
+    });
   }
 
   void set_load(double load) { load_now_ = loads_.at(load); }    ///< Forces are measured against its loads.
@@ -221,6 +225,12 @@ class SCARP_EXPORT Problem {
     forget();
     if (attached_) attached_->commit(grid_->positions(), increment);
     grid_->commit(of_nodes(increment));
+  }
+
+  /// \throws InputError for an attachment that cannot be saved
+  void require_described() const {
+    StateWriter writer;
+    if (attached_) attached_->write(writer);
   }
 
   /// What evolves from step to step: a new problem with these resumes as the one that they were saved from.

@@ -47,7 +47,7 @@ class MpiSession {
 class RankExecutor : public Executor {
  public:
   /// MPI must have been initialised (by MpiSession or by the program).
-  explicit RankExecutor(Executor const& local, MPI_Comm communicator = MPI_COMM_WORLD)
+  explicit RankExecutor(Executor& local, MPI_Comm communicator = MPI_COMM_WORLD)
       : local_(local), communicator_(communicator) {
     int initialised = 0;
     MPI_Initialized(&initialised);
@@ -60,8 +60,6 @@ class RankExecutor : public Executor {
   int rank() const override { return rank_; }
   int ranks() const override { return ranks_; }
   int threads() const override { return local_.threads(); }
-  /// Points are dealt out in turn: point k belongs to rank k modulo ranks().
-  bool owns(int point) const override { return point % ranks_ == rank_; }
   /// Wall time [s] that this rank has spent in exchanges, mostly waiting for slower ones.
   double seconds_sharing() const { return seconds_sharing_; }
 

@@ -55,6 +55,7 @@ class SCARP_EXPORT ThreadExecutor : public Executor {
 };
 
 #ifdef SCARP_DEFINITIONS
+/// Threads that serve one round of tasks after another.
 class ThreadExecutor::Team {
  public:
   explicit Team(int threads) {

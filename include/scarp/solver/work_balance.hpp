@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/tensor/voigt.hpp"
 
@@ -15,7 +16,7 @@ namespace scarp {
 /// Observer that adds up the work of a run by the trapezoidal rule over its accepted steps: external, of loads and of reactions at
 /// prescribed displacements, and internal, of the points' stresses on their strains, which they store or dissipate. They differ
 /// by what the residual lets through and by the rule, at second order in the step.
-/// \tparam Problem an `EquilibriumProblem`; the work of what is attached to it is not counted
+/// \tparam Problem a `Problem` without attachment
 template <class Problem>
 class WorkBalance {
  public:
@@ -57,12 +58,16 @@ class WorkBalance {
 
     Snapshot() = default;
     Snapshot(Problem const& problem, double load)
-        : positions(problem.discretisation().positions()), stresses(problem.balanced_stresses()) {
+        : positions(problem.grid().positions()), stresses(problem.balanced_stresses()) {
+      if (problem.has_attachment())
+        reject(
+            "the work of a problem with an attachment is requested (that of what is attached is not counted): leave it "
+            "out");
       Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
-      volumes = problem.discretisation().volumes(still);
+      volumes = problem.grid().volumes(still);
       Eigen::VectorXd all = problem.loads().at(load);
       Eigen::VectorXd internal;
-      problem.discretisation().internal_force(still, stresses, internal);
+      problem.grid().internal_force(still, stresses, internal);
       for (int const dof : problem.constraints().prescribed_dofs()) all(dof) = internal(dof);
       for (Eigen::Index row = 0; row < all.size(); row += dim) forces.push_back(all.template segment<dim>(row));
     }
