@@ -136,8 +136,21 @@ class ErrorBudget : public NeverStops {
   DoubledSamples const& samples() const { return samples_; }  ///< repetitions of single increments so far
   TrackedPoints const& tracked() const { return tracked_; }   ///< repetitions of whole paths so far
 
-  SCARP_MEMBERS_EXCEPT((bounds_, sampling_, iterates_equations_, adds_up_work_, seen_, at_rest_), balance_, packings_,
-                       samples_, tracked_, residual_, linear_residual_, condition_, work_, answers_)
+  /// What evolves; the work only where it is added up.
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    SCARP_ALL_MEMBERS(bounds_, sampling_, iterates_equations_, adds_up_work_, seen_, at_rest_, balance_, packings_,
+                      samples_, tracked_, residual_, linear_residual_, condition_, work_, answers_);
+    if (self.adds_up_work_) visit("balance", self.balance_);
+    visit("packings", self.packings_);
+    visit("samples", self.samples_);
+    visit("tracked", self.tracked_);
+    visit("residual", self.residual_);
+    visit("linear_residual", self.linear_residual_);
+    visit("condition", self.condition_);
+    visit("work", self.work_);
+    visit("answers", self.answers_);
+  }
 
  private:
   static constexpr bool has_grid = requires(Problem const& problem) { problem.grid(); };
