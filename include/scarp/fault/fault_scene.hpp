@@ -174,7 +174,7 @@ Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundTyp
 
 template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
 EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::problem(
-    Executor const& executor) const {
+    Executor& executor) const {
   require_not_negative("unit weight", unit_weight);
   require_not_negative("surcharge", surcharge);
   require_positive("throw", throw_to);
