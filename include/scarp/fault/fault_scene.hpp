@@ -195,7 +195,7 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
 }
 
 #ifdef SCARP_PRECOMPILED
-/// What `scarp::precompiled` has of level ground over a normal fault: meshes and loads of the usual elements, and the problem of triangles.
+/// What `scarp::precompiled` has of level ground over a normal fault: meshes and motions of the usual elements.
 /// DECLARE: `extern template`, or `template` in the library.
 #define SCARP_GROUND(DECLARE, ELEMENT)                                                  \
   DECLARE Mesh<ELEMENT> FaultMesh::generate<ELEMENT>(std::vector<double> const&) const; \

@@ -58,7 +58,7 @@ class SCARP_EXPORT PointStates {
     fill(sites, volumes, owned, [&](Site<Dim> const& site) { return numbers[detail::index(site.region)]; });
   }
 
-  /// As above, with regions of different types.
+  /// Points of several regions, of different types.
   template <class... Materials>
   PointStates(boost::hana::tuple<Region<Materials>...> const& regions, std::span<std::string const> names,
               std::span<Site<Dim> const> sites, std::span<double const> volumes, std::function<bool(int)> const& owned)
@@ -73,7 +73,7 @@ class SCARP_EXPORT PointStates {
     fill(sites, volumes, owned, [&](Site<Dim> const&) { return number; });
   }
 
-  /// As above, for a material of any type.
+  /// Points of one material of any type.
   template <CheckedMaterial MaterialType>
     requires(MaterialType::dim == Dim)
   PointStates(
