@@ -128,7 +128,8 @@ scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Bud
   if (choice.begin) choice.begin();
   if (!choice.fields.empty()) {
     std::filesystem::create_directories(std::filesystem::path(choice.fields) / "fields");
-    watch.series.emplace(choice.fields, choice.steps * step, std::min(choice.frames, choice.steps), 1.0);
+    watch.series.emplace(
+        choice.fields, scarp::LoadSchedule{.to = choice.steps * step, .count = std::min(choice.frames, choice.steps)});
   }
   scarp::CsvLog log(choice.table, columns());
   auto const write = [&](int row) {

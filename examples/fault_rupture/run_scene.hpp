@@ -172,7 +172,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnRootRank observers(executor, [&] {
     return scarp::Observers(
-        scarp::ObserverRef(*takeover), scarp::FieldSeries(folder, to, choice.frames, depth),
+        scarp::ObserverRef(*takeover), scarp::FieldSeries(folder, {.to = to, .count = choice.frames, .unit = depth}),
         scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
         scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), measure, start),
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), measure, start),

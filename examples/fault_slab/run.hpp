@@ -118,10 +118,10 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
   double const depth = scene.ground.layer.depth;
   scarp::LoadMeasure const measure{depth, "throw_over_depth"};
   auto const start = resumes ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
-  scarp::Observers observers(scarp::FieldSeries(folder.path(), scene.throw_to, choice.frames, depth),
-                             scarp::ConvergenceLog(folder.path() / "convergence.csv", measure, start),
-                             scarp::Progress(scene.throw_to, measure), scarp::StopSignal(),
-                             scarp::TimeLimit(choice.time_limit, started));
+  scarp::Observers observers(
+      scarp::FieldSeries(folder.path(), {.to = scene.throw_to, .count = choice.frames, .unit = depth}),
+      scarp::ConvergenceLog(folder.path() / "convergence.csv", measure, start),
+      scarp::Progress(scene.throw_to, measure), scarp::StopSignal(), scarp::TimeLimit(choice.time_limit, started));
   RunNotes notes{.used = examples::RunUsage(started)};
   auto& rest = notes.rest;
   scarp::CheckpointedRun stages(files, observers, notes);

@@ -29,7 +29,7 @@ int main(int count, char** arguments) try {
   sand.pressure_floor = at_rest.surcharge / 2.0;
   model.material("sand", scarp::StiffnessFloor{sand});
   scarp::Analysis analysis(model, {.solver = {.tolerance = 2e-3, .max_iterations = 40}});
-  scarp::FieldSeries series("output/excavation", 1.0, 4, 1.0);  // to load 1, 4 files
+  scarp::FieldSeries series("output/excavation", {.to = 1.0, .count = 4});
   fmt::print("excavated  heave of the floor [mm]  base reaction [kN/m]  steps  iterations\n");
   for (int stage = 1; stage <= 4; ++stage) {
     auto const run = analysis.to(0.25 * stage, series);

@@ -191,7 +191,7 @@ TEST_CASE("being observed changes no bit and leaves only whole files") {
   FilesAreWhole whole;
   whole.folder = folder.path();
   whole.seen = &files;
-  scarp::Observers observers(scarp::FieldSeries(folder.path(), scene.throw_to, 4, unit),
+  scarp::Observers observers(scarp::FieldSeries(folder.path(), {.to = scene.throw_to, .count = 4, .unit = unit}),
                              scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, 4, unit),
                              scarp::RveProbe(folder / "probe.csv", 3, scarp::LoadMeasure{unit}),
                              scarp::PackingSeries(folder.path(), "probe", 3, scene.throw_to, {0.0, 0.5, 1.0}, {unit}),

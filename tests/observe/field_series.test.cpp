@@ -104,7 +104,7 @@ TEST_CASE_TEMPLATE("an own quantity with the name of a field is refused before a
       grid, 1.0, boost::hana::make_tuple(scarp::Region{region, Own{Soil::from_young_poisson(1e6, 0.3)}}),
       std::move(constraints), scarp::LoadHistory(), serial);
   samples::ScratchFolder const folder;
-  scarp::FieldSeries series(folder.path(), 1.0, 2, 1.0);
+  scarp::FieldSeries series(folder.path(), {.to = 1.0, .count = 2});
   auto const name = std::is_same_v<Own, Named> ? "'status'" : "'volumetric_strain'";
   CHECK_REFUSED(series.attempted(problem, {}), "own quantity", name);
   CHECK_FALSE(std::filesystem::exists(folder / "fields/step_0000.vtu"));
@@ -127,7 +127,7 @@ TEST_CASE("a series takes the states at its loads although these are sums of ste
 TEST_CASE("a series' end, number of frames and unit that cannot be are refused") {
   samples::ScratchFolder const folder;
   auto const series = [&](double to, int frames, double unit) {
-    return scarp::FieldSeries(folder.path(), to, frames, unit);
+    return scarp::FieldSeries(folder.path(), {.to = to, .count = frames, .unit = unit});
   };
   CHECK_REFUSED(series(0.0, 4, 25.0), "end of the load is 0");
   CHECK_REFUSED(series(-1.0, -4, 25.0), "end of the load is -1");

@@ -107,11 +107,11 @@ Outcome pull(Provider const& provider, scarp::Executor& executor, std::filesyste
   scarp::ErrorBudget budget(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_tracked = 3});
   std::filesystem::create_directories(folder / "fields");
   scarp::OnRootRank observers(executor, [&] {
-    return scarp::Observers(scarp::FieldSeries(folder, to, 3, 1.0), scarp::RveProbe(folder / "probe.csv", 1, {}, start),
-                            scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, {}),
-                            scarp::ConvergenceLog(folder / "convergence.csv", {}, start),
-                            scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::ObserverRef(budget),
-                            Stop{attempts});
+    return scarp::Observers(
+        scarp::FieldSeries(folder, {.to = to, .count = 3}), scarp::RveProbe(folder / "probe.csv", 1, {}, start),
+        scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, {}),
+        scarp::ConvergenceLog(folder / "convergence.csv", {}, start),
+        scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::ObserverRef(budget), Stop{attempts});
   });
   NoNotes notes;
   scarp::CheckpointedRun run(files, observers, notes);

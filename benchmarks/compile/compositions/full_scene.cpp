@@ -49,7 +49,7 @@ auto observers(Scene const& scene, std::filesystem::path const& folder) {
   constexpr int frames = 4;
   double const depth = scene.ground.layer.depth;
   return scarp::Observers(
-      scarp::FieldSeries(folder, scene.throw_to, frames, depth),
+      scarp::FieldSeries(folder, {.to = scene.throw_to, .count = frames, .unit = depth}),
       scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, frames, depth),
       scarp::FootingLog(folder, scene.structure, scene.throw_to, frames, depth),
       scarp::ConvergenceLog(folder / "convergence.csv", scarp::LoadMeasure{depth, "throw_over_depth"}));

@@ -87,15 +87,13 @@ ElementFields element_fields(Problem const& problem) {
 /// Writes the fields of a scene as a VTU series: displacement at the nodes; at the elements (the mean of
 /// their points, weighted by volume; the worst status)
 /// Cauchy stress [Pa] tension positive, logarithmic volumetric (contraction positive) and deviatoric strain, status
-/// and the quantities that the points' providers return. Every file is complete when it appears; the PVD's time is load / load_unit.
+/// and the quantities that the points' providers return. Every file is complete when it appears; the PVD's time is the load in its unit.
 class FieldSeries : public NeverStops {
  public:
-  /// frames: files are written at load 0 and then whenever the load has grown by to / frames
-  /// \throws InputError for an end, a number of frames or a unit that is not positive
-  FieldSeries(std::filesystem::path folder, double to, int frames, double load_unit)
-      : folder_(std::move(folder)),
-        schedule_(detail::validated(LoadSchedule{to, frames, load_unit})),
-        series_(folder_, "fields") {}
+  /// Files are written at load 0 and then whenever the load has grown by schedule.to / schedule.count.
+  /// \throws InputError for an end, a number of files or a unit that is not positive
+  FieldSeries(std::filesystem::path folder, LoadSchedule const& schedule)
+      : folder_(std::move(folder)), schedule_(detail::validated(schedule)), series_(folder_, "fields") {}
 
   /// \throws InputError for a quantity that has the name of a field
   template <class Problem>
