@@ -67,7 +67,9 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   std::vector<int> boundary_nodes(std::string_view name) const override { return scarp::boundary_nodes(mesh_, name); }
   std::vector<std::vector<int>> regions_of_nodes() const override;
   Tensor<Element::dim> deformation(int point) const override;
+  /// \f$ f_a = \int N_a b\,dV \f$ [N], b [N/m3] of every region.
   Eigen::VectorXd body_force(std::vector<Vector<dim>> const& per_volume) const override;
+  /// \f$ f_a = \int N_a t\,dA \f$ [N], t [Pa].
   Eigen::VectorXd traction(std::string_view boundary, Vector<dim> const& per_area) const override;
   double thickness() const override { return thickness_; }
   bool turns_stresses() const override { return follows_motion; }
@@ -88,6 +90,7 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   void internal_force(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                       Eigen::VectorXd& out) const override;
 
+  /// The stiffness [N/m] into the memory of an earlier one.
   void stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                  std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const override;
 

@@ -104,6 +104,7 @@ class Grid {
   }
 
  protected:
+  /// positions [m]: of the nodes at the start
   explicit Grid(std::vector<Vector<Dim>> positions) : positions_(std::move(positions)) {}
   Grid(Grid const&) = default;
   Grid(Grid&&) noexcept = default;

@@ -23,11 +23,12 @@ struct CollapseSettings {
 
 /// How `reduce_strength` looks for a factor of safety.
 struct StrengthReduction {
-  double from = 1.0;        ///< factor that is tried first
-  double to = 3.0;          ///< largest factor that is tried
-  double tolerance = 0.01;  ///< of the factor, relative
-  double load = 1.0;        ///< load factor that is to be carried, beyond all knots of loads
-  CollapseSettings collapse{};
+  double from = 1.0;            ///< factor that is tried first
+  double to = 3.0;              ///< largest factor that is tried
+  double tolerance = 0.01;      ///< of the factor, relative
+  double load = 1.0;            ///< load factor that is to be carried, beyond all knots of loads
+  CollapseSettings collapse{};  ///< when ground has failed
+  /// Of each analysis: a floor of the stiffness lets ground flow.
   AnalysisSettings analysis{
       .solver = {.tolerance = 1e-4, .max_iterations = 40, .rule = {.exact = {.floor = 1e-4}}},
       .stepping = {.first = 0.05, .smallest = 1e-4, .largest = 0.05, .max_displacement_gradient = 0.1}};

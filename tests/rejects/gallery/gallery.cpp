@@ -7,7 +7,7 @@
 using namespace scarp;
 
 using Discs = Packing<Disc, Frictionless>;
-using Grid = Discretisation<Quad4>;
+using Elements = Discretisation<Quad4>;
 using Elastic = LinearElastic<2>;
 
 // first: a shape needs `static constexpr int` dim
@@ -174,7 +174,7 @@ auto const region = Region{"soil", Wrong{}};
 // also: wants_stop(
 namespace case_19 {
 struct Wrong {};
-void watched(EquilibriumProblem<Grid>& problem, Wrong& wrong) {
+void watched(EquilibriumProblem<Elements>& problem, Wrong& wrong) {
   LoadStepping{}.settle(QuasiNewton<>{}, problem, 0.0, wrong);
 }
 }  // namespace case_19
