@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/element/quad8.hpp"
@@ -116,7 +117,27 @@ TEST_CASE("a point that does not respond is no failure of the ground") {
     return again;
   });
   CHECK(!found.is_found());
+  CHECK(found.fails == 0.0);
   CHECK(found.why.find("factor 1: ") != std::string::npos);
+}
+
+TEST_CASE("an attempt that a point has stopped says nothing of the ground") {
+  struct Strained {
+    double gradient;
+    double max_displacement_gradient() const { return gradient; }
+  };
+  scarp::CollapseWatch watch(100.0);
+  scarp::StepReport step{.load_increment = 1.0, .history = std::vector<scarp::IterationRecord>(1)};
+  watch.attempted(Strained{1e-3}, step);
+  CHECK(watch.ratio() == 1.0);
+  step.verdict = {scarp::Status::not_converged, scarp::Reason::iterations_spent};
+  step.worst_point = 3;
+  watch.attempted(Strained{1.0}, step);
+  CHECK(watch.ratio() == 1.0);
+  step.worst_point = -1;
+  watch.attempted(Strained{1.0}, step);
+  CHECK(watch.ratio() == samples::Approx(1e3).epsilon(1e-12));
+  CHECK(!watch.wants_stop());  // no step was accepted there
 }
 
 TEST_CASE("a strength that the first factor does not leave, and one that the last one leaves, are told apart") {
