@@ -49,7 +49,7 @@ struct WorkBalanceOf<Problem> {
 /// ... run ...
 /// fmt::print("{}{}", budget_headline(budget.parts()), budget_table(budget.parts()));
 /// \endcode
-/// \tparam Problem an `EquilibriumProblem`
+/// \tparam Problem a `Problem`
 template <class Problem>
 class ErrorBudget : public NeverStops {
  public:

@@ -47,7 +47,8 @@ class Executor {
   /// On the first process, within on_first(): what the owner of a point returns.
   /// \throws InputError with the owner's words where it could not
   virtual std::string fetch(int point) const {
-    reject("point {} was requested from another process (there is none): read it here", point);
+    reject("the state of point {} is requested from another process (this is the only one): take it from the points",
+           point);
   }
 
   /// Completes an array over all points of which every process has the entries of its own.

@@ -16,7 +16,7 @@
 namespace scarp {
 
 /// A batch of material points of one or several providers: parameters, committed and trial states, plans, and means over neighbours
-/// where a region has them. The material side of `EquilibriumProblem`, and of any program that has points of its own:
+/// where a region has them. The material side of `Problem`, and of any program that has points of its own:
 /// \code
 /// MaterialPoints<2> points(soil, sites);
 /// points.gradient(0) = increment;             // of all points, since the last commit

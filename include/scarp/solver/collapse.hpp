@@ -117,8 +117,8 @@ struct SafetyFactor {
   bool is_found() const { return stands > 0.0 && fails > 0.0; }  ///< Whether both are known.
 };
 
-/// Strength reduction: make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. Factors are
-/// halved until they are within the tolerance. Use small strain: in large strain ground may stiffen by its new shape.
+/// Strength reduction: make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. The
+/// interval between a factor that stands and one that fails is halved until it is within the tolerance. Use small strain: in large strain ground may stiffen by its new shape.
 /// \return stands 0 where `from` fails, fails 0 where `to` stands or a run is stopped by something else than failure
 /// \throws InputError for settings outside of their range, and for a model with loads that change beyond the load factor
 template <class MakeModel>

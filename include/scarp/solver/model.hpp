@@ -62,7 +62,7 @@ class SCARP_EXPORT Model {
     auto const above = [](auto const& a, auto const& b) { return a(dim - 1) < b(dim - 1); };
     return (*std::ranges::max_element(grid_->nodes(), above))(dim - 1);
   }
-  /// height [m], also above the mesh, where the former surface is taken away.
+  /// Sets that height [m], also above the mesh, where the former surface is taken away.
   void set_surface_level(double height) { level_ = require_finite("level of the ground surface", height); }
 
   /// Where the material points of a region are, of all without a name.
@@ -165,9 +165,10 @@ Model<Dim>::Model(std::unique_ptr<Grid<Dim>> grid)
 template <int Dim>
 std::vector<Site<Dim>> Model<Dim>::sites(std::string_view region) const {
   int const number = region.empty() ? -1 : region_number(*grid_, region);
+  double const level = surface_level();
   std::vector<Site<dim>> found;
   for (int point = 0; point < grid_->point_count(); ++point) {
-    auto const site = grid_->site(point, surface_level());
+    auto const site = grid_->site(point, level);
     if (number < 0 || site.region == number) found.push_back(site);
   }
   return found;

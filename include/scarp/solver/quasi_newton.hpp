@@ -265,7 +265,7 @@ void QuasiNewtonSession<Settings, Dim>::learn_from_responses(RuleType const& rul
 template <class Rule = MaterialTangent, LinearSolver Linear = SparseLu>
   requires TangentRule<Rule, 2> || ChoosesTangentRule<Rule, 2>
 struct QuasiNewton {
-  /// Force residual, see EquilibriumProblem::residuals; without one 1e-6 where all materials have exact tangents, else 5e-3.
+  /// Force residual, see Problem::residuals; without one 1e-6 where all materials have exact tangents, else 5e-3.
   std::optional<double> tolerance{};
   int max_iterations = 30;         ///< of a load step; then it is given up
   double divergence_limit = 10.0;  ///< residual beyond which a step is given up

@@ -12,7 +12,7 @@
 
 namespace scarp {
 
-/// Imbalance of a part of a problem, relative to what carries or loads it: see EquilibriumProblem::residuals.
+/// Imbalance of a part of a problem, relative to what carries or loads it: see Problem::residuals.
 struct PartResidual {
   std::string name;    ///< "all", a region of the mesh, or "attached"
   double value = 0.0;  ///< ratio of forces, without unit
@@ -21,13 +21,13 @@ struct PartResidual {
 /// Forces and residuals of an increment of displacement, with the points' report.
 struct [[nodiscard]] Evaluation : ResponseReport {
   Eigen::VectorXd unbalanced{};       ///< internal minus external force of all degrees of freedom [N]
-  double residual = 0.0;              ///< see EquilibriumProblem::residual
-  std::vector<PartResidual> parts{};  ///< see EquilibriumProblem::residuals; empty where the whole is the only one
+  double residual = 0.0;              ///< see Problem::residual
+  std::vector<PartResidual> parts{};  ///< see Problem::residuals; empty where the whole is the only one
 };
 
 /// One iteration of a load step.
 struct IterationRecord {
-  double residual = 0.0;          ///< see EquilibriumProblem::residual
+  double residual = 0.0;          ///< see Problem::residual
   double linear_residual = 0.0;   ///< |K x - b| / |b| of the linear system that led here
   long inner_steps = 0;           ///< DEM steps of all points
   double material_seconds = 0.0;  ///< wall time in the material points' responses and tangents, sum of forces included
