@@ -263,7 +263,7 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
       mean_void_ratio += run.void_ratio(k) / static_cast<double>(count);
       auto const json =
           json_of(laboratory_results<Dim>(run.rows()[k], window), run.void_ratio(k), verdict.acceptable());
-      print_results(fmt::to_string(k), json);
+      print_results(std::to_string(k), json);
       summary["results"].push_back(json);
     }
     auto const mean = laboratory_results<Dim>(mean_rows<Dim>(run.rows()), window);

@@ -4,6 +4,7 @@
 // Both are for tests/io/mesh_files.test.py.
 #include "io/mesh_samples.hpp"
 
+#include <fmt/format.h>
 #include <cstdio>
 #include <exception>
 #include <span>

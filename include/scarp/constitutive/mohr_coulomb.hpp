@@ -65,9 +65,9 @@ struct MohrCoulomb {
   void require_fitting(State const& state) const {
     Vector<3> const values = principal(from_voigt_stress<3, double>(state.stress)).values;
     Strength const left = strength.at(state.plastic_shear);
-    detail::MohrCoulombReturn const surface(left, elasticity.lame_lambda, elasticity.shear_modulus);
     constexpr double round_off = 1e-6;
-    if (surface.excess(values) <= round_off * std::max(values.cwiseAbs().maxCoeff(), left.cohesion)) return;
+    if (detail::mohr_coulomb_excess(left, values) <= round_off * std::max(values.cwiseAbs().maxCoeff(), left.cohesion))
+      return;
     reject(
         "the state has principal stresses of {:.6g}, {:.6g} and {:.6g} Pa (the strength of these points, cohesion {} "
         "Pa and "
@@ -107,8 +107,10 @@ struct MohrCoulomb {
 
   void require_within_strength(Vector<3> const& stress, Site<Dim> const& site) const {
     Strength const start = strength.at(0.0);
-    detail::MohrCoulombReturn const surface(start, elasticity.lame_lambda, elasticity.shear_modulus);
-    if (surface.excess(stress) <= 1e-10 * std::max(stress.cwiseAbs().maxCoeff(), start.cohesion)) return;  // round-off
+    constexpr double round_off = 1e-10;
+    if (detail::mohr_coulomb_excess(start, stress) <=
+        round_off * std::max(stress.cwiseAbs().maxCoeff(), start.cohesion))
+      return;
     double const sine = std::sin(start.friction);
     reject(
         "the initial stress of point {} in region {}, {} m deep, has principal stresses of {}, {} and {} Pa (its "
@@ -121,8 +123,8 @@ struct MohrCoulomb {
   }
 
   Return returned_at(Vector<3> const& trial, double plastic_shear) const {
-    return detail::MohrCoulombReturn(strength.at(plastic_shear), elasticity.lame_lambda,
-                                     elasticity.shear_modulus)(trial);
+    return detail::mohr_coulomb_return(strength.at(plastic_shear), elasticity.lame_lambda, elasticity.shear_modulus,
+                                       trial);
   }
 
   static double shear_of(Vector<3> const& plastic_strain) {

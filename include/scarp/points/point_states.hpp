@@ -52,7 +52,7 @@ class SCARP_EXPORT PointStates {
       int const region = sites[k].region;
       if (region < 0 || region >= std::ssize(numbers) || numbers[detail::index(region)] < 0) {
         reject("region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
-               region < 0 || region >= std::ssize(names) ? fmt::to_string(region) : names[detail::index(region)], k);
+               region < 0 || region >= std::ssize(names) ? std::to_string(region) : names[detail::index(region)], k);
       }
     }
     fill(sites, volumes, owned, [&](Site<Dim> const& site) { return numbers[detail::index(site.region)]; });

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/core/precompiled.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/tensor/tensor.hpp"
 
@@ -38,26 +39,34 @@ Tensor<Dim, Scalar> rotation_factor(Tensor<Dim, Scalar> const& deformation) {
 /// \f$ E = 2 (U - I)(U + I)^{-1} \f$ is the strain of the stretch with respect to its half-way configuration; it differs from
 /// ln U by E^3/12, so a large increment and the same one in many parts agree to second order.
 template <int Dim>
-struct RotatedIncrement {
+struct SCARP_EXPORT RotatedIncrement {
   Tensor<Dim> turn = Tensor<Dim>::Identity();  ///< R
   Tensor<Dim> strain = Tensor<Dim>::Zero();    ///< E, before the rotation
   Verdict verdict;  ///< not_finite, or element_inverted where det(I + gradient) is not positive
 
   /// Splits I + gradient, shape (Dim, Dim); `verdict` reports a gradient that is not finite or turns the element inside out.
-  explicit RotatedIncrement(Gradient<Dim> const& gradient) {
-    Tensor<Dim> const identity = Tensor<Dim>::Identity();
-    Tensor<Dim> const deformation = identity + gradient;
-    if (!gradient.allFinite()) {
-      verdict = {Status::failed, Reason::not_finite};
-    } else if (!(deformation.determinant() > 0.0)) {
-      verdict = {Status::failed, Reason::element_inverted};
-    } else {
-      turn = rotation_factor<Dim, double>(deformation);
-      Tensor<Dim> const stretch = turn.transpose() * deformation;
-      strain = 2.0 * (stretch - identity) * (stretch + identity).inverse();
-    }
-  }
+  explicit RotatedIncrement(Gradient<Dim> const& gradient);
 };
+
+template <int Dim>
+RotatedIncrement<Dim>::RotatedIncrement(Gradient<Dim> const& gradient) {
+  Tensor<Dim> const identity = Tensor<Dim>::Identity();
+  Tensor<Dim> const deformation = identity + gradient;
+  if (!gradient.allFinite()) {
+    verdict = {Status::failed, Reason::not_finite};
+  } else if (!(deformation.determinant() > 0.0)) {
+    verdict = {Status::failed, Reason::element_inverted};
+  } else {
+    turn = rotation_factor<Dim, double>(deformation);
+    Tensor<Dim> const stretch = turn.transpose() * deformation;
+    strain = 2.0 * (stretch - identity) * (stretch + identity).inverse();
+  }
+}
+
+#ifdef SCARP_PRECOMPILED
+extern template struct RotatedIncrement<2>;
+extern template struct RotatedIncrement<3>;
+#endif
 
 /// Logarithm of I + gradient: the velocity gradient that, held constant for unit time, moves the identity to I + gradient.
 /// \f$ \ln(I + G) = 2\,artanh(G (2I + G)^{-1}) \f$ summed to round-off; meant for increments well below 1.

@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/constitutive/strength.hpp"
+#include "scarp/core/precompiled.hpp"
+#include "scarp/tensor/tensor.hpp"
+#ifdef SCARP_DEFINITIONS
 #include <Eigen/LU>
-
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "scarp/constitutive/strength.hpp"
 #include "scarp/core/index.hpp"
-#include "scarp/core/precompiled.hpp"
-#include "scarp/tensor/tensor.hpp"
+#endif
 
 namespace scarp::detail {
-
-/// A plane that bounds the admissible principal stresses, \f$ n\cdot\sigma \le s \f$, and the direction of plastic flow on it.
-struct YieldPlane {
-  Vector<3> normal;
-  Vector<3> flow;
-  double limit;
-};
 
 /// Where a trial stress returns to.
 struct PrincipalReturn {
@@ -29,6 +23,21 @@ struct PrincipalReturn {
   Tensor<3> tangent = Tensor<3>::Zero();         ///< change of the stress with the trial strain [Pa]
   int planes = 0;                                ///< how many are active: 0 elastic, 1 face, 2 edge, 3 corner
   bool found = false;
+};
+
+/// Return of principal stresses `trial` [Pa], largest (most tensile) first, to the Mohr-Coulomb pyramid; lame_lambda, shear_modulus [Pa]
+SCARP_EXPORT PrincipalReturn mohr_coulomb_return(Strength const& strength, double lame_lambda, double shear_modulus,
+                                                 Vector<3> const& trial);
+
+/// By how much a stress [Pa], largest first, exceeds the strength [Pa]; not above zero within it.
+SCARP_EXPORT double mohr_coulomb_excess(Strength const& strength, Vector<3> const& stress);
+
+#ifdef SCARP_DEFINITIONS
+/// A plane that bounds the admissible principal stresses, \f$ n\cdot\sigma \le s \f$, and the direction of plastic flow on it.
+struct YieldPlane {
+  Vector<3> normal;
+  Vector<3> flow;
+  double limit;
 };
 
 /// Return of principal stresses, largest first, to the Mohr-Coulomb pyramid with tension cut-off: an implicit Euler step,
@@ -53,7 +62,6 @@ class MohrCoulombReturn {
     }
   }
 
-  /// trial: ordered, largest (most tensile) first [Pa]
   PrincipalReturn operator()(Vector<3> const& trial) const {
     // A cut-off beyond the trial stress does not count: c cot(phi) of hardly any friction would make the slack as large as c.
     double const size = std::max(trial.cwiseAbs().maxCoeff(), plane(0).limit);
@@ -67,7 +75,6 @@ class MohrCoulombReturn {
     return found;
   }
 
-  /// By how much a stress, largest first, exceeds the strength [Pa]; not above zero within it.
   double excess(Vector<3> const& stress) const {
     double most = -std::numeric_limits<double>::infinity();
     for (int k = 0; k < count_; ++k) most = std::max(most, plane(k).normal.dot(stress) - plane(k).limit);
@@ -107,7 +114,7 @@ class MohrCoulombReturn {
     return {};
   }
 
-  /// With exactly these planes active. Outside of the class, so that a library can contain it.
+  /// With exactly these planes active.
   template <int Count>
   PrincipalReturn attempt(std::array<int, detail::index(Count)> const& active, Vector<3> const& trial,
                           double slack) const;
@@ -124,8 +131,8 @@ class MohrCoulombReturn {
 /// R subtracts, are unknowns of one system: however large kappa is near incompressibility, nothing large is subtracted,
 /// \f$ N^T R\mu + N^T 1\,p = f^{tr},\; \kappa\,1^T R\mu - p = 0 \f$, the second row divided by 1 + |kappa|.
 template <int Count>
-SCARP_EXPORT PrincipalReturn MohrCoulombReturn::attempt(std::array<int, detail::index(Count)> const& active,
-                                                        Vector<3> const& trial, double slack) const {
+PrincipalReturn MohrCoulombReturn::attempt(std::array<int, detail::index(Count)> const& active, Vector<3> const& trial,
+                                           double slack) const {
   Eigen::Matrix<double, 3, Count> normals;
   Eigen::Matrix<double, 3, Count + 1> flows;  // the last one a unit of mean stress
   Eigen::Matrix<double, Count + 1, 1> over;
@@ -160,14 +167,14 @@ SCARP_EXPORT PrincipalReturn MohrCoulombReturn::attempt(std::array<int, detail::
   return result;
 }
 
-/// DECLARE: `extern template`, or `template` in the library.
-#define SCARP_MOHR_COULOMB(DECLARE, COUNT)                                                                           \
-  DECLARE PrincipalReturn MohrCoulombReturn::attempt<COUNT>(std::array<int, COUNT> const&, Vector<3> const&, double) \
-      const;
-#ifdef SCARP_PRECOMPILED
-SCARP_MOHR_COULOMB(extern template, 1)
-SCARP_MOHR_COULOMB(extern template, 2)
-SCARP_MOHR_COULOMB(extern template, 3)
+SCARP_DEFINITIONS PrincipalReturn mohr_coulomb_return(Strength const& strength, double lame_lambda,
+                                                      double shear_modulus, Vector<3> const& trial) {
+  return MohrCoulombReturn(strength, lame_lambda, shear_modulus)(trial);
+}
+
+SCARP_DEFINITIONS double mohr_coulomb_excess(Strength const& strength, Vector<3> const& stress) {
+  return MohrCoulombReturn(strength, 0.0, 1.0).excess(stress);
+}
 #endif
 
 }  // namespace scarp::detail

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSL-1.0
+#define SCARP_DEFINITIONS
+#include "scarp/constitutive/detail/mohr_coulomb_return.hpp"
+#include "scarp/core/gmres.hpp"
+#include "scarp/solver/sparse_lu.hpp"
+#include "scarp/tensor/finite_strain.hpp"
+#include "scarp/tensor/principal.hpp"
+
+namespace scarp {
+template struct RotatedIncrement<2>;
+template struct RotatedIncrement<3>;
+}  // namespace scarp

@@ -1,3 +1,0 @@
-// SPDX-License-Identifier: BSL-1.0
-#define SCARP_DEFINITIONS
-#include "scarp/core/gmres.hpp"
