@@ -3,7 +3,6 @@
 
 import numpy as np
 import scarp_figures as figures
-from matplotlib.patches import Polygon
 from scarp_figures import BLACK, BLUE, GREY, PALE, VERMILION, plt
 
 THICKNESS = 0.1  # of a rigid footing as it is drawn, over its width
@@ -28,7 +27,7 @@ def corners(folder, summary, throw, surface):
 def draw_block(axes, folder, summary, throw, surface):
     """A rigid footing where it is at a throw: its patch, None for none."""
     place = corners(folder, summary, throw, surface)
-    return None if place is None else axes.add_patch(Polygon(place, facecolor=PALE, edgecolor=BLACK, linewidth=0.8, zorder=4))
+    return None if place is None else axes.add_patch(figures.block(place))
 
 
 def draw_extent(axes, summary):

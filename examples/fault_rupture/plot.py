@@ -14,7 +14,7 @@ import ground_figures
 import numpy as np
 import packing_figures
 import scarp_figures as figures
-from ground_figures import colour_limit, deviatoric_percent, draw_cells, draw_settlement, read_steps
+from field_figures import colour_limit, deviatoric_percent, draw_cells, draw_settlement, read_steps, status_note
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.patheffects import withStroke
 from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
@@ -66,13 +66,6 @@ def probe_place(folder, name, throw, grid):
         alike &= np.isclose(grid.at_cells[quantity], probe[quantity][row], rtol=1e-6, atol=0.0)
     place = grid.points[grid.cells[alike]].mean(axis=1)
     return place[0] if len(place) == 1 else None
-
-
-def status_note(grid):
-    """How many elements do not simply answer "ok"; the numbers are those of core/status.hpp."""
-    status = grid.at_cells.get("status", np.zeros(0))
-    counts = {"fluid": np.count_nonzero(status == 1), "failed": np.count_nonzero(status > 1)}
-    return "".join(f", {count} elements {name}" for name, count in counts.items() if count)
 
 
 def draw_bands(axes, summary, bedrock, depth):

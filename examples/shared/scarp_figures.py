@@ -17,6 +17,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.patches import Polygon
 from PIL import Image
 
 # Colours that stay apart for colour-blind readers [Okabe & Ito 2008, "Color Universal Design"].
@@ -150,6 +151,11 @@ def field(values, name, path):
     if name not in values:
         raise InputError(f"'{path}' has no field '{name}' (it has: {', '.join(values)}): run the example anew")
     return values[name]
+
+
+def block(corners):
+    """A rigid body's patch. corners: shape (n, 2)"""
+    return Polygon(corners, facecolor=PALE, edgecolor=BLACK, linewidth=0.8, zorder=4)
 
 
 class Animation(typing.NamedTuple):

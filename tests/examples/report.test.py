@@ -90,6 +90,10 @@ def check_whole(folder):
     shown = sorted(attributes["id"].removeprefix("figure-") for attributes in page.all("figure"))
     expect(shown == drawn and len(page.all("img")) == len(drawn), f"shown are {shown}, drawn {drawn}")
     expect((folder / "figures/rupture.gif").stat().st_size < 3e6, "the animation is large")
+    fields = shutil.copytree(folder, folder.with_name("fields"), ignore=shutil.ignore_patterns("*.csv", "*.json", "figures"))
+    done = subprocess.run([sys.executable, scripts.parent / "shared/field_figures.py", fields], capture_output=True, text=True, timeout=900)
+    expect(done.returncode == 0 and {path.name for path in (fields / "figures").iterdir()} ==
+           {"deformation.png", "strain_development.gif", "stress_crosses.png"}, f"figures of fields alone: {done.stdout}{done.stderr}")
 
     summary = json.loads((folder / "summary.json").read_text())
     for key in ("surface_x50", "k0", "max_accepted_residual", "dem_steps"):
