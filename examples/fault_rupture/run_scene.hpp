@@ -11,7 +11,6 @@
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
 #include "scarp/budget/error_budget.hpp"
-#include "scarp/fault/pilot_size.hpp"
 #include "scarp/fault/surface_log.hpp"
 #include "scarp/observe/convergence_log.hpp"
 #include "scarp/observe/distortion.hpp"
@@ -268,7 +267,7 @@ std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const&
   if (!report.verdict.acceptable() && is_root_rank(executor))
     examples::print(stderr, "warning: the pilot run ended at a throw of {:.3g} m ({}): the strip may be too short\n",
                     report.load, name(report.verdict.reason));
-  return scarp::strained_places(problem, share);
+  return strained_places(problem, share);
 }
 
 // Each structure's scene is compiled in a source of its own.

@@ -14,12 +14,12 @@
 #include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
-#include "scarp/fault/surface_mean.hpp"
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/mesh/region_area.hpp"
 #include "scarp/observe/distortion.hpp"
 #include "scarp/observe/floor_share.hpp"
 #include "scarp/observe/solid_volume.hpp"
+#include "surface_mean.hpp"
 #include "team.hpp"
 
 namespace fault_rupture {
@@ -128,7 +128,7 @@ inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const
 
 /// The strip of small elements: its edges, evenly from bedrock to the surface, and on bare ground the least distance between
 /// them and the band, which has gone from 5 to 95 % of the offset; a footing spreads the settlement beside the band. [m]
-inline void add_strip(nlohmann::ordered_json& json, scarp::PilotSize const& strip, scarp::RuptureSurvey const& survey,
+inline void add_strip(nlohmann::ordered_json& json, PilotSize const& strip, scarp::RuptureSurvey const& survey,
                       bool is_bare) {
   constexpr int levels = 25;
   json["strip_size"] = strip.fine;
@@ -185,7 +185,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   }
   json["vertical_stress_error"] = rest.vertical_error;
   add_rupture(json, survey, offset.tip - survey.depth / std::tan(scene.fault.dip));
-  auto const mean = scarp::surface_mean(grid.mesh(), ground, grid.positions(), offset);
+  auto const mean = surface_mean(grid.mesh(), ground, grid.positions(), offset);
   json["surface_mean"] = mean.surface_mean;
   json["dilated_area"] = mean.dilated_area;
   if (rest.solid_volume > 0.0) {

@@ -113,7 +113,7 @@ void choose_strip(Choice& choice) {
 template <class E>
 ChosenGround<E> ground_of(Choice const& choice) {
   double const scale = choice.scale();
-  std::optional<scarp::PilotSize> strip;
+  std::optional<PilotSize> strip;
   if (!choice.strained.empty())
     strip = {.strained = choice.strained,
              .margin = choice.strip_width / 2.0,

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "choice.hpp"
+#include "pilot_size.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/fault_mesh.hpp"
-#include "scarp/fault/pilot_size.hpp"
 #include "scarp/fault/refined_ground.hpp"
 
 namespace fault_rupture {
@@ -45,7 +45,7 @@ struct ChosenGround {
   using Element = ElementType;
 
   scarp::FaultMesh layer{};
-  std::optional<scarp::PilotSize> strip{};
+  std::optional<PilotSize> strip{};
   std::optional<scarp::Mesh<Element>> given{};
 
   scarp::Mesh<Element> mesh(std::vector<double> const& edges) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/fault/pilot_size.hpp"
+#include "../../examples/shared/study/pilot_size.hpp"
 
 #include <doctest/doctest.h>
 
@@ -43,13 +43,13 @@ Vector<2> step_at_five(Vector<2> const& place) { return {0.0, -0.2 * std::clamp(
 TEST_CASE_TEMPLATE("strained places are the elements in which the ground shears", Element, scarp::Tri3, scarp::Tri6,
                    scarp::Quad8) {
   MovedGround<Element> const ground(step_at_five);
-  auto const places = scarp::strained_places(ground, 1.0 - 1e-9);  // without rounding
+  auto const places = fault_rupture::strained_places(ground, 1.0 - 1e-9);  // without rounding
   CHECK(places.size() == ground.grid.mesh().elements.size() / 8);
   for (auto const& place : places) {
     CHECK(place.x() > 5.0);
     CHECK(place.x() < 6.0);
   }
-  CHECK(scarp::strained_places(ground, 0.49).size() == places.size() / 2);
+  CHECK(fault_rupture::strained_places(ground, 0.49).size() == places.size() / 2);
 }
 
 TEST_CASE("of the strain the largest part is taken first") {
@@ -57,12 +57,12 @@ TEST_CASE("of the strain the largest part is taken first") {
     Vector<2> const faint{0.0, -0.01 * std::clamp(place.x() - 1.0, 0.0, 1.0)};
     return Vector<2>(step_at_five(place) + faint);
   });
-  for (auto const& place : scarp::strained_places(ground, 0.95)) CHECK(place.x() > 5.0);
-  CHECK(scarp::strained_places(ground, 0.99).size() > 4);
+  for (auto const& place : fault_rupture::strained_places(ground, 0.95)) CHECK(place.x() > 5.0);
+  CHECK(fault_rupture::strained_places(ground, 0.99).size() > 4);
 }
 
 TEST_CASE("elements are fine around strained places, coarse far away and grow between") {
-  scarp::PilotSize const field{
+  fault_rupture::PilotSize const field{
       .strained = {{0.0, 0.0}, {-2.0, 4.0}}, .margin = 3.0, .fine = 0.5, .coarse = 4.5, .transition = 10.0};
   CHECK(field.size({0.0, 0.0}) == 0.5);
   CHECK(field.size({-2.0, 7.0}) == 0.5);
@@ -77,12 +77,12 @@ TEST_CASE("elements are fine around strained places, coarse far away and grow be
 
 TEST_CASE("a pilot run that strains nothing is refused") {
   MovedGround<scarp::Tri3> const ground([](Vector<2> const&) { return Vector<2>(0.0, -1.0); });
-  CHECK_REFUSED(scarp::strained_places(ground, 0.7), "apply a throw");
-  CHECK_REFUSED(scarp::strained_places(ground, 1.5), "share of the strain", "1.5");
+  CHECK_REFUSED(fault_rupture::strained_places(ground, 0.7), "apply a throw");
+  CHECK_REFUSED(fault_rupture::strained_places(ground, 1.5), "share of the strain", "1.5");
 }
 
 TEST_CASE("settings that say nothing of sizes are refused") {
-  using scarp::PilotSize;
+  using fault_rupture::PilotSize;
   std::vector<Vector<2>> const places{{0.0, 0.0}};
   CHECK_REFUSED(PilotSize{}.validate(), "strained 0 places");
   CHECK_REFUSED((PilotSize{.strained = places, .margin = -1.0}.validate()), "margin", "-1");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/fault/surface_mean.hpp"
+#include "../../examples/fault_rupture/surface_mean.hpp"
 
 #include <doctest/doctest.h>
 
@@ -54,7 +54,7 @@ double miss(scarp::Mesh<Element> const& mesh, Motion const& motion, double fault
     rest[n].y() -= 0.02 * wave;
     now.emplace_back(rest[n] + left + share[n] * (right - left) + Vector<2>(0.1, 0.2) * wave);
   }
-  auto const found = scarp::surface_mean(mesh, rest, now, scarp::offset_at(motion, fault_throw));
+  auto const found = fault_rupture::surface_mean(mesh, rest, now, scarp::offset_at(motion, fault_throw));
   auto const profile = scarp::surface_profile(mesh, rest, now);
   double const depth = scarp::region_area(mesh, "soil", rest) / (profile.back().x_initial - profile.front().x_initial);
   double const slip = right.x() - left.x();
@@ -103,13 +103,13 @@ TEST_CASE("a step above the tip has its mean in the middle of its heave") {
     if (node.x() == 0.0) node += 0.5 * h * fault.right();
   }
   // Analytic: the facets beside the tip are alike, and the ground grows by its depth times the heave.
-  auto const found = scarp::surface_mean(mesh, mesh.nodes, now, scarp::offset_at(fault, h));
+  auto const found = fault_rupture::surface_mean(mesh, mesh.nodes, now, scarp::offset_at(fault, h));
   CHECK(std::abs(found.surface_mean - 0.5 * h * fault.right().x()) < 1e-12 * 25.0);
   CHECK(std::abs(found.dilated_area - 25.0 * h * fault.right().x()) < 1e-12 * 25.0 * 75.0);
 }
 
 TEST_CASE("without an offset there is no mean") {
   auto const mesh = scarp::FaultMesh{.size = 5.0}.generate<scarp::Tri3>();
-  CHECK(std::isnan(scarp::surface_mean(mesh, mesh.nodes, mesh.nodes, {}).surface_mean));
-  CHECK(scarp::surface_mean(mesh, mesh.nodes, mesh.nodes, {}).dilated_area == 0.0);
+  CHECK(std::isnan(fault_rupture::surface_mean(mesh, mesh.nodes, mesh.nodes, {}).surface_mean));
+  CHECK(fault_rupture::surface_mean(mesh, mesh.nodes, mesh.nodes, {}).dilated_area == 0.0);
 }
