@@ -105,8 +105,8 @@ inline NoFooting footing_log(std::filesystem::path const&, scarp::NoStructure co
   return {};
 }
 template <class Structure>
-scarp::FootingLog<Structure> footing_log(std::filesystem::path const& folder, Structure const& structure, double to,
-                                         int profiles, double load_unit, scarp::CsvStart start) {
+FootingLog<Structure> footing_log(std::filesystem::path const& folder, Structure const& structure, double to,
+                                  int profiles, double load_unit, scarp::CsvStart start) {
   return {folder, structure, to, profiles, load_unit, start};
 }
 

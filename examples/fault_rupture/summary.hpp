@@ -9,9 +9,9 @@
 #include "../shared/process_usage.hpp"
 #include "../shared/renamed_keys.hpp"
 #include "any_scene.hpp"
+#include "footing_log.hpp"
 #include "scarp/budget/budget_part.hpp"
 #include "scarp/core/described.hpp"
-#include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
 #include "scarp/io/atomic_file.hpp"
@@ -87,7 +87,7 @@ template <class Problem, class SceneType>
 void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem const& problem) {
   if constexpr (requires { scene.structure.motion(problem); }) {
     auto const motion = scene.structure.motion(problem);
-    auto const pressure = scarp::base_pressure(motion);
+    auto const pressure = base_pressure(motion);
     auto const& footing = scene.structure.footing;
     double const weight = footing.bearing * footing.width;
     json["bearing_pressure"] = footing.bearing;

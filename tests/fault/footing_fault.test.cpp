@@ -5,7 +5,6 @@
 
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
-#include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/tied_footing.hpp"
 #include "support/approx.hpp"

@@ -13,7 +13,6 @@
 #include "scarp/fault/tied_footing.hpp"
 #include "scarp/mesh/region_area.hpp"
 #include "support/approx.hpp"
-#include "support/files.hpp"
 #include "support/refusals.hpp"
 
 namespace {
@@ -164,7 +163,7 @@ TEST_CASE("sizes of footings that are not positive or not finite are refused") {
   CHECK_REFUSED(scarp::mark_footing_base(mesh, nan, width), "centre of the footing is nan");
 }
 
-TEST_CASE("a footing that cannot be is refused before it is placed, and so is a log without an end or a profile") {
+TEST_CASE("a footing that cannot be is refused before it is placed") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   auto const refused = [](scarp::StripFooting const& footing, std::string_view what) {
     CHECK_REFUSED(footing.validate(), what);
@@ -176,9 +175,4 @@ TEST_CASE("a footing that cannot be is refused before it is placed, and so is a 
   refused({.width = nan}, "width of the footing");
   refused({.bearing = -1.0}, "mean pressure below the footing");
   refused({.bearing = nan}, "mean pressure below the footing");
-  samples::ScratchFolder const folder;
-  for (double const to : {0.0, -1.0, nan})
-    CHECK_REFUSED(scarp::FootingLog(folder.path(), scarp::TiedFooting{}, to, 10, 1.0), "end of the load");
-  CHECK_REFUSED(scarp::FootingLog(folder.path(), scarp::TiedFooting{}, 1.0, 0, 1.0),
-                "profiles up to the end of the load is 0");
 }

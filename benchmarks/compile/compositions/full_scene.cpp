@@ -3,9 +3,9 @@
 // checkpoints, and ranks where there is an MPI.
 #include <filesystem>
 
+#include "../../../examples/fault_rupture/footing_log.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/surface_log.hpp"
@@ -51,7 +51,7 @@ auto observers(Scene const& scene, std::filesystem::path const& folder) {
   return scarp::Observers(
       scarp::FieldSeries(folder, {.to = scene.throw_to, .count = frames, .unit = depth}),
       scarp::SurfaceLog(folder / "surface.csv", scene.throw_to, frames, depth),
-      scarp::FootingLog(folder, scene.structure, scene.throw_to, frames, depth),
+      fault_rupture::FootingLog(folder, scene.structure, scene.throw_to, frames, depth),
       scarp::ConvergenceLog(folder / "convergence.csv", scarp::LoadMeasure{depth, "throw_over_depth"}));
 }
 

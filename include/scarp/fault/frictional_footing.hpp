@@ -5,7 +5,6 @@
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/fault_scene.hpp"
-#include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/facets.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/fault/fault_scene.hpp"
-#include "scarp/fault/footing_log.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/run/root_rank.hpp"
 
