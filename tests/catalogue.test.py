@@ -60,7 +60,7 @@ for page in sorted(set(PAGES.values())):
 
 # Output files and the sources that write them.
 PROGRAMS = ("fault_rupture", "biaxial_specimen", "retaining_wall", "rve_lab")
-WRITES = re.compile(r"\b(CsvTable|CsvLog|JsonLog|VtuFields) \w+\(?[;({]|\b(?:CsvTable|CsvLog)\(\{|\bwrite_json\(")
+WRITES = re.compile(r"\b(CsvTable|CsvLog|VtuFields) \w+\(?[;({]|\b(?:CsvTable|CsvLog)\(\{|\bwrite_json\(")
 NO_TABLES = {"io/csv.hpp", "io/json.hpp", "examples/shared/write_json.hpp",  # definitions
              # write what others made
              *(f"examples/fault_rupture/{name}" for name in ("run_scene.hpp", "ensemble_runs.hpp", "sensitivity.cpp"))}

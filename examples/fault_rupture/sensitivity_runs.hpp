@@ -13,8 +13,8 @@
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
 #include "run_scene.hpp"
+#include "scarp/io/folder_lock.hpp"
 #include "scarp/io/read_file.hpp"
-#include "scarp/io/time_stamp.hpp"
 #include "sensitivity.hpp"
 
 namespace fault_rupture {

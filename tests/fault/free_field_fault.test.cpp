@@ -136,7 +136,7 @@ TEST_CASE("the fault moves the hanging wall by the throw and leaves the footwall
   CHECK(profile.back().settlement == samples::Approx(scene.throw_to).epsilon(1e-6));
   CHECK(profile.back().x - profile.back().x_initial ==
         samples::Approx(scene.throw_to / std::tan(scene.fault.dip)).epsilon(1e-6));
-  auto const found = scarp::outcrop(profile, run.load);
+  auto const found = scarp::outcrop(profile, {.hanging = run.load});
   CHECK(found.steepest_x > scene.ground.layer.left);
   CHECK(found.steepest_x < scene.ground.layer.right);
   CHECK(found.width > 0.0);

@@ -49,7 +49,7 @@ void write_all(samples::ScratchFolder const& folder) {
   table.add(12345, number);
   table.write(folder / "table.csv");
   scarp::CsvLog(folder / "log.csv", {"x"}).add(number);
-  scarp::JsonLog(folder / "log.jsonl").add(scarp::JsonObject().add("count", 12345).add("x", number));
+  scarp::write_file(folder / "log.jsonl", scarp::JsonObject().add("count", 12345).add("x", number).text());
   scarp::write_gmsh(folder / "22.msh", mesh, {scarp::GmshVersion::v2_2, scarp::GmshEncoding::text});
   scarp::write_gmsh(folder / "41.msh", mesh, {scarp::GmshVersion::v4_1, scarp::GmshEncoding::text});
   scarp::write_vtu(folder / "mesh.vtu", mesh, mesh.nodes);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "scarp/io/appended_file.hpp"
 #include "scarp/io/read_file.hpp"
 #include "support/files.hpp"
 
@@ -48,11 +49,11 @@ TEST_CASE("a log is one object a line, and goes on where it is resumed") {
   ScratchFolder const folder;
   auto const path = folder / "log.jsonl";
   for (bool const resumed : {false, true}) {
-    scarp::JsonLog log(path, resumed);
-    log.add(scarp::JsonObject().add("resumed", resumed));
+    scarp::AppendedFile log(path, "", resumed);
+    log.add(scarp::JsonObject().add("resumed", resumed).text() + '\n');
   }
   CHECK(scarp::read_file(path) == "{\"resumed\":false}\n{\"resumed\":true}\n");
-  scarp::JsonLog(path).add(scarp::JsonObject());
+  scarp::AppendedFile(path, "", false).add("{}\n");
   CHECK(scarp::read_file(path) == "{}\n");
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "scarp/budget/budget_part.hpp"
@@ -25,16 +26,6 @@ struct NoWorkBalance {
   static double gap() { return 0.0; }
   template <class Self, class Visit>
   static void members(Self&, Visit&&) {}
-};
-
-template <class Problem>
-struct WorkBalanceOf {
-  using Type = NoWorkBalance;
-};
-template <class Problem>
-  requires requires(Problem const& problem) { problem.grid(); }
-struct WorkBalanceOf<Problem> {
-  using Type = WorkBalance<Problem>;
 };
 
 }  // namespace detail
@@ -167,7 +158,7 @@ class ErrorBudget : public NeverStops {
   bool adds_up_work_;            ///< not of what is attached, nor of points of other processes
   std::vector<int> seen_;        ///< points of this process
   std::vector<double> at_rest_;  ///< [Pa], size of each point's stress when the run began
-  typename detail::WorkBalanceOf<Problem>::Type balance_;
+  std::conditional_t<has_grid, WorkBalance<Problem>, detail::NoWorkBalance> balance_;
   PackingSurvey packings_;
   DoubledSamples samples_;
   TrackedPoints tracked_;

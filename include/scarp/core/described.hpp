@@ -39,34 +39,27 @@ concept Described = requires(T& value, detail::AnyVisit const& visit) {
 #define SCARP_DETAIL_AGAIN1(...) SCARP_DETAIL_AGAIN0(SCARP_DETAIL_AGAIN0(SCARP_DETAIL_AGAIN0(__VA_ARGS__)))
 #define SCARP_DETAIL_AGAIN0(...) __VA_ARGS__
 #define SCARP_DETAIL_BRACKETS ()
-#define SCARP_DETAIL_LISTED(...) __VA_OPT__(SCARP_DETAIL_AGAIN(SCARP_DETAIL_LISTED_FIRST(__VA_ARGS__)))
-#define SCARP_DETAIL_LISTED_FIRST(member, ...) \
-  listed_##member __VA_OPT__(, SCARP_DETAIL_LISTED_NEXT SCARP_DETAIL_BRACKETS(__VA_ARGS__))
-#define SCARP_DETAIL_LISTED_NEXT() SCARP_DETAIL_LISTED_FIRST
-#define SCARP_DETAIL_VISITED(...) __VA_OPT__(SCARP_DETAIL_AGAIN(SCARP_DETAIL_VISITED_FIRST(__VA_ARGS__)))
-#define SCARP_DETAIL_VISITED_FIRST(member, ...)             \
-  visit(::scarp::detail::plain_name(#member), self.member); \
-  __VA_OPT__(SCARP_DETAIL_VISITED_NEXT SCARP_DETAIL_BRACKETS(__VA_ARGS__))
-#define SCARP_DETAIL_VISITED_NEXT() SCARP_DETAIL_VISITED_FIRST
-#define SCARP_DETAIL_THERE(...) __VA_OPT__(SCARP_DETAIL_AGAIN(SCARP_DETAIL_THERE_FIRST(__VA_ARGS__)))
-#define SCARP_DETAIL_THERE_FIRST(member, ...) \
-  static_cast<void>(sizeof(self.member));     \
-  __VA_OPT__(SCARP_DETAIL_THERE_NEXT SCARP_DETAIL_BRACKETS(__VA_ARGS__))
-#define SCARP_DETAIL_THERE_NEXT() SCARP_DETAIL_THERE_FIRST
+#define SCARP_DETAIL_EACH(MACRO, ...) __VA_OPT__(SCARP_DETAIL_AGAIN(SCARP_DETAIL_EACH_FIRST(MACRO, __VA_ARGS__)))
+#define SCARP_DETAIL_EACH_FIRST(MACRO, member, ...) \
+  MACRO(member, __VA_ARGS__) __VA_OPT__(SCARP_DETAIL_EACH_NEXT SCARP_DETAIL_BRACKETS(MACRO, __VA_ARGS__))
+#define SCARP_DETAIL_EACH_NEXT() SCARP_DETAIL_EACH_FIRST
+#define SCARP_DETAIL_LISTED(member, ...) listed_##member __VA_OPT__(, )
+#define SCARP_DETAIL_VISITED(member, ...) visit(::scarp::detail::plain_name(#member), self.member);
+#define SCARP_DETAIL_THERE(member, ...) static_cast<void>(sizeof(self.member));
 #define SCARP_DETAIL_WITHOUT_BRACKETS(...) __VA_ARGS__
 
 /// For a function `members(self, visit)` written by hand: an error unless these are the names of all data members, in any order.
 /// A structured binding has as many names as its type has members, and two equal names are rejected.
-#define SCARP_ALL_MEMBERS(...)                                      \
-  [[maybe_unused]] auto& [SCARP_DETAIL_LISTED(__VA_ARGS__)] = self; \
-  SCARP_DETAIL_THERE(__VA_ARGS__) static_assert(true)
+#define SCARP_ALL_MEMBERS(...)                                                         \
+  [[maybe_unused]] auto& [SCARP_DETAIL_EACH(SCARP_DETAIL_LISTED, __VA_ARGS__)] = self; \
+  SCARP_DETAIL_EACH(SCARP_DETAIL_THERE, __VA_ARGS__) static_assert(true)
 
 /// Defines `members(self, visit)` of a class, see `Described`; the arguments are all its data members.
-#define SCARP_MEMBERS(...)                         \
-  template <class Self, class Visit>               \
-  static void members(Self& self, Visit&& visit) { \
-    SCARP_ALL_MEMBERS(__VA_ARGS__);                \
-    SCARP_DETAIL_VISITED(__VA_ARGS__)              \
+#define SCARP_MEMBERS(...)                               \
+  template <class Self, class Visit>                     \
+  static void members(Self& self, Visit&& visit) {       \
+    SCARP_ALL_MEMBERS(__VA_ARGS__);                      \
+    SCARP_DETAIL_EACH(SCARP_DETAIL_VISITED, __VA_ARGS__) \
   }
 
 /// Defines `members(self, visit)` of a class, see `Described`; `left_out` are, in brackets, the data members that are not saved.
@@ -74,5 +67,5 @@ concept Described = requires(T& value, detail::AnyVisit const& visit) {
   template <class Self, class Visit>                                                      \
   static void members(Self& self, [[maybe_unused]] Visit&& visit) {                       \
     SCARP_ALL_MEMBERS(SCARP_DETAIL_WITHOUT_BRACKETS left_out __VA_OPT__(, ) __VA_ARGS__); \
-    SCARP_DETAIL_VISITED(__VA_ARGS__)                                                     \
+    SCARP_DETAIL_EACH(SCARP_DETAIL_VISITED, __VA_ARGS__)                                  \
   }

@@ -140,11 +140,7 @@ MeshFileGround<E> ground_from_file(std::filesystem::path const& path, std::vecto
     *notes = file.notes();
     for (auto const& note : named) notes->push_back(fmt::format("'{}': {}", path.string(), note));
   }
-  try {
-    detail::require_ground(ground.given);
-  } catch (InputError const& error) {
-    reject("'{}': {}", path.string(), error.what());
-  }
+  with_context(fmt::format("'{}'", path.string()), [&] { detail::require_ground(ground.given); });
   return ground;
 }
 

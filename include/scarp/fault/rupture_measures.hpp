@@ -50,11 +50,6 @@ inline Outcrop outcrop(std::vector<SurfacePoint> const& profile, FaultOffset con
   return found;
 }
 
-/// Of a fault whose footwall stays and whose hanging wall goes down by fault_throw [m], up where that is negative.
-inline Outcrop outcrop(std::vector<SurfacePoint> const& profile, double fault_throw) {
-  return outcrop(profile, FaultOffset{.hanging = fault_throw});
-}
-
 /// First place, coming from the footwall's side, where a profile passes a share of the fault's offset, linear between
 /// points [m] at rest. NaN where it passes in a gap, has passed before the profile begins, or does not pass.
 inline double first_passage(std::vector<SurfacePoint> const& profile, FaultOffset const& fault, double share) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <concepts>
 #include <filesystem>
-#include <span>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -79,12 +79,10 @@ class CsvFormat {
     return line;
   }
 
-  std::string row(std::span<double const> values) const {
-    require_width(values.size());
-    return listed(values, ",") + "\n";
-  }
-
-  std::string row(std::span<std::string const> cells) const {
+  template <std::ranges::sized_range Cells>
+    requires(!CsvValue<Cells>)
+  std::string row(Cells const& cells)
+  const {
     require_width(cells.size());
     std::string line;
     for (auto const& cell : cells) line += csv_cell(cell) + ",";
@@ -111,7 +109,7 @@ class CsvTable {
   /// \throws InputError for no columns and for empty or repeated names
   explicit CsvTable(std::vector<std::string> const& columns) : format_(columns), text_(format_.header()) {}
 
-  /// One cell per column: numbers or text, or a span of numbers.
+  /// One cell per column: numbers or text, or a range of these.
   /// \throws InputError for a row of the wrong width
   template <class... Values>
   void add(Values const&... values) {

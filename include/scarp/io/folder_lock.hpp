@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <ctime>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "scarp/core/error.hpp"
 #include "scarp/core/process.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/io/time_stamp.hpp"
 
 #if __has_include(<sys/file.h>)
 #include <fcntl.h>
@@ -16,6 +18,19 @@
 #endif
 
 namespace scarp {
+
+/// The present moment in universal time, such as "2026-11-23T15:57:33Z" (ISO 8601).
+inline std::string time_stamp() {
+  std::time_t const now = std::time(nullptr);
+  std::tm parts{};
+#if defined(_WIN32)
+  gmtime_s(&parts, &now);
+#else
+  gmtime_r(&now, &parts);
+#endif
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
 
 /// A folder must not be written into, and has not been; the text reads "problem (why): suggestion".
 class FolderError : public InputError {
@@ -33,111 +48,94 @@ class FolderLock {
 
   /// \throws FolderError when another lock holds the folder, or when it cannot be written
   explicit FolderLock(std::filesystem::path const& folder, std::string const& name = "run.lock")
-      : path_(folder / name) {
-    make(folder);
-    try {
-      lock(folder);
-    } catch (...) {
-      release();
-      throw;
-    }
+      : reserved_(std::make_unique<Reserved>(folder / name)) {
+    reserved_->make(folder);
+    reserved_->lock(folder);
   }
-
-  FolderLock(FolderLock&& other) noexcept { swap(other); }  ///< The lock moves to this object.
-  /// Exchanges both locks; the folder stays reserved.
-  FolderLock& operator=(FolderLock&& other) noexcept {
-    swap(other);
-    return *this;
-  }
-  ~FolderLock() { release(); }
 
   /// False where the file system has no locks.
-  bool holds() const { return held_; }
+  bool holds() const { return reserved_ && reserved_->held; }
 
  private:
-  void swap(FolderLock& other) noexcept {
-    std::swap(path_, other.path_);
-    std::swap(made_, other.made_);
-    std::swap(file_, other.file_);
-    std::swap(held_, other.held_);
-    std::swap(process_, other.process_);
-  }
+  /// What goes with the lock.
+  struct Reserved {
+    std::filesystem::path path;
+    std::vector<std::filesystem::path> made{};  ///< innermost first
+    int file = -1;
+    bool held = false;
+    long process = detail::process_number();  ///< that made the lock
 
-  void make(std::filesystem::path const& folder) {
-    std::error_code trouble;
-    for (auto above = folder; !above.empty() && !std::filesystem::exists(above, trouble); above = above.parent_path()) {
-      if (trouble) break;
-      made_.push_back(above);
+    explicit Reserved(std::filesystem::path lock_file) : path(std::move(lock_file)) {}
+    Reserved(Reserved const&) = delete;
+    Reserved& operator=(Reserved const&) = delete;
+    ~Reserved() {
+      unlock();
+      std::error_code ignored;
+      if (process != detail::process_number()) made.clear();
+      for (auto const& folder : made) std::filesystem::remove(folder, ignored);  // not one that holds anything
     }
-    if (!trouble) std::filesystem::create_directories(folder, trouble);
-    if (!trouble && !std::filesystem::is_directory(folder, trouble))
-      trouble = std::make_error_code(std::errc::not_a_directory);
-    if (!trouble) return;
-    release();
-    throw_unusable(folder, trouble.message());
-  }
+
+    void make(std::filesystem::path const& folder) {
+      std::error_code trouble;
+      for (auto above = folder; !above.empty() && !std::filesystem::exists(above, trouble);
+           above = above.parent_path()) {
+        if (trouble) break;
+        made.push_back(above);
+      }
+      if (!trouble) std::filesystem::create_directories(folder, trouble);
+      if (!trouble && !std::filesystem::is_directory(folder, trouble))
+        trouble = std::make_error_code(std::errc::not_a_directory);
+      if (trouble) throw_unusable(folder, trouble.message());
+    }
+
+#ifdef SCARP_HAS_FILE_LOCKS
+    void lock(std::filesystem::path const& folder) {
+      for (;;) {
+        file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (file < 0) throw_unusable(folder, std::strerror(errno));
+        held = ::flock(file, LOCK_EX | LOCK_NB) == 0;
+        if (!held && errno == EWOULDBLOCK) {
+          std::string const holder = content();
+          throw FolderError(
+              fmt::format("'{}' is in use ({} writes there): wait until it has ended, or choose another folder",
+                          folder.string(), holder.empty() ? "another run" : holder));
+        }
+        struct stat ours {};
+        struct stat there {};
+        bool const same = ::fstat(file, &ours) == 0 && ::stat(path.c_str(), &there) == 0 &&
+                          ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
+        if (same || !held) break;  // else its holder has removed it in between
+        ::close(std::exchange(file, -1));
+      }
+      char host[256] = "";
+      static_cast<void>(::gethostname(host, sizeof host - 1));
+      auto const text = fmt::format("process {} of {} since {}", process, host, time_stamp());
+      if (held && ::ftruncate(file, 0) == 0) static_cast<void>(!::write(file, text.data(), text.size()));
+    }
+
+    std::string content() const {
+      char text[400];
+      auto const length = ::read(file, text, sizeof text);
+      return length > 0 ? std::string(text, static_cast<std::size_t>(length)) : "";
+    }
+
+    void unlock() {
+      if (file < 0) return;
+      if (held && process == detail::process_number()) ::unlink(path.c_str());
+      ::close(file);
+    }
+#else
+    void lock(std::filesystem::path const&) {}
+    void unlock() {}
+#endif
+  };
 
   [[noreturn]] static void throw_unusable(std::filesystem::path const& folder, std::string_view why) {
     throw FolderError(fmt::format(
         "cannot write into '{}' ({}): check the folder and its permissions, or choose another", folder.string(), why));
   }
 
-#ifdef SCARP_HAS_FILE_LOCKS
-  void lock(std::filesystem::path const& folder) {
-    for (;;) {
-      file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-      if (file_ < 0) throw_unusable(folder, std::strerror(errno));
-      held_ = ::flock(file_, LOCK_EX | LOCK_NB) == 0;
-      if (!held_ && errno == EWOULDBLOCK) {
-        std::string const holder = content();
-        ::close(std::exchange(file_, -1));
-        throw FolderError(
-            fmt::format("'{}' is in use ({} writes there): wait until it has ended, or choose another folder",
-                        folder.string(), holder.empty() ? "another run" : holder));
-      }
-      struct stat ours {};
-      struct stat there {};
-      bool const same = ::fstat(file_, &ours) == 0 && ::stat(path_.c_str(), &there) == 0 &&
-                        ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
-      if (same || !held_) break;  // else its holder has removed it in between
-      ::close(std::exchange(file_, -1));
-    }
-    char host[256] = "";
-    static_cast<void>(::gethostname(host, sizeof host - 1));
-    auto const text = fmt::format("process {} of {} since {}", process_, host, time_stamp());
-    if (held_ && ::ftruncate(file_, 0) == 0) static_cast<void>(!::write(file_, text.data(), text.size()));
-  }
-
-  std::string content() const {
-    char text[400];
-    auto const length = ::read(file_, text, sizeof text);
-    return length > 0 ? std::string(text, static_cast<std::size_t>(length)) : "";
-  }
-
-  void release() noexcept {
-    if (file_ >= 0) {
-      if (held_ && process_ == detail::process_number()) ::unlink(path_.c_str());
-      ::close(std::exchange(file_, -1));
-    }
-    remove_made();
-  }
-#else
-  void lock(std::filesystem::path const&) {}
-  void release() noexcept { remove_made(); }
-#endif
-
-  void remove_made() noexcept {
-    std::error_code ignored;
-    if (process_ != detail::process_number()) made_.clear();
-    for (auto const& folder : made_) std::filesystem::remove(folder, ignored);  // not one that holds anything
-    made_.clear();
-  }
-
-  std::filesystem::path path_{};
-  std::vector<std::filesystem::path> made_{};  ///< innermost first
-  int file_ = -1;
-  bool held_ = false;
-  long process_ = detail::process_number();  ///< that made the lock
+  std::unique_ptr<Reserved> reserved_;
 };
 
 }  // namespace scarp

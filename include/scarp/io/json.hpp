@@ -7,13 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <concepts>
-#include <filesystem>
 #include <ranges>
 #include <string>
 #include <string_view>
-
-#include "scarp/core/described.hpp"
-#include "scarp/io/appended_file.hpp"
 
 namespace scarp {
 
@@ -144,22 +140,6 @@ class JsonObject {
   }
 
   std::string members_;
-};
-
-/// JSON lines on disk, one object a line.
-class JsonLog {
- public:
-  /// An older file of this name is replaced, or continued when a run is resumed.
-  /// \throws FileError when the file cannot be written
-  explicit JsonLog(std::filesystem::path const& path, bool resumed = false) : file_(path, "", resumed) {}
-
-  /// \throws FileError when the line cannot be written
-  void add(JsonObject const& object) { file_.add(object.text() + '\n'); }
-
-  SCARP_MEMBERS(file_)
-
- private:
-  AppendedFile file_;
 };
 
 }  // namespace scarp

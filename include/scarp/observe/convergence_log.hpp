@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
+#include "scarp/io/appended_file.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/io/json.hpp"
 #include "scarp/observe/observers.hpp"
@@ -26,7 +27,7 @@ class ConvergenceLog : public NeverStops {
                 "dem_steps", "seconds", "seconds_in_points",
                 "largest_gradient"},  // as before version 0.2, until version 0.3
                start),
-        lines_(std::filesystem::path(file).replace_extension(".jsonl"), start == CsvStart::resumed) {}
+        lines_(std::filesystem::path(file).replace_extension(".jsonl"), "", start == CsvStart::resumed) {}
 
   /// Writes all iterations of an attempt.
   template <class Problem>
@@ -40,10 +41,10 @@ class ConvergenceLog : public NeverStops {
       table_.add(report.step, measure_.of(report.load), iteration, record.residual, accepted ? 1 : 0,
                  name(report.verdict.reason), report.max_displacement_gradient, record.inner_steps, record.seconds,
                  record.material_seconds, report.max_displacement_gradient);
-      lines_.add(line_of(report, record, iteration, before));
+      add(line_of(report, record, iteration, before));
       before = record.residual;
     }
-    lines_.add(line_of(report));
+    add(line_of(report));
   }
 
   SCARP_MEMBERS_EXCEPT((measure_), table_, lines_, attempt_)
@@ -54,6 +55,8 @@ class ConvergenceLog : public NeverStops {
       reject("the table '{}' ends in .jsonl (as the second file, which would replace it): name it .csv", file.string());
     return file;
   }
+
+  void add(JsonObject const& line) { lines_.add(line.text() + '\n'); }
 
   JsonObject begun(std::string_view kind, StepReport const& report) const {
     JsonObject line;
@@ -102,7 +105,7 @@ class ConvergenceLog : public NeverStops {
 
   LoadMeasure measure_;  ///< checked before a file is made
   CsvLog table_;
-  JsonLog lines_;
+  AppendedFile lines_;
   int attempt_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <random>
 
 #include "scarp/io/checkpoint_files.hpp"
 #include "scarp/io/folder_lock.hpp"
@@ -35,8 +36,9 @@ class RunFolder {
   /// \throws FolderError for a folder that is in use, holds results that must not be lost, or cannot be written
   RunFolder(RunFolderSettings settings, RunRecord record, CheckpointFiles* files = nullptr)
       : settings_(std::move(settings)), record_(std::move(record)), lock_(settings_.folder) {
-    record_.identity = new_run_identity();
+    std::random_device random;
     record_.started = time_stamp();
+    record_.identity = fmt::format("{}-{:08x}{:08x}", record_.started, random(), random());
     if (files != nullptr && files->saves()) {
       record_.checkpoint = absolute(files->settings().folder);
       record_.scene = files->scene();

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <concepts>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "scarp/io/atomic_file.hpp"
+#include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/io/json.hpp"
-#include "scarp/io/read_file.hpp"
-#include "scarp/io/time_stamp.hpp"
 
 namespace scarp {
 
@@ -19,7 +18,7 @@ struct RunRecord {
   using Lines = std::vector<std::pair<std::string, std::string>>;  ///< names and values
 
   std::string program{};     ///< name of the executable
-  std::string identity{};    ///< no two runs have the same; made by RunFolder
+  std::string identity{};    ///< no two runs have the same: the moment and random digits, made by RunFolder
   std::string state{};       ///< running (or killed), finished, or why it has stopped
   std::string started{};     ///< as time_stamp() has it
   std::string changed{};     ///< when `state` came about
@@ -41,12 +40,11 @@ struct RunRecord {
 
   /// JSON object: a member for each field, with an object for each of the three lists.
   std::string text() const {
-    std::string json = "{\n";
-    members(*this, [&](std::string_view name, std::string const& value) {
-      json += fmt::format("  {}: {},\n", quoted_json(name), quoted_json(value));
+    std::string json;
+    members(*this, [&](std::string_view name, auto const& value) {
+      json += fmt::format("{}\n  {}: {}", json.empty() ? "{" : ",", quoted_json(name), written(value));
     });
-    return json + block("build", build) + ",\n" + block("options", options) + ",\n" + block("defaults", defaults) +
-           "\n}\n";
+    return json + "\n}\n";
   }
 
   /// \throws InputError for a text that no record has
@@ -69,8 +67,9 @@ struct RunRecord {
       } else if (block != nullptr) {
         block->emplace_back(*name, std::move(found));
       } else {
-        members(record, [&](std::string_view member, std::string& value) {
-          if (member == *name) value = std::move(found);
+        members(record, [&]<class Value>(std::string_view member, Value& value) {
+          if constexpr (std::same_as<Value, std::string>)
+            if (member == *name) value = std::move(found);
         });
       }
     }
@@ -79,34 +78,20 @@ struct RunRecord {
     return record;
   }
 
- private:
-  template <class Self, class Visit>
-  static void members(Self& self, Visit const& visit) {
-    visit("program", self.program);
-    visit("identity", self.identity);
-    visit("state", self.state);
-    visit("started", self.started);
-    visit("changed", self.changed);
-    visit("checkpoint", self.checkpoint);
-    visit("scene", self.scene);
-  }
+  SCARP_MEMBERS(program, identity, state, started, changed, checkpoint, scene, build, options, defaults)
 
+ private:
   Lines* lines(std::string_view name, Lines& unknown) {
     return name == "build" ? &build : name == "options" ? &options : name == "defaults" ? &defaults : &unknown;
   }
 
-  static std::string block(std::string_view name, Lines const& lines) {
-    std::string json = fmt::format("  {}: {{", quoted_json(name));
+  static std::string written(std::string const& text) { return quoted_json(text); }
+  static std::string written(Lines const& lines) {
+    std::string json = "{";
     for (auto const& [key, value] : lines)
       json += fmt::format("{}\n    {}: {}", json.ends_with('{') ? "" : ",", quoted_json(key), quoted_json(value));
     return json + "\n  }";
   }
 };
-
-/// A name that no other run has: the moment and some random digits.
-inline std::string new_run_identity() {
-  std::random_device random;
-  return fmt::format("{}-{:08x}{:08x}", time_stamp(), random(), random());
-}
 
 }  // namespace scarp

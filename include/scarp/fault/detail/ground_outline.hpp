@@ -81,10 +81,6 @@ void require_straight_outline(Mesh<Element> const& mesh) {
 template <class Element>
 void require_closed_outline(Mesh<Element> const& mesh) {
   using Side = std::array<int, Element::facet_nodes>;
-  auto const sorted = [](Side side) {
-    std::sort(side.begin(), side.end());
-    return side;
-  };
   auto const middle = [&](Side const& side) {
     Vector<Element::dim> sum = Vector<Element::dim>::Zero();
     for (int const node : side) sum += mesh.nodes[index(node)] / static_cast<double>(side.size());
@@ -95,7 +91,7 @@ void require_closed_outline(Mesh<Element> const& mesh) {
   for (auto const& part : outline_parts(mesh)) {
     names.push_back(part.name);
     for (auto const& side : boundary(mesh, part.name)) {
-      auto const [found, is_new] = part_of.try_emplace(sorted(side), part.name);
+      auto const [found, is_new] = part_of.try_emplace(sorted_nodes(side), part.name);
       if (is_new) continue;
       reject(
           "the side with its middle at ({}) is in '{}' and in '{}' (loads and motions would count twice): put it in "
@@ -108,7 +104,7 @@ void require_closed_outline(Mesh<Element> const& mesh) {
   Side first{};
   for (auto const& side : outer_facets(mesh)) {
     if (mesh.element_region[index(side.element)] != soil) continue;
-    if (part_of.erase(sorted(side.nodes)) == 0 && ++open == 1) first = side.nodes;
+    if (part_of.erase(sorted_nodes(side.nodes)) == 0 && ++open == 1) first = side.nodes;
   }
   if (open > 0) {
     reject(
