@@ -21,8 +21,8 @@ namespace scarp::detail {
 /// How many elements of a dimension a file has, by type.
 inline std::map<int, std::size_t> gmsh_kinds(GmshContent const& content, int dim) {
   std::map<int, std::size_t> kinds;
-  for (auto const& block : content.blocks) {
-    if (block.type.dim == dim && !block.tags.empty()) kinds[block.type.type] += block.tags.size();
+  for (auto const& element : content.elements) {
+    if (element.type->dim == dim) ++kinds[element.type->type];
   }
   return kinds;
 }
@@ -98,32 +98,31 @@ void read_gmsh_positions(GmshContent const& content, GmshNumbering const& number
 
 /// Names the regions in the order of their tags; elements without group form the region "mesh".
 template <class Element>
-void read_gmsh_regions(GmshContent const& content, std::vector<GmshPick> const& picks, Mesh<Element>& mesh) {
+void read_gmsh_regions(GmshContent const& content, GmshPicks const& picks, Mesh<Element>& mesh) {
   constexpr int dim = Element::dim;
   std::map<int, int> number;  // of the region, by tag
   for (auto const& [group, name] : content.names) {
     if (group.first == dim) number[group.second] = -1;
   }
-  auto const group_of = [](GmshPick const& pick) { return pick.groups.empty() ? 0 : pick.groups.front(); };
-  for (auto const& pick : picks) number[group_of(pick)] = -1;
+  auto const group_of = [](auto const* pick) { return pick->groups.empty() ? 0 : pick->groups.front(); };
+  for (auto const* const pick : picks) number[group_of(pick)] = -1;
   for (auto& [tag, region] : number) {
     auto const name = tag == 0 ? std::string("mesh") : gmsh_group_name(content, {dim, tag});
     auto const known = std::find(mesh.regions.begin(), mesh.regions.end(), name);
     region = static_cast<int>(known - mesh.regions.begin());
     if (known == mesh.regions.end()) mesh.regions.push_back(name);
   }
-  for (auto const& pick : picks) mesh.element_region.push_back(number[group_of(pick)]);
+  for (auto const* const pick : picks) mesh.element_region.push_back(number[group_of(pick)]);
 }
 
 template <class Element>
-void reject_repeated_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
-                              Mesh<Element> const& mesh) {
+void reject_repeated_elements(GmshContent const& content, GmshPicks const& picks, Mesh<Element> const& mesh) {
   using Entry = std::pair<std::array<int, Element::nodes>, std::int64_t>;
   std::vector<Entry> entries;
   for (std::size_t e = 0; e < picks.size(); ++e) {
-    auto const& nodes = entries.emplace_back(sorted_nodes(mesh.elements[e]), picks[e].tag).first;
+    auto const& nodes = entries.emplace_back(sorted_nodes(mesh.elements[e]), picks[e]->tag).first;
     if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) {
-      reject("element {} of '{}' names a node twice (it has collapsed): mesh the geometry again", picks[e].tag,
+      reject("element {} of '{}' names a node twice (it has collapsed): mesh the geometry again", picks[e]->tag,
              content.file);
     }
   }
@@ -137,15 +136,14 @@ void reject_repeated_elements(GmshContent const& content, std::vector<GmshPick> 
 
 /// Names the elements as the file does, which the check of the mesh cannot.
 template <class Element>
-void reject_inverted_elements(GmshContent const& content, std::vector<GmshPick> const& picks,
-                              Mesh<Element> const& mesh) {
+void reject_inverted_elements(GmshContent const& content, GmshPicks const& picks, Mesh<Element> const& mesh) {
   for (int e = 0; e < count(mesh.elements); ++e) {
     if (auto const determinant = bad_jacobian(mesh, e)) {
-      auto const& pick = picks[index(e)];
+      auto const& pick = *picks[index(e)];
       reject(
           "element {} of '{}' (its nodes there: {}) has the Jacobian {} m^{} (flat, or its nodes run the wrong way "
           "round): mesh the geometry again",
-          pick.tag, content.file, listed(std::span(pick.nodes, index(Element::nodes))), *determinant, Element::dim);
+          pick.tag, content.file, listed(pick.nodes), *determinant, Element::dim);
     }
   }
 }
@@ -154,10 +152,10 @@ template <class Element>
 Mesh<Element> assemble_gmsh(GmshContent const& content) {
   require_gmsh_kind(content, Element::gmsh_type);
   auto const picks = pick_gmsh_elements(content, Element::gmsh_type);
-  GmshNumbering const numbering(content, picks, Element::nodes);
+  GmshNumbering const numbering(content, picks);
   Mesh<Element> mesh;
   read_gmsh_positions(content, numbering, mesh);
-  for (auto const& pick : picks) mesh.elements.push_back(numbering.template numbers<Element>(pick));
+  for (auto const* const pick : picks) mesh.elements.push_back(numbering.template numbers<Element>(*pick));
   read_gmsh_regions(content, picks, mesh);
   reject_repeated_elements(content, picks, mesh);
   reject_inverted_elements(content, picks, mesh);
@@ -191,10 +189,8 @@ class GmshFile {
   /// Gmsh's number of the type of the elements, to choose the one that mesh() reads them as (`Tri6::gmsh_type`); of several types
   /// in the highest dimension the lowest number, 0 without surfaces and volumes.
   int element_type() const {
-    for (int const dim : {3, 2}) {
-      if (auto const kinds = detail::gmsh_kinds(content_, dim); !kinds.empty()) return kinds.begin()->first;
-    }
-    return 0;
+    int const highest = detail::gmsh_dimension(content_);
+    return highest < 2 ? 0 : detail::gmsh_kinds(content_, highest).begin()->first;
   }
 
   /// What mesh() has in another way than the file, or not: turned elements, dropped nodes, empty physical groups, groups that hold

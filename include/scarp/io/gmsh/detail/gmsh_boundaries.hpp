@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,45 +15,33 @@
 
 namespace scarp::detail {
 
-/// One element of a file.
-struct GmshPick {
-  std::int64_t tag;
-  std::span<int const> groups;
-  bool turned;
-  std::int64_t const* nodes;  ///< tags, in Gmsh's order
-};
+using GmshPicks = std::vector<GmshElement const*>;
 
 /// The elements of a type in the order of their tags: so all formats of a mesh give the same numbering.
-inline std::vector<GmshPick> pick_gmsh_elements(GmshContent const& content, int type) {
-  std::vector<GmshPick> picks;
-  for (auto const& block : content.blocks) {
-    if (block.type.type != type) continue;
-    auto const* nodes = block.nodes.data();
-    for (auto const tag : block.tags) {
-      picks.push_back({tag, block.groups, block.turned, nodes});
-      nodes += block.type.nodes;
-    }
+inline GmshPicks pick_gmsh_elements(GmshContent const& content, int type) {
+  GmshPicks picks;
+  for (auto const& element : content.elements) {
+    if (element.type->type == type) picks.push_back(&element);
   }
-  std::ranges::stable_sort(picks, {}, &GmshPick::tag);
+  std::ranges::stable_sort(picks, {}, [](auto const* pick) { return pick->tag; });
   return picks;
 }
 
 /// Numbers from 0 of those nodes of a file that elements use, in the order of their tags.
 class GmshNumbering {
  public:
-  GmshNumbering(GmshContent const& content, std::vector<GmshPick> const& picks, int nodes_each)
-      : nodes_(content.nodes) {
+  GmshNumbering(GmshContent const& content, GmshPicks const& picks) : nodes_(content.nodes) {
     std::ranges::stable_sort(nodes_, {}, &GmshNode::tag);
     auto const twice = std::ranges::adjacent_find(nodes_, {}, &GmshNode::tag);
     if (twice != nodes_.end()) {
       reject("'{}' lists node {} twice (each node has its own tag): write the file again", content.file, twice->tag);
     }
     std::vector<bool> used(nodes_.size(), false);
-    for (auto const& pick : picks) {
-      for (auto const tag : std::span(pick.nodes, index(nodes_each))) {
+    for (auto const* const pick : picks) {
+      for (auto const tag : pick->nodes) {
         int const node = (*this)(tag);
         if (node < 0) {
-          reject("element {} of '{}' names node {} (the file has no such node): write the file again", pick.tag,
+          reject("element {} of '{}' names node {} (the file has no such node): write the file again", pick->tag,
                  content.file, tag);
         }
         used[index(node)] = true;
@@ -77,10 +64,10 @@ class GmshNumbering {
 
   /// The nodes of an element in the order of this library.
   template <class Cell>
-  std::array<int, Cell::nodes> numbers(GmshPick const& pick) const {
+  std::array<int, Cell::nodes> numbers(GmshElement const& element) const {
     std::array<int, Cell::nodes> numbers;
-    for (int a = 0; a < Cell::nodes; ++a) numbers[index(a)] = (*this)(pick.nodes[Cell::gmsh_order[index(a)]]);
-    return pick.turned ? turned_round<Cell>(numbers) : numbers;
+    for (int a = 0; a < Cell::nodes; ++a) numbers[index(a)] = (*this)(element.nodes[index(Cell::gmsh_order[index(a)])]);
+    return element.turned ? turned_round<Cell>(numbers) : numbers;
   }
 
  private:
@@ -100,14 +87,15 @@ bool orient(std::array<int, Element::facet_nodes>& side, std::vector<MeshSide<El
 /// Physical groups of sides of another kind than the elements have.
 template <class Element>
 void reject_other_sides(GmshContent const& content) {
-  for (auto const& block : content.blocks) {
-    bool const other_side = block.type.dim == Element::dim - 1 && block.type.type != Element::Facet::gmsh_type;
-    if (!other_side || block.groups.empty() || block.tags.empty()) continue;
+  for (auto const& element : content.elements) {
+    auto const& type = *element.type;
+    bool const other_side = type.dim == Element::dim - 1 && type.type != Element::Facet::gmsh_type;
+    if (!other_side || element.groups.empty()) continue;
     reject(
         "the physical group '{}' of '{}' holds elements of type {} ({}), such as {} (the sides of {} have type {}): "
         "give sides and elements the same order",
-        gmsh_group_name(content, {block.type.dim, block.groups.front()}), content.file, block.type.type,
-        block.type.name, block.tags.front(), find_gmsh_type(Element::gmsh_type)->element, Element::Facet::gmsh_type);
+        gmsh_group_name(content, {type.dim, element.groups.front()}), content.file, type.type, type.name, element.tag,
+        find_gmsh_type(Element::gmsh_type)->element, Element::Facet::gmsh_type);
   }
 }
 
@@ -120,17 +108,17 @@ void read_gmsh_boundaries(GmshContent const& content, GmshNumbering const& numbe
     if (group.first == dim) mesh.boundaries[name];
   }
   auto picks = pick_gmsh_elements(content, Element::Facet::gmsh_type);
-  std::erase_if(picks, [](GmshPick const& pick) { return pick.groups.empty(); });
+  std::erase_if(picks, [](auto const* pick) { return pick->groups.empty(); });
   if (picks.empty()) return;
   auto const sides = sorted_sides(mesh);
   std::set<std::pair<std::string, std::array<int, Element::facet_nodes>>> known;  // with sorted nodes
-  for (auto const& pick : picks) {
-    auto side = numbering.template numbers<typename Element::Facet>(pick);
+  for (auto const* const pick : picks) {
+    auto side = numbering.template numbers<typename Element::Facet>(*pick);
     if (!orient(side, sides)) {
       reject("element {} of '{}' in the physical group '{}' lies on no side of an element: mesh the geometry again",
-             pick.tag, content.file, gmsh_group_name(content, {dim, pick.groups.front()}));
+             pick->tag, content.file, gmsh_group_name(content, {dim, pick->groups.front()}));
     }
-    for (int const group : pick.groups) {
+    for (int const group : pick->groups) {
       auto const name = gmsh_group_name(content, {dim, group});
       if (known.emplace(name, sorted_nodes(side)).second) mesh.boundaries[name].push_back(side);
     }

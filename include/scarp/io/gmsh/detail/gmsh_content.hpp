@@ -59,13 +59,12 @@ struct GmshNode {
   std::array<double, 3> position;  ///< [m]
 };
 
-/// Elements of one type in the same physical groups.
-struct GmshBlock {
-  GmshType type;
-  std::vector<int> groups{};  ///< tags above zero; empty: in no group
-  bool turned = false;        ///< the elements are meant to be run through the other way
-  std::vector<std::int64_t> tags{};
-  std::vector<std::int64_t> nodes{};  ///< tags, type.nodes for each element, in Gmsh's order
+struct GmshElement {
+  GmshType const* type;
+  std::int64_t tag;
+  std::vector<int> groups{};          ///< tags above zero; empty: in no group
+  bool turned = false;                ///< it is meant to be run through the other way
+  std::vector<std::int64_t> nodes{};  ///< tags, in Gmsh's order
 };
 
 using DimTag = std::pair<int, int>;  ///< of a physical group or a geometrical entity
@@ -75,7 +74,7 @@ struct GmshContent {
   std::string file;
   std::map<DimTag, std::string> names{};  ///< of physical groups
   std::vector<GmshNode> nodes{};
-  std::vector<GmshBlock> blocks{};
+  std::vector<GmshElement> elements{};
   std::map<std::int64_t, int> group_data{};  ///< groups of elements by tag, as meshio keeps them beside the elements
   bool lists_copies = false;                 ///< an element is listed once for each of its groups
   std::vector<std::string> skipped{};        ///< what is not read, such as Periodic
@@ -88,7 +87,8 @@ inline void add_group(std::vector<int>& groups, int tag) {
   if (std::find(groups.begin(), groups.end(), std::abs(tag)) == groups.end()) groups.push_back(std::abs(tag));
 }
 
-inline GmshType known_gmsh_type(GmshStream const& stream, int type) {
+inline GmshType const& read_gmsh_type(GmshStream& stream) {
+  auto const type = stream.value<std::int32_t>("the type of an element");
   auto const* const found = find_gmsh_type(type);
   if (!found) {
     reject("{} has elements of type {} (first and second order are read): mesh with `-order 2`, or leave them out",

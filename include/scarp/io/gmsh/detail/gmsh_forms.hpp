@@ -6,9 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -23,7 +21,7 @@ namespace scarp::detail {
 /// Highest dimension of the elements of a file.
 inline int gmsh_dimension(GmshContent const& content) {
   int dim = 0;
-  for (auto const& block : content.blocks) dim = std::max(dim, block.tags.empty() ? 0 : block.type.dim);
+  for (auto const& element : content.elements) dim = std::max(dim, element.type->dim);
   return dim;
 }
 
@@ -34,70 +32,42 @@ inline std::string gmsh_group_name(GmshContent const& content, DimTag group) {
 }
 
 using GmshGroups = std::vector<int>;
-using GmshNodes = std::span<std::int64_t const>;
-using GmshPlace = std::tuple<int, GmshGroups, bool>;  ///< of an element: type, groups, whether it is turned
-
-/// Puts each element into the block that `place_of(block, tag, nodes)` gives, into none for nothing.
-template <class PlaceOf>
-void rearrange_gmsh(GmshContent& content, PlaceOf const& place_of) {
-  std::map<GmshPlace, GmshBlock> blocks;
-  for (auto const& block : content.blocks) {
-    auto const each = index(block.type.nodes);
-    for (std::size_t e = 0; e < block.tags.size(); ++e) {
-      auto const nodes = GmshNodes(block.nodes).subspan(e * each, each);
-      std::optional<GmshPlace> const place = place_of(block, block.tags[e], nodes);
-      if (!place) continue;
-      GmshBlock empty{block.type, std::get<1>(*place), std::get<2>(*place)};
-      auto& target = blocks.try_emplace(*place, std::move(empty)).first->second;
-      target.tags.push_back(block.tags[e]);
-      target.nodes.insert(target.nodes.end(), nodes.begin(), nodes.end());
-    }
-  }
-  content.blocks.clear();
-  for (auto& [place, block] : blocks) content.blocks.push_back(std::move(block));
-}
 
 /// Groups that stand as data of the elements, where the elements themselves are in none.
 inline void take_gmsh_group_data(GmshContent& content) {
-  auto const in_group = [](GmshBlock const& block) { return !block.groups.empty(); };
-  if (content.group_data.empty() || std::any_of(content.blocks.begin(), content.blocks.end(), in_group)) return;
-  rearrange_gmsh(content, [&](GmshBlock const& block, std::int64_t tag, GmshNodes) {
-    GmshGroups groups;
-    if (auto const found = content.group_data.find(tag); found != content.group_data.end())
-      add_group(groups, found->second);
-    return GmshPlace(block.type.type, groups, block.turned);
-  });
+  auto const in_group = [](GmshElement const& element) { return !element.groups.empty(); };
+  if (content.group_data.empty() || std::ranges::any_of(content.elements, in_group)) return;
+  for (auto& element : content.elements) {
+    auto const found = content.group_data.find(element.tag);
+    if (found != content.group_data.end()) add_group(element.groups, found->second);
+  }
   content.notes.push_back(fmt::format("'{}': the data 'gmsh:physical' are the physical groups", content.file));
 }
 
 /// The copies of an element become one, which is in the groups of all; what is in one group twice stays, to be rejected.
 inline void join_gmsh_copies(GmshContent& content, int dim) {
-  std::set<GmshGroups> used;
-  for (auto const& block : content.blocks)
-    if (block.type.dim == dim) used.insert(block.groups);
-  if (!content.lists_copies || used.size() < 2) return;
-  auto const sorted = [](GmshNodes nodes) {
-    std::vector<std::int64_t> key(nodes.begin(), nodes.end());
-    std::sort(key.begin(), key.end());
-    return key;
+  if (!content.lists_copies) return;
+  auto const sorted = [](std::vector<std::int64_t> nodes) {
+    std::ranges::sort(nodes);
+    return nodes;
   };
   std::map<std::vector<std::int64_t>, GmshGroups> groups_of;
-  std::size_t elements = 0;
-  rearrange_gmsh(content, [&](GmshBlock const& block, std::int64_t, GmshNodes nodes) {
-    if (block.type.dim == dim) {
-      ++elements;
-      auto& groups = groups_of[sorted(nodes)];
-      for (int const group : block.groups) add_group(groups, group);
+  for (auto const& element : content.elements) {
+    if (element.type->dim != dim) continue;
+    auto& groups = groups_of[sorted(element.nodes)];
+    for (int const group : element.groups) add_group(groups, group);
+  }
+  std::vector<GmshElement> joined;
+  for (auto& element : content.elements) {
+    if (element.type->dim == dim) {
+      auto const& groups = groups_of[sorted(element.nodes)];
+      bool const first = element.groups.empty() ? groups.empty() : element.groups.front() == groups.front();
+      if (!first) continue;
+      element.groups = groups;
     }
-    return GmshPlace(block.type.type, block.groups, block.turned);
-  });
-  if (groups_of.size() == elements) return;
-  rearrange_gmsh(content, [&](GmshBlock const& block, std::int64_t, GmshNodes nodes) -> std::optional<GmshPlace> {
-    if (block.type.dim != dim) return GmshPlace(block.type.type, block.groups, block.turned);
-    auto const& groups = groups_of[sorted(nodes)];
-    bool const first = block.groups.empty() ? groups.empty() : block.groups.front() == groups.front();
-    return first ? std::optional(GmshPlace(block.type.type, groups, block.turned)) : std::nullopt;
-  });
+    joined.push_back(std::move(element));
+  }
+  content.elements = std::move(joined);
 }
 
 /// Notes what a file names or holds that its mesh does not have.
@@ -107,13 +77,13 @@ inline void note_gmsh_rest(GmshContent& content, int dim) {
   };
   bool has_regions = false;
   std::size_t outside = 0;  // elements in no group
+  std::set<DimTag> used;
   std::set<std::pair<int, std::string>> names;
-  for (auto const& block : content.blocks) {
-    if (block.tags.empty()) continue;
-    if (block.type.dim == dim && block.groups.empty()) outside += block.tags.size();
-    for (int const group : block.groups)
-      names.emplace(block.type.dim, gmsh_group_name(content, {block.type.dim, group}));
+  for (auto const& element : content.elements) {
+    if (element.type->dim == dim && element.groups.empty()) ++outside;
+    for (int const group : element.groups) used.emplace(element.type->dim, group);
   }
+  for (auto const& group : used) names.emplace(group.first, gmsh_group_name(content, group));
   for (auto const& [group, name] : content.names) {
     has_regions = has_regions || group.first == dim;
     if (group.first < dim - 1) {
@@ -135,12 +105,14 @@ struct GmshGroupSizes {
   std::map<std::pair<std::string, std::string>, std::size_t> common{};
 
   GmshGroupSizes(GmshContent const& content, int dim) {
-    for (auto const& block : content.blocks) {
-      if (block.type.dim != dim) continue;
+    std::map<GmshGroups, std::size_t> elements_in;
+    for (auto const& element : content.elements)
+      if (element.type->dim == dim) ++elements_in[element.groups];
+    for (auto const& [groups, elements] : elements_in) {
       std::set<std::string> names;
-      for (int const group : block.groups) names.insert(gmsh_group_name(content, {dim, group}));
+      for (int const group : groups) names.insert(gmsh_group_name(content, {dim, group}));
       for (auto const& a : names)
-        for (auto const& b : names) common[{a, b}] += block.tags.size();
+        for (auto const& b : names) common[{a, b}] += elements;
     }
   }
 
@@ -153,16 +125,16 @@ struct GmshGroupSizes {
 inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::string> const& wanted) {
   GmshGroupSizes const sizes(content, dim);
   std::map<std::string, std::set<std::string>> parts_of;
-  for (auto& block : content.blocks) {
-    if (block.type.dim != dim || block.groups.size() < 2) continue;
+  for (auto& element : content.elements) {
+    if (element.type->dim != dim || element.groups.size() < 2) continue;
     auto const name = [&](int group) { return gmsh_group_name(content, {dim, group}); };
     auto const is_wanted = [&](int group) {
       return std::find(wanted.begin(), wanted.end(), name(group)) != wanted.end();
     };
-    int const part = std::ranges::min(block.groups, {}, [&](int group) {
+    int const part = std::ranges::min(element.groups, {}, [&](int group) {
       return std::tuple(!is_wanted(group), sizes.of(name(group), name(group)), group);
     });
-    for (int const whole : block.groups) {
+    for (int const whole : element.groups) {
       auto const [a, b] = std::pair(name(part), name(whole));
       if (a == b) continue;
       if (is_wanted(part) == is_wanted(whole) && sizes.of(a, b) < sizes.of(a, a)) {
@@ -170,11 +142,11 @@ inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::
             "element {} of '{}' is in the physical groups '{}' and '{}', and neither holds the other (an element has "
             "one "
             "material): write `Physical {}(\"{}\") -= {{...}};` in the .geo file, or read it with GmshOptions::regions",
-            block.tags.front(), content.file, a, b, dim == 2 ? "Surface" : "Volume", b);
+            element.tag, content.file, a, b, dim == 2 ? "Surface" : "Volume", b);
       }
       parts_of[b].insert(a);
     }
-    block.groups = {part};
+    element.groups = {part};
   }
   for (auto const& [whole, parts] : parts_of) {
     content.notes.push_back(fmt::format("'{}': elements of the physical group '{}' are in '{}' too, which count",
@@ -187,7 +159,7 @@ inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::
 }
 
 /// The type of the same shape with fewer nodes, which are the first in Gmsh's order: corners, on sides, inside.
-inline GmshType without_gmsh_nodes(GmshType const& type, int highest_order) {
+inline GmshType const& without_gmsh_nodes(GmshType const& type, int highest_order) {
   auto const shape = [](GmshType const& any) { return any.name.substr(any.name.rfind(' ') + 1); };
   if (highest_order == 1)
     return *std::ranges::find_if(gmsh_types, [&](GmshType const& other) { return shape(other) == shape(type); });
@@ -195,19 +167,16 @@ inline GmshType without_gmsh_nodes(GmshType const& type, int highest_order) {
 }
 
 inline void drop_gmsh_nodes(GmshContent& content, int highest_order) {
-  std::set<std::string> noted;
-  for (auto& block : content.blocks) {
-    auto const type = without_gmsh_nodes(block.type, highest_order);
-    if (type.type == block.type.type) continue;
-    std::vector<std::int64_t> nodes;
-    for (std::size_t e = 0; e < block.tags.size(); ++e)
-      for (int a = 0; a < type.nodes; ++a) nodes.push_back(block.nodes[e * index(block.type.nodes) + index(a)]);
-    if (!block.tags.empty() && noted.emplace(block.type.name).second) {
+  std::set<GmshType const*> noted;
+  for (auto& element : content.elements) {
+    auto const& type = without_gmsh_nodes(*element.type, highest_order);
+    if (&type == element.type) continue;
+    if (noted.insert(element.type).second) {
       content.notes.push_back(fmt::format("'{}': each {} is read as {}, without its other nodes", content.file,
-                                          block.type.name, type.name));
+                                          element.type->name, type.name));
     }
-    block.type = type;
-    block.nodes = std::move(nodes);
+    element.type = &type;
+    element.nodes.resize(index(type.nodes));
   }
 }
 
@@ -216,10 +185,12 @@ inline void turn_gmsh_elements(GmshContent& content, int dim) {
   std::map<std::int64_t, std::array<double, 3>> places;
   for (auto const& node : content.nodes) places.emplace(node.tag, node.position);
   std::size_t turned = 0;
-  rearrange_gmsh(content, [&](GmshBlock const& block, std::int64_t, GmshNodes nodes) {
+  for (auto& element : content.elements) {
     double size = 0.0;  // twice the area, or six times the volume between the edges of the first corner
-    auto const corners = block.type.dim == dim ? index(without_gmsh_nodes(block.type, 1).nodes) : 0;
-    auto const place = [&](std::size_t corner) { return Eigen::Map<Vector<3> const>(places[nodes[corner]].data()); };
+    auto const corners = element.type->dim == dim ? index(without_gmsh_nodes(*element.type, 1).nodes) : 0;
+    auto const place = [&](std::size_t corner) {
+      return Eigen::Map<Vector<3> const>(places[element.nodes[corner]].data());
+    };
     auto const side = [&](std::size_t corner) -> Vector<3> { return place(corner) - place(0); };
     if (dim == 2) {
       for (std::size_t a = 2; a < corners; ++a) size += side(a - 1).cross(side(a)).z();
@@ -227,10 +198,10 @@ inline void turn_gmsh_elements(GmshContent& content, int dim) {
       bool const on_triangle = corners == 4 || corners == 6;  // its first side: of tetrahedra and prisms
       size = side(1).cross(side(on_triangle ? 2 : 3)).dot(side(on_triangle ? 3 : 4));
     }
-    bool const turn = size == 0.0 ? block.turned : size < 0.0;
-    if (turn != (dim == 2 && block.turned)) ++turned;
-    return GmshPlace(block.type.type, block.groups, turn);
-  });
+    bool const turn = size == 0.0 ? element.turned : size < 0.0;
+    if (turn != (dim == 2 && element.turned)) ++turned;
+    element.turned = turn;
+  }
   if (turned > 0)
     content.notes.push_back(fmt::format("'{}': {} elements run {}: they are turned", content.file, turned,
                                         dim == 2 ? "clockwise" : "left-handed"));
