@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "scarp/io/state_bits.hpp"
 #include "support/files.hpp"
 #include "support/refusals.hpp"
 
@@ -42,7 +43,11 @@ TEST_CASE("a continued series keeps its earlier files") {
   ScratchFolder const folder;
   scarp::PvdSeries first(folder.path(), "fault");
   first.add(0.0, "a.vtu");
-  scarp::PvdSeries second(folder.path(), "fault", first.entries());
+  scarp::StateWriter writer;
+  writer("series", first);
+  scarp::PvdSeries second(folder.path(), "fault");
+  scarp::StateReader reader(writer.bits());
+  reader("series", second);
   second.add(1.0, "b & c.vtu");
   auto const text = content(folder / "fault.pvd");
   CHECK(entries_in(text) == 2);

@@ -227,9 +227,8 @@ class PvdSeries {
   /// Time and file, relative to the folder.
   using Entry = std::pair<double, std::string>;
 
-  /// earlier: what entries() was when a run that is now continued was saved
-  PvdSeries(std::filesystem::path folder, std::string name, std::vector<Entry> earlier = {})
-      : folder_(std::move(folder)), name_(std::move(name)), entries_(std::move(earlier)) {}
+  /// folder: of the list and of the files; name: of the list, without its ending
+  PvdSeries(std::filesystem::path folder, std::string name) : folder_(std::move(folder)), name_(std::move(name)) {}
 
   std::filesystem::path path() const { return folder_ / (name_ + ".pvd"); }  ///< File of the list.
 

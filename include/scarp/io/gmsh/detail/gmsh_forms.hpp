@@ -101,29 +101,26 @@ inline void note_gmsh_rest(GmshContent& content, int dim) {
 }
 
 /// How many elements are in each group, and in each pair of groups, by name.
-struct GmshGroupSizes {
-  std::map<std::pair<std::string, std::string>, std::size_t> common{};
-
-  GmshGroupSizes(GmshContent const& content, int dim) {
-    std::map<GmshGroups, std::size_t> elements_in;
-    for (auto const& element : content.elements)
-      if (element.type->dim == dim) ++elements_in[element.groups];
-    for (auto const& [groups, elements] : elements_in) {
-      std::set<std::string> names;
-      for (int const group : groups) names.insert(gmsh_group_name(content, {dim, group}));
-      for (auto const& a : names)
-        for (auto const& b : names) common[{a, b}] += elements;
-    }
+inline std::map<std::pair<std::string, std::string>, std::size_t> gmsh_group_sizes(GmshContent const& content,
+                                                                                   int dim) {
+  std::map<GmshGroups, std::size_t> elements_in;
+  for (auto const& element : content.elements)
+    if (element.type->dim == dim) ++elements_in[element.groups];
+  std::map<std::pair<std::string, std::string>, std::size_t> common;
+  for (auto const& [groups, elements] : elements_in) {
+    std::set<std::string> names;
+    for (int const group : groups) names.insert(gmsh_group_name(content, {dim, group}));
+    for (auto const& a : names)
+      for (auto const& b : names) common[{a, b}] += elements;
   }
-
-  std::size_t of(std::string const& a, std::string const& b) const { return common.at({a, b}); }
-};
+  return common;
+}
 
 /// The smallest of an element's groups counts, as its material; the others are noted.
 /// wanted: names of groups that count before others
 /// \throws InputError where a group neither holds another one nor lies in it
 inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::string> const& wanted) {
-  GmshGroupSizes const sizes(content, dim);
+  auto const sizes = gmsh_group_sizes(content, dim);
   std::map<std::string, std::set<std::string>> parts_of;
   for (auto& element : content.elements) {
     if (element.type->dim != dim || element.groups.size() < 2) continue;
@@ -132,12 +129,12 @@ inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::
       return std::find(wanted.begin(), wanted.end(), name(group)) != wanted.end();
     };
     int const part = std::ranges::min(element.groups, {}, [&](int group) {
-      return std::tuple(!is_wanted(group), sizes.of(name(group), name(group)), group);
+      return std::tuple(!is_wanted(group), sizes.at({name(group), name(group)}), group);
     });
     for (int const whole : element.groups) {
       auto const [a, b] = std::pair(name(part), name(whole));
       if (a == b) continue;
-      if (is_wanted(part) == is_wanted(whole) && sizes.of(a, b) < sizes.of(a, a)) {
+      if (is_wanted(part) == is_wanted(whole) && sizes.at({a, b}) < sizes.at({a, a})) {
         reject(
             "element {} of '{}' is in the physical groups '{}' and '{}', and neither holds the other (an element has "
             "one "
@@ -151,7 +148,7 @@ inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::
   for (auto const& [whole, parts] : parts_of) {
     content.notes.push_back(fmt::format("'{}': elements of the physical group '{}' are in '{}' too, which count",
                                         content.file, whole, listed(parts, "', '")));
-    bool const used = GmshGroupSizes(content, dim).common.count({whole, whole}) > 0;
+    bool const used = gmsh_group_sizes(content, dim).contains({whole, whole});
     std::erase_if(content.names, [&, &whole = whole](auto const& group) {
       return !used && group.first.first == dim && group.second == whole;
     });

@@ -50,9 +50,8 @@ inline void read_gmsh_elements_2(GmshStream& stream, GmshContent& content) {
         auto const number = stream.value<std::int32_t>("the physical group of an element");
         if (t == 0) add_group(element.groups, number);
       }
-      for (int a = 0; a < type.nodes; ++a) {
-        element.nodes.push_back(stream.value<std::int32_t>("a node of an element"));
-      }
+      element.nodes.resize(index(type.nodes));
+      for (auto& node : element.nodes) node = stream.value<std::int32_t>("a node of an element");
       content.elements.push_back(std::move(element));
     }
   }
@@ -115,7 +114,8 @@ class GmshSections4 {
       for (std::size_t e = 0; e < in_block; ++e) {
         auto const tag = read_tag(stream, "the tag of an element");
         auto& element = content.elements.emplace_back(GmshElement{&type, tag, entity.groups, entity.turned});
-        for (int a = 0; a < type.nodes; ++a) element.nodes.push_back(read_tag(stream, "a node of an element"));
+        element.nodes.resize(index(type.nodes));
+        for (auto& node : element.nodes) node = read_tag(stream, "a node of an element");
       }
       read += in_block;
     }
