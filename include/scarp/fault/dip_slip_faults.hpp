@@ -40,10 +40,7 @@ FaultOffset offset_at(Motion const& motion, double fault_throw) {
 template <class Element>
 SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
   auto const lines = detail::corners_along(mesh, "bottom");
-  double nearest = std::numeric_limits<double>::infinity();
-  for (double const line : lines) {
-    if (std::abs(line - tip) < std::abs(nearest - tip)) nearest = line;
-  }
+  double const nearest = std::ranges::min(lines, {}, [&](double line) { return std::abs(line - tip); });
   if (std::abs(nearest - tip) <= detail::StepAtTip::same_place * (lines.back() - lines.front())) return;
   reject(
       "the fault tip is at x = {} m (the nearest corner of the mesh's bottom is at {} m): put a node there or move the "

@@ -61,11 +61,6 @@ void add_uncovered_surcharge(Grid const& grid, double surcharge, double start, L
 
 namespace detail {
 
-template <class Element>
-double middle_x(Mesh<Element> const& mesh, std::array<int, Element::facet_nodes> const& facet) {
-  return (mesh.nodes[index(facet[0])].x() + mesh.nodes[index(facet[1])].x()) / 2.0;
-}
-
 /// The block's nodes on its base, sought among those of the ground: the same places to the last bit.
 template <class Element>
 void put_on_base(Mesh<Element>& block, Mesh<Element> const& ground, double same) {
@@ -137,15 +132,14 @@ void mark_footing_base(Mesh<Element>& mesh, double centre, double width) {
   detail::require_corner(corners, from, same);
   detail::require_corner(corners, to, same);
   auto& surface = mesh.boundaries["surface"];
+  auto const x = [&](int node) { return mesh.nodes[detail::index(node)].x(); };
   auto const below = std::stable_partition(surface.begin(), surface.end(), [&](auto const& facet) {
-    return std::abs(detail::middle_x(mesh, facet) - centre) > width / 2.0;
+    return std::abs((x(facet[0]) + x(facet[1])) / 2.0 - centre) > width / 2.0;
   });
   std::vector base(below, surface.end());
   surface.erase(below, surface.end());
   double covered = 0.0;
-  for (auto const& facet : base) {
-    covered += std::abs(mesh.nodes[detail::index(facet[1])].x() - mesh.nodes[detail::index(facet[0])].x());
-  }
+  for (auto const& facet : base) covered += std::abs(x(facet[1]) - x(facet[0]));
   if (std::abs(covered - width) > 2.0 * same) {
     reject(
         "the surface covers {} m between x = {} and {} m (a footing of {} m stands there): put the footing where the "

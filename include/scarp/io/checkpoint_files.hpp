@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <sstream>
 
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/io/folder_lock.hpp"
 #include "scarp/io/framed_file.hpp"
 #include "scarp/io/read_file.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace scarp {
 
@@ -40,17 +40,13 @@ inline constexpr FileFormat checkpoint_format{"SCARPCHK", 8, "checkpoint", "a ch
 /// \throws InputError naming the first line that differs
 inline void reject_other_scene(std::string const& saved, std::string const& present) {
   if (saved == present) return;
-  std::istringstream ours(present);
-  std::istringstream theirs(saved);
-  std::string our;
-  std::string their;
-  bool more = true;
-  while (more && our == their) {
-    our.clear();
-    their.clear();
-    bool const one = static_cast<bool>(std::getline(ours, our));
-    bool const other = static_cast<bool>(std::getline(theirs, their));
-    more = one || other;
+  TextLines ours(present);
+  TextLines theirs(saved);
+  std::string_view our;
+  std::string_view their;
+  while (our == their && !(ours.done() && theirs.done())) {
+    our = ours.done() ? "" : ours.take();
+    their = theirs.done() ? "" : theirs.take();
   }
   reject("it is of another scene ('{}' there, '{}' here): request the scene that was saved, or choose another folder",
          their, our);
