@@ -5,6 +5,7 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/tied_footing.hpp"
+#include "scarp/observe/observers.hpp"
 #include "support/approx.hpp"
 
 namespace {
