@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
+#include "../shared/contact_reader.hpp"
 #include "../shared/packing_input.hpp"
 #include "../shared/sand/built.hpp"
 #include "../shared/sand/preparation.hpp"
-#include "scarp/io/packings/contact_reader.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/random_packings.hpp"
 
@@ -72,7 +72,7 @@ Rve<Shape> read(Grains const& grains, double pressure, examples::PackingInput co
   constexpr double tolerance = 1e-6;  // of the file's overlaps against the packing's, over the smallest radius
   auto named =
       scarp::read_packing<PackingOf<Shape>>(input.particles, input.cell, grains.sand.density, grains.sand.thickness);
-  if (input.contacts && input.contacts->has("ftx")) scarp::read_contacts(named, *input.contacts, law, tolerance);
+  if (input.contacts && input.contacts->has("ftx")) examples::read_contacts(named, *input.contacts, law, tolerance);
   return rve<Shape>(grains, pressure, law, {{{std::move(named.packing)}}});
 }
 

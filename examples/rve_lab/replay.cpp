@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "../shared/contact_reader.hpp"
 #include "../shared/packing_input.hpp"
 #include "../shared/print.hpp"
 #include "commands.hpp"
@@ -7,7 +8,6 @@
 #include "scarp/dem/drive.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/io/csv.hpp"
-#include "scarp/io/packings/contact_reader.hpp"
 #include "specimen.hpp"
 
 namespace rve_lab {
@@ -71,7 +71,7 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
                 scarp::LinearFrictional const& law) {
   using Lab = Specimen<PackingType, scarp::Observe::balance>;
   auto named = scarp::read_packing<PackingType>(particles, cell, choice.sand.density, choice.sand.thickness);
-  if (contacts && contacts->has("ftx")) scarp::read_contacts(named, *contacts, law, choice.tolerance);
+  if (contacts && contacts->has("ftx")) examples::read_contacts(named, *contacts, law, choice.tolerance);
   if (choice.relaxation) relax(named.packing, law, *choice.relaxation);
   PathKind const& path = path_named(choice.path.name);
   Lab lab(std::move(named.packing), law, path, choice.path.strain_step, choice.path.held);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <fstream>
 
+#include "../../examples/shared/contact_reader.hpp"
 #include "../../examples/shared/grain_files.hpp"
 #include "adversary/readers.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/io/checkpoint_files.hpp"
-#include "scarp/io/packings/contact_reader.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/shape/ellipse.hpp"
 #include "scarp/shape/sphere.hpp"
@@ -97,7 +97,7 @@ Game contact_reader() {
   });
   return reader("contacts", {text}, [grains](std::string const& bytes) {
     auto named = grains;
-    scarp::read_contacts(named, scarp::CsvColumns(bytes, "c.csv"), springs);
+    examples::read_contacts(named, scarp::CsvColumns(bytes, "c.csv"), springs);
     for (std::size_t p = 0; p < named.packing.pairs.count(); ++p) {
       for (double const force : named.packing.pairs.shear.row(p))
         demand(std::isfinite(force), "a force that is not finite");

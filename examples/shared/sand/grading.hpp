@@ -4,16 +4,16 @@
 #include "sand.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/gradings.hpp"
-#include "scarp/dem/sieve_curve.hpp"
 #include "scarp/io/text_lines.hpp"
+#include "sieve_curve.hpp"
 
 namespace examples {
 
 /// A sieve curve from the text of a sand's option: "0.002 0, 0.006 100", diameters [m] and per cent. A point that is given twice counts once.
 /// \throws InputError
-inline scarp::SieveCurve sieve_curve(std::string const& text) {
+inline SieveCurve sieve_curve(std::string const& text) {
   constexpr double largest = 1.0;  // [m]; larger ones are in mm
-  scarp::SieveCurve curve;
+  SieveCurve curve;
   for (std::size_t begin = 0; begin <= text.size();) {
     auto const end = std::min(text.find(',', begin), text.size());
     auto const point = scarp::trimmed(std::string_view(text).substr(begin, end - begin));
@@ -47,7 +47,7 @@ struct SandGrading {
   double largest = 0.0;
   double aspect = 1.0;
   double exponent = 1.0;
-  scarp::SieveCurve sieve{};
+  SieveCurve sieve{};
 
   void validate() const { scarp::detail::validate_grading(smallest, largest, aspect, exponent); }
 
@@ -76,7 +76,7 @@ scarp::Cloud<SandGrading<Shape>> cloud_of(Sand const& sand, std::uint64_t seed) 
                       .largest = sand.largest,
                       .aspect = sand.aspect,
                       .exponent = sand.exponent,
-                      .sieve = sand.sieve.empty() ? scarp::SieveCurve{} : sieve_curve(sand.sieve)},
+                      .sieve = sand.sieve.empty() ? SieveCurve{} : sieve_curve(sand.sieve)},
           .grains = sand.grains,
           .density = sand.density,
           .thickness = Shape::dim == 2 ? sand.thickness : 1.0,

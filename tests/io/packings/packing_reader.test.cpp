@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include "../../../examples/shared/contact_reader.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/io/packings/contact_reader.hpp"
 #include "scarp/shape/clump.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
@@ -73,7 +73,7 @@ constexpr std::string_view two_discs = "id,x,y,r\n20,0.25,5,0.5\n10,9.3,-5,0.5\n
 std::string complaint_about_contacts(std::string_view text) {
   return message_of([&] {
     auto named = grains(two_discs);
-    scarp::read_contacts(named, scarp::CsvColumns(text, "contacts.csv"), law());
+    examples::read_contacts(named, scarp::CsvColumns(text, "contacts.csv"), law());
   });
 }
 
@@ -84,7 +84,7 @@ std::string complaint_about_contacts(std::string_view text) {
 // digits that are given, not for another contact or another convention.
 TEST_CASE("a packing of Yade's with its shear forces has Yade's stress, tangent, fabric and void ratio") {
   auto named = yade_packing();
-  scarp::read_contacts(named, reference("yade/contacts.csv"), law());
+  examples::read_contacts(named, reference("yade/contacts.csv"), law());
   auto const& packing = named.packing;
   auto const state = scarp::balance(packing, law());
   CHECK(state.contacts == 872);
@@ -116,7 +116,7 @@ TEST_CASE("a packing of Yade's with its shear forces has Yade's stress, tangent,
 TEST_CASE("shear forces come from the file, contact by contact, with the sign that the pair needs") {
   auto named = yade_packing();
   auto const at_rest = named.packing.position;
-  scarp::read_contacts(named, reference("yade/contacts.csv"), law());
+  examples::read_contacts(named, reference("yade/contacts.csv"), law());
   auto const table = scarp::read_csv(reference("yade/contacts.csv"));
   auto const first = table.column<std::int64_t>("id1");
   auto const second = table.column<std::int64_t>("id2");
@@ -147,7 +147,7 @@ TEST_CASE("shear forces come from the file, contact by contact, with the sign th
 TEST_CASE("contacts are found where the file's cell is not reduced and its images are others than ours") {
   auto const straight = [] {
     auto named = yade_packing();
-    scarp::read_contacts(named, reference("yade/contacts.csv"), law());
+    examples::read_contacts(named, reference("yade/contacts.csv"), law());
     return named;
   }();
   // The same lattice by other base vectors: a2' = a2 + 3 a1, so that shift (i, j) becomes (i - 3 j, j).
@@ -167,7 +167,7 @@ TEST_CASE("contacts are found where the file's cell is not reduced and its image
     text += fmt::format("{},{},{},{},{},{}\n", first, second, (turned ? -1 : 1) * (i[c] - 3 * j[c]),
                         (turned ? -1 : 1) * j[c], sign * table.column("ftx")[c], sign * table.column("fty")[c]);
   }
-  scarp::read_contacts(named, scarp::CsvColumns(text, "oblique.csv"), law());
+  examples::read_contacts(named, scarp::CsvColumns(text, "oblique.csv"), law());
   auto const expected = scarp::balance(straight.packing, law());
   auto const state = scarp::balance(named.packing, law());
   CHECK(state.contacts == 872);
@@ -236,7 +236,7 @@ TEST_CASE("numbers in single precision are those of the file, rounded") {
   using Floats = scarp::Packing<scarp::Disc, scarp::LinearFrictional, float>;
   auto named = scarp::read_packing<Floats>(reference("yade/particles.csv"), yade_cell(), density, thickness);
   // Positions of 0.2 m are good to 1e-8 m, 3e-6 of the smallest radius.
-  scarp::read_contacts(named, reference("yade/contacts.csv"), law(), 1e-4);
+  examples::read_contacts(named, reference("yade/contacts.csv"), law(), 1e-4);
   CHECK(scarp::balance(named.packing, law()).stress.trace() / 2.0 == samples::Approx(-2e5).epsilon(1e-3));
 }
 
@@ -279,8 +279,8 @@ TEST_CASE("a cell that cannot hold the grains is refused") {
 TEST_CASE("contacts are set by ids and images that refer to places as the file has them") {
   // Grain 10 stands at y = -5, one cell below grain 20; 0.95 m apart across the boundary of x.
   auto named = grains(two_discs);
-  scarp::read_contacts(named, scarp::CsvColumns("id1,id2,cell_i,cell_j,ftx,fty\n20,10,-1,1,0,7\n", "contacts.csv"),
-                       law());
+  examples::read_contacts(named, scarp::CsvColumns("id1,id2,cell_i,cell_j,ftx,fty\n20,10,-1,1,0,7\n", "contacts.csv"),
+                          law());
   int contacts = 0;
   scarp::for_each_contact(named.packing, law(), [&](auto const& contact) {
     ++contacts;
@@ -293,7 +293,7 @@ TEST_CASE("contacts are set by ids and images that refer to places as the file h
 
 TEST_CASE("shear forces in space are laid into the tangent plane") {
   auto named = grains<Spheres>("id,x,y,z,r\n1,1,5,5,0.5\n2,1.95,5,5,0.5\n");
-  scarp::read_contacts(
+  examples::read_contacts(
       named, scarp::CsvColumns("id1,id2,cell_i,cell_j,cell_k,ftx,fty,ftz\n2,1,0,0,0,0,3,-4\n", "contacts.csv"), law());
   REQUIRE(named.packing.pairs.count() == 1);
   CHECK(named.packing.pairs.shear.row(0) == std::array{0.0, -3.0, 4.0});
@@ -318,11 +318,11 @@ TEST_CASE("contacts are refused for a packing that already has its pairs, and th
   std::string const text = "id1,id2,cell_i,cell_j,ftx,fty\n20,10,-1,1,0,7\n";
   scarp::CsvColumns const good(text, "contacts.csv");
   auto const before = named.packing;
-  CHECK_REFUSED(scarp::read_contacts(named, scarp::CsvColumns(text + "20,20,0,0,0,0\n", "contacts.csv"), law()),
+  CHECK_REFUSED(examples::read_contacts(named, scarp::CsvColumns(text + "20,20,0,0,0,0\n", "contacts.csv"), law()),
                 "line 3 of 'contacts.csv'");
   CHECK(named.packing == before);
-  scarp::read_contacts(named, good, law());
-  CHECK_THROWS_WITH_AS(scarp::read_contacts(named, good, law()), doctest::Contains("right after the grains"),
+  examples::read_contacts(named, good, law());
+  CHECK_THROWS_WITH_AS(examples::read_contacts(named, good, law()), doctest::Contains("right after the grains"),
                        scarp::InputError);
 }
 
@@ -344,7 +344,7 @@ TEST_CASE("grains in space are not read as grains in the plane, and a plane with
 TEST_CASE("contacts of a packing whose cell has become too thin for its grains are refused") {
   auto named = grains(two_discs);
   named.packing.cell *= 0.05;
-  CHECK_REFUSED(scarp::read_contacts(
+  CHECK_REFUSED(examples::read_contacts(
                     named, scarp::CsvColumns("id1,id2,cell_i,cell_j,ftx,fty\n10,20,1,-1,0,0\n", "contacts.csv"), law()),
                 "contacts.csv", "cell is too thin for its grains");
 }

@@ -8,21 +8,21 @@
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/io/packings/packing_reader.hpp"
 
-namespace scarp {
+namespace examples {
 
 namespace detail {
 
 /// One line of a table of contacts.
 template <int Dim>
 struct ListedContact {
-  std::size_t first;   ///< grain
-  std::size_t second;  ///< grain
-  Vector<Dim> branch;  ///< between the centres [m]
-  Vector<Dim> shear;   ///< force on the second grain [N]
+  std::size_t first;          ///< grain
+  std::size_t second;         ///< grain
+  scarp::Vector<Dim> branch;  ///< between the centres [m]
+  scarp::Vector<Dim> shear;   ///< force on the second grain [N]
 };
 
 template <class PackingType>
-std::vector<std::size_t> grains_of(NamedPacking<PackingType> const& named, CsvColumns const& table,
+std::vector<std::size_t> grains_of(scarp::NamedPacking<PackingType> const& named, scarp::CsvColumns const& table,
                                    std::string_view column) {
   std::vector<std::size_t> grains;
   for (std::int64_t const id : table.column<std::int64_t>(column)) {
@@ -38,8 +38,8 @@ std::vector<std::size_t> grains_of(NamedPacking<PackingType> const& named, CsvCo
 
 /// Images are counted from where the grains stand in their file: the packing must still be as it was read.
 template <class PackingType>
-std::vector<ListedContact<PackingType::dim>> listed_contacts(NamedPacking<PackingType> const& named,
-                                                             CsvColumns const& table) {
+std::vector<ListedContact<PackingType::dim>> listed_contacts(scarp::NamedPacking<PackingType> const& named,
+                                                             scarp::CsvColumns const& table) {
   constexpr int dim = PackingType::dim;
   constexpr std::array<std::string_view, 3> image_names{"cell_i", "cell_j", "cell_k"};
   constexpr std::array<std::string_view, 3> shear_names{"ftx", "fty", "ftz"};
@@ -47,11 +47,11 @@ std::vector<ListedContact<PackingType::dim>> listed_contacts(NamedPacking<Packin
   auto const second = grains_of(named, table, "id2");
   std::vector<ListedContact<dim>> listed(table.rows());
   for (std::size_t c = 0; c < listed.size(); ++c) {
-    listed[c] = {first[c], second[c], Vector<dim>::Zero(), Vector<dim>::Zero()};
+    listed[c] = {first[c], second[c], scarp::Vector<dim>::Zero(), scarp::Vector<dim>::Zero()};
   }
   for (int a = 0; a < dim; ++a) {
-    auto const images = table.column<std::int64_t>(image_names[detail::index(a)]);
-    auto const forces = table.column(shear_names[detail::index(a)]);
+    auto const images = table.column<std::int64_t>(image_names[scarp::detail::index(a)]);
+    auto const forces = table.column(shear_names[scarp::detail::index(a)]);
     auto const* const place = named.packing.position.column(a);
     for (std::size_t c = 0; c < listed.size(); ++c) {
       listed[c].branch += named.packing.cell.col(a) * static_cast<double>(images[c]);
@@ -69,7 +69,7 @@ class PairsOfGrains {
   template <class PackingType>
   PairsOfGrains(PackingType const& packing, typename PackingType::Law const& law)
       : same_(packing.population->largest_radius() / 2.0) {
-    for_each_near_pair(packing, law, [&](Contact<Dim> const& contact) {
+    scarp::for_each_near_pair(packing, law, [&](scarp::Contact<Dim> const& contact) {
       contacts_.emplace(std::pair(std::minmax({contact.first, contact.second})), contact);
     });
   }
@@ -77,11 +77,11 @@ class PairsOfGrains {
   /// The pair that a line of a file speaks of, null for none; where they name the grains in opposite orders, the line
   /// is turned round. Branches distinguish images: they differ by lattice vectors, which are longer than two largest
   /// radii.
-  Contact<Dim> const* find(ListedContact<Dim>& listed) const {
+  scarp::Contact<Dim> const* find(ListedContact<Dim>& listed) const {
     auto const [begin, end] = contacts_.equal_range(std::pair(std::minmax({listed.first, listed.second})));
     for (int order = 0; order < 2; ++order) {
       for (auto pair = begin; pair != end; ++pair) {
-        Contact<Dim> const& contact = pair->second;
+        scarp::Contact<Dim> const& contact = pair->second;
         if (contact.first == listed.first && (contact.branch - listed.branch).norm() < same_) return &contact;
       }
       listed = {listed.second, listed.first, -listed.branch, -listed.shear};
@@ -91,19 +91,20 @@ class PairsOfGrains {
 
  private:
   double same_;  ///< [m]
-  std::multimap<std::pair<std::size_t, std::size_t>, Contact<Dim>> contacts_;
+  std::multimap<std::pair<std::size_t, std::size_t>, scarp::Contact<Dim>> contacts_;
 };
 
 template <class Scalar, int Count, int Dim>
-void write_shear(SoaArray<Scalar, Count>& columns, Contact<Dim> const& contact, Vector<Dim> const& force) {
-  Point<Dim, double> vector;
+void write_shear(scarp::SoaArray<Scalar, Count>& columns, scarp::Contact<Dim> const& contact,
+                 scarp::Vector<Dim> const& force) {
+  scarp::Point<Dim, double> vector;
   for (std::size_t a = 0; a < vector.size(); ++a) vector[a] = force(static_cast<int>(a));
-  auto const shear = tangential_part(vector, contact.touch.normal);
+  auto const shear = scarp::tangential_part(vector, contact.touch.normal);
   if constexpr (Count == 1) {
     columns(contact.pair, 0) = static_cast<Scalar>(shear);
   } else {
     for (int a = 0; a < Count; ++a) {
-      columns(contact.pair, a) = static_cast<Scalar>(shear[detail::index(a)]);
+      columns(contact.pair, a) = static_cast<Scalar>(shear[scarp::detail::index(a)]);
     }
   }
 }
@@ -118,31 +119,33 @@ void write_shear(SoaArray<Scalar, Count>& columns, Contact<Dim> const& contact, 
 /// \throws InputError naming the line for unknown grains, contacts of grains that are not near, contacts listed twice,
 /// and overlaps that disagree; the packing is then as before
 template <class PackingType>
-void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, typename PackingType::Law const& law,
-                   double tolerance = 1e-6) {
+void read_contacts(scarp::NamedPacking<PackingType>& named, scarp::CsvColumns const& table,
+                   typename PackingType::Law const& law, double tolerance = 1e-6) {
   constexpr int dim = PackingType::dim;
   static_assert(PackingType::Law::inputs.shear, "a law without shear memory has no use for a table of shear forces");
-  static_assert(part_count<typename PackingType::Shape>() == 1, "grains of several parts may touch more than once");
+  static_assert(scarp::part_count<typename PackingType::Shape>() == 1,
+                "grains of several parts may touch more than once");
   if (named.packing.pairs.skin >= 0.0) {
-    reject(
+    scarp::reject(
         "the contacts of '{}' cannot be read (the packing has a list of pairs, so its grains may have changed places): "
         "read them right after the grains",
         table.file());
   }
   auto packing = named.packing;
   auto listed = detail::listed_contacts(named, table);
-  if (!TimeStepper<PackingType>{}.refresh(packing, law).acceptable()) {
-    reject("the contacts of '{}' cannot be read (the packing's cell is too thin for its grains): use a larger packing",
-           table.file());
+  if (!scarp::TimeStepper<PackingType>{}.refresh(packing, law).acceptable()) {
+    scarp::reject(
+        "the contacts of '{}' cannot be read (the packing's cell is too thin for its grains): use a larger packing",
+        table.file());
   }
   detail::PairsOfGrains<dim> const pairs(packing, law);
   auto const overlaps = table.has("overlap") ? table.column("overlap") : std::vector<double>{};
   double const allowed = tolerance * packing.population->smallest_radius();
   std::unordered_map<std::size_t, std::size_t> row_of_pair;
   for (std::size_t c = 0; c < listed.size(); ++c) {
-    Contact<dim> const* const contact = pairs.find(listed[c]);
+    scarp::Contact<dim> const* const contact = pairs.find(listed[c]);
     if (contact == nullptr) {
-      reject(
+      scarp::reject(
           "line {} of '{}' lists a contact of grains {} and {} (they are not near each other at this image): check "
           "that "
           "both files are of one moment, and the cell",
@@ -150,8 +153,9 @@ void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, ty
     }
     auto const [other, is_new] = row_of_pair.emplace(contact->pair, c);
     if (!is_new) {
-      reject("line {} of '{}' lists a contact of grains {} and {} (line {} lists the same): remove one", table.line(c),
-             table.file(), named.ids[listed[c].first], named.ids[listed[c].second], table.line(other->second));
+      scarp::reject("line {} of '{}' lists a contact of grains {} and {} (line {} lists the same): remove one",
+                    table.line(c), table.file(), named.ids[listed[c].first], named.ids[listed[c].second],
+                    table.line(other->second));
     }
     if (!overlaps.empty() && !(std::abs(overlaps[c] - contact->touch.overlap) <= allowed)) {
       table.reject_cell(c, "overlap", fmt::format("in the packing it is {} m", contact->touch.overlap),
@@ -165,9 +169,9 @@ void read_contacts(NamedPacking<PackingType>& named, CsvColumns const& table, ty
 /// Reads the contacts of a CSV file.
 /// \throws InputError for a file that cannot be read, and for contacts that do not fit the packing
 template <class PackingType>
-void read_contacts(NamedPacking<PackingType>& named, std::filesystem::path const& path,
+void read_contacts(scarp::NamedPacking<PackingType>& named, std::filesystem::path const& path,
                    typename PackingType::Law const& law, double tolerance = 1e-6) {
-  read_contacts(named, read_csv(path), law, tolerance);
+  read_contacts(named, scarp::read_csv(path), law, tolerance);
 }
 
-}  // namespace scarp
+}  // namespace examples

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/dem/sieve_curve.hpp"
+#include "../../examples/shared/sand/sieve_curve.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 
 namespace {
 
-using scarp::SieveCurve;
+using examples::SieveCurve;
 
 // Definition: of grains that are drawn by number, each sieve passes the stated share of the mass.
 TEST_CASE("sieving the grains that a curve gives returns the curve") {

@@ -9,7 +9,7 @@
 #include "scarp/core/index.hpp"
 #include "scarp/core/random.hpp"
 
-namespace scarp {
+namespace examples {
 
 /// Sizes of grains from a sieve analysis: the share of the mass that passes each diameter, straight lines between the sieves over the
 /// logarithm of the diameter, as it is plotted.
@@ -20,19 +20,20 @@ struct SieveCurve {
   /// \throws InputError for a curve that does not rise from 0 to 1 over increasing diameters
   void validate() const {
     if (diameters.size() < 2 || diameters.size() != passing.size())
-      reject("a sieve curve has {} diameters and {} shares that pass (two or more of both are expected): complete it",
-             diameters.size(), passing.size());
+      scarp::reject(
+          "a sieve curve has {} diameters and {} shares that pass (two or more of both are expected): complete it",
+          diameters.size(), passing.size());
     for (std::size_t k = 0; k < diameters.size(); ++k) {
-      require_positive("diameter of a sieve", diameters[k]);
-      require_between("share that passes a sieve", passing[k], 0.0, 1.0);
+      scarp::require_positive("diameter of a sieve", diameters[k]);
+      scarp::require_between("share that passes a sieve", passing[k], 0.0, 1.0);
       if (k > 0 && !(diameters[k] > diameters[k - 1] && passing[k] >= passing[k - 1]))
-        reject(
+        scarp::reject(
             "after a sieve of {} m, which {:.6g} % pass, one of {} m is passed by {:.6g} % (both increase): sort the "
             "sieves",
             diameters[k - 1], 100.0 * passing[k - 1], diameters[k], 100.0 * passing[k]);
     }
     if (passing.front() != 0.0 || passing.back() != 1.0)
-      reject(
+      scarp::reject(
           "a sieve curve runs from {:.6g} % to {:.6g} % (0 % to 100 % are expected): add the sieves that nothing and "
           "everything passes",
           100.0 * passing.front(), 100.0 * passing.back());
@@ -43,7 +44,7 @@ struct SieveCurve {
   /// number goes with \f$ d^{-1-n} \f$ in n dimensions.
   /// dim: 2 where grains are prisms, whose mass goes with the square of their diameter, else 3
   /// \throws InputError for a curve so wide that the largest of these grains would carry more, with a number and a curve that do
-  std::vector<double> sample(Random& random, int dim, int grains) const {
+  std::vector<double> sample(scarp::Random& random, int dim, int grains) const {
     auto const inverse = [&](std::size_t k) { return std::pow(diameters[k], -dim); };
     std::vector<double> numbers{0.0};  // of grains up to each sieve, in proportion
     for (std::size_t k = 1; k < diameters.size(); ++k)
@@ -61,7 +62,7 @@ struct SieveCurve {
       double const way = std::min(1.0, (each * (grain + 1) - numbers[k]) / (numbers[k + 1] - numbers[k]));
       double const upper = passing_at(std::pow(std::lerp(inverse(k), inverse(k + 1), way), -1.0 / dim));
       largest = upper - lower;
-      drawn[detail::index(grain)] = std::pow(dim * largest / each, 1.0 / dim);
+      drawn[scarp::detail::index(grain)] = std::pow(dim * largest / each, 1.0 / dim);
       lower = upper;
     }
     if (largest <= allowed) return drawn;
@@ -70,7 +71,7 @@ struct SieveCurve {
     };
     double cut = 1.0, below = 0.0;
     for (int k = 0; k < 40; ++k) (needed((cut + below) / 2.0) > grains ? below : cut) = (cut + below) / 2.0;
-    reject(
+    scarp::reject(
         "{} grains cannot have the sieve curve from {:.4g} to {:.4g} m (the largest would carry {:.0f} % of the mass, "
         "at most "
         "{:.0f} % are expected): take {:.6g} grains, or begin the curve at {:.3g} m, which {:.0f} % pass",
@@ -84,7 +85,7 @@ struct SieveCurve {
   /// The interval of increasing numbers where one lies.
   static std::size_t interval(std::vector<double> const& bounds, double number) {
     auto const above = std::upper_bound(bounds.begin() + 1, bounds.end() - 1, number);
-    return detail::index(above - bounds.begin()) - 1;
+    return scarp::detail::index(above - bounds.begin()) - 1;
   }
   /// Share of the mass over the logarithm of the diameter between two sieves.
   double slope(std::size_t k) const {
@@ -120,4 +121,4 @@ struct SieveCurve {
   }
 };
 
-}  // namespace scarp
+}  // namespace examples
