@@ -13,10 +13,10 @@
 #include "../examples/shared/study/study_sand.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
-#include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/perturbation_tangent.hpp"
+#include "shared/condensed_tangent.hpp"
 #include "shared/data_file.hpp"
 
 namespace {
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     }
   }
 
-  using scarp::CondensedTangent;
+  using benchmarks::CondensedTangent;
   auto const policy = [](std::string name, auto const& tangent) {
     return Policy{std::move(name), [tangent](Packing const& packing) { return tangent(packing, law); }};
   };

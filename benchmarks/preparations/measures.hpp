@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "../../examples/rve_biaxial/strength.hpp"
+#include "../shared/condensed_tangent.hpp"
 #include "column.hpp"
-#include "scarp/homogenise/condensed_tangent.hpp"
 
 namespace preparations {
 
@@ -55,7 +55,7 @@ inline Tested test(Packing packing) {
   auto const law = examples::study_law();
   Tested tested;
   // Every contact with its whole tangential spring: no contact slides.
-  auto const tangent = scarp::CondensedTangent{.sliding = {.shear_share = 1.0}}(packing, law);
+  auto const tangent = benchmarks::CondensedTangent{.sliding = {.shear_share = 1.0}}(packing, law);
   tested.elastic_k0 = tangent(0, 1) / tangent(1, 1);
   rve_biaxial::Choice const choice{.strain_per_step = 1e-5};
   scarp::IsotropicPreparation const consolidation{.pressure = choice.pressure, .preparation_friction = law.friction};

@@ -5,10 +5,10 @@
 #include <functional>
 #include <limits>
 
+#include "../../benchmarks/shared/condensed_tangent.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
-#include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/rve/dem_rve.hpp"
@@ -26,7 +26,7 @@ using Discs = samples::Discs;
 using Elastic = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
 using Rve = scarp::DemRve<Discs, scarp::SamePacking<Discs>>;
 using Trial = scarp::DemRve<Discs, scarp::SamePacking<Discs>, scarp::PerturbationTangent<>>;
-using Condensed = scarp::DemRve<Discs, scarp::SamePacking<Discs>, scarp::CondensedTangent>;
+using Condensed = scarp::DemRve<Discs, scarp::SamePacking<Discs>, benchmarks::CondensedTangent>;
 using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength>;
 
 Elastic elastic() { return Elastic::from_young_poisson(20e6, 0.3, {.surcharge = 1e3, .unit_weight = 16e3, .k0 = 0.5}); }

@@ -8,11 +8,11 @@
 #include <random>
 #include <vector>
 
+#include "../../benchmarks/shared/condensed_tangent.hpp"
 #include "../../examples/rve_lab/non_affine.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/loading.hpp"
 #include "scarp/homogenise/balance.hpp"
-#include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/shape/sphere.hpp"
@@ -179,7 +179,7 @@ TEST_CASE("equal spheres under uniform strain have Voigt's moduli, and relaxed o
   CHECK(affine.shear < shear);
   CHECK(affine.shear > shear * (1.0 - 2.0 * deepest));
   // Analytic: bounds. 0.85 and 0.62 of them here; a relaxation that did nothing would be seen.
-  Isotropic const relaxed(scarp::CondensedTangent{.initial_stress = false}(packing, sphere_law));
+  Isotropic const relaxed(benchmarks::CondensedTangent{.initial_stress = false}(packing, sphere_law));
   CHECK(relaxed.bulk < 0.99 * affine.bulk);
   CHECK(relaxed.shear < 0.9 * affine.shear);
   CHECK(relaxed.bulk > 0.0);
@@ -325,6 +325,6 @@ TEST_CASE("a doubled cell has the same stress and the same tangents") {
   CHECK(scarp::sliding_share(four, law) == samples::Approx(scarp::sliding_share(one, law)));
   auto const affine = scarp::contact_tangent(one, law);
   CHECK((scarp::contact_tangent(four, law) - affine).norm() < 1e-12 * affine.norm());
-  auto const relaxed = scarp::CondensedTangent{}(one, law);
-  CHECK((scarp::CondensedTangent{}(four, law) - relaxed).norm() < 1e-12 * relaxed.norm());
+  auto const relaxed = benchmarks::CondensedTangent{}(one, law);
+  CHECK((benchmarks::CondensedTangent{}(four, law) - relaxed).norm() < 1e-12 * relaxed.norm());
 }

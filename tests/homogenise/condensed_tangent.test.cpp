@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/homogenise/condensed_tangent.hpp"
+#include "../../benchmarks/shared/condensed_tangent.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,11 +11,11 @@
 
 namespace {
 
+using benchmarks::CondensedTangent;
 using samples::Discs;
 using samples::Ellipses;
 using samples::SmoothDiscs;
 using samples::UniformStrain;
-using scarp::CondensedTangent;
 using scarp::Reason;
 using scarp::Status;
 using scarp::Tensor;

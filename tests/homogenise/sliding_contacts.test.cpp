@@ -13,7 +13,6 @@ using samples::Discs;
 using samples::Ellipses;
 using samples::SmoothDiscs;
 using samples::UniformStrain;
-using scarp::SlidingContacts;
 using scarp::Tensor;
 using scarp::VoigtTangent;
 
@@ -98,11 +97,11 @@ TEST_CASE("a bond that holds does not slide, however large its shear force") {
   contact.force = {60.0, 600.0};
   contact.memory.shear = 600.0;
   Bonded::bond(contact.memory);
-  CHECK(!SlidingContacts{}.slides(contact, law));
+  CHECK(!scarp::slides(contact, law));
   contact.memory.scalars = {};
   contact.memory.shear = 33.0;
   contact.force = {60.0, 33.0};  // at Coulomb's limit 0.55 x 60 N
-  CHECK(SlidingContacts{}.slides(contact, law));
+  CHECK(scarp::slides(contact, law));
 }
 
 TEST_CASE("in space a sliding contact stays stiff across its direction of sliding") {
@@ -117,7 +116,7 @@ TEST_CASE("in space a sliding contact stays stiff across its direction of slidin
   Tensor<3> expected = Tensor<3>::Zero();  // analytic: k_n n n + k_t y y + mu k_n s n with s = -z
   expected.diagonal() << 6e6, 6e6, 0.0;
   expected(2, 0) = -0.55 * 6e6;
-  CHECK((SlidingContacts{.coupled = true}.spring(contact, law) - expected).norm() < 1e-12 * 6e6);
+  CHECK((benchmarks::SlidingSprings{.coupled = true}.spring(contact, law) - expected).norm() < 1e-12 * 6e6);
 }
 
 TEST_CASE_TEMPLATE("the tangent of sliding contacts turns with the packing and leaves it alone", PackingType, Discs,

@@ -5,8 +5,8 @@
 
 #include <map>
 
+#include "../../benchmarks/shared/sliding_springs.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
 #include "support/factorisations.hpp"
 #include "support/packings.hpp"
 
@@ -53,7 +53,7 @@ PackingType const& settled_after_shear() {
 
 /// Tangent [Pa] under uniform strain in which contacts at their shear limit slide, \f$ \frac1V \sum S_{ik} l_j l_l \f$.
 struct UniformStrain {
-  scarp::SlidingContacts sliding{};
+  benchmarks::SlidingSprings sliding{};
 
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {

@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include "../../benchmarks/shared/condensed_tangent.hpp"
 #include "homogenise/tangent_samples.hpp"
 #include "homogenise/yade_packing.hpp"
 #include "scarp/dem/fire.hpp"
-#include "scarp/homogenise/condensed_tangent.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "support/approx.hpp"
 
@@ -62,7 +62,7 @@ TEST_CASE("ellipses at rest under isotropic pressure answer to a trial as their 
   auto const& prepared = samples::consolidated<Ellipses>(80);
   REQUIRE(prepared.verdict.acceptable());
   VoigtTangent<2> const trial = PerturbationTangent{}(prepared.packing, law);
-  VoigtTangent<2> const condensed = scarp::CondensedTangent{}(prepared.packing, law);
+  VoigtTangent<2> const condensed = benchmarks::CondensedTangent{}(prepared.packing, law);
   // Two methods: they differ by forces that turn with their contacts and by contacts left sliding.
   CHECK((condensed - trial).norm() < 0.05 * trial.norm());
 }

@@ -9,19 +9,19 @@
 
 #include "scarp/core/index.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
 #include "scarp/tensor/voigt.hpp"
+#include "sliding_springs.hpp"
 
-namespace scarp {
+namespace benchmarks {
 
 /// What a present stress adds to the change of Cauchy's stress with strain, because branches and volume change while
 /// the forces stay: \f$ d\sigma = \sigma\varepsilon - \sigma\,tr\,\varepsilon \f$ (symmetric part). [Pa], not symmetric
 template <int Dim>
-VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
-  VoigtTangent<Dim> tangent;
-  for (int k = 0; k < voigt_size<Dim>; ++k) {
-    Tensor<Dim> const strain = unit_strain<Dim>(k);
-    tangent.col(k) = to_voigt_stress<Dim, double>(stress * strain - stress * strain.trace());
+scarp::VoigtTangent<Dim> initial_stress_tangent(scarp::Tensor<Dim> const& stress) {
+  scarp::VoigtTangent<Dim> tangent;
+  for (int k = 0; k < scarp::voigt_size<Dim>; ++k) {
+    scarp::Tensor<Dim> const strain = scarp::unit_strain<Dim>(k);
+    tangent.col(k) = scarp::to_voigt_stress<Dim, double>(stress * strain - stress * strain.trace());
   }
   return tangent;
 }
@@ -35,20 +35,21 @@ VoigtTangent<Dim> initial_stress_tangent(Tensor<Dim> const& stress) {
 /// translations, spins of smooth discs and grains on a single contact are held by `regularisation`, which changes other
 /// motions by its own order only, because the forces A lie in the range of a symmetric K.
 struct CondensedTangent {
-  SlidingContacts sliding{};     ///< stiffness of contacts at their shear limit
+  SlidingSprings sliding{};      ///< stiffness of contacts at their shear limit
   double regularisation = 1e-9;  ///< spring to the ground of every motion, over the mean k_n
   bool initial_stress = true;    ///< with the terms of the present stress; never in the fallback
-  TangentFallback on_fallback = report_tangent_fallback;  ///< called at each fallback
+  scarp::TangentFallback on_fallback = scarp::report_tangent_fallback;  ///< called at each fallback
 
-  /// \throws InputError for springs to the ground that are negative or not finite
+  /// \throws scarp::InputError for springs to the ground that are negative or not finite
   void validate() const {
     sliding.validate();
-    require_not_negative("spring to the ground of a condensed packing", regularisation);
+    scarp::require_not_negative("spring to the ground of a condensed packing", regularisation);
   }
 
   /// The condensed tangent, or the one under uniform strain after `on_fallback` was called with the reason.
   template <class PackingType>
-  VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
+  scarp::VoigtTangent<PackingType::dim> operator()(PackingType const& packing,
+                                                   typename PackingType::Law const& law) const {
     auto const result = condense(packing, law);
     if (!result.verdict.acceptable() && on_fallback != nullptr) {
       on_fallback("a packing's tangent could not be condensed, the one under uniform strain is used", result.verdict);
@@ -59,21 +60,23 @@ struct CondensedTangent {
   /// \return tangent [Pa] under uniform strain with failed / singular_system or not_finite where it cannot be relaxed;
   /// zero and fluid / no_contacts without contacts
   template <class PackingType>
-  TangentResult<PackingType::dim> condense(PackingType const& packing, typename PackingType::Law const& law) const {
+  scarp::TangentResult<PackingType::dim> condense(PackingType const& packing,
+                                                  typename PackingType::Law const& law) const {
     constexpr int dim = PackingType::dim;
     validate();
     Assembly<dim> const assembly = assemble(packing, law);
-    VoigtTangent<dim> const affine = assembly.affine / packing.volume();
-    if (assembly.stiffness.rows() == 0) return {affine, {Status::fluid, Reason::no_contacts}};
-    if (!affine.allFinite() || !assembly.forces.allFinite()) return {affine, {Status::failed, Reason::not_finite}};
+    scarp::VoigtTangent<dim> const affine = assembly.affine / packing.volume();
+    if (assembly.stiffness.rows() == 0) return {affine, {scarp::Status::fluid, scarp::Reason::no_contacts}};
+    if (!affine.allFinite() || !assembly.forces.allFinite())
+      return {affine, {scarp::Status::failed, scarp::Reason::not_finite}};
     Eigen::MatrixXd relaxed;
     if (!(sliding.coupled ? solve_unsymmetric(assembly.stiffness, assembly.forces, relaxed)
                           : solve_symmetric(assembly.stiffness, assembly.forces, relaxed))) {
-      return {affine, {Status::failed, Reason::singular_system}};
+      return {affine, {scarp::Status::failed, scarp::Reason::singular_system}};
     }
-    VoigtTangent<dim> tangent = affine - assembly.stresses.transpose() * relaxed / packing.volume();
+    scarp::VoigtTangent<dim> tangent = affine - assembly.stresses.transpose() * relaxed / packing.volume();
     if (initial_stress) tangent += initial_stress_tangent<dim>(assembly.stress / packing.volume());
-    if (!tangent.allFinite()) return {affine, {Status::failed, Reason::singular_system}};
+    if (!tangent.allFinite()) return {affine, {scarp::Status::failed, scarp::Reason::singular_system}};
     return {tangent, {}};
   }
 
@@ -82,35 +85,36 @@ struct CondensedTangent {
 
   template <int Dim>
   struct Assembly {
-    Matrix stiffness;                                      ///< K [N/m]; its lower triangle where it is symmetric
-    Eigen::MatrixXd forces;                                ///< A [N], a column for each strain mode
-    Eigen::MatrixXd stresses;                              ///< A_l [N]
-    VoigtTangent<Dim> affine = VoigtTangent<Dim>::Zero();  ///< times the volume [N m]
-    Tensor<Dim> stress = Tensor<Dim>::Zero();              ///< times the volume [N m]
+    Matrix stiffness;          ///< K [N/m]; its lower triangle where it is symmetric
+    Eigen::MatrixXd forces;    ///< A [N], a column for each strain mode
+    Eigen::MatrixXd stresses;  ///< A_l [N]
+    scarp::VoigtTangent<Dim> affine = scarp::VoigtTangent<Dim>::Zero();  ///< times the volume [N m]
+    scarp::Tensor<Dim> stress = scarp::Tensor<Dim>::Zero();              ///< times the volume [N m]
   };
 
   /// Motion of the second grain of a contact relative to the first in each strain mode.
   template <int Dim>
-  static Eigen::Matrix<double, Dim, voigt_size<Dim>> strain_motion(Vector<Dim> const& branch) {
-    Eigen::Matrix<double, Dim, voigt_size<Dim>> motion;
-    for (int k = 0; k < voigt_size<Dim>; ++k) motion.col(k) = unit_strain<Dim>(k) * branch;
+  static Eigen::Matrix<double, Dim, scarp::voigt_size<Dim>> strain_motion(scarp::Vector<Dim> const& branch) {
+    Eigen::Matrix<double, Dim, scarp::voigt_size<Dim>> motion;
+    for (int k = 0; k < scarp::voigt_size<Dim>; ++k) motion.col(k) = scarp::unit_strain<Dim>(k) * branch;
     return motion;
   }
 
   /// Motion of a grain's contact point for (centre, spin x length).
   template <int Dim>
-  static Eigen::Matrix<double, Dim, Dim + spin_size<Dim>> grain_motion(Point<Dim, double> const& arm, double length) {
-    Eigen::Matrix<double, Dim, Dim + spin_size<Dim>> motion;
+  static Eigen::Matrix<double, Dim, Dim + scarp::spin_size<Dim>> grain_motion(scarp::Point<Dim, double> const& arm,
+                                                                              double length) {
+    Eigen::Matrix<double, Dim, Dim + scarp::spin_size<Dim>> motion;
     motion.template leftCols<Dim>().setIdentity();
-    for (int k = 0; k < spin_size<Dim>; ++k) {
-      Turning<Dim, double> turn{};
+    for (int k = 0; k < scarp::spin_size<Dim>; ++k) {
+      scarp::Turning<Dim, double> turn{};
       if constexpr (Dim == 2) {
         turn = 1.0 / length;
       } else {
-        turn[detail::index(k)] = 1.0 / length;
+        turn[scarp::detail::index(k)] = 1.0 / length;
       }
-      auto const swing = turned_motion(turn, arm);
-      motion.col(Dim + k) = Eigen::Map<Vector<Dim> const>(swing.data());
+      auto const swing = scarp::turned_motion(turn, arm);
+      motion.col(Dim + k) = Eigen::Map<scarp::Vector<Dim> const>(swing.data());
     }
     return motion;
   }
@@ -118,13 +122,13 @@ struct CondensedTangent {
   template <class PackingType>
   Assembly<PackingType::dim> assemble(PackingType const& packing, typename PackingType::Law const& law) const {
     constexpr int dim = PackingType::dim;
-    constexpr int motions = dim + spin_size<dim>;
+    constexpr int motions = dim + scarp::spin_size<dim>;
     double const length = packing.population->largest_radius();
-    std::vector<Contact<dim>> contacts;
+    std::vector<scarp::Contact<dim>> contacts;
     std::vector<Eigen::Index> place(packing.grain_count(), -1);
     Eigen::Index unknowns = 0;
     double normal_stiffness = 0.0;
-    for_each_contact(packing, law, [&](Contact<dim> const& contact) {
+    scarp::for_each_contact(packing, law, [&](scarp::Contact<dim> const& contact) {
       contacts.push_back(contact);
       normal_stiffness += contact.stiffness.normal;
       for (std::size_t const grain : {contact.first, contact.second}) {
@@ -134,31 +138,32 @@ struct CondensedTangent {
       }
     });
     Assembly<dim> whole;
-    whole.forces = Eigen::MatrixXd::Zero(unknowns, voigt_size<dim>);
+    whole.forces = Eigen::MatrixXd::Zero(unknowns, scarp::voigt_size<dim>);
     whole.stresses = whole.forces;
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(contacts.size() * 4 * motions * motions + static_cast<std::size_t>(unknowns));
     for (auto const& contact : contacts) {
-      Tensor<dim> const spring = sliding.spring(contact, law);
-      Vector<dim> const n = contact.normal();
+      scarp::Tensor<dim> const spring = sliding.spring(contact, law);
+      scarp::Vector<dim> const n = contact.normal();
       auto const strained = strain_motion<dim>(contact.branch);
       whole.affine += strained.transpose() * spring * strained;
       whole.stress -= contact.force * contact.branch.transpose();
       std::array const start{place[contact.first], place[contact.second]};
       std::array const moved{(-grain_motion<dim>(contact.touch.arm_first, length)).eval(),
                              grain_motion<dim>(contact.touch.arm_second, length)};
-      Eigen::Matrix<double, spin_size<dim>, spin_size<dim>> rolling;
+      Eigen::Matrix<double, scarp::spin_size<dim>, scarp::spin_size<dim>> rolling;
       if constexpr (dim == 2) {
         rolling.setConstant(contact.stiffness.rolling / (length * length));
       } else {
-        rolling = contact.stiffness.rolling / (length * length) * (Tensor<3>::Identity() - n * n.transpose());
+        rolling = contact.stiffness.rolling / (length * length) * (scarp::Tensor<3>::Identity() - n * n.transpose());
       }
       for (std::size_t a = 0; a < 2; ++a) {
         whole.forces.template middleRows<motions>(start[a]) += moved[a].transpose() * spring * strained;
         whole.stresses.template middleRows<motions>(start[a]) += moved[a].transpose() * spring.transpose() * strained;
         for (std::size_t b = 0; b < 2; ++b) {
           Eigen::Matrix<double, motions, motions> block = moved[a].transpose() * spring * moved[b];
-          block.template bottomRightCorner<spin_size<dim>, spin_size<dim>>() += (a == b ? 1.0 : -1.0) * rolling;
+          block.template bottomRightCorner<scarp::spin_size<dim>, scarp::spin_size<dim>>() +=
+              (a == b ? 1.0 : -1.0) * rolling;
           for (int i = 0; i < motions; ++i) {
             for (int j = 0; j < motions; ++j) {
               if (sliding.coupled || start[a] + i >= start[b] + j) {
@@ -194,4 +199,4 @@ struct CondensedTangent {
   }
 };
 
-}  // namespace scarp
+}  // namespace benchmarks
