@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "../shared/energy_ledger.hpp"
 #include "non_affine.hpp"
 #include "scarp/homogenise/balance.hpp"
-#include "scarp/homogenise/energy_ledger.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/homogenise/sliding_contacts.hpp"
 #include "specimen.hpp"
@@ -135,7 +135,7 @@ class Recorder {
   PackingType start_;
   double radius_;                 ///< of discs of the grains' areas, mean [m]
   std::vector<double> rotation_;  ///< of each grain beyond the cell's own [rad]
-  scarp::EnergyLedger<2> ledger_;
+  examples::EnergyLedger<2> ledger_;
   Tensor stress_sum_ = Tensor::Zero();
   long steps_in_row_ = 0;
 };

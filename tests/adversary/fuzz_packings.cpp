@@ -6,10 +6,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "../../examples/shared/energy_ledger.hpp"
 #include "adversary/contest.hpp"
 #include "contact/every_law.hpp"
 #include "scarp/dem/time_stepping.hpp"
-#include "scarp/homogenise/energy_ledger.hpp"
 #include "scarp/shape/clump.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/ellipse.hpp"
@@ -138,7 +138,7 @@ struct Told {
   Tensor<Dim> stress = Tensor<Dim>::Zero();
   double largest_force = 0.0;
   double out_of_balance = 0.0;  ///< largest sum of all forces
-  scarp::EnergyLedger<Dim> ledger{};
+  examples::EnergyLedger<Dim> ledger{};
   double energy = 0.0;  ///< largest of what was stored, moving and put in
 };
 constexpr int short_path = 8;

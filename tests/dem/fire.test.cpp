@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "../../examples/shared/energy_ledger.hpp"
 #include "scarp/core/random.hpp"
-#include "scarp/homogenise/energy_ledger.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/shape/sphere.hpp"
@@ -204,7 +204,7 @@ TEST_CASE_TEMPLATE("a packing as material answers as with local damping, with th
 TEST_CASE("the energy of a relaxed packing is accounted for") {
   auto packing = samples::consolidated<Discs>(80).packing;
   scarp::TimeStepper<Discs, Fire> stepper;
-  scarp::EnergyLedger<2> ledger;
+  examples::EnergyLedger<2> ledger;
   scarp::StepObservation<2> seen;
   for (int k = 0; k < 2000; ++k) {
     double const volume = packing.volume();

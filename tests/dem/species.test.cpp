@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Grains of several species, each pair of which has a contact law of its own.
+#include "../../examples/shared/energy_ledger.hpp"
 #include "scarp/contact/law_per_species.hpp"
 
 #include <doctest/doctest.h>
@@ -9,7 +10,6 @@
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/packing_picture.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
-#include "scarp/homogenise/energy_ledger.hpp"
 #include "scarp/shape/clump.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "scarp/shape/with_species.hpp"
@@ -78,9 +78,9 @@ Tensor<2> shear(double size) {
 }
 
 template <class PackingType>
-scarp::EnergyLedger<2> sheared(PackingType& packing, typename PackingType::Law const& law, double size, int steps) {
+examples::EnergyLedger<2> sheared(PackingType& packing, typename PackingType::Law const& law, double size, int steps) {
   scarp::TimeStepper<PackingType> stepper;
-  scarp::EnergyLedger<2> ledger;
+  examples::EnergyLedger<2> ledger;
   for (int step = 0; step < steps; ++step) {
     scarp::StepObservation<2> seen;
     double const volume = packing.volume();

@@ -5,9 +5,9 @@
 
 #include <limits>
 
+#include "../../examples/shared/energy_ledger.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/hertz_mindlin.hpp"
-#include "scarp/homogenise/energy_ledger.hpp"
 #include "support/packings.hpp"
 
 #include "support/approx.hpp"
@@ -44,7 +44,7 @@ Sheared sheared(Discs packing, scarp::LinearFrictional const& law) {
       4.0;  // springs that stiffen all at once throw the grains: the balance's error falls with its square
   Tensor<2> strain = Tensor<2>::Zero();
   strain(0, 1) = 1e-5;
-  scarp::EnergyLedger<2> ledger;
+  examples::EnergyLedger<2> ledger;
   for (int step = 0; step < 400; ++step) {
     scarp::StepObservation<2> seen;
     double const volume = packing.volume();

@@ -5,8 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "../../examples/shared/energy_ledger.hpp"
 #include "scarp/dem/fire.hpp"
-#include "scarp/homogenise/energy_ledger.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
 #include "scarp/rve/perturbation_tangent.hpp"
@@ -144,7 +144,7 @@ TEST_CASE_TEMPLATE("grains of the rim follow the cell, the others are in balance
 TEST_CASE("energy balances although grains are held") {
   auto packing = samples::consolidated<Discs>(100).packing;
   RimStepper<Discs> stepper;
-  scarp::EnergyLedger<2> ledger;
+  examples::EnergyLedger<2> ledger;
   for (int step = 0; step < 1000; ++step) {
     scarp::StepObservation<2> seen;
     double const volume = packing.volume();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/homogenise/energy_ledger.hpp"
+#include "../../examples/shared/energy_ledger.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 
 namespace {
 
-using scarp::EnergyLedger;
+using examples::EnergyLedger;
 using scarp::Loading;
 using scarp::Observe;
 

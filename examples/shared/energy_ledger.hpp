@@ -3,7 +3,7 @@
 
 #include "scarp/dem/time_stepping.hpp"
 
-namespace scarp {
+namespace examples {
 
 /// Where the work done on a packing goes. All energies [J] are changes since the first entry; the balance
 /// work_in = stored + contact_loss + damping_loss + kinetic closes up to the error of the time steps.
@@ -20,8 +20,8 @@ struct EnergyLedger {
 
   /// One entry for each step in turn: what the step observed, with the cell's volume [m3] before its move and the
   /// displacement gradient of the move. Rates between two entries are their means.
-  void enter(StepObservation<Dim> const& seen, double volume, Tensor<Dim> const& strain_step) {
-    Tensor<Dim> const force = seen.stress * volume;
+  void enter(scarp::StepObservation<Dim> const& seen, double volume, scarp::Tensor<Dim> const& strain_step) {
+    scarp::Tensor<Dim> const force = seen.stress * volume;
     if (begun_) {
       work_in += ((former_force_ + force) / 2.0).cwiseProduct(former_step_).sum();
       contact_loss += seen.contact_loss;
@@ -40,11 +40,11 @@ struct EnergyLedger {
 
  private:
   bool begun_ = false;
-  Tensor<Dim> former_force_ = Tensor<Dim>::Zero();
-  Tensor<Dim> former_step_ = Tensor<Dim>::Zero();
+  scarp::Tensor<Dim> former_force_ = scarp::Tensor<Dim>::Zero();
+  scarp::Tensor<Dim> former_step_ = scarp::Tensor<Dim>::Zero();
   double former_damping_ = 0.0;
   double first_stored_ = 0.0;
   double first_kinetic_ = 0.0;
 };
 
-}  // namespace scarp
+}  // namespace examples
