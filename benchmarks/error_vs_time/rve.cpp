@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // One packing along the paths of the laboratory, against its own quasi-static response.
+#include "../../examples/shared/laboratory_loadings.hpp"
 #include "rve_paths.hpp"
 #include "subjects.hpp"
 #include "sweep.hpp"
@@ -86,7 +87,7 @@ SweepTable biaxial(Options const& options) {
 }
 
 SweepTable simple_shear(Options const& options) {
-  Path const path{.loading = [](double rate) { return scarp::simple_shear_at_stress<2>(rate, confinement); },
+  Path const path{.loading = [](double rate) { return examples::simple_shear_at_stress<2>(rate, confinement); },
                   .strain = options.quick ? 0.01 : 0.04,
                   .samples = options.quick ? 10 : 40};
   return sweep_path("rve_simple_shear", path, options);

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "../shared/laboratory_loadings.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/dem/loading.hpp"
 
 namespace rve_lab {
 
@@ -48,21 +48,21 @@ inline double mean_pressure(Tensor const& stress) { return -stress.trace() / 2.0
 inline std::vector<PathKind> const& all_paths() {
   static std::vector<PathKind> const paths{
       {.name = "isotropic",
-       .loading = [](double rate, double) { return scarp::isotropic_compression<2>(rate); },
+       .loading = [](double rate, double) { return examples::isotropic_compression<2>(rate); },
        .row_strain = 5e-5},
       {.name = "oedometer", .loading = [](double rate, double) { return scarp::oedometer<2>(rate); }},
       {.name = "biaxial", .loading = scarp::drained_compression<2>, .held = lateral_pressure<2>},
-      {.name = "undrained", .loading = [](double rate, double) { return scarp::undrained_compression<2>(rate); }},
-      {.name = "pure_shear", .loading = [](double rate, double) { return scarp::pure_shear<2>(rate); }},
+      {.name = "undrained", .loading = [](double rate, double) { return examples::undrained_compression<2>(rate); }},
+      {.name = "pure_shear", .loading = [](double rate, double) { return examples::pure_shear<2>(rate); }},
       {.name = "simple_shear",
-       .loading = [](double rate, double) { return scarp::simple_shear<2>(rate); },
+       .loading = [](double rate, double) { return examples::simple_shear<2>(rate); },
        .strain = shear_strain},
       {.name = "simple_shear_at_stress",
-       .loading = scarp::simple_shear_at_stress<2>,
+       .loading = examples::simple_shear_at_stress<2>,
        .held = axial_pressure,
        .strain = shear_strain},
       {.name = "constant_mean_stress",
-       .loading = scarp::constant_mean_stress<2>,
+       .loading = examples::constant_mean_stress<2>,
        .held = mean_pressure,
        .strain = deviatoric_strain}};
   return paths;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../shared/budget_report.hpp"
+#include "../shared/laboratory_loadings.hpp"
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
 #include "commands.hpp"
@@ -43,7 +44,7 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
   Specimen<PackingType, scarp::Observe::energy> lab(std::move(start), law, path, choice.strain_step, choice.held);
   bool const cyclic = choice.cycles > 0;
   double const length = cyclic ? 4.0 * choice.amplitude * choice.cycles : choice.strain;
-  scarp::Cyclic const cycle{choice.amplitude - 0.5 * choice.strain_step};  // half a step for round-off
+  examples::Cyclic const cycle{choice.amplitude - 0.5 * choice.strain_step};  // half a step for round-off
   long const steps = steps_of(length, choice.strain_step);
   long const steps_per_row = steps_of(choice.row_strain.value_or(length / 200.0), choice.strain_step);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "../../examples/rve_biaxial/halved_path.hpp"
+#include "../../examples/shared/laboratory_loadings.hpp"
 #include "scarp/dem/loading.hpp"
 #include "support/packings.hpp"
 
@@ -38,7 +39,7 @@ TEST_CASE("a path towards zero, tension or not-a-number ends as unreachable with
   for (double const pressure : {0.0, -1e5, std::numeric_limits<double>::quiet_NaN()}) {
     scarp::CellDriver<Ellipses> lateral(packing, samples::study_law(), scarp::drained_compression<2>(1e-6, pressure));
     CHECK(lateral.step(stepper) == Verdict{Status::not_converged, Reason::unreachable});
-    scarp::CellDriver<Ellipses> mean(packing, samples::study_law(), scarp::constant_mean_stress<2>(1e-6, pressure));
+    scarp::CellDriver<Ellipses> mean(packing, samples::study_law(), examples::constant_mean_stress<2>(1e-6, pressure));
     CHECK(mean.step(stepper) == Verdict{Status::not_converged, Reason::unreachable});
   }
   CHECK(packing == before);
@@ -59,8 +60,8 @@ TEST_CASE("held stresses stay within one percent along a path") {
   };
   // A proportional answer alone lags by rate x modulus x response steps = 1e-5 x 3e7 x 10 / 2e5, 1.5 percent.
   CHECK(worst_miss(scarp::drained_compression<2>(1e-5, samples::pressure)) < 0.01);
-  CHECK(worst_miss(scarp::constant_mean_stress<2>(1e-5, samples::pressure)) < 0.01);
-  CHECK(worst_miss(scarp::simple_shear_at_stress<2>(1e-5, samples::pressure)) < 0.01);
+  CHECK(worst_miss(examples::constant_mean_stress<2>(1e-5, samples::pressure)) < 0.01);
+  CHECK(worst_miss(examples::simple_shear_at_stress<2>(1e-5, samples::pressure)) < 0.01);
 }
 
 TEST_CASE("another loading forgets the rates that the one before has learned") {
@@ -77,7 +78,7 @@ TEST_CASE("another loading forgets the rates that the one before has learned") {
 
 TEST_CASE("looking at a packing, however often, does not change its way") {
   scarp::TimeStepper<Ellipses> stepper;
-  auto const loading = scarp::simple_shear<2>(1e-5);
+  auto const loading = examples::simple_shear<2>(1e-5);
   auto watched = samples::consolidated<Ellipses>(80).packing;
   auto alone = watched;
   scarp::StepObservation<2> seen;

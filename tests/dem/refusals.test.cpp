@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../../examples/shared/laboratory_loadings.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/bonded_packing.hpp"
@@ -146,9 +147,9 @@ TEST_CASE("parameters of a servo and of its loading are refused") {
       {"direction of a held stress is 0",
        reach_with([](auto&, auto& loading) { loading.controls[0].direction.setZero(); })},
       {"held stresses 0 and 1 have directions in common", reach_with([](auto&, auto& loading) {
-         loading.controls.push_back(scarp::mean_stress_control<2>(samples::pressure));
+         loading.controls.push_back({scarp::Tensor<2>::Identity(), -samples::pressure});
        })},
-      {"strain amplitude of a cyclic loading is 0", [] { static_cast<void>(scarp::Cyclic{}.next_sign(1e-3, 1)); }},
+      {"strain amplitude of a cyclic loading is 0", [] { static_cast<void>(examples::Cyclic{}.next_sign(1e-3, 1)); }},
   });
 }
 

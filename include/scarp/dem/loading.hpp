@@ -37,12 +37,6 @@ StressControl<Dim> component_control(int component, double target) {
   return {from_voigt_stress<Dim>(unit), target};
 }
 
-/// Control of the mean stress: -pressure [Pa].
-template <int Dim>
-StressControl<Dim> mean_stress_control(double pressure) {
-  return {Tensor<Dim>::Identity(), -pressure};
-}
-
 /// What a cell does in every step: a displacement gradient that is prescribed, and stresses that are held by further strains
 /// along directions that are orthogonal to each other. Held components of the prescribed gradient are to be zero.
 template <int Dim>
@@ -106,16 +100,7 @@ struct Loading {
   }
 };
 
-/// \file
-/// The tests of the laboratory are loadings. Their last axis is the axial one; shear stresses are not held, their strains are zero.
-
-/// Equal shortening along all axes. rate: strain of each axis per step
-template <int Dim>
-Loading<Dim> isotropic_compression(double rate) {
-  return {-rate * Tensor<Dim>::Identity(), {}};
-}
-
-/// One-dimensional (oedometric, K0) compression. rate: axial strain per step, positive shortens
+/// One-dimensional (oedometric, K0) compression along the last axis. rate: axial strain per step, positive shortens
 template <int Dim>
 Loading<Dim> oedometer(double rate) {
   Loading<Dim> loading;
@@ -123,7 +108,7 @@ Loading<Dim> oedometer(double rate) {
   return loading;
 }
 
-/// Axial compression at constant lateral stress: biaxial in the plane, triaxial in space. rate: strain per step;
+/// Compression along the last axis at constant lateral stress: biaxial in the plane, triaxial in space. rate: strain per step;
 /// lateral_pressure [Pa], positive in compression
 template <int Dim>
 Loading<Dim> drained_compression(double rate, double lateral_pressure) {
@@ -131,64 +116,5 @@ Loading<Dim> drained_compression(double rate, double lateral_pressure) {
   for (int k = 0; k < Dim - 1; ++k) loading.controls.push_back(component_control<Dim>(k, -lateral_pressure));
   return loading;
 }
-
-/// Axial compression at constant volume. rate: strain per step
-template <int Dim>
-Loading<Dim> undrained_compression(double rate) {
-  Loading<Dim> loading = oedometer<Dim>(rate);
-  for (int k = 0; k < Dim - 1; ++k) loading.gradient_per_step(k, k) = rate / (Dim - 1);
-  return loading;
-}
-
-/// The first axis lengthens and the second shortens alike; in the plane this is undrained compression.
-/// rate: strain of each per step
-template <int Dim>
-Loading<Dim> pure_shear(double rate) {
-  Loading<Dim> loading;
-  loading.gradient_per_step(0, 0) = rate;
-  loading.gradient_per_step(1, 1) = -rate;
-  return loading;
-}
-
-/// The first axis' displacement grows along the last one; constant volume. rate: shear strain per step
-template <int Dim>
-Loading<Dim> simple_shear(double rate) {
-  Loading<Dim> loading;
-  loading.gradient_per_step(0, Dim - 1) = rate;
-  return loading;
-}
-
-/// Simple shear while the stress along the last axis is held. rate: shear strain per step; axial_pressure [Pa], positive
-/// in compression
-template <int Dim>
-Loading<Dim> simple_shear_at_stress(double rate, double axial_pressure) {
-  Loading<Dim> loading = simple_shear<Dim>(rate);
-  loading.controls.push_back(component_control<Dim>(Dim - 1, -axial_pressure));
-  return loading;
-}
-
-/// Axial compression at constant mean stress: the deviator of the strain is prescribed, the volume follows.
-/// rate: axial strain per step, positive shortens; pressure [Pa], positive in compression
-template <int Dim>
-Loading<Dim> constant_mean_stress(double rate, double pressure) {
-  Loading<Dim> loading = undrained_compression<Dim>(rate);
-  loading.controls.push_back(mean_stress_control<Dim>(pressure));
-  return loading;
-}
-
-/// Turns a loading round whenever the strain that it prescribes has grown to an amplitude.
-struct Cyclic {
-  double amplitude = 0.0;  ///< of the strain, positive
-
-  /// Direction of a cycle's next step.
-  /// \return the sign, 1 or -1, of the next step, given the strain so far and the present sign
-  /// \throws InputError for an amplitude that is not finite and positive
-  int next_sign(double strain, int sign) const {
-    require_positive("strain amplitude of a cyclic loading", amplitude);
-    if (strain >= amplitude) return -1;
-    if (strain <= -amplitude) return 1;
-    return sign;
-  }
-};
 
 }  // namespace scarp
