@@ -61,7 +61,7 @@ scarp::CsvTable contact_table(PackingType const& packing, typename PackingType::
                               contact.branch(0),
                               contact.branch(1)};
     if constexpr (constant) {
-      cells.insert(cells.end(), {law.normal_stiffness, law.tangential_stiffness, law.friction_coefficient()});
+      cells.insert(cells.end(), {law.normal_stiffness, law.tangential_stiffness, law.friction});
     }
     table.add(std::span<double const>(cells));
   });

@@ -20,18 +20,16 @@ struct Stiffening {
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>& memory) const {
-    using scarp::broadcast;
     using std::sqrt;
-    T const closed = scarp::lanes::at_least(approach.overlap, broadcast<T>(0));
-    T const normal = broadcast<T>(coefficient) * closed * sqrt(closed);
-    T const lost = scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip_increment,
-                                                broadcast<T>(tangential_stiffness), broadcast<T>(friction) * normal);
+    T const closed = scarp::lanes::at_least(approach.overlap, T(0));
+    T const normal = T(coefficient) * closed * sqrt(closed);
+    T const lost = scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip_increment, T(tangential_stiffness),
+                                                T(friction) * normal);
     return {.normal = normal, .shear = memory.shear, .dissipated = lost};
   }
   scarp::ContactStiffness stiffness(double overlap, double) const {
     return {.normal = 1.5 * coefficient * std::sqrt(std::max(overlap, 0.0)), .tangential = tangential_stiffness};
   }
-  double& friction_coefficient() { return friction; }
 };
 using Grains = scarp::Packing<scarp::Disc, Stiffening>;  // names what a law lacks
 static_assert(scarp::Frictional<Stiffening>);

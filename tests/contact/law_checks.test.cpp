@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Rubs, but forgets to say that it needs shear; it has no friction_coefficient(), by which the concept would notice.
+/// Rubs, but forgets to say that it needs shear; it has no `friction`, by which the concept would notice.
 struct ForgetsShear : scarp::Frictionless {
   scarp::ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness, .tangential = 1e6}; }
 };

@@ -85,6 +85,8 @@ static_assert(std::is_same_v<lanes::Pack<double>, lanes::BasicPack<double, lanes
 static_assert(std::is_convertible_v<float, lanes::Pack<double>>);
 static_assert(std::is_convertible_v<int, lanes::Pack<float>>);
 static_assert(!std::is_convertible_v<double, lanes::Pack<float>>, "a pack of single precision would round it");
+static_assert(std::is_constructible_v<lanes::Pack<float>, double>, "unless a user requests it");
+static_assert(!std::is_constructible_v<lanes::Pack<float>, long>, "and of no other number");
 static_assert(!std::is_convertible_v<lanes::Pack<double>, double>);
 static_assert(std::is_trivially_copyable_v<lanes::Pack<double>>);
 

@@ -84,7 +84,7 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
   constexpr int max_halvings = 16;
   double const tolerance = sand.void_ratio_tolerance;
   auto law = consolidation.law;
-  double high = law.friction_coefficient();
+  double high = friction_coefficient(law);
   Made nearest = consolidation.densest();
   double low = nearest.friction;
   double const first = low;
@@ -108,7 +108,7 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
     scarp::reject(
         "void ratio {:.6g} is not reached (frictions from {} to {} give {:.6f} to {:.6f}, the nearest found is {:.6f} "
         "at {}): choose one in between, another seed or a wider tolerance",
-        target, first, law.friction_coefficient(), densest, loosest, nearest.void_ratio, nearest.friction);
+        target, first, friction_coefficient(law), densest, loosest, nearest.void_ratio, nearest.friction);
   return nearest;
 }
 

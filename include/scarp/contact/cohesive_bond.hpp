@@ -89,8 +89,6 @@ struct CohesiveBond {
     return law.stiffness(overlap, reduced_radius);
   }
 
-  double& friction_coefficient() { return law.friction_coefficient(); }
-
   template <int Dim, class T>
   T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     T const pulled = lanes::select(is_intact(memory), pull_energy(approach.overlap), broadcast<T>(0));

@@ -12,6 +12,7 @@
 #include "scarp/simd/pack.hpp"
 #include "scarp/simd/vectors.hpp"
 
+SCARP_NAMED_MEMBER(friction)
 SCARP_NAMED_MEMBER(friction_coefficient)
 SCARP_NAMED_MEMBER(stored_energy)
 SCARP_NAMED_MEMBER(interaction_range)
@@ -115,12 +116,22 @@ concept NamesContactInputs = requires {
   requires Law::inputs.scalars <= max_contact_scalars;
 };
 
+/// Friction coefficient of a law: its member `double friction`.
+template <class Law>
+  requires requires(Law& law) {
+    { (law.friction) } -> std::same_as<double&>;
+  }
+double& friction_coefficient(Law& law) { return law.friction; }
+/// Friction coefficient of the law within a law.
+template <class Law>
+  requires requires(Law& law) { friction_coefficient(law.law); }
+double& friction_coefficient(Law& law) { return friction_coefficient(law.law); }
+
 /// A law with a friction coefficient needs a shear force that is stored: without it none would be computed.
 template <class Law>
-concept RemembersItsShear = !requires(Law & law) {
-  law.friction_coefficient();
-}
-|| Law::inputs.shear;
+concept RemembersItsShear = Law::inputs.shear || !requires(Law & law) {
+  friction_coefficient(law);
+};
 
 /// Force of a contact as a function of its kinematics and memory: an aggregate of parameters with `inputs`, `respond` and `stiffness`.
 template <class Law>
@@ -129,8 +140,8 @@ concept ContactLaw = std::is_aggregate_v<Law> && NamesContactInputs<Law> && Reme
 
 /// A law whose friction coefficient can be exchanged, as the preparation of a packing needs.
 template <class Law>
-concept Frictional = ContactLaw<Law> && requires(Law law) {
-  { law.friction_coefficient() } -> std::same_as<double&>;
+concept Frictional = ContactLaw<Law> && requires(Law& law) {
+  friction_coefficient(law);
 };
 
 /// Calls visit(one) for the laws of all pairs of species, or for the law itself where there is only one.
@@ -147,7 +158,7 @@ void for_each_law(Law& law, Visit&& visit) {
 template <class Law, class Visit>
 void for_each_friction(Law& law, Visit&& visit) {
   for_each_law(law, [&](auto& one) {
-    if constexpr (Frictional<std::remove_cvref_t<decltype(one)>>) visit(one.friction_coefficient());
+    if constexpr (Frictional<std::remove_cvref_t<decltype(one)>>) visit(friction_coefficient(one));
   });
 }
 
@@ -219,8 +230,10 @@ consteval void check_options_of_law() {
   } else if constexpr (requires { &Law::laws; }) {
     check_options_of_law<typename decltype(Law::laws)::value_type>();
   } else {
-    static_assert(Frictional<Law> || !names_friction_coefficient<Law>,
-                  "scarp: friction_coefficient of a law is never called: it needs `double& friction_coefficient()`");
+    static_assert(!names_friction_coefficient<Law>,
+                  "scarp: friction_coefficient of a law is never called: name its coefficient `double friction`");
+    static_assert(Frictional<Law> || !names_friction<Law>,
+                  "scarp: friction of a law is never exchanged: it needs to be `double friction`");
     static_assert(HasStoredEnergy<Law> || !names_stored_energy<Law>,
                   "scarp: stored_energy of a law is never called: it needs `template <int Dim, class T> T "
                   "stored_energy(ContactKinematics<Dim, T> const&, ContactMemory<Dim, T> const&) const` [J]");
@@ -244,7 +257,7 @@ consteval bool check_contact_law() {
                 "max_contact_scalars scalars");
   static_assert(
       !NamesContactInputs<Law> || RemembersItsShear<Law>,
-      "scarp: a contact law with friction_coefficient() needs `.shear = true` in its inputs: nothing would rub");
+      "scarp: a contact law with a friction coefficient needs `.shear = true` in its inputs: nothing would rub");
   static_assert(
       RespondsToApproach<Law>,
       "scarp: a contact law needs `template <int Dim, class T> ContactForce<Dim, T> respond(ContactKinematics<Dim, T> "

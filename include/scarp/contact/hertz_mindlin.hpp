@@ -173,8 +173,6 @@ struct HertzMindlin {
             .tangential = 8.0 * reduced_shear_modulus * contact_radius};
   }
 
-  double& friction_coefficient() { return friction; }
-
   double damping_ratio() const {
     if constexpr (requires { damping.damping_ratio; }) return damping.damping_ratio;
     return 0.0;

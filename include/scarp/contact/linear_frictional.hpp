@@ -37,8 +37,6 @@ struct LinearFrictional {
     return {.normal = normal_stiffness, .tangential = tangential_stiffness};
   }
 
-  double& friction_coefficient() { return friction; }
-
   template <int Dim, class T>
   T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     T const closed = lanes::at_least(approach.overlap, broadcast<T>(0));

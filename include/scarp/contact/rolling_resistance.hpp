@@ -57,8 +57,6 @@ struct RollingResistance {
     return all;
   }
 
-  double& friction_coefficient() requires Frictional<Law> { return law.friction_coefficient(); }
-
   template <int Dim, class T>
     requires HasStoredEnergy<Law> T stored_energy(ContactKinematics<Dim, T> const& approach,
                                                   ContactMemory<Dim, T> const& memory)

@@ -149,9 +149,10 @@ struct BasicPack {
 
   BasicPack() = default;
   [[gnu::always_inline]] explicit BasicPack(Vector const& lanes) : vector(lanes) {}  ///< From the compiler's vector.
-  /// The same number in every lane.
-  template <FitsInto<Scalar> Number>
-  [[gnu::always_inline]] BasicPack(Number number)
+  /// The same number in every lane; a double is rounded to lanes of single precision where that is requested, by `T(0.1)`.
+  template <class Number>
+    requires(FitsInto<Number, Scalar> || std::same_as<Number, double>)
+  [[gnu::always_inline]] explicit(!FitsInto<Number, Scalar>) BasicPack(Number number)
       : vector(filled(static_cast<Scalar>(number), std::make_index_sequence<Width>())) {}
   /// Value of one lane, counted from zero; `vector[lane]` may be assigned to.
   [[gnu::always_inline]] Scalar operator[](std::size_t lane) const { return vector[lane]; }

@@ -256,10 +256,12 @@ Packing<Disc, Wrong> packing;
 }  // namespace case_options_of_law
 
 // first: friction_coefficient of a law is never called
+// also: friction of a law is never exchanged
 // also: stored_energy of a law is never called
 namespace case_options_of_wrapped_law {
 struct Wrong : LinearFrictional {
-  double friction_coefficient() const { return friction; }
+  float friction = 0.5F;
+  double friction_coefficient() const { return 0.5; }
   double stored_energy(double overlap) const { return overlap; }
 };
 Packing<WithSpecies<Disc, 2>, LawPerSpecies<Wrong, 2>> packing;
