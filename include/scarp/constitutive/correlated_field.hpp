@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
 #include <cstdint>
 #include <numbers>
 #include <vector>
@@ -24,44 +23,14 @@ Vector<Dim> normal_vector(Random& random) {
   return normal;
 }
 
-/// at(r): correlation of two places whose distance, each component over its correlation length, is r; wave<Dim>(random):
-/// a wave vector of the spectral density that belongs to it.
-template <class Correlation>
-concept Autocorrelation = requires(double distance, Random& random) {
-  { Correlation::at(distance) } -> std::same_as<double>;
-  { Correlation::template wave<2>(random) } -> std::same_as<Vector<2>>;
-  { Correlation::template wave<3>(random) } -> std::same_as<Vector<3>>;
-};
-
-/// \f$ \rho = e^{-r^2} \f$: a smooth field. Its spectrum is normal with the standard deviation sqrt(2).
-struct GaussianCorrelation {
-  /// Correlation at a distance over the correlation length.
-  static double at(double distance) { return std::exp(-distance * distance); }
-  /// A wave vector of the spectrum, for a correlation length of one.
-  template <int Dim>
-  static Vector<Dim> wave(Random& random) {
-    return std::numbers::sqrt2 * normal_vector<Dim>(random);
-  }
-};
-
-/// \f$ \rho = e^{-r} \f$: a continuous but rough field. Its spectrum is Cauchy's distribution in Dim dimensions.
-struct ExponentialCorrelation {
-  /// Correlation at a distance over the correlation length.
-  static double at(double distance) { return std::exp(-distance); }
-  /// A wave vector of the spectrum, for a correlation length of one.
-  template <int Dim>
-  static Vector<Dim> wave(Random& random) {
-    Vector<Dim> const direction = normal_vector<Dim>(random);
-    return direction / std::abs(normal_vector<1>(random)(0));
-  }
-};
-
-/// A homogeneous random field of mean zero and variance one, a function of the place alone:
-/// \f$ Z(x) = \sqrt{2/N} \sum_k \cos(w_k \cdot x + \phi_k) \f$, waves from the spectrum, phases uniform.
+/// A homogeneous smooth random field of mean zero and variance one, a function of the place alone:
+/// \f$ Z(x) = \sqrt{2/N} \sum_k \cos(w_k \cdot x + \phi_k) \f$, phases uniform, waves normal with the standard deviation \f$ \sqrt2 \f$
+/// over the correlation length along each axis. Two places have the correlation \f$ e^{-r^2} \f$, r their distance, each component over its
+/// correlation length.
 /// Mean, variance and correlation over all seeds are exact for any number of waves N; the distribution of a value tends to the normal
 /// one, its kurtosis is 3 - 3/(2N). Shinozuka and Jan, J. Sound Vib. 25 (1972) 111; waves drawn as by Kraichnan, Phys. Fluids 13
 /// (1970) 22.
-template <int Dim, Autocorrelation Correlation = GaussianCorrelation>
+template <int Dim>
 class CorrelatedField {
  public:
   /// Parameters of a field.
@@ -79,7 +48,7 @@ class CorrelatedField {
       reject("a field of {} waves was requested (it would be zero): give some hundred", choice.waves);
     Random random(choice.seed);
     for (int k = 0; k < choice.waves; ++k) {
-      Vector<Dim> const wave = Correlation::template wave<Dim>(random).cwiseQuotient(choice.lengths);
+      Vector<Dim> const wave = (std::numbers::sqrt2 * normal_vector<Dim>(random)).cwiseQuotient(choice.lengths);
       waves_.push_back({wave, random.uniform(0.0, 2.0 * std::numbers::pi)});
     }
   }
@@ -111,7 +80,5 @@ struct Lognormal {
     return mean * std::exp(std::sqrt(variance) * normal - variance / 2.0);
   }
 };
-
-static_assert(Autocorrelation<GaussianCorrelation> && Autocorrelation<ExponentialCorrelation>);
 
 }  // namespace scarp

@@ -134,8 +134,6 @@ struct DemRve {
     require_positive("unbalanced tolerance", unbalanced_tolerance);
     require_positive("share of the critical time step", time_step_share);
     require_not_negative("pressure floor", pressure_floor);
-    Law own = law;
-    for_each_friction(own, [](double friction) { require_not_negative("friction of the contact law", friction); });
     require_at_least("least number of DEM steps of a response", min_steps, 1);
     require_at_least("most DEM steps of a response", max_steps, min_steps);
     detail::validated(damping);
