@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kernel_packings.hpp"
+#include "shared/state_bytes.hpp"
 
 namespace scarp_benchmark {
 
@@ -38,7 +39,7 @@ void dem_step(benchmark::State& state, int grains, Numbering numbering = Numberi
     }
   }
   count_pairs(state, packing.pairs.count(), contact_count(packing, law));
-  state.counters["state_bytes"] = static_cast<double>(scarp::state_bytes(packing));
+  state.counters["state_bytes"] = static_cast<double>(benchmarks::state_bytes(packing));
 }
 
 template <class Measure>

@@ -8,6 +8,7 @@
 
 #include <string_view>
 
+#include "../shared/state_bytes.hpp"
 #include "scarp/contact/frictionless.hpp"
 #include "scarp/contact/law_per_species.hpp"
 #include "scarp/contact/linear_frictional.hpp"
@@ -104,7 +105,7 @@ int measure() {
   if (!same_list || !stepper.observe(grains, law, seen).acceptable()) return 1;
   fmt::print("{{\"steps\": {}, \"near_pairs\": {}, \"contacts\": {}, \"grains\": {}, \"sizeof\": {}, \"bytes\": {}}}\n",
              steps, grains.pairs.count(), seen.contacts, grains.grain_count(), sizeof(Grains),
-             scarp::state_bytes(grains));
+             benchmarks::state_bytes(grains));
   return 0;
 }
 

@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "../../benchmarks/shared/state_bytes.hpp"
 #include "support/packings.hpp"
 
 namespace {
@@ -34,9 +35,9 @@ static_assert(scarp::RowLayout<scarp::Disc, scarp::LinearFrictional>::used == 6,
 
 TEST_CASE("the state of four hundred ellipses fits in 150 kilobytes") {
   auto const& packing = samples::consolidated<Ellipses>(400).packing;
-  MESSAGE("bytes of a state: " << scarp::state_bytes(packing));
-  CHECK(scarp::state_bytes(packing) <= 150'000);
-  CHECK(scarp::state_bytes(packing) > 400 * 7 * sizeof(double));  // places, velocities, spins, directions at least
+  MESSAGE("bytes of a state: " << benchmarks::state_bytes(packing));
+  CHECK(benchmarks::state_bytes(packing) <= 150'000);
+  CHECK(benchmarks::state_bytes(packing) > 400 * 7 * sizeof(double));  // places, velocities, spins, directions at least
 }
 
 TEST_CASE("copies of a state share their grains") {
