@@ -137,11 +137,10 @@ using PlanOf = typename detail::PlanOf<Model>::type;
 template <ConstitutiveProvider Model>
 Response<Model::dim> respond_as_planned(Model const& model, typename Model::State const& committed,
                                         Gradient<Model::dim> const& increment, typename Model::State& trial,
-                                        PlanOf<Model> const& plan) {
+                                        [[maybe_unused]] PlanOf<Model> const& plan) {
   if constexpr (HasPlan<Model>) {
     return model.respond(committed, increment, trial, plan);
   } else {
-    static_cast<void>(plan);
     return model.respond(committed, increment, trial);
   }
 }
@@ -150,7 +149,7 @@ Response<Model::dim> respond_as_planned(Model const& model, typename Model::Stat
 /// converge is repeated with more inner steps, at most max_refinements times.
 template <ConstitutiveProvider Model>
 Response<Model::dim> advance(Model const& model, typename Model::State& state, Gradient<Model::dim> const& increment,
-                             int max_refinements = 8) {
+                             [[maybe_unused]] int max_refinements = 8) {
   auto trial = state;
   Response<Model::dim> response;
   if constexpr (HasPlan<Model>) {
@@ -163,7 +162,6 @@ Response<Model::dim> advance(Model const& model, typename Model::State& state, G
       response = model.respond(state, increment, trial, plan);
     }
   } else {
-    static_cast<void>(max_refinements);
     response = model.respond(state, increment, trial);
   }
   if (response.verdict.acceptable()) state = std::move(trial);
@@ -211,14 +209,13 @@ concept CheckedProvider = detail::check_provider<Model>();
 /// whose states contain such data return it by `State empty_state(Site<dim> const&) const`, and so do adaptors, for the provider inside.
 /// \throws InputError for states that cannot be made so
 template <ConstitutiveProvider Provider>
-typename Provider::State empty_state(Provider const& provider, Site<Provider::dim> const& site) {
+typename Provider::State empty_state([[maybe_unused]] Provider const& provider,
+                                     [[maybe_unused]] Site<Provider::dim> const& site) {
   if constexpr (requires { provider.empty_state(site); }) {
     return provider.empty_state(site);
   } else if constexpr (std::default_initializable<typename Provider::State>) {
-    static_cast<void>(provider), static_cast<void>(site);
     return {};
   } else {
-    static_cast<void>(provider), static_cast<void>(site);
     reject(
         "a state cannot be sent to another process (it has no default constructor, and its provider makes no blank "
         "one): give it one");

@@ -57,69 +57,50 @@ struct PerturbationTangent {
     validate();
     constexpr int dim = PackingType::dim;
     TangentResult<dim> result{VoigtTangent<dim>::Zero(), {}};
+    Verdict& verdict = result.verdict;  // one that is not acceptable stays
     long taken = 0;
-    Trial<PackingType> trial{law, {}};
-    trial.stepper.damping = damping;
-    trial.stepper.boundary = boundary;
+    TimeStepper<PackingType, Damping, Boundary> stepper;
+    stepper.damping = damping;
+    stepper.boundary = boundary;
+    auto const settled_stress = [&](PackingType& grains) {
+      StepObservation<dim> seen;
+      for (int step = 0; step < max_steps; ++step) {
+        bool const looks = step % check_every == 0;
+        Verdict const moved = looks ? stepper.template step<Observe::balance>(grains, law, Tensor<dim>::Zero(), &seen)
+                                    : stepper.step(grains, law, Tensor<dim>::Zero());
+        ++taken;
+        if (!moved.acceptable()) verdict = moved;
+        if (!verdict.acceptable() && verdict.reason != Reason::unbalanced) break;
+        if (looks && seen.unbalanced_ratio <= unbalanced_tolerance) return to_voigt_stress<dim>(seen.stress);
+      }
+      if (verdict.acceptable()) verdict = {Status::not_converged, Reason::unbalanced};
+      return to_voigt_stress<dim>(seen.stress);
+    };
     PackingType base = packing;
-    result.verdict = trial.stepper.stop(base, law);
-    VoigtStress<dim> const start = trial.settle(*this, base, result.verdict, taken);
+    verdict = stepper.stop(base, law);
+    VoigtStress<dim> const start = settled_stress(base);
     for (int k = 0; k < voigt_size<dim>; ++k) {
-      Tensor<dim> const mode = unit_strain<dim>(k);
-      auto const strained = [&](double amount) {
-        PackingType copy = base;
-        return trial.strain(*this, copy, (amount / strain_steps * mode).eval(), result.verdict, taken);
+      auto const stress_at = [&](double amount) -> VoigtStress<dim> {
+        PackingType grains = base;
+        Tensor<dim> const step = amount / strain_steps * unit_strain<dim>(k);
+        stepper.damping = damping;  // of every mode alike
+        for (int each = 0; each < strain_steps; ++each) {
+          if (Verdict const moved = stepper.step(grains, law, step); !moved.acceptable()) verdict = moved;
+        }
+        taken += strain_steps;
+        if (Verdict const stopped = stepper.stop(grains, law); verdict.acceptable()) verdict = stopped;
+        return settled_stress(grains);
       };
       if (towards(k) == 0.0) {
-        result.tangent.col(k) = (strained(strain) - strained(-strain)) / (2.0 * strain);
+        result.tangent.col(k) = (stress_at(strain) - stress_at(-strain)) / (2.0 * strain);
       } else {
         double const amount = std::copysign(strain, towards(k));
-        result.tangent.col(k) = (strained(amount) - start) / amount;
+        result.tangent.col(k) = (stress_at(amount) - start) / amount;
       }
     }
     if (steps != nullptr) *steps = taken;
     return result;
   }
-
- private:
-  template <class PackingType>
-  struct Trial {
-    static constexpr int dim = PackingType::dim;
-    typename PackingType::Law const& law;
-    TimeStepper<PackingType, Damping, Boundary> stepper;
-
-    VoigtStress<dim> strain(PerturbationTangent const& how, PackingType& packing, Tensor<dim> const& step,
-                            Verdict& verdict, long& taken) {
-      stepper.damping = how.damping;  // of every mode alike
-      for (int k = 0; k < how.strain_steps; ++k) {
-        if (Verdict const moved = stepper.step(packing, law, step); !moved.acceptable()) verdict = moved;
-      }
-      taken += how.strain_steps;
-      if (Verdict const stopped = stepper.stop(packing, law); verdict.acceptable()) verdict = stopped;
-      return settle(how, packing, verdict, taken);
-    }
-
-    /// Stress [Pa] at the last look. A verdict that is not acceptable stays.
-    VoigtStress<dim> settle(PerturbationTangent const& how, PackingType& packing, Verdict& verdict, long& taken) {
-      StepObservation<dim> seen;
-      for (int step = 0; step < how.max_steps; ++step) {
-        Verdict moved;
-        if (step % how.check_every == 0) {
-          moved = stepper.template step<Observe::balance>(packing, law, Tensor<dim>::Zero(), &seen);
-        } else {
-          moved = stepper.step(packing, law, Tensor<dim>::Zero());
-        }
-        ++taken;
-        if (!moved.acceptable()) verdict = moved;
-        if (!verdict.acceptable() && verdict.reason != Reason::unbalanced) break;
-        if (step % how.check_every == 0 && seen.unbalanced_ratio <= how.unbalanced_tolerance) {
-          return to_voigt_stress<dim>(seen.stress);
-        }
-      }
-      if (verdict.acceptable()) verdict = {Status::not_converged, Reason::unbalanced};
-      return to_voigt_stress<dim>(seen.stress);
-    }
-  };
 };
 
 }  // namespace scarp

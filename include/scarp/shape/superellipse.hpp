@@ -61,9 +61,32 @@ struct Superellipse {
     return bulge > 0.0 ? longer * std::pow(1.0 + std::pow(aspect, 2.0 / bulge), bulge / 2.0) : longer;
   }
 
-  /// Largest slope of the support function over the boundary [m] per radian, to about 1e-7 of it.
+  /// Largest slope of the support function over a quarter of the boundary [m] per radian, to about 1e-7 of it: the best of a grid, then
+  /// golden sections about it.
   static double eccentricity(Size<double> const& size) {
-    return largest_of(size, [](Support<double> const& support) { return std::abs(support.slope); });
+    auto const shape = pose<double>(size, {1.0, 0.0});
+    // Even steps of Barr's parameter follow the boundary where steps of the normal's angle leap over corners or flats.
+    auto const at = [&](double parameter) {
+      double const x = std::pow(std::cos(parameter), 2.0 - size[2]) / size[0];
+      double const y = std::pow(std::sin(parameter), 2.0 - size[2]) / size[1];
+      double const length = std::hypot(x, y);
+      return std::abs(support<double>(shape, {x / length, y / length}).slope);
+    };
+    constexpr int steps = 64;
+    constexpr double step = std::numbers::pi / 2.0 / steps;
+    int best = 1;
+    for (int k = 2; k < steps; ++k) {
+      if (at(k * step) > at(best * step)) best = k;
+    }
+    double low = (best - 1) * step;
+    double high = (best + 1) * step;
+    constexpr double section = 1.0 / std::numbers::phi;
+    for (int k = 0; k < 30; ++k) {
+      double const left = high - section * (high - low);
+      double const right = low + section * (high - low);
+      (at(left) > at(right) ? high : low) = at(left) > at(right) ? right : left;
+    }
+    return at((low + high) / 2.0);
   }
 
   /// From half axes [m], exponent and axis of one grain; `q` follows from the exponent.
@@ -92,35 +115,6 @@ struct Superellipse {
   static ContactGeometry<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
                                      Point<2, T> const& normal) {
     return superellipse_contact(first, second, branch, normal);
-  }
-
- private:
-  /// Largest value over a quarter of the boundary, to about 1e-7: the best of a grid, then golden sections about it.
-  template <class Function>
-  static double largest_of(Size<double> const& size, Function const& function) {
-    auto const shape = pose<double>(size, {1.0, 0.0});
-    // Even steps of Barr's parameter follow the boundary where steps of the normal's angle leap over corners or flats.
-    auto const at = [&](double parameter) {
-      double const x = std::pow(std::cos(parameter), 2.0 - size[2]) / size[0];
-      double const y = std::pow(std::sin(parameter), 2.0 - size[2]) / size[1];
-      double const length = std::hypot(x, y);
-      return function(support<double>(shape, {x / length, y / length}));
-    };
-    constexpr int steps = 64;
-    constexpr double step = std::numbers::pi / 2.0 / steps;
-    int best = 1;
-    for (int k = 2; k < steps; ++k) {
-      if (at(k * step) > at(best * step)) best = k;
-    }
-    double low = (best - 1) * step;
-    double high = (best + 1) * step;
-    constexpr double section = 1.0 / std::numbers::phi;
-    for (int k = 0; k < 30; ++k) {
-      double const left = high - section * (high - low);
-      double const right = low + section * (high - low);
-      (at(left) > at(right) ? high : low) = at(left) > at(right) ? right : left;
-    }
-    return at((low + high) / 2.0);
   }
 };
 
