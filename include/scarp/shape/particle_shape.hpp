@@ -66,21 +66,15 @@ concept HasEccentricity = requires(SizeOf<Shape> const& size) {
 /// Number of convex parts that a grain is composed of; one where the shape does not declare it.
 template <class Shape>
 constexpr int part_count() {
-  if constexpr (requires { Shape::part_count; }) {
-    return Shape::part_count;
-  } else {
-    return 1;
-  }
+  if constexpr (requires { Shape::part_count; }) return Shape::part_count;
+  return 1;
 }
 
 /// Number of species that a shape distinguishes, 0 for none.
 template <class Shape>
 constexpr int species_count() {
-  if constexpr (requires { Shape::species_count; }) {
-    return Shape::species_count;
-  } else {
-    return 0;
-  }
+  if constexpr (requires { Shape::species_count; }) return Shape::species_count;
+  return 0;
 }
 
 /// Numbers from which the contact search sees one part of a grain at its present orientation, or of a pack of grains.

@@ -43,11 +43,6 @@ class SoaArray {
  public:
   static constexpr std::size_t padding = sizeof(Scalar) < 8 ? 16 : 8;  ///< rows are padded to a multiple of this
 
-  SoaArray() = default;
-  /// `rows` rows, all and the padding filled.
-  /// \throws std::bad_alloc
-  explicit SoaArray(std::size_t rows, Scalar fill = Scalar(0)) { resize(rows, fill); }
-
   /// Discards all values: rows and padding have the fill value after it.
   /// \throws std::bad_alloc
   void resize(std::size_t rows, Scalar fill = Scalar(0)) {
@@ -95,8 +90,6 @@ class SoaArray {
 template <class Scalar>
 class SoaArray<Scalar, 0> {
  public:
-  SoaArray() = default;
-  explicit SoaArray(std::size_t, Scalar = Scalar(0)) {}        ///< Sizes and fill values have no effect.
   void resize(std::size_t, Scalar = Scalar(0)) {}              ///< Has no effect.
   std::array<Scalar, 0> row(std::size_t) const { return {}; }  ///< An empty array.
   void set_row(std::size_t, std::array<Scalar, 0> const&) {}   ///< Has no effect.
