@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "../../examples/rve_biaxial/strength.hpp"
+#include "../../examples/shared/sliding_contacts.hpp"
 #include "../shared/condensed_tangent.hpp"
 #include "column.hpp"
 
@@ -45,7 +46,7 @@ inline Measures measure(AtDepth const& depth) {
           .contact_fabric = scarp::fabric_anisotropy(fabric),
           .particle_fabric = scarp::fabric_anisotropy(grains),
           .level_particle_fabric = scarp::fabric_deviator(grains)(0, 0),
-          .sliding_share = scarp::sliding_share(packing, law),
+          .sliding_share = examples::sliding_share(packing, law),
           .lateral_strain = -std::log(packing.cell(0, 0) / depth.first_cell(0, 0)),
           .vertical_strain = -std::log(packing.cell(1, 1) / depth.first_cell(1, 1))};
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "../../examples/shared/sliding_contacts.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
 
 namespace benchmarks {
 
@@ -10,7 +10,7 @@ namespace benchmarks {
 struct SlidingSprings {
   double shear_share = 0.0;  ///< of the tangential stiffness that stays along the direction of sliding
   bool coupled = false;      ///< the shear force follows the normal force, \f$ dF_t = \mu\,dF_n \f$; not symmetric
-  double nearness = 1e-2;    ///< of the shear limit, see `scarp::slides`
+  double nearness = 1e-2;    ///< of the shear limit, see `examples::slides`
 
   /// \throws scarp::InputError for shares out of range
   void validate() const {
@@ -28,10 +28,10 @@ struct SlidingSprings {
     double const normal = contact.stiffness.normal;
     double const tangential = contact.stiffness.tangential;
     scarp::Tensor<Dim> spring = normal * n * n.transpose() + tangential * across;
-    if ((shear_share == 1.0 && !coupled) || !scarp::slides(contact, law, nearness)) return spring;
+    if ((shear_share == 1.0 && !coupled) || !examples::slides(contact, law, nearness)) return spring;
     double const lost = 1.0 - shear_share;
-    if (!scarp::detail::has_shear(contact)) return spring - lost * tangential * across;
-    scarp::Vector<Dim> const s = scarp::detail::shear_direction(contact);
+    if (!examples::detail::has_shear(contact)) return spring - lost * tangential * across;
+    scarp::Vector<Dim> const s = examples::detail::shear_direction(contact);
     spring -= lost * tangential * s * s.transpose();
     if (coupled) spring += lost * normal * contact.shear_force().norm() / contact.normal_force * s * n.transpose();
     return spring;

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "../shared/sliding_contacts.hpp"
 #include "../shared/study/study_sand.hpp"
 #include "halved_path.hpp"
 #include "scarp/dem/loading.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
 
 namespace rve_biaxial {
 
@@ -75,7 +75,7 @@ inline Row describe(Packing const& packing, double axial_strain, double volumetr
           .contact_fabric = scarp::fabric_anisotropy(network.fabric),
           .particle_fabric = scarp::fabric_anisotropy(scarp::particle_fabric(packing)),
           .unbalanced_ratio = scarp::balance(packing, law).unbalanced_ratio,
-          .sliding_share = scarp::sliding_share(packing, law)};
+          .sliding_share = examples::sliding_share(packing, law)};
 }
 
 /// Of compression at a constant rate.

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "../shared/energy_ledger.hpp"
+#include "../shared/sliding_contacts.hpp"
 #include "non_affine.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
 #include "specimen.hpp"
 
 namespace rve_lab {
@@ -92,7 +92,7 @@ class Recorder {
                 {"unbalanced_ratio", state.unbalanced_ratio},
                 {"kinetic_share", mean_pressure(scarp::kinetic_stress(packing)) / mean_pressure(state.stress)}});
     add_motion(row, lab);
-    row.emplace_back("sliding_share", scarp::sliding_share(packing, lab.law()));
+    row.emplace_back("sliding_share", examples::sliding_share(packing, lab.law()));
     row.emplace_back("max_overlap_over_rmin", deepest_overlap(packing, lab.law()));
     return row;
   }

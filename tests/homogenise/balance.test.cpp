@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include "../../examples/shared/sliding_contacts.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
 #include "scarp/dem/time_stepping.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
 
@@ -45,12 +45,12 @@ TEST_CASE("balance() sees what a step observes") {
 
 TEST_CASE("a contact counts as sliding as long as it refuses more shear force") {
   auto const law = samples::study_law();
-  CHECK(scarp::sliding_share(two_discs<Discs>(33.0), law) == 1.0);
-  CHECK(scarp::sliding_share(two_discs<Discs>(-33.0), law) == 1.0);
+  CHECK(examples::sliding_share(two_discs<Discs>(33.0), law) == 1.0);
+  CHECK(examples::sliding_share(two_discs<Discs>(-33.0), law) == 1.0);
   // While grains move, the normal force has grown a little since the last slip.
-  CHECK(scarp::sliding_share(two_discs<Discs>(32.99), law) == 1.0);
-  CHECK(scarp::sliding_share(two_discs<Discs>(31.0), law) == 0.0);
-  CHECK(scarp::sliding_share(two_discs<Discs>(0.0), law) == 0.0);
+  CHECK(examples::sliding_share(two_discs<Discs>(32.99), law) == 1.0);
+  CHECK(examples::sliding_share(two_discs<Discs>(31.0), law) == 0.0);
+  CHECK(examples::sliding_share(two_discs<Discs>(0.0), law) == 0.0);
 }
 
 TEST_CASE("an intact bond beyond Coulomb's limit does not slide, a broken one does") {
@@ -60,12 +60,12 @@ TEST_CASE("an intact bond beyond Coulomb's limit does not slide, a broken one do
   Bond::bond(memory);
   packing.pairs.scalars(0, 0) = memory.scalars[0];
   auto const bonded = scarp::balance(packing, law);
-  CHECK(scarp::sliding_share(packing, law) == 0.0);
+  CHECK(examples::sliding_share(packing, law) == 0.0);
   // Analytic: a force of 60 N along x and 50 N across, on a branch of 9.99 mm, in a volume of 0.002 m3.
   CHECK(bonded.stress(0, 0) == samples::Approx(-60.0 * 9.99e-3 / 2e-3).epsilon(1e-9));  // overlap is a small difference
   CHECK(bonded.stress(1, 0) == samples::Approx(-50.0 * 9.99e-3 / 2e-3).epsilon(1e-9));
   packing.pairs.scalars(0, 0) = 0.0;
-  CHECK(scarp::sliding_share(packing, law) == 1.0);
+  CHECK(examples::sliding_share(packing, law) == 1.0);
 }
 
 TEST_CASE("moving grains carry a pressure of mass times velocity squared over the content") {

@@ -10,6 +10,7 @@
 
 #include "../../benchmarks/shared/condensed_tangent.hpp"
 #include "../../examples/rve_lab/non_affine.hpp"
+#include "../../examples/shared/sliding_contacts.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/loading.hpp"
 #include "scarp/homogenise/balance.hpp"
@@ -322,7 +323,7 @@ TEST_CASE("a doubled cell has the same stress and the same tangents") {
   CHECK(there.contacts == 4 * state.contacts);
   // Exact: sums over the same contacts. Round-off, 1e-15 of places over overlaps and forces that average out.
   CHECK((there.stress - state.stress).norm() < 1e-12 * state.stress.norm());
-  CHECK(scarp::sliding_share(four, law) == samples::Approx(scarp::sliding_share(one, law)));
+  CHECK(examples::sliding_share(four, law) == samples::Approx(examples::sliding_share(one, law)));
   auto const affine = scarp::contact_tangent(one, law);
   CHECK((scarp::contact_tangent(four, law) - affine).norm() < 1e-12 * affine.norm());
   auto const relaxed = benchmarks::CondensedTangent{}(one, law);

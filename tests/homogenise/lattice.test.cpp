@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
+#include "../../examples/shared/sliding_contacts.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/contact_tangent.hpp"
 #include "scarp/homogenise/fabric.hpp"
-#include "scarp/homogenise/sliding_contacts.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
 
@@ -73,7 +73,7 @@ TEST_CASE("a pressed lattice carries its closed-form pressure and is in balance"
   CHECK(std::abs(state.stress(0, 1)) < 1e-9 * expected);
   CHECK(state.unbalanced_ratio < 1e-9);
   CHECK(state.deepest_overlap == samples::Approx((2.0 * radius - spacing) / (radius / 2.0)).epsilon(1e-9));
-  CHECK(scarp::sliding_share(packing, law) == 0.0);
+  CHECK(examples::sliding_share(packing, law) == 0.0);
 }
 
 TEST_CASE("the same lattice in a cell with other base vectors has the same stress and moduli") {

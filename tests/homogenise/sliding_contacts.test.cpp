@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/homogenise/sliding_contacts.hpp"
+#include "../../examples/shared/sliding_contacts.hpp"
 
 #include <doctest/doctest.h>
 
@@ -97,11 +97,11 @@ TEST_CASE("a bond that holds does not slide, however large its shear force") {
   contact.force = {60.0, 600.0};
   contact.memory.shear = 600.0;
   Bonded::bond(contact.memory);
-  CHECK(!scarp::slides(contact, law));
+  CHECK(!examples::slides(contact, law));
   contact.memory.scalars = {};
   contact.memory.shear = 33.0;
   contact.force = {60.0, 33.0};  // at Coulomb's limit 0.55 x 60 N
-  CHECK(scarp::slides(contact, law));
+  CHECK(examples::slides(contact, law));
 }
 
 TEST_CASE("in space a sliding contact stays stiff across its direction of sliding") {
