@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "../../examples/shared/laboratory_loadings.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/loading.hpp"
@@ -49,14 +50,14 @@ TEST_CASE_TEMPLATE("the energy of a sheared plane packing is accounted for", Pac
                    samples::Ellipses) {
   auto const& packing = samples::consolidated<PackingType>(80).packing;
   check_closed(ledger_of(packing, samples::study_law(), scarp::drained_compression<2>(1e-5, samples::pressure), 2000));
-  check_closed(ledger_of(packing, samples::study_law(), scarp::simple_shear<2>(1e-5), 2000));
+  check_closed(ledger_of(packing, samples::study_law(), examples::simple_shear<2>(1e-5), 2000));
 }
 
 TEST_CASE("the balance closes over reversals, whose steps belong to the motion before them") {
   auto packing = samples::consolidated<samples::Ellipses>(80).packing;
   scarp::TimeStepper<samples::Ellipses> stepper;
   scarp::CellDriver<samples::Ellipses, Observe::energy> drive(packing, samples::study_law(),
-                                                              scarp::simple_shear<2>(1e-5));
+                                                              examples::simple_shear<2>(1e-5));
   EnergyLedger<2> ledger;
   for (int step = 0; step < 2000; ++step) {
     if (step % 20 == 10) drive.load(drive.loading().reversed());
