@@ -124,7 +124,7 @@ void points_come_back(Material const& material) {
   points.commit();
   auto const nobody = [](int) { return false; };
   scarp::MaterialPoints<2> elsewhere(material, sites, {}, nobody);
-  CHECK(bits_of(elsewhere) != bits_of(points));
+  CHECK_REFUSED(bits_of(elsewhere), "point 0", "another process owns it");
   read(bits_of(points), elsewhere);
   CHECK(bits_of(elsewhere) == bits_of(points));
   scarp::MaterialPoints<2> sent(material, sites, {}, nobody);

@@ -139,11 +139,11 @@ TEST_CASE("a point shows its provider's own state, and no other type's") {
   };
   for (int point = 0; point < grid.point_count(); ++point) {
     if (grid.site(point, depth).depth < 0.0) {
-      check(point, points.provider<Concrete>(point));
-      CHECK_REFUSED(points.provider<Soil>(point), fmt::format("provider of point {} ", point), "another type");
+      check(point, footing().provider);
+      CHECK_REFUSED(points.state<Soil::State>(point), fmt::format("state of point {} ", point), "another type");
     } else {
-      check(point, points.provider<Soil>(point));
-      CHECK_REFUSED(points.provider<Concrete>(point), fmt::format("provider of point {} ", point), "another type");
+      check(point, soil().provider);
+      CHECK_REFUSED(points.state<Concrete::State>(point), fmt::format("state of point {} ", point), "another type");
     }
   }
   CHECK_REFUSED(points.state<int>(7), "state of point 7", "another type");
@@ -364,6 +364,6 @@ TEST_CASE("regions that do not fit the mesh are refused by name") {
   CHECK_REFUSED(made(grid, soil(), footing(), soil()), "region 'soil' is given two providers");
   std::vector<std::string> const names{"soil"};
   std::vector<scarp::Site<2>> const outside{{.region = 1}};
-  CHECK_REFUSED(Points(hana::make_tuple(soil()), names, outside, {}, [](int) { return true; }),
+  CHECK_REFUSED(scarp::points_of_regions<2>(hana::make_tuple(soil()), names, outside, {}, [](int) { return true; }),
                 "region '1' of the mesh has no provider (point 0 lies in it)");
 }

@@ -211,7 +211,7 @@ TEST_CASE("a batch refuses numbers, sizes and orders of calls that do not fit") 
   CHECK_REFUSED(points.commit(), "without a response");
   CHECK(points.pack(0) == before);
   CHECK_REFUSED(points.unpack(std::vector{0, 0}, points.pack(std::vector{0, 1})), "unpacked twice");
-  CHECK_REFUSED(points.extract(0, points.pack(std::vector{0, 1})), "more than the state of point 0");
+  CHECK_REFUSED(points.extract(0, points.pack(std::vector{0, 1})), "more than the states of 1 points");
   CHECK(points.pack(0) == before);
 
   Points shared(sand(), sites, {}, [](int point) { return point == 0; });

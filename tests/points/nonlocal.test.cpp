@@ -311,7 +311,7 @@ TEST_CASE("means stay within the regions that ask for them, and over as many poi
   std::vector<double> const weights(8, 1.0);
   auto const soil = samples::elastic_soil();
   std::vector<std::string> const names{"wide", "local"};
-  scarp::MaterialPoints<2> points(
+  auto points = scarp::points_of_regions<2>(
       boost::hana::make_tuple(scarp::Region{names[1], soil}, scarp::Region{names[0], scarp::Nonlocal{soil, 0.25}}),
       names, where, weights, [](int) { return true; });
   for (int k = 0; k < 8; ++k) points.gradient(k)(0, 0) = 1e-4 * k * k;

@@ -364,15 +364,16 @@ TEST_CASE("points take the packing of the nearest depth") {
 
 TEST_CASE("points with packings plan once for a load step and commit all together") {
   std::vector<scarp::Site<2>> const sites(3);
-  scarp::MaterialPoints<2> points(rve(60), sites);
+  auto const provider = rve(60);
+  scarp::MaterialPoints<2> points(provider, sites);
   scarp::SerialExecutor serial;
   REQUIRE(points.size() == 3);
   auto const before = points.committed_stress(1);
   CHECK(points.work(1) == 0);
-  auto const planned = points.provider<Rve>(1).plan(points.state<Rve::State>(1), shear_increment(1e-3));
+  auto const planned = provider.plan(points.state<Rve::State>(1), shear_increment(1e-3));
   for (double const part : {1.0, 0.5}) {
     points.gradient(1) = part * shear_increment(1e-3);
-    CHECK(points.respond(serial, 0).inner_steps == planned + 2 * points.provider<Rve>(0).min_steps);
+    CHECK(points.respond(serial, 0).inner_steps == planned + 2 * provider.min_steps);
     CHECK(points.work(1) == planned);
     CHECK(points.committed_stress(1) == before);
   }

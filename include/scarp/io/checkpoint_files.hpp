@@ -35,7 +35,7 @@ struct CheckpointSettings {
 
 namespace detail {
 
-inline constexpr FileFormat checkpoint_format{"SCARPCHK", 8, "checkpoint", "a checkpointed run"};
+inline constexpr FileFormat checkpoint_format{"SCARPCHK", 9, "checkpoint", "a checkpointed run"};
 
 /// \throws InputError naming the first line that differs
 inline void reject_other_scene(std::string const& saved, std::string const& present) {

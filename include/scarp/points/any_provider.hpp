@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <concepts>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "scarp/points/detail/point_batch.hpp"
 #include "scarp/points/point_means.hpp"
-#include "scarp/points/region.hpp"
 
 namespace scarp {
+
+template <int Dim>
+class MaterialPoints;
 
 /// Any material, chosen while a program runs, of a region or a list of regions: scenes, solvers and observers are compiled once for
 /// all. The responses are the provider's own, bit for bit.
@@ -20,9 +24,6 @@ template <int Dim>
 class AnyProvider {
  public:
   static constexpr int dim = Dim;  ///< of the providers
-  /// Finds the neighbours of all points: sites, volumes [m3], neighbourhoods, tangents [Pa] that they begin with.
-  using Means = PointMeans<Dim> (*)(std::span<Site<Dim> const>, std::span<double const>, std::span<Neighbourhood const>,
-                                    std::vector<VoigtTangent<Dim>> const&);
 
   /// Of no use until another one is assigned.
   AnyProvider() = default;
@@ -31,7 +32,8 @@ class AnyProvider {
   template <ConstitutiveProvider Provider>
     requires(Provider::dim == Dim)
   AnyProvider(Provider provider)  // NOLINT: any provider is one
-      : empty_(std::make_shared<detail::PointBatchOf<Provider>>(std::make_shared<Provider>(std::move(provider)))) {}
+      : batch_(
+            std::make_unique<detail::PointBatchOf<Provider>>(std::make_shared<Provider const>(std::move(provider)))) {}
 
   /// Holds a copy of a `Nonlocal` material of this dimension.
   template <class Averaged>
@@ -42,20 +44,38 @@ class AnyProvider {
     means_ = Averaged::means;
   }
 
-  /// Points of this provider, none yet. \throws InputError where there is no provider
-  std::unique_ptr<detail::PointBatch<Dim>> batch() const {
-    if (!empty_) reject("an AnyProvider is used that holds no provider: assign one to it first");
-    return empty_->without_points();
+  /// Holds another copy; the providers share their parameters.
+  AnyProvider(AnyProvider const& other) : neighbourhood_(other.neighbourhood_), means_(other.means_) {
+    if (other.batch_) batch_ = other.batch_->copy();
   }
-  Neighbourhood const& own_neighbourhood() const {
-    return neighbourhood_;
-  }                                       ///< Of a point alone unless it is nonlocal.
-  Means means() const { return means_; }  ///< Null unless it is nonlocal.
+  AnyProvider(AnyProvider&&) noexcept = default;
+  /// Holds another material from now on.
+  AnyProvider& operator=(AnyProvider other) noexcept {
+    std::swap(batch_, other.batch_);
+    neighbourhood_ = other.neighbourhood_;
+    means_ = other.means_;
+    return *this;
+  }
+  ~AnyProvider() = default;
 
  private:
-  std::shared_ptr<detail::PointBatch<Dim> const> empty_;
-  Neighbourhood neighbourhood_{};
-  Means means_ = nullptr;
+  friend class MaterialPoints<Dim>;
+
+  /// Finds the neighbours of all points: sites, volumes [m3], neighbourhoods, tangents [Pa] that they begin with.
+  using Means = PointMeans<Dim> (*)(std::span<Site<Dim> const>, std::span<double const>, std::span<Neighbourhood const>,
+                                    std::vector<VoigtTangent<Dim>> const&);
+
+  std::unique_ptr<detail::PointBatch<Dim>> batch_;  ///< without points, but within MaterialPoints
+  Neighbourhood neighbourhood_{};                   ///< of a point alone unless the material is nonlocal
+  Means means_ = nullptr;                           ///< null unless the material is nonlocal
 };
+
+/// What a region may consist of: whatever `AnyProvider` holds.
+template <class Type>
+concept Material = std::convertible_to<Type const&, AnyProvider<Type::dim>>;
+
+/// A Material; for another type the compiler names the member that is missing.
+template <class Type>
+concept CheckedMaterial = Material<Type> || CheckedProvider<Type>;
 
 }  // namespace scarp

@@ -13,23 +13,8 @@ namespace scarp {
 namespace detail {
 
 template <int Dim>
-PathCondition<Dim> strain_condition(EngineeringStrain<Dim> const& weights, double rate) {
-  return {.of_strain = weights, .rate = rate};
-}
-
-template <int Dim>
-PathCondition<Dim> stress_condition(VoigtStress<Dim> const& weights) {
-  return {.of_stress = weights};
-}
-
-template <int Dim>
-Eigen::Matrix<double, voigt_size<Dim>, 1> component(int k) {
-  return Eigen::Matrix<double, voigt_size<Dim>, 1>::Unit(k);
-}
-
-template <int Dim>
-Eigen::Matrix<double, voigt_size<Dim>, 1> trace() {
-  Eigen::Matrix<double, voigt_size<Dim>, 1> weights = Eigen::Matrix<double, voigt_size<Dim>, 1>::Zero();
+VoigtStress<Dim> trace() {
+  VoigtStress<Dim> weights = VoigtStress<Dim>::Zero();
   weights.template head<Dim>().setOnes();
   return weights;
 }
@@ -39,15 +24,15 @@ template <int Dim>
 PathConditions<Dim> without_shear(PathConditions<Dim> conditions, double rate = 0.0) {
   constexpr int sheared = Dim == 2 ? 2 : 4;  // xy, zx
   for (int k = Dim; k < voigt_size<Dim>; ++k)
-    conditions.push_back(strain_condition<Dim>(component<Dim>(k), k == sheared ? rate : 0.0));
+    conditions.push_back({.of_strain = VoigtStress<Dim>::Unit(k), .rate = k == sheared ? rate : 0.0});
   return conditions;
 }
 
 /// The axial axis shortens at the rate 1 under one more condition; in space the difference of the lateral stresses stays.
 template <int Dim>
 PathConditions<Dim> axial(PathCondition<Dim> lateral) {
-  PathConditions<Dim> conditions{strain_condition<Dim>(component<Dim>(Dim - 1), -1.0), std::move(lateral)};
-  if constexpr (Dim == 3) conditions.push_back(stress_condition<Dim>(component<Dim>(0) - component<Dim>(1)));
+  PathConditions<Dim> conditions{{.of_strain = VoigtStress<Dim>::Unit(Dim - 1), .rate = -1.0}, std::move(lateral)};
+  if constexpr (Dim == 3) conditions.push_back({.of_stress = VoigtStress<3>::Unit(0) - VoigtStress<3>::Unit(1)});
   return without_shear<Dim>(std::move(conditions));
 }
 
@@ -56,19 +41,19 @@ PathConditions<Dim> axial(PathCondition<Dim> lateral) {
 /// The volume shrinks while the differences of the normal stresses stay.
 template <int Dim>
 PathConditions<Dim> isotropic_path() {
-  PathConditions<Dim> conditions{detail::strain_condition<Dim>(detail::trace<Dim>(), -1.0)};
+  PathConditions<Dim> conditions{{.of_strain = detail::trace<Dim>(), .rate = -1.0}};
   for (int k = 0; k < Dim - 1; ++k)
-    conditions.push_back(detail::stress_condition<Dim>(detail::component<Dim>(k) - detail::component<Dim>(Dim - 1)));
+    conditions.push_back({.of_stress = VoigtStress<Dim>::Unit(k) - VoigtStress<Dim>::Unit(Dim - 1)});
   return detail::without_shear<Dim>(std::move(conditions));
 }
 
 /// Lateral strains are `ratio` times the axial one: an oedometer for 0.
 template <int Dim>
 PathConditions<Dim> proportional_strain_path(double ratio) {
+  require_finite("ratio", ratio);
   PathConditions<Dim> conditions;
   for (int k = 0; k < Dim; ++k)
-    conditions.push_back(detail::strain_condition<Dim>(detail::component<Dim>(k),
-                                                       k == Dim - 1 ? -1.0 : -require_finite("ratio", ratio)));
+    conditions.push_back({.of_strain = VoigtStress<Dim>::Unit(k), .rate = k == Dim - 1 ? -1.0 : -ratio});
   return detail::without_shear<Dim>(std::move(conditions));
 }
 
@@ -82,8 +67,7 @@ PathConditions<Dim> oedometer_path() {
 template <int Dim>
 PathConditions<Dim> proportional_stress_path(double ratio) {
   require_finite("ratio of lateral to axial changes of stress", ratio);
-  return detail::axial<Dim>(
-      detail::stress_condition<Dim>(detail::component<Dim>(0) - ratio * detail::component<Dim>(Dim - 1)));
+  return detail::axial<Dim>({.of_stress = VoigtStress<Dim>::Unit(0) - ratio * VoigtStress<Dim>::Unit(Dim - 1)});
 }
 
 /// Drained biaxial or triaxial test: lateral stresses held.
@@ -95,20 +79,20 @@ PathConditions<Dim> drained_path() {
 /// Undrained test: constant volume; in space the difference of the lateral stresses held.
 template <int Dim>
 PathConditions<Dim> undrained_path() {
-  return detail::axial<Dim>(detail::strain_condition<Dim>(detail::trace<Dim>(), 0.0));
+  return detail::axial<Dim>({.of_strain = detail::trace<Dim>()});
 }
 
 /// Mean stress held, in the plane that of the stresses in it; in space also the difference of the lateral stresses.
 template <int Dim>
 PathConditions<Dim> constant_mean_stress_path() {
-  return detail::axial<Dim>(detail::stress_condition<Dim>(detail::trace<Dim>()));
+  return detail::axial<Dim>({.of_stress = detail::trace<Dim>()});
 }
 
 /// Direct simple shear at constant height, hence volume: the first axis' displacement grows along the last one.
 template <int Dim>
 PathConditions<Dim> simple_shear_path() {
   PathConditions<Dim> conditions;
-  for (int k = 0; k < Dim; ++k) conditions.push_back(detail::strain_condition<Dim>(detail::component<Dim>(k), 0.0));
+  for (int k = 0; k < Dim; ++k) conditions.push_back({.of_strain = VoigtStress<Dim>::Unit(k)});
   return detail::without_shear<Dim>(std::move(conditions), 1.0);
 }
 
@@ -116,7 +100,7 @@ PathConditions<Dim> simple_shear_path() {
 template <int Dim>
 PathConditions<Dim> simple_shear_at_stress_path() {
   auto conditions = simple_shear_path<Dim>();
-  conditions[Dim - 1] = detail::stress_condition<Dim>(detail::component<Dim>(Dim - 1));
+  conditions[Dim - 1] = {.of_stress = VoigtStress<Dim>::Unit(Dim - 1)};
   return conditions;
 }
 

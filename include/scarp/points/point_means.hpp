@@ -160,19 +160,6 @@ class PointMeans {
     }
   }
 
-  /// What evolves: tau and volumes.
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) {
-    SCARP_ALL_MEMBERS(mean_, iterate_, fading_, stiffness_, tau_, trial_, volume_, trial_volume_, by_own_, by_mean_);
-    visit("tau", std::span(self.tau_));
-    visit("volume", std::span(self.volume_));
-  }
-  /// The trial states are those that were loaded.
-  void after_loading() {
-    trial_ = tau_;
-    trial_volume_ = volume_;
-  }
-
  private:
   std::array<double, 4> basis() const {
     std::array<double, 4> sums{};

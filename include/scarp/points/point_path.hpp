@@ -12,7 +12,6 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/nan_max.hpp"
-#include "scarp/points/detail/least_norm_solution.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/tensor/finite_strain.hpp"
 
@@ -195,7 +194,10 @@ class PointPath {
       }
     }
     // Where a stress cannot change, as on an edge of a strength surface, the least correction is as good as any.
-    course.step = about + detail::least_norm_solution(matrix, right);
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;  // of one size: compiles faster
+    factors.setThreshold(1e-9);
+    factors.compute(matrix);
+    course.step = about + factors.solve(Eigen::VectorXd(right));
     return course.step.norm() <= max_strain;
   }
 

@@ -2,8 +2,6 @@
 #include "scarp/solver/quasi_newton.hpp"
 
 namespace scarp {
-template class PointStates<2>;
-template class PointStates<3>;
 template class MaterialPoints<2>;
 template class MaterialPoints<3>;
 template class Problem<2>;

@@ -9,7 +9,7 @@
 
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/core/executor.hpp"
-#include "scarp/points/material_points.hpp"
+#include "scarp/points/region.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 
 namespace scarp {
@@ -21,7 +21,8 @@ MaterialPoints<Dim> points_at(Grid<Dim> const& grid, double level, Regions const
   std::vector<Site<Dim>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, level));
   auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
-  return {regions, grid.regions(), sites, volumes, [&](int point) { return executor.owns(point); }};
+  return points_of_regions<Dim>(regions, grid.regions(), sites, volumes,
+                                [&](int point) { return executor.owns(point); });
 }
 }  // namespace detail
 

@@ -28,13 +28,12 @@ class PointBatch {
  public:
   virtual ~PointBatch() = default;
   virtual std::unique_ptr<PointBatch> copy() const = 0;
-  /// The same provider without points.
-  virtual std::unique_ptr<PointBatch> without_points() const = 0;
+  /// The same provider with one point only, at the same site and without state.
+  virtual std::unique_ptr<PointBatch> alone(int k) const = 0;
 
   /// number: among all points; here: whether this process owns the point, else it has no state
-  virtual void add(Site<Dim> const& site, int number, bool here) = 0;
-  virtual int size() const = 0;
-  virtual Site<Dim> const& site(int k) const = 0;
+  /// \return number of the point here
+  virtual int add(Site<Dim> const& site, int number, bool here) = 0;
   virtual void release(int k) = 0;
 
   virtual void plan(int k, Gradient<Dim> const& increment) = 0;
@@ -58,19 +57,12 @@ class PointBatch {
   virtual void put(int k, std::any state) = 0;
   /// A state of a point of another batch, for `put`; mirrored where there is a mirror. \throws InputError unless it has the same type of provider
   virtual std::any state_from(PointBatch const& other, int k, std::optional<Mirror<Dim>> const& mirror) const = 0;
-  virtual void write_all(StateWriter& writer) const = 0;
-  virtual void read_all(StateReader& reader) = 0;
 
-  virtual Quantities quantities(int k) const = 0;
-  virtual PackingBalance balance(int k) const = 0;
-  virtual std::any picture(int k) const = 0;
+  /// What a committed state shows as a value of this type: a pointer to itself, quantities, balance or picture; else nothing.
+  virtual std::any shown(int k, std::type_info const& type) const = 0;
   virtual VoigtStress<Dim> floor_stress(int k) const = 0;
-  virtual DoubledResponse<Dim> doubled_response(int k, Gradient<Dim> const& increment) const = 0;
-  virtual DoubledResponse<Dim> doubled_path(int k, Gradient<Dim> const& increment, std::string& bits) const = 0;
-
-  /// The committed state, nothing where it is of another type.
-  virtual void const* state(int k, std::type_info const& type) const = 0;
-  virtual void const* provider(std::type_info const& type) const = 0;
+  /// Right after a commit, with twice the work: from the state before it or, where there is a path, from the state in its bits.
+  virtual DoubledResponse<Dim> doubled(int k, Gradient<Dim> const& increment, std::string* path) const = 0;
 };
 
 template <CheckedProvider Provider>
@@ -82,18 +74,21 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   explicit PointBatchOf(std::shared_ptr<Provider const> provider) : provider_(std::move(provider)) {}
 
   std::unique_ptr<PointBatch<dim>> copy() const override { return std::make_unique<PointBatchOf>(*this); }
-  std::unique_ptr<PointBatch<dim>> without_points() const override { return std::make_unique<PointBatchOf>(provider_); }
+  std::unique_ptr<PointBatch<dim>> alone(int k) const override {
+    auto one = std::make_unique<PointBatchOf>(provider_);
+    one->add(sites_[index(k)], 0, false);
+    return one;
+  }
 
-  void add(Site<dim> const& site, int number, bool here) override {
+  int add(Site<dim> const& site, int number, bool here) override {
     sites_.push_back(site);
     numbers_.push_back(number);
     here_.push_back(here);
     committed_.push_back(here ? provider_->initial_state(site) : no_state());
     trial_.push_back(committed_.back());
     plans_.emplace_back();
+    return count(sites_) - 1;
   }
-  int size() const override { return count(sites_); }
-  Site<dim> const& site(int k) const override { return sites_[index(k)]; }
   void release(int k) override {
     committed_[index(k)] = trial_[index(k)] = no_state();
     here_[index(k)] = false;
@@ -163,63 +158,37 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
           same->numbers_[index(k)]);
     return state;
   }
-  void write_all(StateWriter& writer) const override { described(writer, std::span(committed_), "states"); }
-  void read_all(StateReader& reader) override {
-    for (std::size_t k = 0; k < sites_.size(); ++k) {
-      if (!here_[k]) committed_[k] = scarp::empty_state(*provider_, sites_[k]);
-    }
-    described(reader, std::span(committed_), "states");
-    for (State const& state : committed_) require_fitting(state);
-    trial_ = committed_;
-    here_.assign(sites_.size(), true);
-  }
 
-  Quantities quantities(int k) const override {
-    return unwrap(*provider_, present(k), [](auto const& inner, auto const& own) -> Quantities {
-      if constexpr (requires { inner.quantities(own); }) return inner.quantities(own);
-      return {};
-    });
-  }
-  PackingBalance balance(int k) const override {
-    return unwrap(*provider_, present(k), [](auto const& inner, auto const& own) -> PackingBalance {
-      if constexpr (requires { inner.balance(own); }) return inner.balance(own);
-      return {};
-    });
-  }
-  std::any picture(int k) const override {
-    return unwrap(*provider_, present(k), [](auto const& inner, auto const& own) -> std::any {
-      if constexpr (requires { inner.picture(own); }) return inner.picture(own);
+  std::any shown(int k, std::type_info const& type) const override {
+    if (type == typeid(State const*)) return static_cast<State const*>(&committed_[index(k)]);
+    return unwrap(*provider_, present(k), [&](auto const& inner, auto const& own) -> std::any {
+      if constexpr (requires { inner.quantities(own); })
+        if (type == typeid(Quantities)) return inner.quantities(own);
+      if constexpr (requires { inner.balance(own); })
+        if (type == typeid(PackingBalance)) return inner.balance(own);
+      if constexpr (requires { inner.picture(own); })
+        if (type == typeid(decltype(inner.picture(own)))) return inner.picture(own);
       return {};
     });
   }
   VoigtStress<dim> floor_stress(int k) const override { return floor_stress_in<dim>(present(k)); }
 
-  DoubledResponse<dim> doubled_response(int k, Gradient<dim> const& increment) const override {
-    State trial = trial_[index(k)];
-    return respond_with_double_work(*provider_, trial_[index(k)], increment, plans_[index(k)], trial);
-  }
-  DoubledResponse<dim> doubled_path(int k, Gradient<dim> const& increment, std::string& bits) const override {
+  DoubledResponse<dim> doubled(int k, Gradient<dim> const& increment, std::string* path) const override {
+    State end = committed_[index(k)];
+    if (!path) return respond_with_double_work(*provider_, trial_[index(k)], increment, plans_[index(k)], end);
     DoubledResponse<dim> response{{stress(k), {}}, 0};
     if constexpr (Described<State>) {
-      State state = committed_[index(k)];
-      if (!bits.empty()) {
-        State from = state;
-        StateReader reader(bits);
+      if (!path->empty()) {
+        State from = end;
+        StateReader reader(*path);
         reader("state", from);
-        response = respond_with_double_work(*provider_, from, increment, plans_[index(k)], state);
+        response = respond_with_double_work(*provider_, from, increment, plans_[index(k)], end);
       }
       StateWriter writer;
-      writer("state", state);
-      bits = std::move(writer.bits());
+      writer("state", end);
+      *path = std::move(writer.bits());
     }
     return response;
-  }
-
-  void const* state(int k, std::type_info const& type) const override {
-    return type == typeid(State) ? &committed_[index(k)] : nullptr;
-  }
-  void const* provider(std::type_info const& type) const override {
-    return type == typeid(Provider) ? provider_.get() : nullptr;
   }
 
  private:
@@ -250,9 +219,9 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
 
   template <class Visit, class Visited>
-  static void described(Visit&& visit, Visited&& visited, std::string_view name = "state") {
+  static void described(Visit&& visit, Visited&& visited) {
     if constexpr (Described<State>) {
-      visit(name, visited);
+      visit("state", visited);
     } else {
       reject(
           "states of a provider cannot be saved, sent or mirrored (they name no members): give them a function "
@@ -267,23 +236,6 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   std::vector<State> committed_;
   std::vector<State> trial_;
   std::vector<scarp::PlanOf<Provider>> plans_;
-};
-
-/// A batch that is copied with its points.
-template <int Dim>
-struct CopiedBatch {
-  std::unique_ptr<PointBatch<Dim>> held;
-
-  CopiedBatch(std::unique_ptr<PointBatch<Dim>> batch) : held(std::move(batch)) {}
-  CopiedBatch(CopiedBatch const& other) : held(other.held->copy()) {}
-  CopiedBatch(CopiedBatch&&) noexcept = default;
-  CopiedBatch& operator=(CopiedBatch other) noexcept {
-    held = std::move(other.held);
-    return *this;
-  }
-  ~CopiedBatch() = default;
-  PointBatch<Dim>* operator->() { return held.get(); }
-  PointBatch<Dim> const* operator->() const { return held.get(); }
 };
 
 }  // namespace scarp::detail
