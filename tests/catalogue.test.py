@@ -16,8 +16,7 @@ HELPERS = {
     "constitutive/constitutive_provider", "constitutive/unwrap", "contact/contact_law", "contact/coulomb", "contact/law_checks",
     "shape/converged_contact", "shape/minimum_translation", "shape/particle_shape", "shape/round_grain", "shape/superellipse_contact",
     "shape/support_contact", "shape/support_integrals", "element/map", "element/mid_sides", "element/quadrature_rules", "element/reference_element",
-    "solver/equilibrium_problem", "solver/free_system", "solver/ground_stiffness", "solver/problem", "solver/linear_solver",
-    "solver/linearised_step", "solver/make_problem", "solver/step_report", "solver/work_balance"}
+    "solver/equilibrium_problem", "solver/problem", "solver/linear_system", "solver/linearised_step", "solver/make_problem", "solver/step_report", "solver/work_balance"}
 TYPES = "double|int|bool|Law|Rule|Damping|Provider|Source|IsotropicElasticity|StrengthType|InitialStress|Boundary|Tangent|Umat\\*|std::string"
 PARAMETER = re.compile(rf"^  (?:\[\[\w+\]\] )?(?:{TYPES}|std::\w+<[^;]*>) (\w+)(?: =\s+([^;]+)|\{{[^;]*\}})?;", re.M)
 faults = []

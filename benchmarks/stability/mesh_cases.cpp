@@ -8,10 +8,9 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
-#include "scarp/solver/linear_solver.hpp"
+#include "scarp/solver/linear_system.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
-#include "scarp/solver/sparse_lu.hpp"
 #include "stability/stability_case.hpp"
 #include "support/crossed_rectangle.hpp"
 
@@ -79,15 +78,13 @@ Outcome patch(scarp::Mesh<Element> mesh) {
   std::vector<scarp::VoigtTangent<2>> const tangents(unstressed.size(), solid.tangent({}));
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(grid.dof_count());
   Eigen::SparseMatrix<double> const stiffness = grid.stiffness(nothing, unstressed, tangents);
-  scarp::FreeSystem const free(constraints);
-  auto const matrix = free.matrix(stiffness);
-  scarp::SparseLu solver;
-  if (!solver.factorize(matrix).acceptable()) return {false, infinity, "no factorisation", ""};
+  scarp::LinearSystem system(constraints);
+  if (!system.factorize({stiffness}).acceptable()) return {false, infinity, "no factorisation", ""};
   Eigen::VectorXd held = exact;
-  free.scatter(Eigen::VectorXd::Zero(constraints.free_count()), held);
+  system.scatter(Eigen::VectorXd::Zero(constraints.free_count()), held);
   Eigen::VectorXd found = held;
-  free.scatter(solver.solve(free.gather(-(stiffness * held))), found);
-  double const condition = scarp::condition_estimate(matrix, solver);
+  system.scatter(system.solve(system.gather(-(stiffness * held))), found);
+  double const condition = system.condition();
   double const error = (found - exact).norm() / exact.norm();
   return at_most(1e-15 * condition + 1e-14, error, "error of the displacement, up to 1e-15 of the condition",
                  fmt::format("condition {:.1e}", condition));

@@ -8,7 +8,7 @@
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/error.hpp"
-#include "scarp/solver/free_system.hpp"
+#include "scarp/solver/linear_system.hpp"
 
 namespace examples {
 
@@ -28,12 +28,11 @@ Eigen::VectorXd elastic_solve(scarp::Discretisation<Element, scarp::SmallStrain,
   for (int const dof : constraints.prescribed_dofs()) {
     displacement(dof) = prescribed(dof);
   }
-  scarp::FreeSystem const free(constraints);
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> const factors(free.matrix(stiffness));
-  if (factors.info() != Eigen::Success) {
+  scarp::LinearSystem system(constraints, scarp::direct_solver<Eigen::SimplicialLDLT<scarp::SparseMatrix>>);
+  if (!system.factorize({stiffness}).acceptable()) {
     scarp::reject("the stiffness could not be factorised (a motion has no stiffness): fix more nodes");
   }
-  free.scatter(factors.solve(free.gather(forces - stiffness * displacement)), displacement);
+  system.scatter(system.solve(system.gather(forces - stiffness * displacement)), displacement);
   return displacement;
 }
 

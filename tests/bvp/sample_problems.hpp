@@ -12,8 +12,7 @@
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/solver/free_system.hpp"
-#include "scarp/solver/sparse_lu.hpp"
+#include "scarp/solver/linear_system.hpp"
 #include "support/crossed_rectangle.hpp"
 
 /// Small distorted meshes for every element, and what the tests of the finite-element side do with them.
@@ -105,13 +104,12 @@ std::vector<int> outline(scarp::Mesh<Element> const& mesh) {
 /// Solves the free rows of K x = f with x = 0 at prescribed degrees of freedom.
 inline Eigen::VectorXd solve_free(Eigen::SparseMatrix<double> const& matrix, scarp::Constraints const& constraints,
                                   Eigen::VectorXd const& force) {
-  scarp::FreeSystem const free(constraints);
-  scarp::SparseLu factors;
-  if (!factors.factorize(free.matrix(matrix)).acceptable()) {
+  scarp::LinearSystem system(constraints);
+  if (!system.factorize({matrix}).acceptable()) {
     throw std::runtime_error("the stiffness of a sample problem could not be factorised");
   }
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(force.size());
-  free.scatter(factors.solve(free.gather(force)), solution);
+  system.scatter(system.solve(system.gather(force)), solution);
   return solution;
 }
 

@@ -11,8 +11,8 @@
 #include "scarp/points/laboratory_paths.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/points/point_path.hpp"
+#include "scarp/solver/linear_system.hpp"
 #include "scarp/solver/make_problem.hpp"
-#include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "scarp/solver/work_balance.hpp"
 #include "support/approx.hpp"
@@ -203,7 +203,7 @@ TEST_CASE("equations of a wide stiffness are solved as those of its matrix") {
   REQUIRE(problem.evaluate(at).verdict.acceptable());
   scarp::GroundStiffness stiffness;
   problem.ground_stiffness(at, problem.trial_tangents(), stiffness);
-  scarp::FreeSystem const system(problem.constraints());
+  scarp::LinearSystem system(problem.constraints());
   Eigen::Index const size = system.free_count();
   Eigen::MatrixXd matrix(size, size);
   for (Eigen::Index column = 0; column < size; ++column) {
@@ -212,13 +212,12 @@ TEST_CASE("equations of a wide stiffness are solved as those of its matrix") {
     matrix.col(column) = system.gather(stiffness * all);
   }
   CHECK((matrix - matrix.transpose()).norm() > 1e-3 * matrix.norm());
-  scarp::detail::GroundEquations<scarp::SparseLu> equations;
-  REQUIRE(equations.factorize(system, stiffness).acceptable());
+  REQUIRE(system.factorize(stiffness).acceptable());
   Eigen::VectorXd const force = uneven(size, 1e3);
-  CHECK((equations.product(force) - matrix * force).norm() <= 1e-12 * (matrix * force).norm());
+  CHECK((system.product(force) - matrix * force).norm() <= 1e-12 * (matrix * force).norm());
   Eigen::VectorXd const exact = matrix.partialPivLu().solve(force);
   // The iteration ends at 1e-4 of the preconditioned residual.
-  CHECK((equations.solve(force) - exact).norm() <= 1e-3 * exact.norm());
+  CHECK((system.solve(force) - exact).norm() <= 1e-3 * exact.norm());
 }
 
 TEST_CASE("means and what is solved with them are the same bits on any number of threads") {

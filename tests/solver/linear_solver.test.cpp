@@ -3,19 +3,21 @@
 
 #include <doctest/doctest.h>
 
-#include <memory>
-
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <memory>
 
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
+#include "scarp/solver/linear_system.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
 #include "support/approx.hpp"
 #include "support/crossed_rectangle.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -35,8 +37,35 @@ SparseMatrix random_matrix(int size, std::uint64_t seed, bool symmetric) {
   return dense.sparseView();
 }
 
-template <class Solver>
-void solves(Solver& solver, SparseMatrix const& matrix) {
+/// A linear solver of a user's: dense factors.
+struct DenseLu : scarp::LinearSolver {
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+  int* calls;
+
+  explicit DenseLu(int& counted) : calls(&counted) {}
+  scarp::Verdict factorize(SparseMatrix const& matrix) override {
+    ++*calls;
+    factors.compute(Eigen::MatrixXd(matrix));
+    return {};
+  }
+  Eigen::VectorXd solve(Eigen::VectorXd const& right) const override { return factors.solve(right); }
+  Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const override {
+    return factors.transpose().solve(right);
+  }
+};
+
+auto const cholesky = scarp::direct_solver<Eigen::SimplicialLDLT<SparseMatrix>>;
+
+/// Equations of free degrees of freedom alone.
+scarp::LinearSystem free_system(SparseMatrix const& matrix, scarp::Verdict const& expected = {}) {
+  scarp::Mesh<scarp::Tri3> mesh;
+  mesh.nodes.resize(static_cast<std::size_t>(matrix.rows()) / 2);
+  scarp::LinearSystem system{scarp::Constraints(mesh)};
+  CHECK(system.factorize({matrix}) == expected);
+  return system;
+}
+
+void solves(scarp::LinearSolver& solver, SparseMatrix const& matrix) {
   Eigen::VectorXd const right = Eigen::VectorXd::LinSpaced(matrix.rows(), -1.0, 2.0);
   REQUIRE(solver.factorize(matrix).acceptable());
   // Round-off of a direct solver on a well-conditioned system.
@@ -64,55 +93,50 @@ Grid two_blocks() {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("every linear solver solves symmetric systems, one after the other", Solver, scarp::SparseLu) {
-  Solver solver;
-  for (int const size : {5, 40, 40, 17})
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) solves(solver, random_matrix(size, seed, true));
-}
-
-TEST_CASE_TEMPLATE("solvers of unsymmetric systems solve them", Solver, scarp::SparseLu) {
-  Solver solver;
-  for (int const size : {5, 40, 40, 17})
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) solves(solver, random_matrix(size, seed, false));
-}
-
-TEST_CASE_TEMPLATE("the ordering of one pattern does not spoil another one with as many entries", Solver,
-                   scarp::SparseLu) {
-  // An arrow that points down and one that points up: same size, same number of entries.
-  constexpr int size = 30;
-  Solver solver;
-  for (int const tip : {0, size - 1, 0}) {
-    Eigen::MatrixXd arrow = Eigen::MatrixXd::Identity(size, size) * size;
-    arrow.row(tip).setOnes();
-    arrow.col(tip).setOnes();
-    arrow(tip, tip) = 2.0 * size;
-    Eigen::SparseMatrix<double> const matrix = arrow.sparseView();
-    REQUIRE(solver.factorize(matrix).acceptable());
-    Eigen::VectorXd const right = Eigen::VectorXd::LinSpaced(size, -1.0, 2.0);
-    CHECK((matrix * solver.solve(right) - right).norm() < 1e-13 * right.norm());
+TEST_CASE("linear solvers solve one system after the other") {
+  auto const lu = scarp::sparse_lu();
+  auto const ldlt = cholesky();
+  for (int const size : {5, 40, 40, 17}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      solves(*lu, random_matrix(size, seed, true));
+      solves(*lu, random_matrix(size, seed, false));
+      solves(*ldlt, random_matrix(size, seed, true));
+    }
   }
 }
 
-TEST_CASE_TEMPLATE("every linear solver says that a singular or not finite matrix cannot be solved", Solver,
-                   scarp::SparseLu) {
+TEST_CASE("the ordering of one pattern does not spoil another one with as many entries") {
+  // An arrow that points down and one that points up: same size, same number of entries.
+  constexpr int size = 30;
+  for (auto const& solver : {scarp::sparse_lu(), cholesky()}) {
+    for (int const tip : {0, size - 1, 0}) {
+      Eigen::MatrixXd arrow = Eigen::MatrixXd::Identity(size, size) * size;
+      arrow.row(tip).setOnes();
+      arrow.col(tip).setOnes();
+      arrow(tip, tip) = 2.0 * size;
+      solves(*solver, arrow.sparseView());
+    }
+  }
+}
+
+TEST_CASE("a linear solver says that a singular or not finite matrix cannot be solved") {
   SparseMatrix matrix = random_matrix(20, 5, true);
-  Solver solver;
+  auto const solver = scarp::sparse_lu();
   for (double const bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     matrix.coeffRef(3, 3) = bad;
-    CHECK(solver.factorize(matrix).reason == Reason::not_finite);
+    CHECK(solver->factorize(matrix).reason == Reason::not_finite);
   }
   Eigen::MatrixXd dense = random_matrix(20, 5, true);
   dense.row(7).setZero();
   dense.col(7).setZero();
-  SparseMatrix const singular = dense.sparseView();
-  auto const verdict = solver.factorize(singular);
-  CHECK(verdict.reason == Reason::singular_system);
-  CHECK(solver.factorize(random_matrix(20, 5, true)).acceptable());
-  CHECK(scarp::weakest_unknown<Solver>(singular) == 7);
+  scarp::Verdict const singular{scarp::Status::failed, Reason::singular_system};
+  CHECK(solver->factorize(dense.sparseView()) == singular);
+  CHECK(solver->factorize(random_matrix(20, 5, true)).acceptable());
+  CHECK(free_system(dense.sparseView(), singular).weakest_dof() == 7);
   SparseMatrix nothing(20, 20);
-  CHECK(scarp::weakest_unknown<Solver>(nothing) >= 0);  // without an entry, and then with entries of zero
+  CHECK(free_system(nothing, singular).weakest_dof() >= 0);  // without an entry, and then with entries of zero
   nothing.setIdentity();
-  CHECK(scarp::weakest_unknown<Solver>(0.0 * nothing) >= 0);
+  CHECK(free_system(0.0 * nothing, singular).weakest_dof() >= 0);
 }
 
 TEST_CASE("the free part of a system is the full one without prescribed rows and columns") {
@@ -120,11 +144,12 @@ TEST_CASE("the free part of a system is the full one without prescribed rows and
   scarp::Constraints constraints(mesh);
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) constraints.fix(node);
   constraints.move(3, 1, -2.0);
-  scarp::FreeSystem const system(constraints);
+  scarp::LinearSystem system(constraints);
   auto const full = random_matrix(constraints.dof_count(), 7, false);
   auto const free = constraints.free_dofs();
   Eigen::MatrixXd const dense = full;
-  Eigen::MatrixXd const part = system.matrix(full);
+  REQUIRE(system.factorize({full}).acceptable());
+  Eigen::MatrixXd const part = system.matrix();
   REQUIRE(part.rows() == static_cast<Eigen::Index>(free.size()));
   CHECK(part == dense(free, free));
 
@@ -185,13 +210,13 @@ TEST_CASE("an iteration that stagnates far from the solution is no solution") {
     scarp::MaterialPoints<2> points(soil, sites);
     points.average({mean, hoods, tangents, iterate});
     scarp::Problem<2> problem(std::make_unique<UnitGrid>(mesh), std::move(points), constraints, still, serial);
-    scarp::LinearisedStep<2, scarp::SparseLu> step(problem, 1e-3);
+    scarp::LinearisedStep<2> step(problem, 1e-3);
     REQUIRE(step.linearise(still, unbalanced, tangents).acceptable());
     Eigen::VectorXd increment = still;
     CHECK(step.solve(increment, still) == verdict);
-    CHECK(step.linear_residual() == samples::Approx(1.0 - iterate(
-                                                              {}, [](auto const& x) { return x; }, unbalanced)(0) /
-                                                              2.0));
+    CHECK(step.system().residual() == samples::Approx(1.0 - iterate(
+                                                                {}, [](auto const& x) { return x; }, unbalanced)(0) /
+                                                                2.0));
     if (!verdict.acceptable()) CHECK(increment == still);
   }
 }
@@ -202,14 +227,40 @@ TEST_CASE("the estimate of the condition number is close below the true one") {
     Eigen::MatrixXd dense = random_matrix(30, static_cast<std::uint64_t>(draw), false);
     dense.row(static_cast<int>(random.uniform(0.0, 30.0))) *= std::pow(10.0, random.uniform(-8.0, 8.0));
     SparseMatrix const matrix = dense.sparseView();
-    scarp::SparseLu solver;
-    REQUIRE(solver.factorize(matrix).acceptable());
     auto const norm = [](Eigen::MatrixXd const& a) { return a.cwiseAbs().colwise().sum().maxCoeff(); };
     double const exact = norm(dense) * norm(dense.inverse());
-    double const estimate = scarp::condition_estimate(matrix, solver);
+    double const estimate = free_system(matrix).condition();
     CHECK(estimate <= exact * (1.0 + 1e-6));
     CHECK(estimate >= exact / 3.0);
   }
+}
+
+TEST_CASE("a problem is solved by the linear solver that its settings name") {
+  auto const mesh = samples::CrossedRectangle{.columns = 2, .rows = 2}.generate();
+  scarp::Constraints constraints(mesh);
+  for (int const node : scarp::boundary_nodes(mesh, "bottom")) constraints.fix(node);
+  for (int const node : scarp::boundary_nodes(mesh, "top")) constraints.move(node, 1, -1e-3);
+  Grid const grid(mesh);
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+  scarp::SerialExecutor serial;
+  scarp::NoObserver no_observer;
+  auto const solved = [&](scarp::QuasiNewton<> const& newton) {
+    scarp::EquilibriumProblem<Grid> problem(grid, {Soil::from_young_poisson(20e6, 0.3), sites}, constraints, {},
+                                            serial);
+    CHECK(scarp::LoadStepping{.first = 1.0}.run(newton, problem, 0.0, 1.0, no_observer).verdict == scarp::Verdict{});
+    return problem.discretisation().positions();
+  };
+  int calls = 0;
+  auto const expected = solved({});
+  auto const dense = solved({.linear_solver = [&] { return std::make_unique<DenseLu>(calls); }});
+  auto const symmetric = solved({.linear_solver = cholesky});
+  CHECK(calls > 0);
+  for (std::size_t node = 0; node < expected.size(); ++node) {  // round-off of the solves, of 1 mm
+    CHECK((dense[node] - expected[node]).norm() < 1e-14);
+    CHECK((symmetric[node] - expected[node]).norm() < 1e-14);
+  }
+  CHECK_REFUSED(scarp::QuasiNewton<>{.linear_solver = {}}.validate(), "linear solver of an iteration", "is empty");
 }
 
 TEST_CASE("a body that nothing holds is found out: a singular system, and which node of which region drifts") {

@@ -2,7 +2,7 @@
 #define SCARP_DEFINITIONS
 #include "scarp/constitutive/detail/mohr_coulomb_return.hpp"
 #include "scarp/core/gmres.hpp"
-#include "scarp/solver/sparse_lu.hpp"
+#include "scarp/solver/linear_solver.hpp"
 #include "scarp/tensor/finite_strain.hpp"
 #include "scarp/tensor/principal.hpp"
 

@@ -6,5 +6,6 @@ template class MaterialPoints<2>;
 template class MaterialPoints<3>;
 template class Problem<2>;
 template class Problem<3>;
-SCARP_SESSIONS(template)
+template class QuasiNewtonSession<MaterialTangent, 2>;
+template class QuasiNewtonSession<MaterialTangent, 3>;
 }  // namespace scarp

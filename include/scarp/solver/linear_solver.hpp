@@ -4,34 +4,61 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <cmath>
-#include <concepts>
-#include <limits>
+#include <functional>
+#include <memory>
 #include <vector>
 
+#include "scarp/core/precompiled.hpp"
 #include "scarp/core/status.hpp"
+#ifdef SCARP_DEFINITIONS
+#include <Eigen/SparseLU>
+#endif
 
 namespace scarp {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  ///< Compressed by columns, of double precision.
 
-/// factorize(matrix): failed / singular_system or not_finite where it cannot; solve(right), after an acceptable one;
-/// solve_transposed(right): with the transposed matrix.
-template <class Solver>
-concept LinearSolver = std::default_initializable<Solver> &&
-    requires(Solver& solver, Solver const& constant, SparseMatrix const& matrix, Eigen::VectorXd const& right) {
-  { solver.factorize(matrix) } -> std::same_as<Verdict>;
-  { constant.solve(right) } -> std::same_as<Eigen::VectorXd>;
-  { constant.solve_transposed(right) } -> std::same_as<Eigen::VectorXd>;
+/// Solves systems of linear equations by the factors of their matrix.
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  /// The matrix must outlive its factors.
+  /// \return failed / singular_system or not_finite where there are no factors
+  virtual Verdict factorize(SparseMatrix const& matrix) = 0;
+  /// Solves A x = right after an acceptable factorisation.
+  virtual Eigen::VectorXd solve(Eigen::VectorXd const& right) const = 0;
+  /// Solves \f$ A^T x = right \f$ after an acceptable factorisation.
+  virtual Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const = 0;
 };
 
-namespace detail {
+/// Makes a linear solver of a program's choice, such as `sparse_lu`.
+using LinearSolverFactory = std::function<std::unique_ptr<LinearSolver>()>;
 
-/// What all direct solvers of Eigen's kind have in common: the ordering is reused as long as the matrix has the same pattern.
-class PatternMemory {
+/// One of Eigen's direct solvers. The ordering is reused while the matrix keeps its pattern.
+/// \tparam Factors such as `Eigen::UmfPackLU<SparseMatrix>`, or those of symmetric matrices. Factors without transpose() solve the
+/// transposed system as if it were symmetric, which lowers the estimate of a condition number at most.
+template <class Factors>
+class DirectSolver final : public LinearSolver {
  public:
-  /// Whether the matrix has another pattern than the last one, which it replaces.
-  bool changes_to(SparseMatrix const& matrix) {
+  Verdict factorize(SparseMatrix const& matrix) override {
+    if (!matrix.coeffs().allFinite()) return {Status::failed, Reason::not_finite};
+    if (has_new_pattern(matrix)) factors_.analyzePattern(matrix);
+    factors_.factorize(matrix);
+    if (factors_.info() != Eigen::Success) return {Status::failed, Reason::singular_system};
+    return {};
+  }
+  Eigen::VectorXd solve(Eigen::VectorXd const& right) const override { return factors_.solve(right); }
+  Eigen::VectorXd solve_transposed(Eigen::VectorXd const& right) const override {
+    if constexpr (requires { factors_.transpose(); }) {
+      return factors_.transpose().solve(right);
+    } else {
+      return factors_.solve(right);
+    }
+  }
+
+ private:
+  /// Whether the pattern is another one than that of the last matrix, which it replaces.
+  bool has_new_pattern(SparseMatrix const& matrix) {
     bool const same = matrix.rows() == rows_ && matrix.nonZeros() == static_cast<Eigen::Index>(inner_.size()) &&
                       std::equal(inner_.begin(), inner_.end(), matrix.innerIndexPtr()) &&
                       std::equal(outer_.begin(), outer_.end(), matrix.outerIndexPtr());
@@ -42,76 +69,23 @@ class PatternMemory {
     return true;
   }
 
- private:
+  mutable Factors factors_;  // SparseLU hands out its transposed view from a non-const object only
   Eigen::Index rows_ = -1;
   std::vector<int> inner_;
   std::vector<int> outer_;
 };
 
-/// A direct solver of Eigen's interface with named failures.
-template <class Factorisation>
-Verdict factorize_with(Factorisation& solver, PatternMemory& pattern, SparseMatrix const& matrix) {
-  if (!matrix.coeffs().allFinite()) return {Status::failed, Reason::not_finite};
-  if (pattern.changes_to(matrix)) solver.analyzePattern(matrix);
-  solver.factorize(matrix);
-  if (solver.info() != Eigen::Success) return {Status::failed, Reason::singular_system};
-  return {};
+/// A `LinearSolverFactory` of `DirectSolver`s.
+template <class Factors>
+std::unique_ptr<LinearSolver> direct_solver() {
+  return std::make_unique<DirectSolver<Factors>>();
 }
 
-}  // namespace detail
+/// Solver of unsymmetric sparse systems: Eigen's supernodal LU with column ordering.
+SCARP_EXPORT std::unique_ptr<LinearSolver> sparse_lu();
 
-/// Estimate of the condition number in the 1-norm, |A| |A^-1|, from a few solves: a lower bound, seldom below a third of the
-/// truth (Hager, SIAM J. Sci. Stat. Comput. 5, 1984; Higham, ACM TOMS 14, 1988). Infinite when a solve is not finite.
-template <LinearSolver Solver>
-double condition_estimate(SparseMatrix const& matrix, Solver const& solver) {
-  Eigen::Index const size = matrix.rows();
-  if (size == 0) return 1.0;
-  Eigen::VectorXd x = Eigen::VectorXd::Constant(size, 1.0 / static_cast<double>(size));
-  double inverse_norm = 0.0;
-  constexpr int most = 5;
-  for (int k = 0; k < most; ++k) {
-    Eigen::VectorXd const y = solver.solve(x);
-    if (!y.allFinite()) return std::numeric_limits<double>::infinity();
-    double const found = y.lpNorm<1>();
-    if (found <= inverse_norm) break;
-    inverse_norm = found;
-    Eigen::VectorXd const signs = y.unaryExpr([](double value) { return value < 0.0 ? -1.0 : 1.0; });
-    Eigen::VectorXd const z = solver.solve_transposed(signs);
-    if (!z.allFinite()) return std::numeric_limits<double>::infinity();
-    Eigen::Index steepest = 0;
-    if (z.cwiseAbs().maxCoeff(&steepest) <= z.dot(x)) break;
-    x = Eigen::VectorXd::Unit(size, steepest);
-  }
-  double norm = 0.0;
-  for (Eigen::Index column = 0; column < size; ++column) {
-    double sum = 0.0;
-    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) sum += std::abs(entry.value());
-    norm = std::max(norm, sum);
-  }
-  return norm * inverse_norm;
-}
-
-/// The unknown that a singular or nearly singular matrix holds least: largest entry of the vector that it maps nearest
-/// to nothing, by inverse iteration with a small shift; any unknown where the whole matrix is zero. -1 when that fails.
-template <LinearSolver Solver>
-int weakest_unknown(SparseMatrix const& matrix) {
-  Eigen::Index const size = matrix.rows();
-  if (size == 0 || !matrix.coeffs().allFinite()) return -1;
-  double const largest = matrix.nonZeros() > 0 ? matrix.coeffs().abs().maxCoeff() : 0.0;
-  double const shift = largest > 0.0 ? 1e-9 * largest : 1.0;
-  SparseMatrix unit(size, size);
-  unit.setIdentity();
-  Solver solver;
-  if (!solver.factorize(matrix + shift * unit).acceptable()) return -1;
-  Eigen::VectorXd mode(size);
-  for (Eigen::Index k = 0; k < size; ++k) mode(k) = 1.0 + 0.3 * std::sin(1.7 * static_cast<double>(k));
-  for (int k = 0; k < 3; ++k) {
-    mode = solver.solve(mode / mode.norm());
-    if (!mode.allFinite()) return -1;
-  }
-  Eigen::Index weakest = 0;
-  mode.cwiseAbs().maxCoeff(&weakest);
-  return static_cast<int>(weakest);
-}
+#ifdef SCARP_DEFINITIONS
+SCARP_DEFINITIONS std::unique_ptr<LinearSolver> sparse_lu() { return direct_solver<Eigen::SparseLU<SparseMatrix>>(); }
+#endif
 
 }  // namespace scarp

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -18,7 +17,7 @@
 #include "scarp/core/precompiled.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
-#include "scarp/solver/ground_stiffness.hpp"
+#include "scarp/solver/linear_system.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
@@ -87,13 +86,13 @@ class SCARP_EXPORT Problem {
     return forces;
   }
   /// Derivative of these forces [N/m] where they were requested last, shape (dof_count, dof_count).
-  Eigen::SparseMatrix<double> attached_stiffness() const {
+  SparseMatrix attached_stiffness() const {
     return assembled([&](auto& entries) {
       if (attached_) attached_->add_stiffness(entries);
     });
   }
   /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
-  Eigen::SparseMatrix<double> stick_stiffness() const {
+  SparseMatrix stick_stiffness() const {
     return assembled([&](auto& entries) {
       if (attached_) attached_->add_stick_stiffness(entries);
     });
@@ -185,7 +184,7 @@ class SCARP_EXPORT Problem {
     } else {
       grid_->stiffness(nodes, points_.stresses(), tangents, stiffness.own);
     }
-    stiffness.conservativeResize(dof_count(), dof_count());
+    stiffness.own.conservativeResize(dof_count(), dof_count());
   }
 
   /// Largest of all parts' residuals of unbalanced forces [N], without unit, see `residuals`.
@@ -247,10 +246,10 @@ class SCARP_EXPORT Problem {
 
  private:
   template <class Add>
-  Eigen::SparseMatrix<double> assembled(Add const& add) const {
+  SparseMatrix assembled(Add const& add) const {
     std::vector<Eigen::Triplet<double>> entries;
     add(entries);
-    Eigen::SparseMatrix<double> matrix(dof_count(), dof_count());
+    SparseMatrix matrix(dof_count(), dof_count());
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   }
@@ -290,7 +289,7 @@ class SCARP_EXPORT Problem {
 
   /// Forces [N] of the mesh's degrees of freedom by the means of strains: strains from displacements, and stresses times volume
   /// [N m] from means.
-  LinearMap forces_around(Eigen::SparseMatrix<double> strains, std::vector<VoigtTangent<Dim>> tangents) const {
+  LinearMap forces_around(SparseMatrix strains, std::vector<VoigtTangent<Dim>> tangents) const {
     return [this, strains = std::move(strains), tangents = std::move(tangents)](Eigen::VectorXd const& displacement) {
       Eigen::VectorXd values = strains * displacement.head(strains.cols());
       auto const of_point = [&](std::size_t k) {

@@ -8,18 +8,55 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/precompiled.hpp"
+#include "scarp/solver/linear_solver.hpp"
 #include "scarp/solver/linearised_step.hpp"
 #include "scarp/solver/problem.hpp"
-#include "scarp/solver/sparse_lu.hpp"
 #include "scarp/solver/step_report.hpp"
 #include "scarp/solver/tangent_rules.hpp"
 
 namespace scarp {
 
+template <class Rule, int Dim>
+class QuasiNewtonSession;
+
+/// Newton-type iteration for one load step: the tangent rule gives the points' tangents in each iteration. Every iteration
+/// moves the points along the straight path from their committed states to the iterate.
+template <class Rule = MaterialTangent>
+  requires TangentRule<Rule, 2> || ChoosesTangentRule<Rule, 2>
+struct QuasiNewton {
+  /// Force residual, see Problem::residuals; without one 1e-6 where all materials have exact tangents, else 5e-3.
+  std::optional<double> tolerance{};
+  int max_iterations = 30;         ///< of a load step; then it is given up
+  double divergence_limit = 10.0;  ///< residual beyond which a step is given up
+  int max_refinements = 8;         ///< of points that have not converged, in each iteration
+  /// A step's first guess is the motion of the step before, scaled by the load, and the correction of what that one left
+  /// unbalanced; after a rejected one it is linear.
+  bool repeats_motion = true;
+  int tangent_interval = 4;  ///< load steps that share one evaluation of the provider's tangents
+  Rule rule{};               ///< working tangent of each point
+  /// Makes the solver of linear systems, whose matrices are not symmetric in general.
+  LinearSolverFactory linear_solver = sparse_lu;
+
+  /// \throws InputError for a setting outside of its range
+  void validate() const {
+    if (tolerance) require_positive("tolerance of the force residual", *tolerance);
+    require_at_least("most iterations of a load step", max_iterations, 1);
+    require_at_least("residual beyond which a step is given up", divergence_limit, tolerance.value_or(5e-3));
+    require_at_least("most refinements of an iteration", max_refinements, 0);
+    require_at_least("load steps that share the provider's tangents", tangent_interval, 1);
+    if (!linear_solver) reject("the linear solver of an iteration is empty: give it sparse_lu or another one");
+    detail::validated(rule);
+  }
+
+  /// The iteration on one problem.
+  template <class Problem>
+  using Session = QuasiNewtonSession<Rule, Problem::dim>;
+};
+
 /// The iteration of a `QuasiNewton` on one problem: factorisation and what the points' tangents have learned. Its members are
 /// defined outside so that a library can contain them.
-/// \tparam Settings a `QuasiNewton`
-template <class Settings, int Dim>
+/// \tparam Rule of the `QuasiNewton`
+template <class Rule, int Dim>
 class SCARP_EXPORT QuasiNewtonSession {
  public:
   static constexpr int dim = Dim;       ///< of the problem
@@ -27,12 +64,12 @@ class SCARP_EXPORT QuasiNewtonSession {
 
   /// The problem must outlive the session.
   /// \throws InputError for a setting outside of its range
-  QuasiNewtonSession(Settings const& settings, Problem& problem)
+  QuasiNewtonSession(QuasiNewton<Rule> const& settings, Problem& problem)
       : settings_(detail::validated(settings)),
         problem_(problem),
         exact_(problem.have_exact_tangents()),
         tolerance_(settings.tolerance.value_or(exact_ ? 1e-6 : 5e-3)),
-        linearised_(problem, 0.1 * tolerance_) {}
+        linearised_(problem, 0.1 * tolerance_, settings.linear_solver) {}
 
   /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
   Verdict begin(double load);
@@ -55,8 +92,6 @@ class SCARP_EXPORT QuasiNewtonSession {
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Rule = typename Settings::RuleType;
-  using Linear = typename Settings::LinearType;
 
   /// How the free degrees of freedom moved in the last accepted load step.
   struct Motion {
@@ -82,11 +117,11 @@ class SCARP_EXPORT QuasiNewtonSession {
     }
   }
 
-  Settings settings_;
+  QuasiNewton<Rule> settings_;
   Problem& problem_;
   bool exact_;        ///< whether all tangents of materials are derivatives
   double tolerance_;  ///< of the residual
-  LinearisedStep<Dim, Linear> linearised_;
+  LinearisedStep<Dim> linearised_;
   Clock::time_point mark_{};              ///< end of the last response of the points in this step
   double tangent_seconds_ = 0.0;          ///< that no evaluation has counted yet
   std::vector<VoigtTangent<Dim>> first_;  ///< of the state that the session began with
@@ -101,8 +136,8 @@ class SCARP_EXPORT QuasiNewtonSession {
   double growth_ = 0.0;      ///< of the load factor in the last prediction
 };
 
-template <class Settings, int Dim>
-Verdict QuasiNewtonSession<Settings, Dim>::begin(double load) {
+template <class Rule, int Dim>
+Verdict QuasiNewtonSession<Rule, Dim>::begin(double load) {
   problem_.set_load(load);
   if (steps_of_provider_ == 0) provider_ = timed_tangents(false);
   if (first_.empty()) first_ = provider_;
@@ -122,8 +157,8 @@ Verdict QuasiNewtonSession<Settings, Dim>::begin(double load) {
   return verdict;
 }
 
-template <class Settings, int Dim>
-Eigen::VectorXd QuasiNewtonSession<Settings, Dim>::predict(double from, double to) {
+template <class Rule, int Dim>
+Eigen::VectorXd QuasiNewtonSession<Rule, Dim>::predict(double from, double to) {
   growth_ = to - from;
   problem_.set_load(to);
   Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
@@ -137,9 +172,8 @@ Eigen::VectorXd QuasiNewtonSession<Settings, Dim>::predict(double from, double t
   return increment;
 }
 
-template <class Settings, int Dim>
-void QuasiNewtonSession<Settings, Dim>::correct(Eigen::VectorXd& increment, StepReport& report,
-                                                StopCondition const& stop) {
+template <class Rule, int Dim>
+void QuasiNewtonSession<Rule, Dim>::correct(Eigen::VectorXd& increment, StepReport& report, StopCondition const& stop) {
   iterate(increment, report, stop);
   // What led to a rejected step is not repeated; one that was interrupted counts as never made.
   if (report.verdict.acceptable() || report.interrupted()) return;
@@ -147,9 +181,8 @@ void QuasiNewtonSession<Settings, Dim>::correct(Eigen::VectorXd& increment, Step
   steps_of_provider_ = 0;
 }
 
-template <class Settings, int Dim>
-void QuasiNewtonSession<Settings, Dim>::iterate(Eigen::VectorXd& increment, StepReport& report,
-                                                StopCondition const& stop) {
+template <class Rule, int Dim>
+void QuasiNewtonSession<Rule, Dim>::iterate(Eigen::VectorXd& increment, StepReport& report, StopCondition const& stop) {
   report.verdict = problem_.plan(increment, &report.worst_point);
   if (!report.verdict.acceptable()) return;
   report.max_displacement_gradient = problem_.max_displacement_gradient();
@@ -181,17 +214,17 @@ void QuasiNewtonSession<Settings, Dim>::iterate(Eigen::VectorXd& increment, Step
     report.verdict = linearised_.linearise(increment, evaluation.unbalanced, working_);
     if (report.verdict.acceptable()) report.verdict = linearised_.solve(next, no_more);
     if (!report.verdict.acceptable()) {
-      if (report.verdict.reason == Reason::singular_system) report.weak_dof = linearised_.weak_dof();
+      if (report.verdict.reason == Reason::singular_system) report.weak_dof = linearised_.system().weakest_dof();
       return;
     }
-    linear_residual = linearised_.linear_residual();
+    linear_residual = linearised_.system().residual();
     Eigen::VectorXd const correction = next - increment;
     increment += correction;
   }
 }
 
-template <class Settings, int Dim>
-void QuasiNewtonSession<Settings, Dim>::accept(Eigen::VectorXd const& increment) {
+template <class Rule, int Dim>
+void QuasiNewtonSession<Rule, Dim>::accept(Eigen::VectorXd const& increment) {
   problem_.commit(increment);
   learned_ = working_;
   steps_of_provider_ = (steps_of_provider_ + 1) % settings_.tangent_interval;
@@ -201,9 +234,8 @@ void QuasiNewtonSession<Settings, Dim>::accept(Eigen::VectorXd const& increment)
 }
 
 /// Evaluates all points and adds the cost to the report.
-template <class Settings, int Dim>
-Evaluation QuasiNewtonSession<Settings, Dim>::recorded(StepReport& report, Eigen::VectorXd const& increment,
-                                                       bool refine) {
+template <class Rule, int Dim>
+Evaluation QuasiNewtonSession<Rule, Dim>::recorded(StepReport& report, Eigen::VectorXd const& increment, bool refine) {
   auto const started = Clock::now();
   Evaluation evaluation = refine ? problem_.refine(increment) : problem_.evaluate(increment);
   auto& record = report.history.back();
@@ -223,16 +255,16 @@ Evaluation QuasiNewtonSession<Settings, Dim>::recorded(StepReport& report, Eigen
 }
 
 /// The points' tangents; their time belongs to the evaluation that follows.
-template <class Settings, int Dim>
-std::vector<VoigtTangent<Dim>> QuasiNewtonSession<Settings, Dim>::timed_tangents(bool of_trial_states) {
+template <class Rule, int Dim>
+std::vector<VoigtTangent<Dim>> QuasiNewtonSession<Rule, Dim>::timed_tangents(bool of_trial_states) {
   auto const started = Clock::now();
   auto tangents = of_trial_states ? problem_.trial_tangents() : problem_.committed_tangents();
   tangent_seconds_ += std::chrono::duration<double>(Clock::now() - started).count();
   return tangents;
 }
 
-template <class Settings, int Dim>
-void QuasiNewtonSession<Settings, Dim>::learn() {
+template <class Rule, int Dim>
+void QuasiNewtonSession<Rule, Dim>::learn() {
   with_rule([&]<class RuleType>(RuleType const& rule) {
     if constexpr (FollowsTrialTangent<RuleType, dim>) {
       auto const trial = timed_tangents(true);
@@ -244,9 +276,9 @@ void QuasiNewtonSession<Settings, Dim>::learn() {
   });
 }
 
-template <class Settings, int Dim>
+template <class Rule, int Dim>
 template <class RuleType>
-void QuasiNewtonSession<Settings, Dim>::learn_from_responses(RuleType const& rule) {
+void QuasiNewtonSession<Rule, Dim>::learn_from_responses(RuleType const& rule) {
   for (std::size_t k = 0; k < working_.size(); ++k) {
     Gradient<dim> const& gradient = problem_.gradients()[k];
     VoigtStress<dim> const& stress = problem_.responses()[k].stress;
@@ -260,46 +292,9 @@ void QuasiNewtonSession<Settings, Dim>::learn_from_responses(RuleType const& rul
   }
 }
 
-/// Newton-type iteration for one load step: the tangent rule gives the points' tangents in each iteration. Every iteration
-/// moves the points along the straight path from their committed states to the iterate.
-template <class Rule = MaterialTangent, LinearSolver Linear = SparseLu>
-  requires TangentRule<Rule, 2> || ChoosesTangentRule<Rule, 2>
-struct QuasiNewton {
-  /// Force residual, see Problem::residuals; without one 1e-6 where all materials have exact tangents, else 5e-3.
-  std::optional<double> tolerance{};
-  int max_iterations = 30;         ///< of a load step; then it is given up
-  double divergence_limit = 10.0;  ///< residual beyond which a step is given up
-  int max_refinements = 8;         ///< of points that have not converged, in each iteration
-  /// A step's first guess is the motion of the step before, scaled by the load, and the correction of what that one left
-  /// unbalanced; after a rejected one it is linear.
-  bool repeats_motion = true;
-  int tangent_interval = 4;  ///< load steps that share one evaluation of the provider's tangents
-  Rule rule{};               ///< working tangent of each point
-
-  /// \throws InputError for a setting outside of its range
-  void validate() const {
-    if (tolerance) require_positive("tolerance of the force residual", *tolerance);
-    require_at_least("most iterations of a load step", max_iterations, 1);
-    require_at_least("residual beyond which a step is given up", divergence_limit, tolerance.value_or(5e-3));
-    require_at_least("most refinements of an iteration", max_refinements, 0);
-    require_at_least("load steps that share the provider's tangents", tangent_interval, 1);
-    detail::validated(rule);
-  }
-
-  using RuleType = Rule;      ///< for sessions
-  using LinearType = Linear;  ///< for sessions
-
-  /// The iteration on one problem.
-  template <class Problem>
-  using Session = QuasiNewtonSession<QuasiNewton, Problem::dim>;
-};
-
 #ifdef SCARP_PRECOMPILED
-/// DECLARE: `extern template`, or `template` in the library.
-#define SCARP_SESSIONS(DECLARE)                       \
-  DECLARE class QuasiNewtonSession<QuasiNewton<>, 2>; \
-  DECLARE class QuasiNewtonSession<QuasiNewton<>, 3>;
-SCARP_SESSIONS(extern template)
+extern template class QuasiNewtonSession<MaterialTangent, 2>;
+extern template class QuasiNewtonSession<MaterialTangent, 3>;
 #endif
 
 }  // namespace scarp

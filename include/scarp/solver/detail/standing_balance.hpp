@@ -2,14 +2,11 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <Eigen/SparseCore>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
-#include "scarp/solver/free_system.hpp"
 #include "scarp/solver/problem.hpp"
 
 namespace scarp::detail {
@@ -63,11 +60,12 @@ class StandingBalance {
   using Problem = scarp::Problem<Dim>;
 
  public:
-  explicit StandingBalance(Problem& problem)
-      : problem_(problem), length_(problem.length()), own_(dofs_beside(problem), problem.dof_count()) {}
+  explicit StandingBalance(Problem& problem) : problem_(problem), length_(problem.length()), own_(problem.free_dofs()) {
+    std::erase_if(own_, [&](int dof) { return dof < problem.first_beside(); });
+  }
 
   /// Whether the contacts of the last evaluation support the body in every direction.
-  bool is_held() const { return own_.free_count() == 0 || factors(problem_.attached_stiffness()).isInvertible(); }
+  bool is_held() const { return own_.empty() || factors(problem_.attached_stiffness()).isInvertible(); }
 
   /// Begins the count of evaluations of the attachment, which are limited: a body that slides without friction, or on springs so
   /// stiff that round-off hides its imbalance, could be evaluated without end.
@@ -78,10 +76,10 @@ class StandingBalance {
   /// The attachment's trial state then belongs to the increment.
   /// \return whether they balance, to `accuracy` of the loads of attached bodies
   bool settle(Eigen::VectorXd& increment, Eigen::VectorXd const& loads, double accuracy) {
-    if (own_.free_count() == 0) return true;
-    loads_ = own_.gather(loads);
+    if (own_.empty()) return true;
+    loads_ = loads(own_);
     double const enough = accuracy * loads_.norm();
-    Eigen::VectorXd place = own_.gather(increment);
+    Eigen::VectorXd place = increment(own_);
     Eigen::VectorXd unbalanced = at(place, increment);
     for (int iteration = 0; iteration < max_iterations && !spent(); ++iteration) {
       if (unbalanced.norm() <= better * enough) break;
@@ -92,12 +90,6 @@ class StandingBalance {
   }
 
  private:
-  static std::vector<int> dofs_beside(Problem const& problem) {
-    auto dofs = problem.constraints().free_dofs();
-    std::erase_if(dofs, [&](int dof) { return dof < problem.first_beside(); });
-    return dofs;
-  }
-
   static constexpr int max_iterations = 100;
   static constexpr int max_evaluations = 3000;
   static constexpr double better = 1e-3;  ///< of the required accuracy, where Newton's method comes that far
@@ -144,18 +136,21 @@ class StandingBalance {
   /// Unbalanced forces [N] with the body at a place.
   Eigen::VectorXd at(Eigen::VectorXd const& place, Eigen::VectorXd& increment) {
     ++evaluations_;
-    own_.scatter(place, increment);
-    return own_.gather(problem_.attached_forces(increment)) - loads_;
+    increment(own_) = place;
+    return problem_.attached_forces(increment)(own_) - loads_;
   }
 
   /// Of a stiffness' part of attached bodies.
-  Eigen::FullPivLU<Eigen::MatrixXd> factors(Eigen::SparseMatrix<double> const& all) const {
-    return Eigen::FullPivLU<Eigen::MatrixXd>(Eigen::MatrixXd(own_.matrix(all)));
+  Eigen::FullPivLU<Eigen::MatrixXd> factors(SparseMatrix const& all) const {
+    Eigen::MatrixXd part(own_.size(), own_.size());
+    for (int column = 0; column < count(own_); ++column)
+      for (int row = 0; row < count(own_); ++row) part(row, column) = all.coeff(own_[index(row)], own_[index(column)]);
+    return Eigen::FullPivLU<Eigen::MatrixXd>(part);
   }
 
   Problem& problem_;
-  double length_;   ///< of the body [m]
-  FreeSystem own_;  ///< of attached bodies
+  double length_;         ///< of the body [m]
+  std::vector<int> own_;  ///< free degrees of freedom of attached bodies
   Eigen::VectorXd loads_;
   int evaluations_ = 0;
 };

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "scarp/solver/detail/standing_balance.hpp"
+#include "scarp/solver/linear_system.hpp"
+#include "scarp/solver/problem.hpp"
+
+namespace scarp::detail {
+
+/// Forces of a ground that was linearised about an increment.
+struct LinearisedGround {
+  GroundStiffness stiffness;
+  Eigen::VectorXd centre;  ///< that increment [m]
+  Eigen::VectorXd forces;  ///< internal forces of the elements less the loads, at the centre [N]
+
+  /// Unbalanced forces [N] when the loads have grown by `more` [N].
+  Eigen::VectorXd unbalanced(Eigen::VectorXd const& increment, Eigen::VectorXd const& more) const {
+    return forces + stiffness * (increment - centre) - more;
+  }
+};
+
+/// Balances a linearised ground with what is attached to it: contact that opens, closes or slides is followed where no material
+/// point is evaluated.
+template <int Dim>
+class ContactFollowing {
+ public:
+  /// accuracy: residual below which the attachment's forces need no further correction
+  ContactFollowing(Problem<Dim>& problem, LinearSystem& system, double accuracy)
+      : problem_(problem), system_(system), accuracy_(accuracy), body_(problem) {}
+
+  /// Whether the contacts of the last evaluation support the body in every direction.
+  bool is_held() const { return body_.is_held(); }
+
+  /// The ground's stiffness with that of the attachment where it was evaluated last.
+  Verdict factorize(LinearisedGround const& ground) { return factorize(ground, problem_.attached_stiffness()); }
+
+  /// Newton's method; attached bodies are balanced at every place that is tried. Where Newton's direction
+  /// leads to no smaller imbalance, that of held contacts is followed as far as the unbalanced forces do work.
+  /// \param increment [m], kept at its prescribed entries
+  /// \param more [N] by which the loads have grown since the linearisation
+  Verdict follow(LinearisedGround const& ground, Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());
+    body_.begin();
+    Balance now = balance({increment, still, ground.unbalanced(increment, more), still}, 0.0);
+    double const goal = std::max(accuracy_, 1e-3 * now.residual);
+    Balance best = now;
+    int fruitless = 0;
+    for (int iteration = 0; iteration < max_iterations; ++iteration) {
+      // Once in any case: a small residual may be that of boundary nodes which have moved alone.
+      if (iteration > 0 && (now.residual <= goal || body_.spent())) break;
+      Way way;
+      Balance next;
+      bool const downhill =
+          factorize(ground).acceptable() && lay(way, ground, now, more).acceptable() && go_downhill(way, now, next);
+      if (!downhill) {  // also where the matrix is singular, since nothing but sliding points holds a body
+        Verdict verdict = factorize(ground, problem_.stick_stiffness());
+        if (verdict.acceptable()) verdict = lay(way, ground, now, more);
+        if (!verdict.acceptable()) return verdict;
+        if (!go_by_work(way, next)) break;
+      }
+      now = std::move(next);
+      fruitless = now.residual < best.residual ? 0 : fruitless + 1;
+      if (fruitless == 0) best = now;
+      if (fruitless == max_fruitless) break;
+    }
+    increment = best.increment;
+    problem_.attached_forces(increment);
+    return {};
+  }
+
+ private:
+  static constexpr int max_iterations = 40;
+  static constexpr int max_fruitless = 4;          ///< iterations in a row without a better balance
+  static constexpr double min_share = 0.1;         ///< of Newton's correction
+  static constexpr double longest_share = 1024.0;  ///< of one with all contacts held
+
+  struct Balance {
+    Eigen::VectorXd increment;
+    Eigen::VectorXd unbalanced;
+    double residual = 0.0;
+    double beside = 0.0;  ///< residual of an attached body; 1 when nothing carries it
+
+    /// A body that has lost its contacts finds no way back by derivatives.
+    bool lost() const { return !(beside < 1.0); }
+    bool improves(Balance const& other) const {
+      return residual < other.residual && (!lost() || beside < other.beside);
+    }
+  };
+
+  /// A straight way through increments, and the ground's forces along it.
+  struct Way {
+    Eigen::VectorXd start;
+    Eigen::VectorXd direction;
+    Eigen::VectorXd ground_at_start;
+    Eigen::VectorXd ground_along;
+  };
+
+  Verdict factorize(LinearisedGround const& ground, SparseMatrix const& attached) {
+    auto const& [own, around, iterate] = ground.stiffness;
+    return system_.factorize({own + attached, around, iterate});
+  }
+
+  /// A way from a balance along the correction of the last matrix.
+  Verdict lay(Way& way, LinearisedGround const& ground, Balance const& from, Eigen::VectorXd const& more) {
+    Eigen::VectorXd whole = from.increment;
+    if (Verdict const verdict = system_.correct(whole, from.unbalanced); !verdict.acceptable()) return verdict;
+    way = {from.increment, whole - from.increment, ground.unbalanced(from.increment, more), {}};
+    way.ground_along = ground.stiffness * way.direction;
+    return {};
+  }
+
+  /// Halves the way until the balance improves, or doubles it as long as it does.
+  bool go_downhill(Way const& way, Balance const& now, Balance& best) {
+    double share = 1.0;
+    best = balance(way, share);
+    while (!best.improves(now) && share > min_share) best = balance(way, share *= 0.5);
+    if (!best.improves(now)) {
+      problem_.attached_forces(now.increment);
+      return false;
+    }
+    if (share == 1.0) {
+      for (Balance further = balance(way, 2.0); further.improves(best); further = balance(way, 2.0 * share)) {
+        best = std::move(further);
+        share *= 2.0;
+      }
+    }
+    problem_.attached_forces(best.increment);
+    return true;
+  }
+
+  bool go_by_work(Way const& way, Balance& next) {
+    Eigen::VectorXd const free = system_.gather(way.direction);
+    auto const work = [&](double share) { return system_.gather(balance(way, share).unbalanced).dot(free); };
+    auto const share = zero_power_step(work, longest_share);
+    if (!share) return false;
+    next = balance(way, *share);
+    return true;
+  }
+
+  /// The attachment's trial state then belongs to the increment.
+  Balance balance(Way const& way, double share) {
+    Balance now;
+    now.increment = way.start + share * way.direction;
+    Eigen::VectorXd const of_ground = way.ground_at_start + share * way.ground_along;
+    body_.settle(now.increment, -of_ground, 0.1 * accuracy_);
+    now.unbalanced = of_ground + problem_.attached_forces(now.increment);
+    now.residual = problem_.residual(now.unbalanced);
+    now.beside = problem_.residual_beside(now.unbalanced);
+    return now;
+  }
+
+  Problem<Dim>& problem_;
+  LinearSystem& system_;
+  double accuracy_;
+  StandingBalance<Dim> body_;
+};
+
+}  // namespace scarp::detail
