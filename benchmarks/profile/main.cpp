@@ -81,7 +81,7 @@ void add_parts_of_an_iteration(Problem& problem, Table& table) {
   auto gradients = problem.own_gradients();
   auto const* means = problem.points().means();
   if (means) add("means of all gradients", [&] { means->means(gradients, problem.executor()); });
-  add("sum of forces", [&] { problem.evaluate_committed(); });
+  add("sum of forces", [&] { static_cast<void>(problem.evaluate_committed()); });
   add("tangents of all points", [&] { problem.committed_tangents(); });
 }
 

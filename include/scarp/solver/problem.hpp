@@ -16,6 +16,7 @@
 #include "scarp/core/executor.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/solver/detail/ground_stiffness.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/linear_system.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -39,8 +40,7 @@ class SCARP_EXPORT Problem {
         executor_(executor),
         constraints_(std::move(constraints)),
         loads_(std::move(loads)),
-        free_dofs_(constraints_.free_dofs()),
-        prescribed_dofs_(constraints_.prescribed_dofs()),
+        whole_{constraints_.free_dofs(), constraints_.prescribed_dofs()},
         regions_(*grid_, constraints_) {
     if (points_.size() != grid_->point_count()) {
       reject("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
@@ -86,26 +86,19 @@ class SCARP_EXPORT Problem {
     return forces;
   }
   /// Derivative of these forces [N/m] where they were requested last, shape (dof_count, dof_count).
-  SparseMatrix attached_stiffness() const {
-    return assembled([&](auto& entries) {
-      if (attached_) attached_->add_stiffness(entries);
-    });
-  }
+  SparseMatrix attached_stiffness() const { return assembled(&detail::AttachedPart<Dim>::add_stiffness); }
   /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
-  SparseMatrix stick_stiffness() const {
-    return assembled([&](auto& entries) {
-      if (attached_) attached_->add_stick_stiffness(entries);
-    });
-  }
+  SparseMatrix stick_stiffness() const { return assembled(&detail::AttachedPart<Dim>::add_stick_stiffness); }
 
   void set_load(double load) { load_now_ = loads_.at(load); }    ///< Forces are measured against its loads.
   Grid<Dim> const& grid() const { return *grid_; }               ///< Mesh and elements, committed.
   MaterialPoints<Dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
   MaterialPoints<Dim>& points() { return points_; }  ///< For callers that exchange states between load steps.
-  Constraints const& constraints() const { return constraints_; }   ///< Prescribed displacements [m].
-  std::vector<int> const& free_dofs() const { return free_dofs_; }  ///< Without a prescribed displacement, increasing.
-  LoadHistory const& loads() const { return loads_; }               ///< Forces [N] by load factor.
-  Executor const& executor() const { return executor_; }            ///< Runs the points' tasks; outlives the problem.
+  Constraints const& constraints() const { return constraints_; }  ///< Prescribed displacements [m].
+  /// Without a prescribed displacement, increasing.
+  std::vector<int> const& free_dofs() const { return whole_.free_dofs; }
+  LoadHistory const& loads() const { return loads_; }     ///< Forces [N] by load factor.
+  Executor const& executor() const { return executor_; }  ///< Runs the points' tasks; outlives the problem.
   /// Displacement gradients that the points saw in the last evaluation.
   std::vector<Gradient<Dim>> const& gradients() const { return points_.gradients(); }
   /// Stress [Pa], tension positive, and verdict of each point in the last evaluation.
@@ -163,7 +156,7 @@ class SCARP_EXPORT Problem {
     forget();
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
-    largest_scale_ = std::max(largest_scale_, scale(evaluation.unbalanced));
+    whole_.largest_scale = std::max(whole_.largest_scale, whole_.scale(evaluation.unbalanced, load_now_));
     return evaluation;
   }
 
@@ -171,26 +164,14 @@ class SCARP_EXPORT Problem {
   /// refers to this problem.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<Dim>> const& tangents,
                         GroundStiffness& stiffness) const {
-    auto const& nodes = of_nodes(increment);
-    stiffness.around = nullptr;
-    if (auto const* means = points_.means()) {
-      auto parts = means->split(tangents);
-      grid_->stiffness(nodes, points_.stresses(), parts.by_own, stiffness.own);
-      auto const volumes = grid_->volumes(nodes);
-      for (std::size_t k = 0; k < volumes.size(); ++k) parts.by_mean[k] *= volumes[k];
-      stiffness.around =
-          std::make_shared<LinearMap const>(forces_around(grid_->strain_operator(nodes), std::move(parts.by_mean)));
-      stiffness.iterate = means->iterate();
-    } else {
-      grid_->stiffness(nodes, points_.stresses(), tangents, stiffness.own);
-    }
+    detail::ground_stiffness(*grid_, points_, executor_, of_nodes(increment), tangents, stiffness);
     stiffness.own.conservativeResize(dof_count(), dof_count());
   }
 
   /// Largest of all parts' residuals of unbalanced forces [N], without unit, see `residuals`.
   double residual(Eigen::VectorXd const& unbalanced) const {
     return std::max(
-        {residual_of_all(unbalanced), regions_.largest(unbalanced, load_now_), residual_beside(unbalanced)});
+        {whole_.residual(unbalanced, load_now_), regions_.largest(unbalanced, load_now_), residual_beside(unbalanced)});
   }
 
   /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads|
@@ -198,7 +179,7 @@ class SCARP_EXPORT Problem {
   /// a committed state had, since an unloaded body has none. Then follows each region of the mesh that is held nowhere,
   /// by its name, unless it is the only one, as a rigid body, and "attached", each over its own loads (0 without them).
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
-    std::vector<PartResidual> parts{{"all", residual_of_all(unbalanced)}};
+    std::vector<PartResidual> parts{{"all", whole_.residual(unbalanced, load_now_)}};
     regions_.list(unbalanced, load_now_, parts);
     if (attached_) parts.push_back({"attached", residual_beside(unbalanced)});
     return parts;
@@ -206,7 +187,7 @@ class SCARP_EXPORT Problem {
 
   /// Imbalance of an attached body over its own loads, since reactions of the ground would hide it; 0 without loads.
   double residual_beside(Eigen::VectorXd const& unbalanced) const {
-    return detail::residual_beside(unbalanced, load_now_, free_dofs_, grid_->dof_count());
+    return detail::residual_beside(unbalanced, load_now_, whole_.free_dofs, grid_->dof_count());
   }
 
   /// Whether all materials' tangents are the derivatives of their responses.
@@ -237,7 +218,7 @@ class SCARP_EXPORT Problem {
   static void members(Self& self, Visit&& visit) {
     visit("discretisation", *self.grid_);
     visit("materials", self.points_);
-    visit("largest_scale", self.largest_scale_);
+    visit("largest_scale", self.whole_.largest_scale);
     if (!self.attached_) return;
     if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateWriter>) self.attached_->write(visit);
     if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateReader>) self.attached_->read(visit);
@@ -245,10 +226,10 @@ class SCARP_EXPORT Problem {
   void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
 
  private:
-  template <class Add>
-  SparseMatrix assembled(Add const& add) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    add(entries);
+  using Entries = std::vector<Eigen::Triplet<double>>;
+  SparseMatrix assembled(void (detail::AttachedPart<Dim>::*add)(Entries&) const) const {
+    Entries entries;
+    if (attached_) (*attached_.*add)(entries);
     SparseMatrix matrix(dof_count(), dof_count());
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
@@ -259,16 +240,6 @@ class SCARP_EXPORT Problem {
     reject("the increment to be {} is not the one that was evaluated last: evaluate it first, and commit it once",
            what);
   }
-  double residual_of_all(Eigen::VectorXd const& unbalanced) const {
-    constexpr double least = 1e-3 * 1e-3;  // of the largest scale, squared
-    double const free = detail::squared_over(free_dofs_, unbalanced);
-    return free == 0.0 ? 0.0 : std::sqrt(free / std::max(scale(unbalanced), least * largest_scale_));
-  }
-  /// Of "all", squared [N2]. Reactions alone may be round-off: those of a body that is pressed from all sides.
-  double scale(Eigen::VectorXd const& unbalanced) const {
-    return std::max({detail::squared_over(prescribed_dofs_, unbalanced), load_now_.squaredNorm(), carried_});
-  }
-
   Eigen::VectorXd of_nodes(Eigen::VectorXd const& increment) const { return increment.head(grid_->dof_count()); }
 
   /// Shows the points an increment, unless it is not finite or turns an element inside out.
@@ -287,32 +258,16 @@ class SCARP_EXPORT Problem {
     return {};
   }
 
-  /// Forces [N] of the mesh's degrees of freedom by the means of strains: strains from displacements, and stresses times volume
-  /// [N m] from means.
-  LinearMap forces_around(SparseMatrix strains, std::vector<VoigtTangent<Dim>> tangents) const {
-    return [this, strains = std::move(strains), tangents = std::move(tangents)](Eigen::VectorXd const& displacement) {
-      Eigen::VectorXd values = strains * displacement.head(strains.cols());
-      auto const of_point = [&](std::size_t k) {
-        constexpr int size = voigt_size<Dim>;
-        return values.segment<size>(static_cast<Eigen::Index>(size * k));
-      };
-      std::vector<EngineeringStrain<Dim>> means(tangents.size());
-      for (std::size_t k = 0; k < tangents.size(); ++k) means[k] = of_point(k);
-      means = points_.means()->means(means, executor_);
-      for (std::size_t k = 0; k < tangents.size(); ++k) of_point(k) = tangents[k] * means[k];
-      return Eigen::VectorXd(strains.transpose() * values);
-    };
-  }
-
   void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) {
     grid_->internal_force(of_nodes(increment), points_.stresses(), evaluation.unbalanced);
     evaluation.unbalanced.conservativeResizeLike(Eigen::VectorXd::Zero(dof_count()));
-    carried_ = detail::squared_over(free_dofs_, evaluation.unbalanced);
+    whole_.carried = 0.0;
+    whole_.carry(evaluation.unbalanced);
     Eigen::VectorXd const of_elements = evaluation.unbalanced;
     Verdict const verdict =
         attached_ ? attached_->add_forces(grid_->positions(), increment, evaluation.unbalanced) : Verdict{};
     if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
-    carried_ = std::max(carried_, detail::squared_over(free_dofs_, evaluation.unbalanced - of_elements));
+    whole_.carry(evaluation.unbalanced - of_elements);
     evaluation.unbalanced -= load_now_;
     evaluation.residual = residual(evaluation.unbalanced);
     if (attached_ || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
@@ -328,11 +283,9 @@ class SCARP_EXPORT Problem {
   Constraints constraints_;
   LoadHistory loads_;
   Eigen::VectorXd load_now_;
-  Eigen::VectorXd seen_;        ///< increment whose gradients the points have; empty after a commit
-  Eigen::VectorXd evaluated_;   ///< increment that the points' trial states belong to; empty after a commit
-  double carried_ = 0.0;        ///< at free degrees of freedom in the last evaluation, squared [N2]
-  double largest_scale_ = 0.0;  ///< of the committed states that were evaluated, squared [N2]
-  std::vector<int> free_dofs_, prescribed_dofs_;
+  Eigen::VectorXd seen_;       ///< increment whose gradients the points have; empty after a commit
+  Eigen::VectorXd evaluated_;  ///< increment that the points' trial states belong to; empty after a commit
+  detail::WholeResidual whole_;
   detail::RegionResiduals<Dim> regions_;
 };
 

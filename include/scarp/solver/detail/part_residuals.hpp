@@ -22,6 +22,27 @@ inline double squared_over(std::vector<int> const& dofs, Eigen::VectorXd const& 
   return sum;
 }
 
+/// Imbalance of a problem as a whole, see Problem::residuals.
+struct WholeResidual {
+  std::vector<int> free_dofs;
+  std::vector<int> prescribed_dofs;
+  double carried = 0.0;        ///< at free degrees of freedom in the last evaluation, squared [N2]
+  double largest_scale = 0.0;  ///< of the committed states that were evaluated, squared [N2]
+
+  /// Takes forces [N] of a part, such as the elements, into account.
+  void carry(Eigen::VectorXd const& forces) { carried = std::max(carried, squared_over(free_dofs, forces)); }
+
+  double residual(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
+    constexpr double least = 1e-3 * 1e-3;  // of the largest scale, squared
+    double const free = squared_over(free_dofs, unbalanced);
+    return free == 0.0 ? 0.0 : std::sqrt(free / std::max(scale(unbalanced, loads), least * largest_scale));
+  }
+  /// What residuals are relative to, squared [N2]. Reactions alone may be round-off: those of a body that is pressed from all sides.
+  double scale(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
+    return std::max({squared_over(prescribed_dofs, unbalanced), loads.squaredNorm(), carried});
+  }
+};
+
 /// |unbalanced| over |loads| of free degrees of freedom from the first one of attached bodies on; 0 without such loads.
 inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads,
                               std::vector<int> const& free_dofs, int first) {
