@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../../examples/shared/elastic_solve.hpp"
+#include "../../examples/shared/field_error.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "scarp/bvp/field_error.hpp"
-#include "scarp/bvp/loads.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri6.hpp"
 #include "scarp/mesh/box_mesh.hpp"
@@ -71,8 +70,8 @@ Measured settle(ColumnSettings const& settings) {
   for (auto const* side : {"left", "right"})
     for (int const node : boundary_nodes(mesh, side)) constraints.fix(node, 0);
   Eigen::VectorXd const still = Eigen::VectorXd::Zero(grid.dof_count());
-  auto const loads =
-      varying_body_force(grid, [](scarp::Vector<2> const& x) { return scarp::Vector<2>(0.0, -Column::weight(x.y())); });
+  auto const loads = examples::varying_body_force(
+      grid, [](scarp::Vector<2> const& x) { return scarp::Vector<2>(0.0, -Column::weight(x.y())); });
   auto const found = examples::elastic_solve(grid, column.solid, constraints, still, loads);
 
   auto const exact = [&](scarp::Vector<2> const& x) { return scarp::Vector<2>(0.0, -column.settlement(x.y())); };
@@ -81,8 +80,8 @@ Measured settle(ColumnSettings const& settings) {
     gradient(1, 1) = Column::stress(x.y()) / column.modulus();
     return gradient;
   };
-  auto const error = field_error(mesh, found, exact, exact_gradient);
-  auto const size = field_error(mesh, still, exact, exact_gradient);
+  auto const error = examples::field_error(mesh, found, exact, exact_gradient);
+  auto const size = examples::field_error(mesh, still, exact, exact_gradient);
   std::vector<scarp::VoigtTangent<2>> const tangents(static_cast<std::size_t>(grid.point_count()),
                                                      column.solid.tangent({}));
   std::vector<scarp::VoigtStress<2>> const unstressed(tangents.size(), scarp::VoigtStress<2>::Zero());

@@ -44,7 +44,7 @@ Outcome crossed(double poisson) {
     for (int const node : boundary_nodes(mesh, "left")) constraints.fix(node);
     Eigen::VectorXd const moved =
         examples::elastic_solve(grid, Soil::from_young_poisson(1.0, poisson), constraints,
-                                Eigen::VectorXd::Zero(grid.dof_count()), traction(grid, "right", Vector<2>(0.0, 1e-3)));
+                                Eigen::VectorXd::Zero(grid.dof_count()), grid.traction("right", Vector<2>(0.0, 1e-3)));
     double sum = 0.0;
     for (int const node : boundary_nodes(mesh, "right")) sum += moved(2 * node + 1);
     return sum / static_cast<double>(boundary_nodes(mesh, "right").size());

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "scarp/bvp/discretisation.hpp"
-#include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/element/tri3.hpp"
@@ -51,7 +50,7 @@ struct Block {
     }
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
     if (top == Top::loaded) {
-      loads.add(traction(grid, "top", scarp::Vector<2>(0.0, -1.0)), {});
+      loads.add(grid.traction("top", scarp::Vector<2>(0.0, -1.0)), {});
     } else {
       for (int const node : boundary_nodes(grid.mesh(), "top")) {
         if (base_held) constraints.fix(node, 0);

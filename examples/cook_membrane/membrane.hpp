@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "../shared/elastic_solve.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 
 namespace cook_membrane {
@@ -43,7 +43,7 @@ Outcome solve(int cells, Panel const& panel = {}) {
     constraints.fix(node);
   }
   auto const solid = scarp::LinearElastic<2>::from_young_poisson(panel.young, panel.poisson);
-  auto const load = traction(grid, "right", scarp::Vector<2>(0.0, panel.force / 16.0));
+  auto const load = grid.traction("right", scarp::Vector<2>(0.0, panel.force / 16.0));
   auto const moved = examples::elastic_solve(grid, solid, constraints, Eigen::VectorXd::Zero(grid.dof_count()), load);
   std::chrono::duration<double> const took = std::chrono::steady_clock::now() - start;
   int const corner = (cells + 1) * (cells + 1) - 1;  // corners come before the nodes on edges

@@ -3,7 +3,7 @@
 
 #include "../shared/convergence_table.hpp"
 #include "../shared/plane_strain.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 
 namespace earth_pressure {
 
@@ -76,7 +76,7 @@ examples::Outcome load_cut(VerticalCut const& cut, int refinements) {
   }
   scarp::Vector<2> const weight(0.0, -cut.cohesion);
   scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
-  loads.add(body_force(grid, [&](int) { return weight; }), {});
+  loads.add(grid.body_force([&](int) { return weight; }), {});
   auto problem = examples::plane_problem(std::move(grid), clay, 1.0, constraints, loads);
   examples::Newton const newton{.tolerance = 1e-7, .max_iterations = 15, .rule = {.exact = {.floor = 1e-7}}};
   scarp::LoadStepping const stepping{.first = 1.0, .smallest = 2e-3, .largest = 0.4, .max_displacement_gradient = 1.0};

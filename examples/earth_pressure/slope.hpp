@@ -3,7 +3,7 @@
 
 #include "../shared/convergence_table.hpp"
 #include "../shared/plane_strain.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "tied_pairs.hpp"
 
 namespace earth_pressure {
@@ -41,8 +41,8 @@ examples::Outcome tilt(EndlessSlope const& slope, int cells) {
   TiedPairs const ties(opposite_nodes(mesh), 1e4 * slope.young);
   scarp::Vector<2> const across(0.0, -slope.unit_weight);
   scarp::Vector<2> const along(slope.unit_weight, 0.0);
-  scarp::LoadHistory loads(body_force(grid, [&](int) { return across; }));
-  loads.add(body_force(grid, [&](int) { return along; }), {});
+  scarp::LoadHistory loads(grid.body_force([&](int) { return across; }));
+  loads.add(grid.body_force([&](int) { return along; }), {});
   auto problem = examples::plane_problem(std::move(grid), soil, slope.thickness, constraints, loads, ties);
   examples::Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-8}}};
   scarp::LoadStepping const stepping{

@@ -3,7 +3,7 @@
 
 #include "../shared/convergence_table.hpp"
 #include "../shared/plane_strain.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 
 namespace earth_pressure {
 
@@ -58,7 +58,7 @@ examples::Outcome move_wall(Wall const& wall, int cells) {
     if (wall.rough_base && node != corner && !constraints.is_prescribed(2 * node)) constraints.fix(node, 0);
   }
   scarp::Vector<2> const weight(0.0, -wall.unit_weight);
-  Eigen::VectorXd const loads = body_force(grid, [&](int) { return weight; });
+  Eigen::VectorXd const loads = grid.body_force([&](int) { return weight; });
   auto problem = examples::plane_problem(std::move(grid), soil, wall.height, constraints, scarp::LoadHistory(loads));
   examples::Newton const newton{.tolerance = 1e-8, .rule = {.exact = {.floor = 1e-8}}};
   scarp::LoadStepping const stepping{.first = 0.05, .smallest = 1e-6, .largest = 0.2, .max_displacement_gradient = 1e3};

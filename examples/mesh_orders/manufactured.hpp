@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "../shared/elastic_solve.hpp"
-#include "scarp/bvp/field_error.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "../shared/field_error.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 
 namespace mesh_orders {
@@ -48,7 +47,7 @@ scarp::Vector<Dim> bend(scarp::Vector<Dim> const& box) {
 struct Outcome {
   double size = 0.0;  ///< of a cell before it is bent [m]
   int dofs = 0;
-  scarp::FieldError error;
+  examples::FieldError error;
   double seconds = 0.0;  ///< of the sparsity, assembly and direct solve
 };
 
@@ -73,11 +72,11 @@ Outcome solve(int cells, double distortion = 0.0) {
       constraints.fix(node);
     }
   }
-  auto const forces = varying_body_force(grid, [&](auto const& x) { return wave.body_force(x); });
+  auto const forces = examples::varying_body_force(grid, [&](auto const& x) { return wave.body_force(x); });
   auto const found = examples::elastic_solve(grid, wave.solid, constraints, exact, forces);
   std::chrono::duration<double> const took = std::chrono::steady_clock::now() - start;
   return {1.0 / cells, grid.dof_count(),
-          field_error(
+          examples::field_error(
               mesh, found, [&](auto const& x) { return wave.displacement(x); },
               [&](auto const& x) { return wave.gradient(x); }),
           took.count()};

@@ -6,7 +6,7 @@
 
 #include "../shared/convergence_table.hpp"
 #include "../shared/plane_strain.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/strength.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
 #include "scarp/element/quad8.hpp"
@@ -55,7 +55,7 @@ inline Problem specimen(int cells, scarp::Neighbourhood neighbourhood, scarp::Th
   auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
   scarp::Nonlocal<Varied> const nonlocal{soil(), neighbourhood.length, neighbourhood.stiffness, neighbourhood.fading};
   scarp::MaterialPoints<2> points(nonlocal, sites, volumes);
-  auto loads = scarp::traction(grid, "right", scarp::Vector<2>(-pressure, 0.0));
+  auto loads = grid.traction("right", scarp::Vector<2>(-pressure, 0.0));
   return {std::move(grid), std::move(points), std::move(constraints), scarp::LoadHistory(loads), executor};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What does a soil law of one's own take? Hyperbolic shear in plane strain, and a column of it that is pushed sideways.
 #include "../shared/print.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/solver/load_stepping.hpp"
@@ -45,7 +45,7 @@ int main() {
   scarp::Constraints fixed(mesh);
   for (int node = 0; node < grid.node_count(); ++node) fixed.fix(node, 1);
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) fixed.fix(node, 0);
-  auto const loads = scarp::body_force(grid, [&](int) { return scarp::Vector<2>(push, 0.0); });
+  auto const loads = grid.body_force([&](int) { return scarp::Vector<2>(push, 0.0); });
   scarp::SerialExecutor serial;
   auto const soils = boost::hana::make_tuple(scarp::Region{"soil", soil});
   auto problem = scarp::make_problem(grid, height, soils, fixed, loads, serial);

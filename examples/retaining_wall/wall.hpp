@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rankine.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
@@ -53,7 +53,7 @@ struct Wall {
     for (int const node : boundary_nodes(ground.mesh(), "bottom")) constraints.fix(node, 1);
     scarp::Vector<2> const weight(0.0, -unit_weight);
     Eigen::VectorXd const dead =
-        body_force(ground, [&](int) { return weight; }) + traction(ground, "top", scarp::Vector<2>(0.0, -surcharge));
+        ground.body_force([&](int) { return weight; }) + ground.traction("top", scarp::Vector<2>(0.0, -surcharge));
     auto const regions = boost::hana::make_tuple(scarp::Region{"soil", soil});
     return make_problem(std::move(ground), height, regions, std::move(constraints), scarp::LoadHistory(dead), executor);
   }

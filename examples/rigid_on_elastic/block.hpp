@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bed.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/solver/make_problem.hpp"
 
 namespace rigid_on_elastic {
@@ -62,7 +62,7 @@ Motion elastic_block(Layer const& layer, double contrast, Law const& law) {
       layer, contrast, layer.width / 2.0, layer.cells, law,
       [&](auto const& mesh, auto& constraints) { layer.hold(mesh, constraints); },
       [&](Grid const& grid) {
-        Eigen::VectorXd load = traction(grid, "block_top", scarp::Vector<2>(0.0, -layer.force / layer.width));
+        Eigen::VectorXd load = grid.traction("block_top", scarp::Vector<2>(0.0, -layer.force / layer.width));
         for (int const node : boundary_nodes(grid.mesh(), "block_top")) {
           double const arm = grid.mesh().nodes[static_cast<std::size_t>(node)].x() - layer.centre().x();
           if (std::abs(arm) > layer.width / 2.0 * (1.0 - 1e-9)) load(2 * node + 1) += layer.moment / (2.0 * arm);
@@ -105,7 +105,7 @@ inline examples::Outcome slide(double friction, int cells) {
       },
       [&](Grid const& grid) {
         auto const of_block = [&](scarp::Vector<2> const& force) {
-          return body_force(grid, [=](int region) { return scarp::Vector<2>(region == 1 ? force : 0.0 * force); });
+          return grid.body_force([=](int region) { return scarp::Vector<2>(region == 1 ? force : 0.0 * force); });
         };
         scarp::LoadHistory loads(of_block({0.0, -weight}));
         loads.add(of_block({weight, 0.0}), {});

@@ -3,7 +3,7 @@
 
 #include "../shared/convergence_table.hpp"
 #include "../shared/plane_strain.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 
 namespace strip_footing {
 
@@ -100,7 +100,7 @@ examples::Outcome press(Footing const& footing, Grading const& grading) {
     constraints.move(node, 1, -1e-3 * Footing::half_width);
     if (footing.rough) constraints.fix(node, 0);
   }
-  Eigen::VectorXd const loads = traction(grid, "top", scarp::Vector<2>(0.0, -footing.surcharge));
+  Eigen::VectorXd const loads = grid.traction("top", scarp::Vector<2>(0.0, -footing.surcharge));
   Plateau plateau{below, loads};
   auto problem = examples::plane_problem(std::move(grid), soil, 0.0, constraints, scarp::LoadHistory(loads));
   // Without associated flow the tangent is unsymmetric and may lose its definiteness: a share of the elastic one keeps it.

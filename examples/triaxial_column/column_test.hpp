@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
@@ -70,8 +70,8 @@ ColumnResult column_test(Packing const& packing, Choice const& choice) {
   Eigen::VectorXd confining = Eigen::VectorXd::Zero(grid.dof_count());
   scarp::Vector<3> const along_x(choice.pressure, 0.0, 0.0);
   scarp::Vector<3> const along_y(0.0, choice.pressure, 0.0);
-  confining += traction(grid, "left", along_x) + traction(grid, "right", scarp::Vector<3>(-along_x));
-  confining += traction(grid, "front", along_y) + traction(grid, "back", scarp::Vector<3>(-along_y));
+  confining += grid.traction("left", along_x) + grid.traction("right", scarp::Vector<3>(-along_x));
+  confining += grid.traction("front", along_y) + grid.traction("back", scarp::Vector<3>(-along_y));
   std::vector<scarp::Site<3>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, lengths.z()));
   ColumnResult result{{}, {}, static_cast<int>(mesh.elements.size()), grid.point_count()};

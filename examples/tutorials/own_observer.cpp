@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // User-defined observer: records the curve of load over settlement and ends the run at a settlement.
 #include "scarp/bvp/default_integration.hpp"
-#include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
@@ -35,7 +34,7 @@ int main() {
   for (int node = 0; node < grid.node_count(); ++node) fixed.fix(node, 0);
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) fixed.fix(node, 1);
   scarp::LoadHistory loads;
-  loads.add(scarp::traction(grid, "top", {0.0, -pressure}), scarp::TimeFunction::ramp(0.0, 1.0));
+  loads.add(grid.traction("top", {0.0, -pressure}), scarp::TimeFunction::ramp(0.0, 1.0));
   auto const soils =
       boost::hana::make_tuple(scarp::Region{"soil", scarp::LinearElastic<2>::from_young_poisson(young, poisson)});
   scarp::SerialExecutor serial;

@@ -67,9 +67,9 @@ TEST_CASE("errors of a field are integrals over the mesh") {
   auto const slope = [](scarp::Vector<2> const& x) -> scarp::Gradient<2> {
     return (scarp::Gradient<2>() << 2.0 * x.x(), 0.0, 0.0, 0.0).finished();
   };
-  auto const error = field_error(mesh, nothing, field, slope);
+  auto const error = examples::field_error(mesh, nothing, field, slope);
   // Analytic: the integrals of x^4 and 4 x^2 from 0 to 2.
   CHECK(error.value == samples::Approx(std::sqrt(32.0 / 5.0)).epsilon(1e-14));
   CHECK(error.gradient == samples::Approx(std::sqrt(32.0 / 3.0)).epsilon(1e-14));
-  CHECK_REFUSED(field_error(mesh, Eigen::VectorXd(3), field, slope), "3 entries");
+  CHECK_REFUSED(examples::field_error(mesh, Eigen::VectorXd(3), field, slope), "3 entries");
 }

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "bvp/sample_problems.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "support/approx.hpp"
 
@@ -17,7 +17,7 @@ struct Column {
   samples::CrossedRectangle grid{.width = 4.0, .height = 6.0, .columns = 4, .rows = 5};
   scarp::Discretisation<scarp::Tri3, scarp::SmallStrain> disc{grid.generate(), 0.2};
   scarp::LinearElastic<2> soil = scarp::LinearElastic<2>::from_young_poisson(young, poisson);
-  Eigen::VectorXd weight = scarp::body_force(disc, [](int) { return scarp::Vector<2>(0.0, -unit_weight); });
+  Eigen::VectorXd weight = disc.body_force([](int) { return scarp::Vector<2>(0.0, -unit_weight); });
   Eigen::VectorXd displacement;
   std::vector<scarp::VoigtStress<2>> stresses;
 

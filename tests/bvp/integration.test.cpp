@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "bvp/stiffness_check.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "support/approx.hpp"

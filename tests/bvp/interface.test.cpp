@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/contact/cohesive_bond.hpp"
@@ -297,7 +297,7 @@ TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whe
       for (int const node : boundary_nodes(mesh, side)) constraints.fix(node, 0);
     }
     double const pressure = 1e3;
-    Eigen::VectorXd const load = traction(grid, "upper_top", scarp::Vector<2>(0.0, -pressure));
+    Eigen::VectorXd const load = grid.traction("upper_top", scarp::Vector<2>(0.0, -pressure));
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(load.size()));
     loads.add(load, {});
     std::vector<double> breaks;

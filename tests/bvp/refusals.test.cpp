@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "scarp/bvp/constraints.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/following_pressure.hpp"
 #include "scarp/bvp/load_history.hpp"
-#include "scarp/bvp/loads.hpp"
 #include "scarp/bvp/standing_body.hpp"
 #include "support/approx.hpp"
 #include "support/crossed_rectangle.hpp"
@@ -57,9 +57,9 @@ TEST_CASE("a force per volume is given for each region of the mesh") {
   mesh.regions = {"sand", "clay"};
   scarp::Discretisation<scarp::Tri3> const grid(mesh);
   using Forces = std::vector<scarp::Vector<2>>;
-  CHECK_REFUSED(scarp::body_force(grid, Forces(1, {0.0, -1.0})), "for 1 regions", "the mesh has 2", "sand", "clay");
-  CHECK_REFUSED(scarp::body_force(grid, Forces(3, {0.0, -1.0})), "for 3 regions", "the mesh has 2");
-  CHECK(scarp::body_force(grid, Forces(2, {0.0, -1.0})).sum() == samples::Approx(-1.0).epsilon(1e-14));
+  CHECK_REFUSED(grid.body_force(Forces(1, {0.0, -1.0})), "for 1 regions", "the mesh has 2", "sand", "clay");
+  CHECK_REFUSED(grid.body_force(Forces(3, {0.0, -1.0})), "for 3 regions", "the mesh has 2");
+  CHECK(grid.body_force(Forces(2, {0.0, -1.0})).sum() == samples::Approx(-1.0).epsilon(1e-14));
 }
 
 TEST_CASE("facets that are none, or one that would count twice, are refused") {

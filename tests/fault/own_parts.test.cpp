@@ -50,7 +50,7 @@ struct StripLoad {
   static constexpr double start() { return -1.0; }
   template <class Grid>
   void add_loads(Grid const& grid, double, scarp::LoadHistory& loads) const {
-    loads.add(traction(grid, "store", scarp::Vector<2>(0.0, -pressure)), scarp::TimeFunction::ramp(-1.0, 0.0));
+    loads.add(grid.traction("store", scarp::Vector<2>(0.0, -pressure)), scarp::TimeFunction::ramp(-1.0, 0.0));
   }
   template <class Grid>
   static scarp::NoAttachment attached(Grid const&) {

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/bvp/following_pressure.hpp"
-#include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
@@ -44,8 +44,8 @@ scarp::Constraints held_as_a_body(Grid const& grid) {
 }
 
 Eigen::VectorXd on_all_sides(Grid const& grid) {
-  return scarp::traction(grid, "left", {pressure, 0.0}) + scarp::traction(grid, "right", {-pressure, 0.0}) +
-         scarp::traction(grid, "bottom", {0.0, pressure}) + scarp::traction(grid, "top", {0.0, -pressure});
+  return grid.traction("left", {pressure, 0.0}) + grid.traction("right", {-pressure, 0.0}) +
+         grid.traction("bottom", {0.0, pressure}) + grid.traction("top", {0.0, -pressure});
 }
 
 template <class Problem>

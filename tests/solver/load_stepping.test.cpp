@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "support/approx.hpp"
 #include "support/block.hpp"
 #include "support/crossed_rectangle.hpp"
@@ -54,7 +54,7 @@ SoftBlock::Problem there_and_back(bool is_moved, scarp::SerialExecutor& executor
   if (is_moved) {
     for (int const node : scarp::boundary_nodes(grid.mesh(), "top")) constraints.move(node, 1, 5e-3, there_and_back());
   } else {
-    loads.add(scarp::traction(grid, "top", scarp::Vector<2>(0.0, -100e3)), there_and_back());
+    loads.add(grid.traction("top", scarp::Vector<2>(0.0, -100e3)), there_and_back());
   }
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
@@ -201,7 +201,7 @@ TEST_CASE("settling that an observer stops counts as never made") {
   SoftBlock::Grid grid(samples::CrossedRectangle{.columns = 3, .rows = 2}.generate());
   scarp::Constraints constraints(grid.mesh());
   for (int const node : scarp::boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node);
-  Eigen::VectorXd const weight = scarp::body_force(grid, [](int) { return scarp::Vector<2>(0.0, -2e4); });
+  Eigen::VectorXd const weight = grid.body_force([](int) { return scarp::Vector<2>(0.0, -2e4); });
   std::vector<scarp::Site<2>> sites;
   for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
   scarp::SerialExecutor serial;

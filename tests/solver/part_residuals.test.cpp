@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <doctest/doctest.h>
 
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "support/approx.hpp"
 #include "support/block.hpp"
 
@@ -28,8 +28,7 @@ Problem ground_with_block(Provider const& provider, scarp::SerialExecutor& execu
   for (int const node : scarp::boundary_nodes(mesh, "bottom")) constraints.fix(node);
   Grid grid(std::move(mesh));
   auto const weight_of = [&](int chosen, double unit_weight) {
-    return scarp::body_force(grid,
-                             [=](int region) { return scarp::Vector<2>(0.0, region == chosen ? -unit_weight : 0.0); });
+    return grid.body_force([=](int region) { return scarp::Vector<2>(0.0, region == chosen ? -unit_weight : 0.0); });
   };
   scarp::LoadHistory loads(weight_of(0, 20e3));
   loads.add(weight_of(1, 0.1e3), scarp::TimeFunction::ramp(0.0, 1.0));

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "bvp/sample_problems.hpp"
-#include "scarp/bvp/loads.hpp"
+#include "scarp/bvp/discretisation.hpp"
 #include "support/block.hpp"
 
 namespace {

@@ -20,25 +20,6 @@
 
 namespace scarp {
 
-namespace detail {
-/// Adds the nodal forces [N] of a cell at its places on the initial mesh: \f$ \int N_a b \f$ with b =
-/// force_at(corners, shape values) over the points of a rule. thickness [m]
-template <class Cell, int Dim, class Rule, class ForceAt>
-void add_cell_forces(std::vector<Vector<Dim>> const& places, double thickness,
-                     std::array<int, Cell::nodes> const& nodes, Rule const& rule, ForceAt const& force_at,
-                     Eigen::VectorXd& forces) {
-  auto const rows = corners<Cell, Dim>(nodes, places);
-  for (auto const& where : rule) {
-    ShapeValues<Cell> const shape = Cell::shape(where.xi);
-    Vector<Dim> const force = force_at(rows, shape);
-    double const size = thickness * where.weight * measure<Cell, Dim>(rows, where.xi);
-    for (int a = 0; a < Cell::nodes; ++a) {
-      forces.template segment<Dim>(Dim * nodes[index(a)]) += shape(a) * size * force;
-    }
-  }
-}
-}  // namespace detail
-
 /// Finite elements on a mesh, see `Grid`: point = (number of an element's material points) * element + its own number,
 /// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
 /// gives the same bits. Members that cost much to compile are defined outside, so that a library can contain them.
@@ -48,7 +29,7 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   using Base::moved, Base::require_length;
 
  public:
-  using Base::dof_count, Base::node_count, Base::positions;
+  using Base::body_force, Base::dof_count, Base::node_count, Base::positions;
   using ElementType = Element;  ///< type of all elements of the mesh
   static constexpr bool follows_motion = Motion::follows_motion;
   static constexpr int dim = Element::dim;  ///< of the elements and of space
@@ -145,6 +126,18 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
     return rows;
   }
 
+  /// Adds the nodal forces [N] of a force per measure of a cell, an element or a facet, on the initial mesh.
+  template <class Cell>
+  void add_forces(std::array<int, Cell::nodes> const& nodes, Vector<dim> const& force, Eigen::VectorXd& forces) const {
+    auto const rows = corners<Cell, dim>(nodes, mesh_.nodes);
+    for (auto const& where : Cell::quadrature()) {
+      ShapeValues<Cell> const shape = Cell::shape(where.xi);
+      double const size = thickness_ * where.weight * measure<Cell, dim>(rows, where.xi);
+      for (int a = 0; a < Cell::nodes; ++a)
+        forces.template segment<dim>(dim * nodes[detail::index(a)]) += shape(a) * size * force;
+    }
+  }
+
   /// visit(element, shapes) for all elements in order, as they are at the given positions.
   template <class Visit>
   void for_each_element(std::vector<Vector<dim>> const& nodes, Visit&& visit) const {
@@ -206,25 +199,17 @@ Eigen::VectorXd Discretisation<Element, Motion, Scheme>::body_force(std::vector<
            mesh_.regions.size(), listed(mesh_.regions));
   }
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
-  for (int e = 0; e < detail::count(mesh_.elements); ++e) {
-    auto const& force = per_volume[detail::index(mesh_.element_region[detail::index(e)])];
-    detail::add_cell_forces<Element>(
-        mesh_.nodes, thickness_, mesh_.elements[detail::index(e)],
-        Element::quadrature(), [&](auto const&, auto const&) -> auto const& { return force; }, forces);
-  }
+  for (std::size_t e = 0; e < mesh_.elements.size(); ++e)
+    add_forces<Element>(mesh_.elements[e], per_volume[detail::index(mesh_.element_region[e])], forces);
   return forces;
 }
 
 template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 Eigen::VectorXd Discretisation<Element, Motion, Scheme>::traction(std::string_view boundary,
                                                                   Vector<dim> const& per_area) const {
-  using Facet = typename Element::Facet;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
-  for (auto const& facet : scarp::boundary(mesh_, boundary)) {
-    detail::add_cell_forces<Facet>(
-        mesh_.nodes, thickness_, facet,
-        Facet::quadrature(), [&](auto const&, auto const&) -> auto const& { return per_area; }, forces);
-  }
+  for (auto const& facet : scarp::boundary(mesh_, boundary))
+    add_forces<typename Element::Facet>(facet, per_area, forces);
   return forces;
 }
 

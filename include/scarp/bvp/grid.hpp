@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <set>
@@ -54,6 +55,13 @@ class Grid {
   /// per_volume: b [N/m3] of every region of the mesh
   /// \throws InputError unless there is one for each region
   virtual Eigen::VectorXd body_force(std::vector<Vector<Dim>> const& per_volume) const = 0;
+  /// The same of force_of_region(number of a region): b [N/m3], shape (Dim).
+  template <std::invocable<int> ForceOfRegion>
+  Eigen::VectorXd body_force(ForceOfRegion const& force_of_region) const {
+    std::vector<Vector<Dim>> per_volume;
+    for (int region = 0; region < detail::count(regions()); ++region) per_volume.push_back(force_of_region(region));
+    return body_force(per_volume);
+  }
 
   /// Nodal forces [N], shape (dof_count), consistent with a force per area [Pa] on a boundary of the initial mesh:
   /// \f$ f_a = \int N_a t\,dA \f$. A dead load: it follows neither the size nor the direction of the deformed boundary.

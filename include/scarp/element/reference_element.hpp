@@ -93,13 +93,6 @@ concept GivesReducedQuadrature = GivesQuadrature<Element> && requires {
   { Element::reduced_quadrature()[0] } -> std::convertible_to<QuadraturePoint<Element::dim>>;
 };
 
-/// rule<Degree>(): points that integrate polynomials up to a degree exactly (in total on a simplex, along each axis
-/// otherwise), for norms and for bodies' loads that vary in space.
-template <class Element>
-concept GivesRules = HasNodes<Element> && requires {
-  { Element::template rule<1>()[0] } -> std::convertible_to<QuadraturePoint<Element::dim>>;
-};
-
 /// A finite element on its reference shape, without state: all members are static.
 template <class Element>
 concept ReferenceElement = ReferenceCell<Element> && HasFacets<Element> && HasVtkCellType<Element>;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "scarp/bvp/default_integration.hpp"
-#include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/precompiled.hpp"
@@ -184,8 +183,8 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   int const soil_region = region_number(grid.mesh(), "soil");
   Vector<dim> const down = -Vector<dim>::Unit(dim - 1);
   Eigen::VectorXd dead =
-      body_force(grid, [&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
-  dead += traction(grid, "surface", surcharge * down);
+      grid.body_force([&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
+  dead += grid.traction("surface", surcharge * down);
   dead.conservativeResizeLike(Eigen::VectorXd::Zero(grid.dof_count() + structure.extra_dofs()));
   LoadHistory loads(std::move(dead));
   structure.add_loads(grid, surcharge, loads);

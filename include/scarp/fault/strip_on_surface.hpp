@@ -7,7 +7,6 @@
 
 #include "scarp/bvp/interface.hpp"
 #include "scarp/bvp/load_history.hpp"
-#include "scarp/bvp/loads.hpp"
 #include "scarp/fault/detail/step_at_tip.hpp"
 #include "scarp/mesh/graded_lines.hpp"
 #include "scarp/mesh/joined_meshes.hpp"
@@ -55,7 +54,7 @@ inline double support(FootingMotion const& motion) {
 template <class Grid>
 void add_uncovered_surcharge(Grid const& grid, double surcharge, double start, LoadHistory& loads) {
   Eigen::VectorXd covered = Eigen::VectorXd::Zero(loads.size());
-  covered.head(grid.dof_count()) = traction(grid, "footing_base", Vector<2>(0.0, -surcharge));
+  covered.head(grid.dof_count()) = grid.traction("footing_base", Vector<2>(0.0, -surcharge));
   loads.add(std::move(covered), TimeFunction({{start, 1.0}, {0.0, 0.0}}));
 }
 

@@ -65,7 +65,7 @@ struct TiedFooting {
         (left + right) / 2.0 - (mesh.nodes[index(nodes.front())] + mesh.nodes[index(nodes.back())]) / 2.0;
     FootingMotion motion{-moved.y(), moved.x(), std::atan2(left.y() - right.y(), right.x() - left.x()), {}};
     Eigen::VectorXd const forces = forces_of_block(problem, load);
-    Eigen::VectorXd const shares = traction(grid, "footing_base", Vector<2>(1.0, 0.0));
+    Eigen::VectorXd const shares = grid.traction("footing_base", Vector<2>(1.0, 0.0));
     for (int const node : nodes) {
       double const area = shares(2 * node);
       Vector<2> const stress = forces.segment<2>(2 * node) / area;
@@ -78,8 +78,8 @@ struct TiedFooting {
   template <class Grid>
   Eigen::VectorXd weight(Grid const& grid) const {
     int const region = region_number(grid.mesh(), "footing");
-    return body_force(grid,
-                      [&](int number) { return Vector<2>(0.0, number == region ? -footing.bearing / height : 0.0); });
+    return grid.body_force(
+        [&](int number) { return Vector<2>(0.0, number == region ? -footing.bearing / height : 0.0); });
   }
 
   /// Forces that the block alone needs at its nodes, its weight included.

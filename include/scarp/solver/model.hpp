@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "scarp/bvp/default_integration.hpp"
-#include "scarp/bvp/loads.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
 #include "scarp/solver/make_problem.hpp"
 
@@ -201,8 +200,8 @@ void Model<Dim>::traction(Sides sides, Vector<Dim> const& per_area, std::optiona
 
 template <int Dim>
 Eigen::VectorXd Model<Dim>::dead_loads() const {
-  Eigen::VectorXd forces = body_force(
-      *grid_, [&](int region) -> Vector<dim> { return -weights_[detail::index(region)] * Vector<dim>::Unit(dim - 1); });
+  Eigen::VectorXd forces = grid_->body_force(
+      [&](int region) -> Vector<dim> { return -weights_[detail::index(region)] * Vector<dim>::Unit(dim - 1); });
   for (auto const& traction : tractions_) forces += traction;
   return forces;
 }
