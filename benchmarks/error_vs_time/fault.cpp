@@ -107,7 +107,7 @@ Measured sand_fault(FaultSettings const& settings, int repetition) {
   if (!report.verdict.acceptable()) return measured;
   auto const& grid = problem.discretisation();
   auto const& mesh = grid.mesh();
-  auto const at_rest = rest.of(mesh);
+  auto const at_rest = rest.of(mesh.nodes);
   auto const surface =
       scarp::rupture_survey(mesh, at_rest, grid.positions(), offset_at(scene.fault, report.load)).surface;
   measured.add("surface profile", settlements(scarp::surface_profile(mesh, at_rest, grid.positions()), report.load));

@@ -134,7 +134,7 @@ void profile_scene(bool quick) {
   double const tangents = seconds_of(tallies->tangents);
   double const steps = static_cast<double>(report.inner_steps);
   auto const& mesh = problem.discretisation().mesh();
-  auto const survey = scarp::rupture_survey(mesh, rest.of(mesh), problem.discretisation().positions(),
+  auto const survey = scarp::rupture_survey(mesh, rest.of(mesh.nodes), problem.discretisation().positions(),
                                             offset_at(scene.fault, report.load));
   Table table({"part", "measure", "value"});
   auto const add = [&](char const* what, double value) { table.add("run", what, value); };

@@ -162,7 +162,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;
   auto const& grid = problem.discretisation();
   auto const at = [&](double x, double y) {
-    return nearest_point(grid, scarp::Vector<2>(x, scene.ground.surface_level() - depth + y));
+    return grid.nearest_point(scarp::Vector<2>(x, scene.ground.surface_level() - depth + y));
   };
   auto const packings_of = [&](char const* probe, int point) {
     return scarp::PackingSeries(folder, probe, point, to, {0.0, 0.25, 0.5, 1.0}, measure);

@@ -152,7 +152,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
                                RunNotes const& notes, double reaction, scarp::RunReport const& run) {
   auto const& rest = notes.rest;
   auto const& grid = problem.discretisation();
-  auto const& ground = rest.ground.of(grid.mesh());
+  auto const& ground = rest.ground.of(grid.nodes());
   auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
   auto const offset = scarp::offset_at(scene.fault, std::max(run.load, 0.0));
   auto const survey = scarp::rupture_survey(grid.mesh(), ground, grid.positions(), offset);

@@ -139,7 +139,7 @@ inline int run(Choice const& choice, scarp::RunFolder& folder, scarp::Checkpoint
     observers.ended(problem, report.load);
   }
   auto const& grid = problem.discretisation();
-  auto const all = sections(scene, grid.mesh(), rest.of(grid.mesh()), grid.positions(), report.load);
+  auto const all = sections(scene, grid.mesh(), rest.of(grid.nodes()), grid.positions(), report.load);
   write_surface(all, folder.path() / "surface.csv");
   auto json = summary(choice, scene, problem, all, report, notes.used);
   json["run"] = examples::json_of(folder.record());

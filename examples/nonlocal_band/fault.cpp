@@ -50,7 +50,7 @@ void print_fault(FaultChoice const& choice) {
       auto const rest = scarp::ground_at_rest(problem);
       auto const run = settled.verdict.acceptable() ? scene.rupture(problem, no_observer) : settled;
       auto const& grid = problem.discretisation();
-      auto const found = scarp::outcrop(scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions()),
+      auto const found = scarp::outcrop(scarp::surface_profile(grid.mesh(), rest.of(grid.nodes()), grid.positions()),
                                         {.hanging = run.load});
       examples::print(stdout, "{:6} {:9} {:6} {:8.4f} {:10.2f} {:9.2f} {:12.5g} {:6} {:8} {:6} {:7.1f}  {}\n", size,
                       grid.mesh().elements.size(), length, run.load, found.outcrop_x, found.width,

@@ -29,7 +29,7 @@ bool rupture(char const* name, scarp::FreeFieldFault<Soil> const& scene) {
   auto const run = scene.rupture(problem, no_observer);
   auto const& mesh = problem.discretisation().mesh();
   auto const offset = offset_at(scene.fault, run.load);
-  auto const found = rupture_survey(mesh, rest.of(mesh), problem.discretisation().positions(), offset).surface;
+  auto const found = rupture_survey(mesh, rest.of(mesh.nodes), problem.discretisation().positions(), offset).surface;
   examples::print(stdout,
                   "{:<8} K0 {:.3f}  throw {:.3f} m  outcrop_x {:6.2f} m  steepest_x {:6.2f} m  surface_x50 {:6.2f} m\n",
                   name, k0 / problem.points().size(), run.load, found.outcrop_x, found.steepest_x, found.surface_x50);

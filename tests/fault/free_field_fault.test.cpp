@@ -130,7 +130,7 @@ TEST_CASE("the fault moves the hanging wall by the throw and leaves the footwall
   CHECK(run.load == scene.throw_to);
   CHECK(run.largest_residual <= 1e-6);  // of the default solver of elastic ground
   auto const& grid = problem.discretisation();
-  auto const profile = scarp::surface_profile(grid.mesh(), rest.of(grid.mesh()), grid.positions());
+  auto const profile = scarp::surface_profile(grid.mesh(), rest.of(grid.nodes()), grid.positions());
   // Analytic: the sides are prescribed; a sum of some tens of increments, the last cut off at `smallest` = 1e-7 m.
   CHECK(std::abs(profile.front().settlement) < 1e-12);
   CHECK(profile.back().settlement == samples::Approx(scene.throw_to).epsilon(1e-6));

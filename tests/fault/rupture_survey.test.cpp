@@ -34,7 +34,7 @@ Run run(double forgotten) {
   auto const rest = scarp::ground_at_rest(problem);
   REQUIRE(scene.rupture(problem, no_observer).verdict == scarp::Verdict{});
   auto const& grid = problem.discretisation();
-  return {grid.mesh(), rest.of(grid.mesh()), grid.positions(), {.tip = scene.fault.tip, .hanging = scene.throw_to}};
+  return {grid.mesh(), rest.of(grid.nodes()), grid.positions(), {.tip = scene.fault.tip, .hanging = scene.throw_to}};
 }
 
 Run const& elastic() {

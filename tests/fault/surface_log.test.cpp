@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "scarp/bvp/discretisation.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/io/csv_reader.hpp"
@@ -17,24 +18,16 @@ using samples::ScratchFolder;
 
 /// As much of a problem as the log looks at; it sinks by hand.
 struct Ground {
-  struct Grid {
-    scarp::Mesh<scarp::Tri3> own;
-    std::vector<scarp::Vector<2>> now = own.nodes;
-    auto const& mesh() const { return own; }
-    auto const& positions() const { return now; }
-  };
-  Grid grid;
-  auto const& discretisation() const { return grid; }
+  scarp::Discretisation<scarp::Tri3> elements;
+  scarp::Grid<2> const& grid() const { return elements; }
 
-  void sink(double by) {
-    for (auto& position : grid.now) position.y() -= by;
-  }
+  void sink(double by) { elements.commit(scarp::Vector<2>(0.0, -by).replicate(elements.node_count(), 1)); }
 };
 
 Ground ground_with_footing() {
   auto mesh = scarp::FaultMesh{.size = 5.0}.generate({-15.0, -5.0});
   scarp::mark_footing_base(mesh, -10.0, 10.0);
-  return {{mesh}};
+  return {scarp::Discretisation<scarp::Tri3>(mesh)};
 }
 
 struct Row {
@@ -78,7 +71,8 @@ TEST_CASE("settlement counts from the last accepted state before the fault moves
   log.attempted(ground, refused(0.0));  // no state that could be one of rest
   log.attempted(ground, accepted(0.5));
   auto const rows = rows_of(folder / "surface.csv");
-  std::size_t const points = scarp::surface_profile(ground.grid.own, ground.grid.own.nodes, ground.grid.now).size();
+  auto const& mesh = ground.elements.mesh();
+  std::size_t const points = scarp::surface_profile(mesh, mesh.nodes, mesh.nodes).size();
   REQUIRE(rows.size() == 2 * points);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     CHECK(rows[k].settlement == (k < points ? 0.0 : 0.125));  // binary fractions: exact

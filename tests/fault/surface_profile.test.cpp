@@ -113,8 +113,8 @@ TEST_CASE("positions of another mesh and unknown boundaries are refused") {
 TEST_CASE("without positions at rest settlement counts from the mesh") {
   auto const mesh = scarp::BoxMesh<scarp::Tri3>{}.generate();
   scarp::GroundAtRest<2> rest;
-  CHECK(rest.of(mesh) == mesh.nodes);
+  CHECK(rest.of(mesh.nodes) == mesh.nodes);
   rest.positions = mesh.nodes;
   rest.positions.front().x() = 7.0;
-  CHECK(rest.of(mesh) == rest.positions);
+  CHECK(rest.of(mesh.nodes) == rest.positions);
 }

@@ -13,7 +13,6 @@
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/mesh/refined.hpp"
-#include "scarp/observe/deformation.hpp"
 #include "scarp/tensor/geo.hpp"
 
 namespace fault_rupture {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,7 +30,7 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   using Base::moved, Base::require_length;
 
  public:
-  using Base::body_force, Base::dof_count, Base::node_count, Base::positions;
+  using Base::body_force, Base::dof_count, Base::node_count, Base::positions, Base::stiffness;
   using ElementType = Element;  ///< type of all elements of the mesh
   static constexpr bool follows_motion = Motion::follows_motion;
   static constexpr int dim = Element::dim;  ///< of the elements and of space
@@ -38,7 +39,13 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
 
   /// thickness [m] out of the plane; in 3D it is 1
   /// \throws InputError for an invalid mesh or thickness
-  explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0);
+  explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0)
+      : Base((validate(mesh), mesh.nodes)), mesh_(std::move(mesh)), thickness_(thickness), sparsity_(mesh_) {
+    require_positive("thickness", thickness);
+    if (dim == 3 && thickness != 1.0) {
+      reject("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
+    }
+  }
 
   Mesh<Element> const& mesh() const { return mesh_; }  ///< with the nodes where they were at the start
   std::vector<Vector<dim>> const& nodes() const override { return mesh_.nodes; }
@@ -46,12 +53,8 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   std::unique_ptr<Base> copy() const override { return std::make_unique<Discretisation>(*this); }
   Cells cells() const override { return cells_of(mesh_); }
   std::vector<int> boundary_nodes(std::string_view name) const override { return scarp::boundary_nodes(mesh_, name); }
-  std::vector<std::vector<int>> regions_of_nodes() const override;
-  Tensor<Element::dim> deformation(int point) const override;
-  /// \f$ f_a = \int N_a b\,dV \f$ [N], b [N/m3] of every region.
-  Eigen::VectorXd body_force(std::vector<Vector<dim>> const& per_volume) const override;
-  /// \f$ f_a = \int N_a t\,dA \f$ [N], t [Pa].
-  Eigen::VectorXd traction(std::string_view boundary, Vector<dim> const& per_area) const override;
+  bool has_boundary(std::string_view name) const override { return mesh_.boundaries.contains(std::string(name)); }
+  Cells facets(std::string_view boundary) const override { return facets_of(mesh_, boundary); }
   double thickness() const override { return thickness_; }
   bool turns_stresses() const override { return follows_motion; }
   int point_count() const override { return points_per_element * detail::count(mesh_.elements); }
@@ -62,8 +65,66 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
     return Scheme::template points<Element>()[detail::index(point % points_per_element)];
   }
 
-  /// Where a point is in the committed configuration; surface_level [m] is the height of the ground surface.
-  Site<Element::dim> site(int point, double surface_level) const override;
+  Site<dim> site(int point, double surface_level) const override {
+    int const element = point / points_per_element;
+    auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions());
+    Vector<dim> const position = rows.transpose() * Element::shape(local_point(point).xi);
+    double volume = 0.0;
+    for (auto const& shape : shapes_at(rows)) volume += std::abs(shape.volume);
+    constexpr double lines_of_nodes = Element::nodes > 1 << dim ? 2.0 : 1.0;
+    return {.index = point,
+            .region = mesh_.element_region[detail::index(element)],
+            .position = position,
+            .depth = surface_level - position(dim - 1),
+            .element = element,
+            .place = point % points_per_element,
+            .size = std::pow(volume / thickness_, 1.0 / dim) / lines_of_nodes};
+  }
+  Tensor<dim> deformation(int point) const override {
+    auto const& nodes = nodes_of(point);
+    auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, mesh_.nodes), local_point(point));
+    return corners<Element, dim>(nodes, positions()).transpose().lazyProduct(shape.gradients);
+  }
+  int nearest_point(Vector<dim> const& place) const override {
+    for (double const coordinate : place) require_finite("place whose nearest point is looked for", coordinate);
+    int nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int point = 0; point < point_count(); ++point) {
+      auto const shape = Element::shape(local_point(point).xi);
+      Vector<dim> distance = -place;
+      for (int a = 0; a < Element::nodes; ++a)
+        distance += shape(a) * mesh_.nodes[detail::index(nodes_of(point)[detail::index(a)])];
+      if (!(distance.norm() < least)) continue;
+      least = distance.norm();
+      nearest = point;
+    }
+    return nearest;
+  }
+  Distortion<dim> distortion(int point) const override {
+    auto const nodes = corners<Element, dim>(nodes_of(point), positions());
+    Tensor<dim> const moved = deformation(point);
+    double const volume = moved.determinant();
+    double const lengths = volume > 0.0 ? moved.squaredNorm() / std::pow(volume, 2.0 / dim) - dim : 0.0;
+    return {mean_ratio<Element>(nodes, local_point(point).xi), std::sqrt(std::max(lengths, 0.0)),
+            point / points_per_element, nodes.colwise().mean().transpose()};
+  }
+
+  Eigen::VectorXd body_force(std::vector<Vector<dim>> const& per_volume) const override {
+    if (per_volume.size() != mesh_.regions.size()) {
+      reject("forces per volume are given for {} regions (the mesh has {}: {}): give one for each", per_volume.size(),
+             mesh_.regions.size(), listed(mesh_.regions));
+    }
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
+    for (std::size_t e = 0; e < mesh_.elements.size(); ++e)
+      add_forces<Element>(mesh_.elements[e], per_volume[detail::index(mesh_.element_region[e])], forces);
+    return forces;
+  }
+  Eigen::VectorXd traction(std::string_view boundary, Vector<dim> const& per_area) const override {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
+    for (auto const& facet : scarp::boundary(mesh_, boundary))
+      add_forces<typename Element::Facet>(facet, per_area, forces);
+    return forces;
+  }
 
   std::optional<int> gradients(Eigen::VectorXd const& increment, std::span<Gradient<dim>> out) const override;
 
@@ -75,20 +136,24 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   void stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
                  std::span<VoigtTangent<dim> const> tangents, Eigen::SparseMatrix<double>& out) const override;
 
-  /// The stiffness [N/m] as a matrix of its own, shape (dof_count, dof_count).
-  /// \throws InputError for arrays of other lengths
-  Eigen::SparseMatrix<double> stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<dim> const> stresses,
-                                        std::span<VoigtTangent<dim> const> tangents) const {
-    Eigen::SparseMatrix<double> matrix;
-    stiffness(increment, stresses, tangents, matrix);
-    return matrix;
-  }
-
   Eigen::SparseMatrix<double> strain_operator(Eigen::VectorXd const& increment) const override;
-  std::vector<double> volumes(Eigen::VectorXd const& increment) const override;
+  std::vector<double> volumes(Eigen::VectorXd const& increment) const override {
+    require_length("displacement increment", increment.size(), dof_count());
+    std::vector<double> volumes(detail::index(point_count()));
+    for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
+      for (std::size_t p = 0; p < shapes.size(); ++p) {
+        volumes[first_of(element) + p] = shapes[p].volume;
+      }
+    });
+    return volumes;
+  }
 
  private:
   using Shapes = ElementShapes<Element, material_points<Scheme, Element>>;
+
+  std::array<int, Element::nodes> const& nodes_of(int point) const {
+    return mesh_.elements[detail::index(point / points_per_element)];
+  }
 
   static constexpr std::size_t first_of(int element) { return detail::index(points_per_element * element); }
 
@@ -100,21 +165,11 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   }
 
   /// Configuration that gradients of an increment refer to.
-  std::vector<Vector<dim>> const& reference() const {
-    if constexpr (Motion::follows_motion) {
-      return positions();
-    } else {
-      return mesh_.nodes;
-    }
-  }
+  std::vector<Vector<dim>> const& reference() const { return follows_motion ? positions() : mesh_.nodes; }
 
   /// Configuration that forces are balanced in.
   std::vector<Vector<dim>> balanced(Eigen::VectorXd const& increment) const {
-    if constexpr (Motion::follows_motion) {
-      return moved(increment);
-    } else {
-      return mesh_.nodes;
-    }
+    return follows_motion ? moved(increment) : mesh_.nodes;
   }
 
   Corners<Element, dim> element_part(Eigen::VectorXd const& field, int element) const {
@@ -142,94 +197,24 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   template <class Visit>
   void for_each_element(std::vector<Vector<dim>> const& nodes, Visit&& visit) const {
     for (int element = 0; element < detail::count(mesh_.elements); ++element) {
-      auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], nodes);
-      visit(element, shapes_at(rows, std::make_index_sequence<material_points<Scheme, Element>>{}));
+      visit(element, shapes_at(corners<Element, dim>(mesh_.elements[detail::index(element)], nodes)));
     }
   }
 
-  template <std::size_t... Point>
-  Shapes shapes_at(Corners<Element, dim> const& rows, std::index_sequence<Point...>) const {
+  Shapes shapes_at(Corners<Element, dim> const& rows) const {
     auto const points = Scheme::template points<Element>();
-    auto const at = [&](std::size_t p) {
-      auto shape = spatial_shape<Element>(rows, points[p]);
-      shape.volume *= thickness_;
-      return shape;
-    };
-    return {{at(Point)...}};
+    Shapes shapes;
+    for (std::size_t p = 0; p < shapes.size(); ++p) {
+      shapes[p] = spatial_shape<Element>(rows, points[p]);
+      shapes[p].volume *= thickness_;
+    }
+    return shapes;
   }
 
   Mesh<Element> mesh_;
   double thickness_;
   Sparsity sparsity_;
 };
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-Discretisation<Element, Motion, Scheme>::Discretisation(Mesh<Element> mesh, double thickness)
-    : Base((validate(mesh), mesh.nodes)), mesh_(std::move(mesh)), thickness_(thickness), sparsity_(mesh_) {
-  require_positive("thickness", thickness);
-  if (dim == 3 && thickness != 1.0) {
-    reject("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
-  }
-}
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-std::vector<std::vector<int>> Discretisation<Element, Motion, Scheme>::regions_of_nodes() const {
-  std::vector<std::vector<int>> regions_of(mesh_.nodes.size());
-  for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
-    for (int const node : mesh_.elements[e]) {
-      auto& regions = regions_of[detail::index(node)];
-      if (std::ranges::find(regions, mesh_.element_region[e]) == regions.end())
-        regions.push_back(mesh_.element_region[e]);
-    }
-  }
-  return regions_of;
-}
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-Tensor<Element::dim> Discretisation<Element, Motion, Scheme>::deformation(int point) const {
-  auto const& nodes = mesh_.elements[detail::index(point / points_per_element)];
-  auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, mesh_.nodes), local_point(point));
-  return corners<Element, dim>(nodes, positions()).transpose().lazyProduct(shape.gradients);
-}
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-Eigen::VectorXd Discretisation<Element, Motion, Scheme>::body_force(std::vector<Vector<dim>> const& per_volume) const {
-  if (per_volume.size() != mesh_.regions.size()) {
-    reject("forces per volume are given for {} regions (the mesh has {}: {}): give one for each", per_volume.size(),
-           mesh_.regions.size(), listed(mesh_.regions));
-  }
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
-  for (std::size_t e = 0; e < mesh_.elements.size(); ++e)
-    add_forces<Element>(mesh_.elements[e], per_volume[detail::index(mesh_.element_region[e])], forces);
-  return forces;
-}
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-Eigen::VectorXd Discretisation<Element, Motion, Scheme>::traction(std::string_view boundary,
-                                                                  Vector<dim> const& per_area) const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
-  for (auto const& facet : scarp::boundary(mesh_, boundary))
-    add_forces<typename Element::Facet>(facet, per_area, forces);
-  return forces;
-}
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-Site<Element::dim> Discretisation<Element, Motion, Scheme>::site(int point, double surface_level) const {
-  int const element = point / points_per_element;
-  auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions());
-  Vector<dim> const position = rows.transpose() * Element::shape(local_point(point).xi);
-  double volume = 0.0;
-  for (auto const& shape : shapes_at(rows, std::make_index_sequence<material_points<Scheme, Element>>{}))
-    volume += std::abs(shape.volume);
-  constexpr double lines_of_nodes = Element::nodes > 1 << dim ? 2.0 : 1.0;
-  return {.index = point,
-          .region = mesh_.element_region[detail::index(element)],
-          .position = position,
-          .depth = surface_level - position(dim - 1),
-          .element = element,
-          .place = point % points_per_element,
-          .size = std::pow(volume / thickness_, 1.0 / dim) / lines_of_nodes};
-}
 
 template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
 std::optional<int> Discretisation<Element, Motion, Scheme>::gradients(Eigen::VectorXd const& increment,
@@ -310,18 +295,6 @@ Eigen::SparseMatrix<double> Discretisation<Element, Motion, Scheme>::strain_oper
   Eigen::SparseMatrix<double> strains(voigt_size<dim> * point_count(), dof_count());
   strains.setFromTriplets(entries.begin(), entries.end());
   return strains;
-}
-
-template <CheckedElement Element, Kinematics Motion, Integration<Element> Scheme>
-std::vector<double> Discretisation<Element, Motion, Scheme>::volumes(Eigen::VectorXd const& increment) const {
-  require_length("displacement increment", increment.size(), dof_count());
-  std::vector<double> volumes(detail::index(point_count()));
-  for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
-    for (std::size_t p = 0; p < shapes.size(); ++p) {
-      volumes[first_of(element) + p] = shapes[p].volume;
-    }
-  });
-  return volumes;
 }
 
 }  // namespace scarp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <concepts>
 #include <memory>
 #include <optional>
@@ -18,6 +19,15 @@
 #include "scarp/mesh/cells.hpp"
 
 namespace scarp {
+
+/// An element's shape and what has become of it.
+template <int Dim>
+struct Distortion {
+  double mean_ratio = 1.0;                  ///< of its shape now
+  double shear = 0.0;                       ///< simple shear with the same change of lengths, since the start
+  int element = -1;                         ///< number; -1 without elements
+  Vector<Dim> place = Vector<Dim>::Zero();  ///< of its middle now [m]
+};
 
 /// Finite elements of any kind on a mesh, as a `Problem` sees them: displacement increments to gradients at the integration points,
 /// stresses at the points to nodal forces and stiffness. `Discretisation` makes one of an element, kinematics and integration, and
@@ -39,16 +49,23 @@ class Grid {
   virtual Cells cells() const = 0;                              ///< Its elements.
   /// Nodes of a boundary, sorted, each once. \throws InputError for an unknown or empty one
   virtual std::vector<int> boundary_nodes(std::string_view name) const = 0;
-  virtual std::vector<std::vector<int>> regions_of_nodes() const = 0;  ///< Regions of each node's elements, each once.
-  virtual double thickness() const = 0;                                ///< out of the plane [m]; 1 in space
-  virtual bool turns_stresses() const = 0;                             ///< Whether nodes move from step to step.
-  virtual int point_count() const = 0;                                 ///< Material points of all elements.
-  virtual int first_point(int element) const = 0;                      ///< Those of an element follow one another.
-  virtual Site<Dim> site(int point, double surface_level) const = 0;   ///< Where a point is, and its depth [m].
+  virtual bool has_boundary(std::string_view name) const = 0;
+  /// Facets of a boundary. \throws InputError for an unknown or empty one
+  virtual Cells facets(std::string_view boundary) const = 0;
+  virtual double thickness() const = 0;                               ///< out of the plane [m]; 1 in space
+  virtual bool turns_stresses() const = 0;                            ///< Whether nodes move from step to step.
+  virtual int point_count() const = 0;                                ///< Material points of all elements.
+  virtual int first_point(int element) const = 0;                     ///< Those of an element follow one another.
+  virtual Site<Dim> site(int point, double surface_level) const = 0;  ///< Where a point is, and its depth [m].
 
   /// Gradient of the committed with respect to the initial position at a point; what its material sees may differ, see
   /// MeanDilatation.
   virtual Tensor<Dim> deformation(int point) const = 0;
+
+  /// Number of the point nearest to a place [m] in the initial mesh.
+  /// \throws InputError for a place that is not finite
+  virtual int nearest_point(Vector<Dim> const& place) const = 0;
+  virtual Distortion<Dim> distortion(int point) const = 0;  ///< Of its element, with the mean ratio at the point.
 
   /// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
   /// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
@@ -85,6 +102,14 @@ class Grid {
   /// \throws InputError for arrays of other lengths
   virtual void stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<Dim> const> stresses,
                          std::span<VoigtTangent<Dim> const> tangents, Eigen::SparseMatrix<double>& out) const = 0;
+  /// The stiffness [N/m] as a matrix of its own, shape (dof_count, dof_count).
+  /// \throws InputError for arrays of other lengths
+  Eigen::SparseMatrix<double> stiffness(Eigen::VectorXd const& increment, std::span<VoigtStress<Dim> const> stresses,
+                                        std::span<VoigtTangent<Dim> const> tangents) const {
+    Eigen::SparseMatrix<double> matrix;
+    stiffness(increment, stresses, tangents, matrix);
+    return matrix;
+  }
 
   /// Engineering strains of all points for a small further displacement from the end of the increment [m];
   /// row = voigt_size * point + component, shape (voigt_size * point_count, dof_count)
@@ -94,6 +119,18 @@ class Grid {
   /// Volume [m3] of each point, thickness included, in the configuration that forces are balanced in.
   /// \throws InputError for an increment of another length
   virtual std::vector<double> volumes(Eigen::VectorXd const& increment) const = 0;
+
+  /// Regions of each node's elements, each once.
+  std::vector<std::vector<int>> regions_of_nodes() const {
+    auto const elements = cells();
+    std::vector<std::vector<int>> regions_of(positions_.size());
+    for (std::size_t k = 0; k < elements.connectivity.size(); ++k) {
+      auto& regions = regions_of[detail::index(elements.connectivity[k])];
+      int const region = elements.regions[k / detail::index(elements.nodes)];
+      if (std::ranges::find(regions, region) == regions.end()) regions.push_back(region);
+    }
+    return regions_of;
+  }
 
   /// Makes the configuration at the end of the increment the committed one.
   /// \throws InputError when the increment is not finite or has another length; nothing has moved then

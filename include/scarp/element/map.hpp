@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scarp/core/index.hpp"
-#include "scarp/element/reference_element.hpp"
+#include "scarp/element/mid_sides.hpp"
 
 namespace scarp {
 
@@ -43,6 +43,20 @@ double measure(Corners<Cell, Space> const& corners, Vector<Cell::dim> const& xi)
     Tensor<Cell::dim> const metric = map.transpose() * map;
     return std::sqrt(metric.determinant());
   }
+}
+
+/// d det(A)^(2/d) / |A|^2 of the map A from a regular cell: 1 for a regular one, 0 without volume or inside out (Liu and
+/// Joe 1994; Knupp 2001).
+template <class Cell>
+double mean_ratio(Corners<Cell, Cell::dim> const& corners, Vector<Cell::dim> const& xi) {
+  constexpr int dim = Cell::dim;
+  constexpr bool is_simplex = LinearOf<Cell>::nodes == dim + 1;
+  Tensor<dim> const map = jacobian<Cell, dim>(corners, xi);
+  // Scalar products of the edges of a regular cell: of unit length, in simplices at 60 degrees.
+  Tensor<dim> edges = Tensor<dim>::Identity();
+  if (is_simplex) edges = (edges + Tensor<dim>::Ones()) / 2.0;
+  double const volume = map.determinant() / std::sqrt(edges.determinant());
+  return volume > 0.0 ? dim * std::pow(volume, 2.0 / dim) / (map * edges.inverse() * map.transpose()).trace() : 0.0;
 }
 
 /// Shape-function derivatives with respect to space [1/m], shape (nodes, dim), and the volume [m^dim] of one

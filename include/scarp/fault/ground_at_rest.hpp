@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "scarp/core/described.hpp"
-#include "scarp/mesh/mesh.hpp"
 #include "scarp/observe/observers.hpp"
+#include "scarp/tensor/tensor.hpp"
 
 namespace scarp {
 
@@ -19,13 +19,12 @@ struct GroundAtRest : NeverStops {
   /// Copies the positions of an accepted state whose load factor is not positive.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
-    if (report.verdict.acceptable() && !(report.load > 0.0)) positions = problem.discretisation().positions();
+    if (report.verdict.acceptable() && !(report.load > 0.0)) positions = problem.grid().positions();
   }
 
-  /// The positions; those of the mesh where nothing was copied.
-  template <class Element>
-  std::vector<Vector<Dim>> const& of(Mesh<Element> const& mesh) const {
-    return positions.empty() ? mesh.nodes : positions;
+  /// The positions; where nothing was copied, those of the mesh's nodes [m].
+  std::vector<Vector<Dim>> const& of(std::vector<Vector<Dim>> const& nodes) const {
+    return positions.empty() ? nodes : positions;
   }
 
   SCARP_MEMBERS(positions)
@@ -33,10 +32,8 @@ struct GroundAtRest : NeverStops {
 
 /// The committed positions of a problem whose fault has not moved yet.
 template <class Problem>
-auto ground_at_rest(Problem const& problem) {
-  GroundAtRest<std::remove_cvref_t<decltype(problem.discretisation())>::dim> rest;
-  rest.positions = problem.discretisation().positions();
-  return rest;
+GroundAtRest<Problem::dim> ground_at_rest(Problem const& problem) {
+  return {{}, problem.grid().positions()};
 }
 
 }  // namespace scarp

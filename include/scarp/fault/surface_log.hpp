@@ -40,8 +40,10 @@ class SurfaceLog : public NeverStops {
  private:
   template <class Problem>
   void write(Problem const& problem, double load) {
-    auto const& grid = problem.discretisation();
-    for (auto const& point : surface_profile(grid.mesh(), rest_.of(grid.mesh()), grid.positions())) {
+    auto const& grid = problem.grid();
+    std::vector<Cells> facets{grid.facets("surface")};
+    if (grid.has_boundary("footing_base")) facets.push_back(grid.facets("footing_base"));
+    for (auto const& point : surface_profile(grid.nodes(), facets, rest_.of(grid.nodes()), grid.positions())) {
       log_.add(load / schedule_.unit, point.x_initial, point.x, point.settlement, point.joined ? 1 : 0);
     }
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scarp/core/error.hpp"
-#include "scarp/mesh/mesh.hpp"
+#include "scarp/mesh/cells.hpp"
 
 namespace scarp {
 
@@ -101,34 +101,44 @@ std::vector<std::string> ground_boundaries(Mesh<Element> const& mesh) {
 /// Profile of the ground surface along the first axis, from left to right, made from the facets of boundaries;
 /// settlement is along the last axis. Nodes in the middle of facets are points of it too. In space a point is the mean
 /// over the nodes of equal x in the mesh, which should have its nodes in lines along the strike.
-/// rest, positions [m]: of the mesh's nodes when the fault began to move, see GroundAtRest, and now
-/// \throws InputError for unknown boundaries and for positions of another mesh
-template <class Element>
-std::vector<SurfacePoint> surface_profile(Mesh<Element> const& mesh, std::vector<Vector<Element::dim>> const& rest,
-                                          std::vector<Vector<Element::dim>> const& positions,
-                                          std::vector<std::string> const& boundaries) {
-  constexpr int up = Element::dim - 1;
-  detail::require_for_each_node("positions at rest", rest.size(), mesh.nodes.size());
-  detail::require_for_each_node("positions", positions.size(), mesh.nodes.size());
-  auto const along = [&](int node) { return mesh.nodes[detail::index(node)](0); };
-  std::vector<int> nodes;
+/// nodes, rest, positions [m]: in the mesh, when the fault began to move, see GroundAtRest, and now
+/// \throws InputError for positions of another mesh
+template <int Dim>
+std::vector<SurfacePoint> surface_profile(std::vector<Vector<Dim>> const& nodes, std::vector<Cells> const& boundaries,
+                                          std::vector<Vector<Dim>> const& rest,
+                                          std::vector<Vector<Dim>> const& positions) {
+  constexpr int up = Dim - 1;
+  detail::require_for_each_node("positions at rest", rest.size(), nodes.size());
+  detail::require_for_each_node("positions", positions.size(), nodes.size());
+  auto const along = [&](int node) { return nodes[detail::index(node)](0); };
+  std::vector<int> numbers;
   std::vector<detail::Span> spans;
-  for (auto const& name : boundaries) {
-    for (auto const& facet : boundary(mesh, name)) {
-      nodes.insert(nodes.end(), facet.begin(), facet.end());
+  for (auto const& facets : boundaries) {
+    numbers.insert(numbers.end(), facets.connectivity.begin(), facets.connectivity.end());
+    for (auto facet = facets.connectivity.begin(); facet != facets.connectivity.end(); facet += facets.nodes) {
       auto const [first, last] =
-          std::minmax_element(facet.begin(), facet.end(), [&](int a, int b) { return along(a) < along(b); });
+          std::minmax_element(facet, facet + facets.nodes, [&](int a, int b) { return along(a) < along(b); });
       spans.push_back({along(*first), along(*last)});
     }
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   std::vector<detail::Placed> points;
-  for (int const node : nodes) {
+  for (int const node : numbers) {
     auto const n = detail::index(node);
     points.push_back({along(node), {rest[n](0), positions[n](0), rest[n](up) - positions[n](up), false}});
   }
   return detail::joined_places(std::move(points), spans);
+}
+
+/// Of boundaries of a mesh. \throws InputError for unknown ones and for positions of another mesh
+template <class Element>
+std::vector<SurfacePoint> surface_profile(Mesh<Element> const& mesh, std::vector<Vector<Element::dim>> const& rest,
+                                          std::vector<Vector<Element::dim>> const& positions,
+                                          std::vector<std::string> const& boundaries) {
+  std::vector<Cells> facets;
+  for (auto const& name : boundaries) facets.push_back(facets_of(mesh, name));
+  return surface_profile(mesh.nodes, facets, rest, positions);
 }
 
 /// Of ground_boundaries(mesh): the whole surface of the ground, also what lies below a footing.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "scarp/core/index.hpp"
@@ -25,6 +26,17 @@ Cells cells_of(Mesh<Element> const& mesh) {
   Cells cells{Element::nodes, static_cast<std::uint8_t>(Element::vtk_cell_type), {}, mesh.element_region};
   for (auto const& element : mesh.elements)
     cells.connectivity.insert(cells.connectivity.end(), element.begin(), element.end());
+  return cells;
+}
+
+/// The facets of a boundary as cells, without regions.
+/// \throws InputError as boundary() does
+template <class Element>
+Cells facets_of(Mesh<Element> const& mesh, std::string_view boundary) {
+  using Facet = typename Element::Facet;
+  Cells cells{Facet::nodes, static_cast<std::uint8_t>(Facet::vtk_cell_type), {}, {}};
+  for (auto const& facet : scarp::boundary(mesh, boundary))
+    cells.connectivity.insert(cells.connectivity.end(), facet.begin(), facet.end());
   return cells;
 }
 

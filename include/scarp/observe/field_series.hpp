@@ -13,7 +13,6 @@
 #include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/vtu.hpp"
-#include "scarp/observe/deformation.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/run/root_rank.hpp"
 #include "scarp/tensor/geo.hpp"

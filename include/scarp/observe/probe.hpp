@@ -9,33 +9,11 @@
 
 namespace scarp {
 
-/// Number of the material point nearest to a place [m] in the initial mesh.
-/// \throws InputError for a place that is not finite
-template <class DiscretisationType>
-int nearest_point(DiscretisationType const& discretisation, Vector<DiscretisationType::dim> const& place) {
-  for (double const coordinate : place) require_finite("place whose nearest point is looked for", coordinate);
-  using Element = typename std::remove_cvref_t<decltype(discretisation.mesh())>::ElementType;
-  auto const& mesh = discretisation.mesh();
-  int nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (int point = 0; point < discretisation.point_count(); ++point) {
-    auto const shape = Element::shape(discretisation.local_point(point).xi);
-    auto const& nodes = mesh.elements[detail::index(point / DiscretisationType::points_per_element)];
-    Vector<DiscretisationType::dim> distance = -place;
-    for (int k = 0; k < Element::nodes; ++k) distance += shape(k) * mesh.nodes[detail::index(nodes[detail::index(k)])];
-    if (distance.norm() < least) {
-      least = distance.norm();
-      nearest = point;
-    }
-  }
-  return nearest;
-}
-
 /// Follows the packing of one material point: stress and strain in geo view (compression positive), void ratio and fabrics,
 /// one row for each accepted step. With an intrinsic length the strain is the mean that the packing sees.
 class RveProbe : public NeverStops {
  public:
-  /// point: number of a material point, see nearest_point
+  /// point: number of a material point, see Grid::nearest_point
   /// \throws InputError for a unit that is not positive
   RveProbe(std::filesystem::path const& file, int point, LoadMeasure measure, CsvStart start = CsvStart::anew)
       : measure_(detail::validated(std::move(measure))),
@@ -69,6 +47,18 @@ class RveProbe : public NeverStops {
   SCARP_MEMBERS_EXCEPT((point_, measure_), log_)
 
  private:
+  /// Deformation that the material of a point receives: where increments are averaged, the mean around the point.
+  template <class Problem>
+  static Tensor<Problem::dim> seen_deformation(Problem const& problem, int point) {
+    auto const& grid = problem.grid();
+    auto const* means = problem.points().means();
+    if (!means) return grid.deformation(point);
+    auto const shares = means->mean().of(point);
+    Tensor<Problem::dim> mean = Tensor<Problem::dim>::Zero();
+    for (auto const& share : shares) mean += share.weight * grid.deformation(share.point);
+    return mean;
+  }
+
   LoadMeasure measure_;  ///< checked before a file is made
   CsvLog log_;
   int point_;
