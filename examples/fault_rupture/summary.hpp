@@ -17,8 +17,7 @@
 #include "scarp/io/atomic_file.hpp"
 #include "scarp/mesh/region_area.hpp"
 #include "scarp/observe/distortion.hpp"
-#include "scarp/observe/floor_share.hpp"
-#include "scarp/observe/solid_volume.hpp"
+#include "scarp/observe/totals.hpp"
 #include "surface_mean.hpp"
 #include "team.hpp"
 

@@ -7,7 +7,7 @@
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_measures.hpp"
-#include "scarp/observe/generalised_reaction.hpp"
+#include "scarp/observe/totals.hpp"
 #include "scarp/points/nonlocal.hpp"
 
 namespace nonlocal_band {

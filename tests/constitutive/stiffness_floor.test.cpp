@@ -6,7 +6,7 @@
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"
-#include "scarp/observe/floor_share.hpp"
+#include "scarp/observe/totals.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/quasi_newton.hpp"
