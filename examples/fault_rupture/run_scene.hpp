@@ -171,7 +171,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnRootRank observers(executor, [&] {
     return scarp::Observers(
-        scarp::ObserverRef(*takeover), scarp::FieldSeries(folder, {.to = to, .count = choice.frames, .unit = depth}),
+        std::ref(*takeover), scarp::FieldSeries(folder, {.to = to, .count = choice.frames, .unit = depth}),
         scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
         scarp::RveProbe(folder / "probe_A.csv", at(choice.probe_a_x, choice.probe_a_y), measure, start),
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), measure, start),
@@ -186,7 +186,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
               "0 without area): compare with another --pattern, or take a longer --length or less throw\n",
               begun.name, worst.element, worst.place.x(), worst.place.y(), 100.0 * worst.shear, worst.mean_ratio);
         }),
-        scarp::ObserverRef(budget), scarp::ObserverRef(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
+        std::ref(budget), std::ref(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
   });
 
   RunNotes notes{.used = examples::RunUsage(begun.moment)};

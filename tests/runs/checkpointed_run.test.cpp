@@ -113,7 +113,7 @@ Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending e
   Budget budget;
   if (has_budget) budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_tracked = 8});
   scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}, start}},
-                             scarp::ObserverRef(budget), ending);
+                             std::ref(budget), ending);
   scarp::CheckpointedRun run(files, observers, outcome.notes);
   scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
   scarp::LoadStepping const stepping{
@@ -360,7 +360,7 @@ TEST_CASE("a run of three hundred steps holds no more memory than one of thirty"
   std::vector<std::size_t> bytes;
   bytes.reserve(2);
   scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}}},
-                             scarp::ObserverRef(budget), MemoryInUse{{}, {30, 300}, &bytes});
+                             std::ref(budget), MemoryInUse{{}, {30, 300}, &bytes});
   Notes notes;
   scarp::CheckpointFiles files;
   scarp::CheckpointedRun run(files, observers, notes);

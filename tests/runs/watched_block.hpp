@@ -111,7 +111,7 @@ Outcome pull(Provider const& provider, scarp::Executor& executor, std::filesyste
         scarp::FieldSeries(folder, {.to = to, .count = 3}), scarp::RveProbe(folder / "probe.csv", 1, {}, start),
         scarp::PackingSeries(folder, "probe", 1, to, {0.0, 0.5, 1.0}, {}),
         scarp::ConvergenceLog(folder / "convergence.csv", {}, start),
-        scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), scarp::ObserverRef(budget), Stop{attempts});
+        scarp::SurfaceLog<>(folder / "surface.csv", to, 3, 1.0, start), std::ref(budget), Stop{attempts});
   });
   NoNotes notes;
   scarp::CheckpointedRun run(files, observers, notes);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <boost/hana/for_each.hpp>
-#include <boost/hana/tuple.hpp>
 #include <cmath>
+#include <functional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -15,80 +15,48 @@
 namespace scarp {
 
 /// Several observers as one; each is called at every attempt, any may stop the run.
-/// \tparam Parts each an `ObservesSteps`
+/// \tparam Parts each an `ObservesSteps`; one that lives elsewhere, for a program that reads it when the run has ended, is given
+/// by `std::ref` and outlives the run
 template <class... Parts>
 struct Observers {
-  static_assert(!((requires { typename Parts::WatchesAll; }) || ...),
+  static_assert(!((requires { typename std::unwrap_reference_t<Parts>::WatchesAll; }) || ...),
                 "scarp: a CheckpointedRun watches all other observers: give it to the run itself");
 
-  boost::hana::tuple<Parts...> parts;  ///< in the order in which they are called
+  std::tuple<std::unwrap_reference_t<Parts>...> parts;  ///< in the order in which they are called
 
-  /// Takes the observers over; see `ObserverRef` for one that is read later.
-  explicit Observers(Parts... each) : parts(std::move(each)...) {}
+  explicit Observers(Parts... each) : parts(std::move(each)...) {}  ///< Takes the observers over.
 
   /// Passes an attempt on to each observer.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
-    boost::hana::for_each(parts, [&](auto& part) { part.attempted(problem, report); });
+    std::apply([&](auto&... part) { (part.attempted(problem, report), ...); }, parts);
   }
 
   /// Calls ended(problem, load) of those parts that have it, where a run has stopped.
   template <class Problem>
   void ended(Problem const& problem, double load) {
-    boost::hana::for_each(parts, [&](auto& part) {
+    auto const end = [&](auto& part) {
       if constexpr (requires { part.ended(problem, load); }) part.ended(problem, load);
-    });
+    };
+    std::apply([&](auto&... part) { (end(part), ...); }, parts);
   }
 
   /// Whether at least one observer stops the run.
   bool wants_stop() const {
-    bool stop = false;
-    boost::hana::for_each(parts, [&](auto const& part) { stop = stop || part.wants_stop(); });
-    return stop;
+    return std::apply([](auto const&... part) { return (part.wants_stop() || ...); }, parts);
   }
 
   /// The parts with a state; each that is not empty has to name its members.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
-    boost::hana::for_each(self.parts, [&](auto& part) {
+    auto const describe = [&](auto& part) {
       using Part = std::remove_cvref_t<decltype(part)>;
       static_assert(Described<Part> || std::is_empty_v<Part>,
                     "scarp: an observer of a run that is saved names its members: SCARP_MEMBERS(rows), or "
                     "SCARP_MEMBERS_EXCEPT((path)) where a resumed run sets them itself");
       if constexpr (Described<Part>) visit("observer", part);
-    });
-  }
-};
-
-/// An observer that lives elsewhere, for a program that reads it when the run has ended.
-/// \tparam Observer an `ObservesSteps`
-template <class Observer>
-struct ObserverRef {
-  static_assert(
-      !requires { typename Observer::WatchesAll; },
-      "scarp: a CheckpointedRun watches all other observers: give it to the run itself");
-
-  Observer* observer;  ///< outlives the run
-
-  explicit ObserverRef(Observer& lent) : observer(&lent) {}  ///< The observer must outlive this object.
-
-  /// Passes an attempt on.
-  template <class Problem>
-  void attempted(Problem const& problem, StepReport const& report) {
-    observer->attempted(problem, report);
-  }
-  /// Where the observer has it.
-  template <class Problem>
-  void ended(Problem const& problem, double load) requires requires(Observer& one) {
-    one.ended(problem, load);
-  }
-  { observer->ended(problem, load); }
-  bool wants_stop() const { return observer->wants_stop(); }  ///< Whether the observer stops the run.
-
-  /// Those of the observer, where it has a state.
-  template <class Self, class Visit>
-  static void members(Self& self, Visit&& visit) requires(Described<Observer> || std::is_empty_v<Observer>) {
-    if constexpr (Described<Observer>) Observer::members(*self.observer, visit);
+    };
+    std::apply([&](auto&... part) { (describe(part), ...); }, self.parts);
   }
 };
 
