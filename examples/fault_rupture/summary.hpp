@@ -15,7 +15,6 @@
 #include "scarp/fault/ground_at_rest.hpp"
 #include "scarp/fault/rupture_survey.hpp"
 #include "scarp/io/atomic_file.hpp"
-#include "scarp/mesh/region_area.hpp"
 #include "scarp/observe/distortion.hpp"
 #include "scarp/observe/totals.hpp"
 #include "surface_mean.hpp"

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "scarp/fault/rupture_measures.hpp"
-#include "scarp/mesh/region_area.hpp"
 
 namespace fault_rupture {
 

@@ -12,7 +12,6 @@
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
-#include "scarp/mesh/region_area.hpp"
 #include "support/approx.hpp"
 #include "support/elements.hpp"
 #include "support/refusals.hpp"

@@ -11,7 +11,7 @@
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/fault/tied_footing.hpp"
-#include "scarp/mesh/region_area.hpp"
+#include "scarp/mesh/mesh.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 

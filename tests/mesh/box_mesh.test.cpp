@@ -9,7 +9,6 @@
 
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/tet10.hpp"
-#include "scarp/mesh/region_area.hpp"
 #include "support/approx.hpp"
 #include "support/crossed_rectangle.hpp"
 #include "support/elements.hpp"

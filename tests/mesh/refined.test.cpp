@@ -11,7 +11,6 @@
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/mesh_checks.hpp"
-#include "scarp/mesh/region_area.hpp"
 #include "support/approx.hpp"
 #include "support/elements.hpp"
 #include "support/refusals.hpp"

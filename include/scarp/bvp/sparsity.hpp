@@ -63,20 +63,14 @@ class Sparsity {
 
   void build_pattern(std::vector<std::set<int>> const& neighbours, int dim) {
     int const size = dim * detail::count(neighbours);
-    Eigen::VectorXi per_column(size);
-    for (int column = 0; column < size; ++column) {
-      per_column(column) = dim * detail::count(neighbours[detail::index(column / dim)]);
-    }
     pattern_.resize(size, size);
-    pattern_.reserve(per_column);
     for (int column = 0; column < size; ++column) {
+      pattern_.startVec(column);
       for (int const node : neighbours[detail::index(column / dim)]) {
-        for (int i = 0; i < dim; ++i) {
-          pattern_.insert(dim * node + i, column) = 0.0;
-        }
+        for (int i = 0; i < dim; ++i) pattern_.insertBack(dim * node + i, column) = 0.0;
       }
     }
-    pattern_.makeCompressed();
+    pattern_.finalize();
   }
 
   int address(int row, int column) const {

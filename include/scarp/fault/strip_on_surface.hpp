@@ -11,7 +11,6 @@
 #include "scarp/mesh/graded_lines.hpp"
 #include "scarp/mesh/joined_meshes.hpp"
 #include "scarp/mesh/pattern_grid.hpp"
-#include "scarp/mesh/region_area.hpp"
 
 namespace scarp {
 

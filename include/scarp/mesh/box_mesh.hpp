@@ -67,12 +67,8 @@ struct BoxMesh {
   Mesh<Linear> corner_mesh() const {
     Mesh<Linear> mesh;
     mesh.regions = {"soil"};
-    std::vector<Place> places;
     Random random(seed);
-    for_each_place(1, [&](Place const& place) {
-      places.push_back(place);
-      mesh.nodes.push_back(position(place, random));
-    });
+    for_each_place(1, [&](Place const& place) { mesh.nodes.push_back(position(place, random)); });
     auto const parts = detail::cell_division<Linear>();
     for_each_place(0, [&](Place const& cell) {
       for (auto part : parts) {
@@ -83,7 +79,7 @@ struct BoxMesh {
         mesh.element_region.push_back(0);
       }
     });
-    add_boundaries(mesh, places);
+    add_boundaries(mesh);
     return mesh;
   }
 
@@ -121,29 +117,23 @@ struct BoxMesh {
     return inside ? Vector<dim>(node + move) : node;
   }
 
-  void add_boundaries(Mesh<Linear>& mesh, std::vector<Place> const& places) const {
-    for (auto const& element : mesh.elements) {
-      for (auto facet : Linear::facets()) {
-        for (int& node : facet) {
-          node = element[detail::index(node)];
-        }
-        for (std::size_t axis = 0; axis < dim; ++axis) {
-          auto const all_at = [&](int line) {
-            return std::all_of(facet.begin(), facet.end(),
-                               [&](int node) { return places[detail::index(node)][axis] == line; });
+  void add_boundaries(Mesh<Linear>& mesh) const {
+    for (int e = 0; e < detail::count(mesh.elements); ++e) {
+      for (int side = 0; side < detail::count(Linear::facets()); ++side) {
+        auto const facet = detail::side_nodes(mesh, e, side);
+        for (int axis = 0; axis < dim; ++axis) {
+          auto const all_at = [&](double place) {
+            return std::ranges::all_of(facet, [&](int node) { return mesh.nodes[detail::index(node)](axis) == place; });
           };
           auto const& [low, high] = names(axis);
-          if (all_at(0)) {
-            mesh.boundaries[low].push_back(facet);
-          } else if (all_at(cells[axis])) {
-            mesh.boundaries[high].push_back(facet);
-          }
+          if (all_at(0.0)) mesh.boundaries[low].push_back(facet);
+          if (all_at(lengths(axis))) mesh.boundaries[high].push_back(facet);
         }
       }
     }
   }
 
-  static std::pair<char const*, char const*> names(std::size_t axis) {
+  static std::pair<char const*, char const*> names(int axis) {
     if (axis == 0) {
       return {"left", "right"};
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -10,23 +11,15 @@
 
 namespace scarp {
 
-/// The side of an element.
-template <ReferenceElement Element>
-struct ElementSide {
-  int element = 0;                                ///< number of the element
-  std::array<int, Element::facet_nodes> nodes{};  ///< in the sense of the outward normal
-};
-
 /// The sides that only one element has: the outline of the mesh, and both faces of every crack in it. In the order of
 /// the elements.
 template <ReferenceElement Element>
-std::vector<ElementSide<Element>> outer_facets(Mesh<Element> const& mesh) {
+std::vector<MeshSide<Element>> outer_facets(Mesh<Element> const& mesh) {
   auto const sides = detail::sorted_sides(mesh);
-  std::vector<ElementSide<Element>> outer;
-  for (auto const& side : sides) {
-    if (detail::sides_with(sides, side.nodes).size() == 1) outer.push_back({side.element, side.nodes});
-  }
-  std::ranges::stable_sort(outer, {}, &ElementSide<Element>::element);
+  std::vector<MeshSide<Element>> outer;
+  std::ranges::copy_if(sides, std::back_inserter(outer),
+                       [&](auto const& side) { return detail::sides_with(sides, side.nodes).size() == 1; });
+  std::ranges::stable_sort(outer, {}, &MeshSide<Element>::element);
   return outer;
 }
 

@@ -36,6 +36,15 @@ struct Mesh {
   std::map<std::string, std::vector<std::array<int, Element::facet_nodes>>> boundaries;
 };
 
+/// A side of an element of a mesh.
+template <class Element>
+struct MeshSide {
+  std::array<int, Element::facet_nodes> nodes;   ///< in the sense of the outward normal
+  std::array<int, Element::facet_nodes> sorted;  ///< the same nodes
+  int element;
+  int facet;  ///< number of the side among `Element::facets()`
+};
+
 namespace detail {
 
 template <class Element>
@@ -118,15 +127,6 @@ std::array<int, Element::facet_nodes> side_nodes(Mesh<Element> const& mesh, int 
   for (int& node : nodes) node = mesh.elements[index(element)][index(node)];
   return nodes;
 }
-
-/// A side of an element of a mesh.
-template <class Element>
-struct MeshSide {
-  std::array<int, Element::facet_nodes> nodes;   ///< in the sense of the outward normal
-  std::array<int, Element::facet_nodes> sorted;  ///< the same nodes
-  int element;
-  int facet;  ///< number of the side among `Element::facets()`
-};
 
 /// The sides of all elements by their sorted nodes; of those with the same nodes the first element's comes first.
 template <class Element>
@@ -235,6 +235,23 @@ inline int region_among(std::vector<std::string> const& regions, std::string_vie
 template <class Element>
 int region_number(Mesh<Element> const& mesh, std::string_view name) {
   return detail::region_among(mesh.regions, name);
+}
+
+/// Area of a region [m2], in 3D its volume [m3].
+/// places [m]: of all nodes, such as mesh.nodes
+/// \throws InputError for an unknown region
+template <class Element>
+double region_area(Mesh<Element> const& mesh, std::string_view region,
+                   std::vector<Vector<Element::dim>> const& places) {
+  int const number = region_number(mesh, region);
+  double area = 0.0;
+  for (int e = 0; e < detail::count(mesh.elements); ++e) {
+    if (mesh.element_region[detail::index(e)] != number) continue;
+    auto const rows = corners<Element, Element::dim>(mesh.elements[detail::index(e)], places);
+    for (auto const& point : Element::quadrature())
+      area += point.weight * measure<Element, Element::dim>(rows, point.xi);
+  }
+  return area;
 }
 
 /// Extent of nodes along the axis where they reach farthest [m].

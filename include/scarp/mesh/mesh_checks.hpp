@@ -82,7 +82,7 @@ void require_no_hanging_nodes(Mesh<Element> const& mesh) {
   constexpr std::size_t corners = LinearOf<Element>::facet_nodes;
   auto const sides = outer_facets(mesh);
   if (sides.empty()) return;
-  auto const corners_of = [&](ElementSide<Element> const& side) {
+  auto const corners_of = [&](MeshSide<Element> const& side) {
     std::array<Vector<dim>, corners> places;
     for (std::size_t k = 0; k < corners; ++k) places[k] = mesh.nodes[detail::index(side.nodes[k])];
     return places;

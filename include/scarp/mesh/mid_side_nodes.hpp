@@ -17,15 +17,9 @@ namespace detail {
 /// The k-th facet of the quadratic element starts with the corners of the k-th facet of the linear one.
 template <class Element>
 constexpr bool facets_agree() {
-  using Linear = typename Element::Linear;
-  for (std::size_t f = 0; f < Linear::facets().size(); ++f) {
-    for (std::size_t a = 0; a < Linear::facets()[f].size(); ++a) {
-      if (Element::facets()[f][a] != Linear::facets()[f][a]) {
-        return false;
-      }
-    }
-  }
-  return Linear::facets().size() == Element::facets().size();
+  return std::ranges::equal(Element::Linear::facets(), Element::facets(), [](auto const& corners, auto const& all) {
+    return std::equal(corners.begin(), corners.end(), all.begin());
+  });
 }
 
 /// Gives a mesh the boundaries of the corners' mesh that it was made from.
