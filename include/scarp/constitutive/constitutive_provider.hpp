@@ -195,6 +195,14 @@ consteval bool check_provider() {
         requires(Model const& model, Site<Model::dim> const& site) { model.empty_state(site); } ||
             !names_empty_state<Model>,
         "scarp: empty_state of a provider is never called: it needs `State empty_state(Site<dim> const&) const`");
+    // Providers have these two under constraints: a member whose constraint fails has no address.
+    static_assert(
+        requires(Model const& model, State const& state) { model.picture(state); } || !requires { &Model::picture; },
+        "scarp: picture of a provider is never called: it needs `PackingPicture picture(State const&) const`");
+    static_assert(
+        HasPlan<Model> || !requires { &Model::plan; },
+        "scarp: plan of a provider is never called: it needs `Plan`, `Plan plan(State const&, Gradient<dim> "
+        "const&) const`, `Plan refined(Plan const&) const` and a `respond` with `Plan const&` at the end");
   }
   return ConstitutiveProvider<Model>;
 }

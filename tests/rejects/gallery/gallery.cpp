@@ -280,6 +280,8 @@ Packing<Wrong, Frictionless> packing;
 // first: quantities of a provider is never called
 // also: balance of a provider is never called
 // also: empty_state of a provider is never called
+// also: picture of a provider is never called
+// also: plan of a provider is never called
 namespace case_options_of_provider {
 struct Wrong : Elastic {
   int quantities(State const&) { return 0; }
@@ -288,6 +290,8 @@ struct Wrong : Elastic {
     return 0;
   }
   State empty_state() const { return {}; }
+  int picture(State&) const { return 0; }
+  int plan(State const&, Gradient<2> const&) const { return 1; }
 };
 StiffnessFloor<Wrong> soil;
 }  // namespace case_options_of_provider
