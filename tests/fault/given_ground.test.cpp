@@ -110,6 +110,17 @@ TEST_CASE("a file of the quadratic element serves for the straight one on reques
   CHECK_REFUSED(scarp::ground_from_file<scarp::Quad4>(folder / "ground.msh"), "highest_order = 1 as Quad4");
 }
 
+TEST_CASE("a ground in millimetres is noted") {
+  ScratchFolder const folder;
+  auto mesh = sound();
+  for (auto& node : mesh.nodes) node *= 1e3;
+  scarp::write_gmsh(folder / "ground.msh", mesh);
+  std::vector<std::string> notes;
+  static_cast<void>(scarp::ground_from_file<scarp::Quad4>(folder / "ground.msh", &notes));
+  REQUIRE(notes.size() == 1);
+  CHECK(samples::contains(notes[0], "m deep (from 0.1 m to 1000 m are usual): lengths are metres"));
+}
+
 TEST_CASE_TEMPLATE("a ground without groups is named by place", Element, scarp::Quad4, scarp::Hex8) {
   ScratchFolder const folder;
   auto const named = layer.generate<Element>();

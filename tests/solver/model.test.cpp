@@ -157,3 +157,15 @@ TEST_CASE("depths are those below the highest node, or below a level that is giv
   model.set_surface_level(height + 1.0);
   CHECK(model.depths("soil").front() == Approx(depths.front() + 1.0).epsilon(1e-12));
 }
+
+TEST_CASE("ground at rest is level at its top, or has a level that was set") {
+  scarp::BoxMesh<scarp::Quad4> const box{.lengths = scarp::Vector<2>(2.0, height), .cells = {2, 4}};
+  auto mesh = box.generate();
+  for (auto& node : mesh.nodes) node.y() *= 1.0 + 0.01 * node.x();
+  scarp::Model<2> tilted{Grid(std::move(mesh))};
+  tilted.gravity(weight);
+  CHECK_REFUSED(tilted.geostatic(0.5), "highest at (2, 4.08) and not level there");
+  CHECK_REFUSED(tilted.depths(), "not level there");
+  tilted.set_surface_level(1.02 * height);
+  CHECK(tilted.geostatic(0.5).unit_weight == weight);
+}

@@ -141,6 +141,11 @@ MeshFileGround<E> ground_from_file(std::filesystem::path const& path, std::vecto
     for (auto const& note : named) notes->push_back(fmt::format("'{}': {}", path.string(), note));
   }
   with_context(fmt::format("'{}'", path.string()), [&] { detail::require_ground(ground.given); });
+  double const depth = ground.surface_level() - bottom_level(ground.given);
+  constexpr double least = 0.1, most = 1000.0;  // [m]
+  if (notes != nullptr && !(depth >= least && depth <= most))
+    notes->push_back(fmt::format("'{}': the ground is {:.4g} m deep (from {} m to {} m are usual): lengths are metres",
+                                 path.string(), depth, least, most));
   return ground;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <initializer_list>
 #include <map>
@@ -68,7 +69,7 @@ class SCARP_EXPORT Model {
   /// \throws InputError for an unknown region
   std::vector<Site<Dim>> sites(std::string_view region = {}) const;
   /// Their depths [m].
-  /// \throws InputError for an unknown region
+  /// \throws InputError for an unknown region, and for a top that is not level where no level was set
   std::vector<double> depths(std::string_view region = {}) const;
 
   /// Holds boundaries along an axis.
@@ -116,8 +117,10 @@ class SCARP_EXPORT Model {
 
   /// Stress of level ground at rest, of one unit weight below one surcharge: those of a region, or of the first one, and of all
   /// sides with a surcharge. Others belong to the material itself.
-  /// \throws InputError for an unknown region, one without weight, and surcharges that differ
+  /// \throws InputError for an unknown region, one without weight, surcharges that differ, and a top that is not level where no
+  /// level was set
   GeostaticStress<dim> geostatic(double k0, std::string_view region = {}) const {
+    require_level_top();
     double const weight = weights_[detail::index(region.empty() ? 0 : region_number(*grid_, region))];
     double const surcharge = surcharges_.empty() ? 0.0 : surcharges_.begin()->second;
     if (weight == 0.0) reject("the stress at rest is requested of ground without weight: give gravity first");
@@ -140,6 +143,7 @@ class SCARP_EXPORT Model {
   Problem<Dim> problem(Executor& executor) const;
 
  private:
+  void require_level_top() const;
   void require_not_at_rest() const {
     if (is_at_rest_) reject("weight or surcharge are given after the stress at rest was taken: give them before");
   }
@@ -174,7 +178,28 @@ std::vector<Site<Dim>> Model<Dim>::sites(std::string_view region) const {
 }
 
 template <int Dim>
+void Model<Dim>::require_level_top() const {
+  if (level_) return;
+  constexpr int up = dim - 1;
+  auto const& nodes = grid_->nodes();
+  auto const ends = std::ranges::minmax(nodes, {}, [](auto const& node) { return node(up); });
+  auto const& high = ends.max;
+  double const nearly = 1e-6 * (high(up) - ends.min(up));
+  for (int axis = 0; axis < up; ++axis) {
+    auto const is_apart = [&](auto const& node) {
+      return node(up) >= high(up) - nearly && std::abs(node(axis) - high(axis)) > nearly;
+    };
+    if (std::ranges::none_of(nodes, is_apart))
+      reject(
+          "the ground is highest at ({}) and not level there (the stress at rest is that below one level): set the "
+          "level where one is meant, or give the material its own stress",
+          listed(high));
+  }
+}
+
+template <int Dim>
 std::vector<double> Model<Dim>::depths(std::string_view region) const {
+  require_level_top();
   std::vector<double> found;
   for (auto const& site : sites(region)) found.push_back(site.depth);
   return found;
