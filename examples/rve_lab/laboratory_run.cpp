@@ -2,165 +2,13 @@
 #include "laboratory_run.hpp"
 
 #include "../shared/print.hpp"
-#include "laboratory_results.hpp"
-#include "laboratory_table.hpp"
+#include "laboratory_tests.hpp"
 #include "mohr_coulomb_reading.hpp"
 #include "paths.hpp"
-#include "scarp/io/csv.hpp"
-#include "scarp/points/any_provider.hpp"
-#include "scarp/solver/thread_executor.hpp"
 
 namespace rve_lab {
 
 namespace {
-
-template <int Dim>
-scarp::PathConditions<Dim> conditions_of(Laboratory const& choice) {
-  if (choice.path == "isotropic") return scarp::isotropic_path<Dim>();
-  if (choice.path == "oedometer") return scarp::oedometer_path<Dim>();
-  if (choice.path == "undrained") return scarp::undrained_path<Dim>();
-  if (choice.path == "constant_mean_stress") return scarp::constant_mean_stress_path<Dim>();
-  if (choice.path == "simple_shear") return scarp::simple_shear_path<Dim>();
-  if (choice.path == "simple_shear_at_stress") return scarp::simple_shear_at_stress_path<Dim>();
-  if (choice.path == "proportional_stress") return scarp::proportional_stress_path<Dim>(choice.ratio);
-  if (choice.path == "proportional_strain") return scarp::proportional_strain_path<Dim>(choice.ratio);
-  return scarp::drained_path<Dim>();
-}
-
-/// Axial stress and k0 times as much on the lateral axes as targets, no shear strain.
-template <int Dim>
-scarp::PathConditions<Dim> consolidation_of(double axial, double k0) {
-  auto conditions = scarp::oedometer_path<Dim>();
-  for (int k = 0; k < Dim; ++k) {
-    conditions[static_cast<std::size_t>(k)] = {.of_stress = scarp::VoigtStress<Dim>::Unit(k),
-                                               .target = -(k == Dim - 1 ? 1.0 : k0) * axial};
-  }
-  return conditions;
-}
-
-/// The points of a test with the rows of each, compression positive in the table.
-template <int Dim>
-class LaboratoryRun {
- public:
-  using Row = LaboratoryRow<Dim>;
-
-  LaboratoryRun(Laboratory const& choice, scarp::AnyProvider<Dim> const& material, int count,
-                std::filesystem::path const& table)
-      : choice_(choice),
-        points_(material, sites(count)),
-        executor_(std::min(choice.threads, count)),
-        rows_(static_cast<std::size_t>(count)),
-        log_(table, {"point", "length", "axial_strain", "volumetric_strain", "shear_strain", "axial_stress",
-                     "lateral_stress", "shear_stress", "p", "q", "friction_angle", "void_ratio"}) {
-    path_.emplace(points_, conditions_of<Dim>(choice), settings());
-  }
-
-  /// targets: of --path table, or null
-  /// \return why the test ended early, else ok
-  scarp::Verdict run(TargetTable<Dim> const* targets) {
-    if (choice_.consolidation && !consolidate()) return verdict_;
-    for (int k = 0; k < points_.size(); ++k) {
-      double initial = choice_.void_ratio.value_or(std::nan(""));
-      for (auto const& [name, value] : points_.quantities(k)) {
-        if (name == "void_ratio") initial = value;
-      }
-      void_ratios_.push_back(initial);
-    }
-    record();
-    if (targets != nullptr) {
-      for (std::size_t row = 0; row < targets->table.rows(); ++row) {
-        path_->load(targets->row(row));
-        if (!go(1.0, 0.1)) break;
-      }
-      return verdict_;
-    }
-    double const sign = choice_.extension ? -1.0 : 1.0;
-    if (choice_.cycles == 0) {
-      double const first = std::min(1e-5, choice_.strain);  // a row for the stiffness at small strain
-      static_cast<void>(go(sign * first, first) && go(sign * (choice_.strain - first), choice_.increment));
-      return verdict_;
-    }
-    for (int leg = 0; leg <= 2 * choice_.cycles; ++leg) {
-      bool const outer = leg == 0 || leg == 2 * choice_.cycles;
-      if (!go((leg % 2 == 0 ? sign : -sign) * (outer ? 1.0 : 2.0) * choice_.amplitude,
-              std::min(choice_.increment, choice_.amplitude / 10.0)))
-        break;
-    }
-    return verdict_;
-  }
-
-  std::vector<std::vector<Row>> const& rows() const { return rows_; }
-  double void_ratio(std::size_t point) const { return void_ratios_[point]; }
-  scarp::PathReport const& total() const { return total_; }
-  double length() const { return path_->length(); }
-  /// Words on the point with the least pressure, which ends a test of several first.
-  std::string weakest() const {
-    if (rows_.size() < 2) return {};
-    auto const least = std::ranges::min_element(rows_, {}, [](auto const& rows) { return rows.back().p(); });
-    return fmt::format(", point {} carries the least, p {:.4g} Pa: without it the others may go on",
-                       least - rows_.begin(), least->back().p());
-  }
-
- private:
-  static std::vector<scarp::Site<Dim>> sites(int count) {
-    std::vector<scarp::Site<Dim>> all;
-    for (int k = 0; k < count; ++k) all.push_back({.index = k});
-    return all;
-  }
-  scarp::PathSettings settings() const { return {.tolerance = choice_.tolerance}; }
-
-  bool consolidate() {
-    scarp::PointPath<Dim> path(points_, consolidation_of<Dim>(*choice_.consolidation, choice_.k0), settings());
-    for (int k = 0; k < 20; ++k) {
-      verdict_ = path.advance(0.05, executor_).verdict;
-      if (verdict_.acceptable()) continue;
-      examples::print(stderr,
-                      "rve_lab: the consolidation to {:.6g} Pa with K0 {} ended after {:.0f} % of the way: choose "
-                      "stresses that the material bears\n",
-                      *choice_.consolidation, choice_.k0, 100.0 * path.length());
-      return false;
-    }
-    path_.emplace(points_, conditions_of<Dim>(choice_), settings());
-    return true;
-  }
-
-  bool go(double length, double increment) {
-    auto const count = static_cast<int>(std::ceil(std::abs(length) / increment - 1e-9));
-    for (int k = 0; k < count; ++k) {
-      auto const report = path_->advance(length / count, executor_);
-      verdict_ = report.verdict;
-      total_.increments += report.increments;
-      total_.cut_backs += report.cut_backs;
-      total_.iterations += report.iterations;
-      total_.missing = std::max(total_.missing, report.missing);
-      if (report.increments > 0) record();
-      if (!verdict_.acceptable()) return false;
-    }
-    return true;
-  }
-
-  void record() {
-    constexpr int sheared = Dim == 2 ? 2 : 4;
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      int const point = static_cast<int>(k);
-      Row const row{path_->length(), path_->stress(point), path_->strain(point)};
-      rows_[k].push_back(row);
-      log_.add(static_cast<double>(k), row.length, row.axial_strain(), row.volumetric_strain(), row.strain(sheared),
-               -row.stress(Dim - 1), -row.stress(0), row.stress(sheared), row.p(), row.q(), row.friction() / degree,
-               row.void_ratio(void_ratios_[k]));
-    }
-  }
-
-  Laboratory const& choice_;
-  scarp::MaterialPoints<Dim> points_;
-  scarp::ThreadExecutor executor_;
-  std::optional<scarp::PointPath<Dim>> path_{};
-  std::vector<std::vector<Row>> rows_;
-  std::vector<double> void_ratios_{};
-  scarp::CsvLog log_;
-  scarp::PathReport total_{};
-  scarp::Verdict verdict_{};
-};
 
 template <int Dim>
 nlohmann::json json_of(LaboratoryRow<Dim> const& row, double void_ratio) {
@@ -235,53 +83,77 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
   if (choice.path == "table") targets.emplace(choice.table);
   own.begin();
   LaboratoryRun<Dim> run(choice, material, count, own.path() / "test.csv");
-  scarp::Verdict const verdict = run.run(targets ? &*targets : nullptr);
-  auto const& total = run.total();
-  double const window =
-      choice.path == "table" || choice.cycles > 0 || std::abs(run.length()) < choice.window ? 0.0 : choice.window;
+  run.run(targets ? &*targets : nullptr);
+  auto const farthest = run.farthest();
+  bool const finished = std::ranges::all_of(run.tests(), [](auto const& test) { return test.verdict.acceptable(); });
+  auto const early = std::ranges::find_if(run.tests(), [](auto const& test) { return !test.verdict.acceptable(); });
+  auto const ended = scarp::name(finished ? scarp::Reason::none : early->verdict.reason);
+  scarp::PathReport total;
+  for (auto const& test : run.tests()) {
+    total.increments += test.total.increments;
+    total.cut_backs += test.total.cut_backs;
+    total.iterations += test.total.iterations;
+    total.missing = std::max(total.missing, test.total.missing);
+  }
+  auto const window = [&](auto const& test) {
+    return choice.path == "table" || choice.cycles > 0 || std::abs(test.length()) < choice.window ? 0.0 : choice.window;
+  };
   nlohmann::json summary{{"path", choice.path},
                          {"material", described},
                          {"dimension", Dim},
                          {"points", count},
-                         {"ended", scarp::name(verdict.reason)},
-                         {"length", run.length()},
+                         {"ended", ended},
+                         {"length", farthest.front()->length()},
                          {"increments", total.increments},
                          {"cut_backs", total.cut_backs},
                          {"iterations", total.iterations},
                          {"largest_missing_stress", total.missing},
-                         {"window", window},
+                         {"window", window(*farthest.front())},
                          {"overlay", choice.overlays},
                          {"output", own.path().string()},
                          {"run", examples::json_of(own.record())}};
   examples::print(stdout, "{} increments, {} cut back, {} iterations, held stresses within {:.1g}\n", total.increments,
                   total.cut_backs, total.iterations, total.missing);
-  if (run.rows().front().size() > 1) {
+  if (farthest.front()->rows.size() > 1) {
     examples::print(stdout, "{:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>10} {:>10} {:>6}\n", "point",
                     "phi_peak", "at", "e", "psi_peak", "phi_res", "e", "transf.", "E50 [Pa]", "G0 [Pa]", "K0");
-    double mean_void_ratio = 0.0;
-    for (std::size_t k = 0; k < run.rows().size(); ++k) {
-      mean_void_ratio += run.void_ratio(k) / static_cast<double>(count);
-      auto const json =
-          json_of(laboratory_results<Dim>(run.rows()[k], window), run.void_ratio(k), verdict.acceptable());
-      print_results(std::to_string(k), json);
+    for (std::size_t k = 0; k < run.tests().size(); ++k) {
+      auto const& test = run.tests()[k];
+      nlohmann::json json;
+      if (test.rows.size() > 1) {
+        json = json_of(laboratory_results<Dim>(test.rows, window(test)), test.void_ratio, test.verdict.acceptable());
+        print_results(std::to_string(k), json);
+      }
+      json.update({{"ended", scarp::name(test.verdict.reason)}, {"length", test.length()}});
       summary["results"].push_back(json);
     }
-    auto const mean = laboratory_results<Dim>(mean_rows<Dim>(run.rows()), window);
-    summary["mean"] = json_of(mean, mean_void_ratio, verdict.acceptable());
+    double mean_void_ratio = 0.0;
+    std::vector<std::vector<LaboratoryRow<Dim>>> rows;
+    for (auto const* test : farthest) {
+      mean_void_ratio += test->void_ratio / static_cast<double>(farthest.size());
+      rows.push_back(test->rows);
+    }
+    bool const whole = farthest.front()->verdict.acceptable();
+    auto const mean = laboratory_results<Dim>(mean_rows<Dim>(rows), window(*farthest.front()));
+    summary["mean"] = json_of(mean, mean_void_ratio, whole);
+    summary["mean"]["points"] = farthest.size();
     if (count > 1) print_results("mean", summary["mean"]);
     if (!mean.rises) summary["peak_friction_angle"] = mean.peak.friction() / degree;
-    if (verdict.acceptable()) summary["residual_friction_angle"] = mean.residual.friction() / degree;
+    if (whole) summary["residual_friction_angle"] = mean.residual.friction() / degree;
     for (auto const* key : {"peak_dilation_angle", "E50", "G0"}) summary[key] = summary["mean"][key];
     if (choice.path == "drained" && !std::isnan(mean.peak_dilation)) summary["mohr_coulomb"] = read_mohr_coulomb(mean);
   }
   examples::write_json(own.path() / "summary.json", summary);
-  own.end(verdict.acceptable() ? "finished" : std::string(scarp::name(verdict.reason)));
-  if (!verdict.acceptable())
+  own.end(finished ? "finished" : std::string(ended));
+  for (std::size_t k = 0; k < run.tests().size(); ++k) {
+    auto const& test = run.tests()[k];
+    if (test.verdict.acceptable()) continue;
     examples::print(stderr,
-                    "rve_lab: the test was cut off at the length {:.6g} ({}, {}){}: the rows so far are in '{}'\n",
-                    run.length(), scarp::name(verdict.status), scarp::name(verdict.reason), run.weakest(),
-                    (own.path() / "test.csv").string());
-  return verdict.acceptable();
+                    "rve_lab: the test{} was cut off at the length {:.6g} ({}, {}): its rows so far are in '{}'\n",
+                    count > 1 ? fmt::format(" of point {}", k) : "", test.length(), scarp::name(test.verdict.status),
+                    scarp::name(test.verdict.reason), (own.path() / "test.csv").string());
+  }
+  return finished;
 }
 
 template bool test_material<2>(Laboratory const&, scarp::AnyProvider<2> const&, int, scarp::RunFolder&,

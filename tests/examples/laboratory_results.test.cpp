@@ -8,10 +8,13 @@
 #include <type_traits>
 
 #include "../../examples/rve_lab/laboratory_results.hpp"
+#include "../../examples/rve_lab/laboratory_tests.hpp"
 #include "../../examples/rve_lab/mohr_coulomb_reading.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/points/laboratory_paths.hpp"
 #include "support/approx.hpp"
+#include "support/files.hpp"
 #include "support/refusals.hpp"
 
 namespace {
@@ -33,6 +36,29 @@ auto rows_of(Provider const& provider, scarp::PathConditions<Dim> const& conditi
   }
   return rows;
 }
+
+/// Elastic material whose second point bears an axial stress of 150 kPa only.
+struct Uneven {
+  static constexpr int dim = 2;
+  using Elastic = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
+  struct State {
+    Elastic::State own;
+    int number = 0;
+    SCARP_MEMBERS(own, number)
+  };
+  Elastic elastic = Elastic::from_young_poisson(20e6, 0.3, {.surcharge = 100e3});
+
+  State initial_state(scarp::Site<2> const& site) const { return {elastic.initial_state(site), site.index}; }
+  scarp::VoigtStress<2> stress(State const& state) const { return elastic.stress(state.own); }
+  scarp::VoigtTangent<2> tangent(State const& state) const { return elastic.tangent(state.own); }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    trial = committed;
+    auto response = elastic.respond(committed.own, increment, trial.own);
+    if (committed.number == 1 && response.stress(1) < -150e3)
+      response.verdict = {scarp::Status::failed, scarp::Reason::no_contacts};
+    return response;
+  }
+};
 
 /// Drained compression at a lateral pressure of 1 with deviators and volumetric strains of functions of the axial strain.
 template <class Deviator, class Volume>
@@ -197,4 +223,20 @@ TEST_CASE("what has no results is rejected, and what a test does not have is no 
   CHECK_REFUSED(rve_lab::mohr_coulomb_of(isotropic), "mobilises no friction");
   CHECK_REFUSED(rve_lab::mean_rows<2>({}), "no test");
   CHECK_REFUSED(rve_lab::mean_rows<2>({rows, {rows.front()}}), "1 rows, the first 2");
+}
+
+TEST_CASE("a test that fails ends for itself, the others go on") {
+  samples::ScratchFolder const folder;
+  rve_lab::Laboratory const choice{.strain = 0.01};
+  rve_lab::LaboratoryRun<2> run(choice, Uneven{}, 3, folder / "test.csv");
+  run.run(nullptr);
+  auto const& tests = run.tests();
+  CHECK(tests[1].verdict.reason == scarp::Reason::no_contacts);
+  CHECK(tests[1].length() == Approx(50e3 / 20e6 * (1.0 - 0.3 * 0.3)).epsilon(0.1));
+  CHECK(tests[1].rows.back().axial_strain() == Approx(tests[1].length()));
+  for (std::size_t const k : {std::size_t{0}, std::size_t{2}}) {
+    CHECK(tests[k].verdict.acceptable());
+    CHECK(tests[k].length() == Approx(0.01).epsilon(1e-9));
+  }
+  CHECK(run.farthest() == std::vector{&tests[0], &tests[2]});
 }
