@@ -25,6 +25,7 @@ void read_sands(CLI::App const& app, Laboratory& choice) {
   };
   for (auto const& file : choice.packings) {
     auto const own = examples::sand_of_packing(file, before, examples::given_in(app));
+    examples::print_notes(examples::other_than_prepared(file, own));
     if (&file == &choice.packings.front()) choice.sand = own;
     if (of_grains(own) != of_grains(choice.sand))
       scarp::reject("'{}' has other grains or another law than '{}' (a test has one): test them one by one", file,

@@ -118,8 +118,10 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path cons
 void shear(Test& choice, CLI::App const& app) {
   require_used(app, choice.path);
   auto own = folder_of(choice.output, app, {"path.csv", "summary.json"});
-  if (!choice.packing.empty())
+  if (!choice.packing.empty()) {
     choice.sand = examples::sand_of_packing(choice.packing, choice.sand, examples::given_in(app));
+    examples::print_notes(examples::other_than_prepared(choice.packing, choice.sand));
+  }
   read_sand_file(choice, app);
   if (is_in_space(choice.sand))
     scarp::reject("the grains are spheres (shear tests grains in the plane): use rve_lab test");

@@ -6,6 +6,7 @@
 
 #include "../../examples/shared/sand/grading.hpp"
 #include "../../examples/shared/sand/sand_file.hpp"
+#include "support/files.hpp"
 #include "support/refusals.hpp"
 
 namespace {
@@ -40,6 +41,19 @@ TEST_CASE("a sand is read as editors leave it") {
   CHECK(complaint("shape = disc\rfriction = 0.2.5\r") == Naming{"line 2", "'0.2.5'"});
   CHECK(complaint("fric\xC2\xA0tion = 0.25\n") == Naming{"'fric<U+00A0>tion'"});
   CHECK(complaint("x = " + std::string(5000, 'y')).size() < 400);
+}
+
+TEST_CASE("other grains than those that a packing was prepared with are noted") {
+  samples::ScratchFolder const folder;
+  scarp::write_file(folder / "dense.sand", "shape = disc\nlaw = linear\nfriction = 0.3\nnormal-stiffness = 5e6\n");
+  auto sand = sand_of("shape = disc\nlaw = linear\nfriction = 0.3\nnormal-stiffness = 5e6\npressure = 7e4\n");
+  CHECK(examples::other_than_prepared(folder / "dense.packing", sand).empty());
+  sand.friction = 0.6;
+  sand.tangential_stiffness = 1e5;
+  auto const notes = examples::other_than_prepared(folder / "dense.packing", sand);
+  REQUIRE(notes.size() == 2);
+  CHECK(notes[1] == Naming{"dense.packing' was prepared with friction 0.3, and 0.6 is given"});
+  CHECK(examples::other_than_prepared(folder / "loose.packing", sand).empty());
 }
 
 TEST_CASE("a sieve curve is read whatever the locale is") {

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "../entries.hpp"
 #include "sand.hpp"
@@ -100,6 +102,24 @@ inline constexpr char const* grain_options[] = {"shape",
                                                 "tangential-stiffness",
                                                 "rolling-stiffness",
                                                 "rolling-friction"};
+
+/// Notes on values of grains and contacts that a packing was not prepared with.
+inline std::vector<std::string> other_than_prepared(std::filesystem::path const& packing, Sand const& sand) {
+  std::vector<std::string> notes;
+  if (!std::filesystem::is_regular_file(sand_path(packing))) return notes;
+  Sand const own = read_sand(sand_path(packing), {}, [](auto const&) { return false; });
+  std::map<std::string, std::string> before;
+  for_each_option(
+      own, [&](char const* name, auto const& value, Range, char const*) { before[name] = fmt::to_string(value); });
+  for_each_option(sand, [&](char const* name, auto const& value, Range, char const*) {
+    bool const counts = std::ranges::find(grain_options, std::string_view(name)) != std::end(grain_options) &&
+                        why_unused(sand, name).empty();
+    if (counts && fmt::to_string(value) != before[name])
+      notes.push_back(fmt::format("'{}' was prepared with {} {}, and {} is given: its grains lie as they were left",
+                                  packing.string(), name, before[name], value));
+  });
+  return notes;
+}
 
 /// \throws InputError for options that only a preparation uses, beside a packing that is there
 inline void require_of_grains(Sand const& sand, IsGiven const& is_given, std::string_view packing) {

@@ -109,7 +109,7 @@ struct DemRve {
     return state;
   }
 
-  /// For a state that comes from elsewhere.
+  /// For a state that comes from elsewhere; forces that another friction or tangential stiffness has made are kept.
   /// \throws InputError where contacts carry another stress by this law than the state has, since another law has made it
   void require_fitting(State const& state) const {
     if (!state.packing.population) return;
