@@ -11,6 +11,7 @@
 
 #include "../shared/study/soils.hpp"
 #include "../shared/study/study_sand.hpp"
+#include "scarp/core/process.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/io/read_file.hpp"
 #include "scarp/run/resources.hpp"
@@ -166,10 +167,12 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
   double const kernel = kernel_seconds();
   double const speed = kernel / model.kernel;
   auto const cost = cost_of(choice, size, control_of(choice), model, speed);
-  double const team = ranks * threads;
-  double const shared = team > 1.0 ? 1.0 / (team * model.thread_efficiency) : 1.0;
-  double const columns_at_once = std::clamp(size.columns, 1.0, static_cast<double>(threads));
-  double const wall = cost.preparation / columns_at_once + cost.points * shared + cost.outside;
+  auto const wall_on = [&](int used) {
+    double const team = ranks * used;
+    double const shared = team > 1.0 ? 1.0 / (team * model.thread_efficiency) : 1.0;
+    double const columns_at_once = std::clamp(size.columns, 1.0, static_cast<double>(used));
+    return cost.preparation / columns_at_once + cost.points * shared + cost.outside;
+  };
   double const cpu = cost.points + ranks * (cost.preparation + cost.outside);
   double const bytes = memory_of(choice, size, ranks);
 
@@ -185,8 +188,11 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
   if (cost.dem_steps > 0.0) text += fmt::format(" and {:.3g} million DEM steps", 1e-6 * cost.dem_steps);
   text += fmt::format("\nCPU time: {}; preparation {:.3g} s, points {:.3g} s, the rest {:.3g} s{}\n", time_text(cpu),
                       cost.preparation, cost.points, cost.outside, ranks > 1 ? " on every rank" : "");
-  text += fmt::format("wall time: {} on {} thread{}{}, where nothing else runs\n", time_text(wall), threads,
+  text += fmt::format("wall time: {} on {} thread{}{}, where nothing else runs\n", time_text(wall_on(threads)), threads,
                       threads > 1 ? "s" : "", ranks > 1 ? fmt::format(" of each of {} ranks", ranks) : "");
+  if (int const here = scarp::usable_processors(); threads > here)
+    text += fmt::format("warning: this machine has {} processor{} for the threads, so that it needs {}\n", here,
+                        here > 1 ? "s" : "", time_text(wall_on(here)));
   text += fmt::format("memory: {}{}\n", scarp::memory_text(bytes), ranks > 1 ? " on every rank" : "");
   if (auto const free = scarp::free_memory(); bytes > free.bytes)
     text += fmt::format("warning: only {} are left by {}: the run would be rejected\n", scarp::memory_text(free.bytes),

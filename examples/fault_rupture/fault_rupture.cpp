@@ -137,7 +137,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(fault_rupture::place());
   app.add_option("--footing-width", choice.footing_width, "[m]")->check(number_from(0.0, false, 1e6));
   app.add_option("--bearing-pressure", choice.bearing_pressure, "[Pa]; 0 takes the case's own, 91 or 37 kPa")
-      ->check(number_from(0.0, true, 1e9));
+      ->check(number_from(0.0, true, 1e7));
   app.add_option("--base-friction", choice.base_friction, "coefficient of a frictional footing")
       ->check(number_from(0.0, true, 10.0));
   app.add_flag("--quick")
@@ -353,6 +353,7 @@ int main(int argc, char** argv) {
     read_sand(app, choice);
     fault_rupture::choose_places(app, choice);
     fault_rupture::choose_length_and_sizes(app, choice);
+    fault_rupture::require_balance(choice);
     if (fault_rupture::rank() == 0) {
       warn_of_unused(app, choice);
       fault_rupture::warn_of_ends(choice);

@@ -119,6 +119,15 @@ scarp::ErrorBudget<Problem> error_budget(Choice const& choice, SceneType const& 
   return scarp::ErrorBudget<Problem>(problem, examples::error_bounds(choice.budget, usual), sampling);
 }
 
+/// Where a run ended that found no balance before the fault moved.
+inline std::string options_at_rest(Choice const& choice) {
+  std::string options = "--unit-weight, --surcharge";
+  if (choice.soil != Soil::dem) options += ", --young-modulus, --k0";
+  if (choice.scene != Case::free) options += ", --bearing-pressure, --footing-width";
+  return fmt::format("ground{} found no balance before the fault moved: compare {}\n",
+                     choice.scene == Case::free ? "" : " and footing", options);
+}
+
 /// Runs a scene, or resumes one, and writes its results.
 /// \return exit code of the program
 template <class SceneType>
@@ -229,10 +238,12 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       std::string text = scarp::budget_headline(parts) + table(json) + "\n" + scarp::budget_table(parts);
       if (begun.sensitivity) text += sensitivity_lines(sensitivity);
       if (!report.verdict.acceptable()) {
-        text = fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last rejected step: {}, point {})\n",
-                           std::max(report.load, 0.0) / depth, name(report.verdict.reason), name(report.last_failure),
-                           report.worst_point) +
-               text;
+        text =
+            fmt::format("INCOMPLETE: stopped at h/H = {:.5f} ({}; last rejected step: {}, point {})\n",
+                        std::max(report.load, 0.0) / depth, name(report.verdict.reason), name(report.last_failure),
+                        report.worst_point) +
+            (report.load > 0.0 || report.verdict.reason == scarp::Reason::interrupted ? "" : options_at_rest(choice)) +
+            text;
       }
       scarp::write_file(folder / "summary.txt", text);
       return text;

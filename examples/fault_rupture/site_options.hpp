@@ -110,6 +110,19 @@ inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
   record("--strip-width", choice.strip_width);
 }
 
+/// Ground that its own weight squeezes to nothing, and a footing that it hardly feels or that no soil bears, have no balance.
+inline void require_balance(Choice const& choice) {
+  double const carried = choice.surcharge + choice.unit_weight * choice.depth;
+  if (choice.soil != Soil::dem && choice.young_modulus < carried)
+    scarp::reject(
+        "--young-modulus is {} Pa; expected from {:.4g} Pa on, what the ground carries at bedrock: give it in pascals",
+        choice.young_modulus, carried);
+  double const least = carried / 400.0;
+  if (choice.bearing_pressure > 0.0 && choice.bearing_pressure < least)
+    scarp::reject("--bearing-pressure is {} Pa; expected 0 or from {:.4g} Pa on: give it in pascals, or leave it out",
+                  choice.bearing_pressure, least);
+}
+
 /// The sides move with the walls of the fault, so that a rupture close to them is theirs.
 inline void warn_of_ends(Choice const& choice) {
   double const outcrop = choice.tip - choice.depth / std::tan(choice.dip * std::numbers::pi / 180.0);

@@ -81,13 +81,33 @@ class ConfigFile : public CLI::ConfigTOML {
     for (scarp::TextLines lines(text); !lines.done();) plain << lines.take() << '\n';
     auto found = CLI::ConfigTOML::from_config(plain);
     for (auto& item : found) {
-      item.name = present_name(app_, item.name);
+      CLI::App const& command = command_of(item);
+      item.name = present_name(command, item.name);
+      bool const is_section = item.name == "++" || item.name == "--";  // its begin and end
+      if (!is_section && command.get_option_no_throw("--" + item.name) == nullptr)
+        throw CLI::ConfigError(fmt::format("'{}' is no option ({}): see --help", item.name, expected()));
       for (auto& value : item.inputs) value = present_value(item.name, value);
     }
     return found;
   }
 
  private:
+  /// \throws CLI::ConfigError for a section that is no command of the program
+  CLI::App const& command_of(CLI::ConfigItem const& item) const {
+    CLI::App const* command = &app_;
+    for (auto const& section : item.parents) {
+      auto const named = command->get_subcommands([&](CLI::App const* one) { return one->get_name() == section; });
+      if (named.empty())
+        throw CLI::ConfigError(fmt::format("'{}' is no section ({}): leave it out", section, expected()));
+      command = named.front();
+    }
+    return *command;
+  }
+  char const* expected() const {
+    return app_.get_subcommands({}).empty() ? "lines `option = value` are expected"
+                                            : "sections named as commands with lines `option = value` are expected";
+  }
+
   CLI::App const& app_;
 };
 

@@ -86,6 +86,8 @@ def check_bad_input():
         check_refusal(program, "missing config file", "--config", "none.ini", "none.ini")
         for title, text, named in (("unknown key", "wings = 2\n", "wings"), ("bad value", "grains = -5\n", "grains"),
                                    ("text for a number", "grains = many\n", "grains"),
+                                   ("section", "[ground]\ngrains = 50\n", "'ground' is no section"),
+                                   ("dotted key", "sand.grains = 50\n", "'sand' is no section"),
                                    ("no options at all", "\x01\x02 [[[ = = ]]\n<xml>\n", "[[[")):
             check_refusal(program, f"{title} in the config file", "--config", "c.ini", named, {"c.ini": text})
     check_refusal(FAULT, "negative size", "--size", "-1", "--size")
@@ -95,6 +97,9 @@ def check_bad_input():
     check_refusal(FAULT, "unknown soil", "--soil", "cheese", "--soil")
     check_refusal(FAULT, "unknown footing", "--footing", "flying", "--footing")
     check_refusal(FAULT, "negative bearing pressure", "--bearing-pressure", "-1", "--bearing-pressure")
+    check_refusal(FAULT, "a footing that no soil bears", "--bearing-pressure", "2e7", "--bearing-pressure")
+    check_refusal(FAULT, "a footing in kilopascals", "--bearing-pressure", "91", "--bearing-pressure is 91 Pa", also={"--case": "heavy"})
+    check_refusal(FAULT, "a modulus in megapascals", "--young-modulus", "25", "--young-modulus is 25 Pa", also={"--soil": "elastic"})
     check_refusal(FAULT, "ground that carried less", "--overconsolidation-ratio", "0.9", "--overconsolidation-ratio")
     check_refusal(FAULT, "grains wider than long", "--grain-aspect", "1.2", "--grain-aspect")
     check_refusal(FAULT, "NaN width of grains", "--grain-aspect", "nan", "--grain-aspect")

@@ -80,6 +80,9 @@ with tempfile.TemporaryDirectory() as scratch:
                                   ("DEM steps", 1e6 * million, took["dem_steps"])):
         expect(abs(found - expected) <= 0.3 * expected, f"{what}: {found} are predicted, the run took {expected}")
 
+    _, said = estimate(scratch, "--quick", "--threads", "1024")
+    expect("on 1024 threads" in said and "so that it needs" in said, f"threads beyond the machine's are noted: {said}")
+
     # A graded mesh of a file, and other depths: the load steps follow the elements along the fault and the depth.
     mesh = pathlib.Path(__file__).resolve().parents[2] / "examples" / "fault_rupture" / "meshes" / "unstructured.msh"
     for options in (["--mesh", mesh, "--grains", "36"], ["--depth", "8"], ["--depth", "80", "--dip", "50"]):
