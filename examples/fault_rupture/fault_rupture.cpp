@@ -214,24 +214,24 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
       ->check(examples::each_of_list(examples::seed_number()))
       ->excludes(seed);
   declare_materials(app, choice);
-  app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(0.0, false, 1.0));
+  app.add_option("--throw-over-depth", choice.throw_over_depth, "h/H at the end")->check(number_from(1e-9, true, 1.0));
   app.add_option("--dip", choice.dip, "of the fault [degrees]")->check(number_from(1.0, true, 90.0));
   app.add_flag("--reverse", choice.reverse, "the hanging wall is pushed up the fault plane");
   app.add_option("--tip", choice.tip, "x of the fault at bedrock [m]; places that are not given follow it")
       ->check(fault_rupture::place());
   app.add_option("--tolerance", choice.tolerance,
                  "force residual over reactions; packings 1e-2, Mohr-Coulomb 1e-8, else 1e-10")
-      ->check(number_from(0.0, false, 1.0));
+      ->check(number_from(1e-13, true, 1.0));
   app.add_option("--max-displacement-gradient", choice.max_displacement_gradient,
                  "displacement gradient that limits a load step; 0.0025 with packings, else 0.02")
-      ->check(number_from(0.0, false, 0.2));
+      ->check(number_from(1e-12, true, 0.2));
   app.add_option("--max-iterations", choice.max_iterations, "of a load step")->check(CLI::Range(1, 10'000));
   app.add_option("--strain-per-dem-step", choice.strain_per_step, "strain of one DEM step")
-      ->check(number_from(0.0, false, 1e-3));
+      ->check(number_from(1e-12, true, 1e-3));
   app.add_option("--min-dem-steps", choice.min_dem_steps, "of one response")->check(CLI::Range(1, 20'000));
   app.add_option("--unbalanced-tolerance", choice.unbalanced_tolerance,
                  "tolerance on the unbalanced force ratio of every packing")
-      ->check(number_from(0.0, false, 1.0));
+      ->check(number_from(1e-12, true, 1.0));
   app.add_option("--threads", choice.threads, "of each process; 0 uses all processors")->check(CLI::Range(0, 1024));
   app.add_option("--frames", choice.frames, "VTU files over the run")->check(CLI::Range(1, 100'000));
   app.add_option("--probe-a-x", choice.probe_a_x, "probe A, in the band [m]")->check(fault_rupture::place());

@@ -21,7 +21,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output) {
   examples::declare_sand_file(app, choice.sand_file);
   app.add_option("--grains", choice.sand.grains, "in each packing")->check(CLI::Range(20, 100'000));
   app.add_option("--size", choice.size, "of the square cells [m]; divides 4 m and 10 m")
-      ->check(number_from(0.0, false, 2.0));
+      ->check(number_from(0.01, true, 2.0));
   app.add_option("--seed", choice.sand.seed, "of the packing")->check(examples::seed_number());
   app.add_option("--preparation-friction", choice.sand.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));

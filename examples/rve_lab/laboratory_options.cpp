@@ -58,12 +58,14 @@ void declare_test(CLI::App& app, Laboratory& test) {
        "stresses "
        "[Pa], all compression positive; gxy, gzx, gyz: shear angles")
       ->check(CLI::ExistingFile);
-  path("--strain", test.strain, "axial, volumetric (isotropic) or angle of shear at the end")->check(positive(2.0));
+  path("--strain", test.strain, "axial, volumetric (isotropic) or angle of shear at the end")
+      ->check(examples::number_from(1e-9, true, 2.0));
   app.add_flag("--extension", test.extension, "the axis lengthens, or shear to the other side")->group("Path");
   path("--ratio", test.ratio, "of lateral to axial changes on proportional paths")->check(CLI::Range(-10.0, 10.0));
   path("--cycles", test.cycles, "to and fro between +amplitude and -amplitude, instead of --strain")
       ->check(CLI::Range(0, 100'000));
-  path("--amplitude", test.amplitude, "strain at which a cycle turns round")->check(positive(1.0));
+  path("--amplitude", test.amplitude, "strain at which a cycle turns round")
+      ->check(examples::number_from(1e-9, true, 1.0));
   path("--consolidation", test.consolidation, "axial stress to which the material is brought before the path [Pa]")
       ->check(positive(1e12));
   path("--consolidation-k0", test.k0, "lateral over axial stress of that")->check(positive(10.0));

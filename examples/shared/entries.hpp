@@ -36,6 +36,7 @@ class Entries {
     }
   }
 
+  bool empty() const { return values_.empty(); }
   bool has(std::string const& key) const { return values_.contains(key); }
 
   /// Leaves the value as it is where the key is not given.

@@ -61,6 +61,7 @@ TEST_CASE("settings of a packing as material that cannot be are refused") {
       {
           {[](Rve& rve) { rve.strain_per_step = 0.0; }, "strain per DEM step is 0"},
           {[](Rve& rve) { rve.strain_per_step = not_a_number; }, "strain per DEM step is nan"},
+          {[](Rve& rve) { rve.strain_per_step = 0.1; }, "strain per DEM step is 0.1 (it must lie between"},
           {[](Rve& rve) { rve.inertial_number = -1.0; }, "inertial number is -1"},
           {[](Rve& rve) { rve.unbalanced_tolerance = 0.0; }, "unbalanced tolerance is 0"},
           {[](Rve& rve) { rve.time_step_share = inf; }, "share of the critical time step is inf"},

@@ -86,6 +86,7 @@ def check_bad_input():
         check_refusal(program, "missing config file", "--config", "none.ini", "none.ini")
         for title, text, named in (("unknown key", "wings = 2\n", "wings"), ("bad value", "grains = -5\n", "grains"),
                                    ("text for a number", "grains = many\n", "grains"),
+                                   ("no lines", "# nothing yet\n", "is empty"),
                                    ("section", "[ground]\ngrains = 50\n", "'ground' is no section"),
                                    ("dotted key", "sand.grains = 50\n", "'sand' is no section"),
                                    ("no options at all", "\x01\x02 [[[ = = ]]\n<xml>\n", "[[[")):
@@ -96,6 +97,8 @@ def check_bad_input():
     check_refusal(FAULT, "unknown case", "--case", "middling", "--case")
     check_refusal(FAULT, "unknown soil", "--soil", "cheese", "--soil")
     check_refusal(FAULT, "unknown footing", "--footing", "flying", "--footing")
+    for option in ("--tolerance", "--max-displacement-gradient", "--strain-per-dem-step", "--unbalanced-tolerance", "--throw-over-depth"):
+        check_refusal(FAULT, f"{option} below round-off", option, "1e-300", option)
     check_refusal(FAULT, "negative bearing pressure", "--bearing-pressure", "-1", "--bearing-pressure")
     check_refusal(FAULT, "a footing that no soil bears", "--bearing-pressure", "2e7", "--bearing-pressure")
     check_refusal(FAULT, "a footing in kilopascals", "--bearing-pressure", "91", "--bearing-pressure is 91 Pa", also={"--case": "heavy"})

@@ -54,6 +54,8 @@ TEST_CASE("other grains than those that a packing was prepared with are noted") 
   REQUIRE(notes.size() == 2);
   CHECK(notes[1] == Naming{"dense.packing' was prepared with friction 0.3, and 0.6 is given"});
   CHECK(examples::other_than_prepared(folder / "loose.packing", sand).empty());
+  scarp::write_file(folder / "empty.sand", "# nothing yet\n");
+  CHECK_REFUSED(examples::read_sand(folder / "empty.sand"), "empty.sand", "no lines `option = value`");
 }
 
 TEST_CASE("a sieve curve is read whatever the locale is") {

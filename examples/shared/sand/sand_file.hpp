@@ -61,6 +61,7 @@ inline Sand read_sand(std::filesystem::path const& path, Sand sand = {}, IsGiven
   auto const text = scarp::read_file(path);
   scarp::with_context(path.string(), [&] {
     Entries entries(text);
+    if (entries.empty()) scarp::reject("it has no lines `option = value` (a sand has one at least): write them");
     take(entries, sand, is_given);
     entries.require_all_taken("a sand");
   });

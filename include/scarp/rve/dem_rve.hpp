@@ -129,7 +129,7 @@ struct DemRve {
 
   /// \throws InputError for parameters that no response can be made with
   void validate() const {
-    require_positive("strain per DEM step", strain_per_step);
+    require_between("strain per DEM step", strain_per_step, 1e-12, 1e-2);
     require_positive("inertial number", inertial_number);
     require_positive("unbalanced tolerance", unbalanced_tolerance);
     require_positive("share of the critical time step", time_step_share);
