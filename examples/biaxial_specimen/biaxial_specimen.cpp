@@ -19,7 +19,7 @@ using biaxial_specimen::Choice;
 using biaxial_specimen::run;
 
 void declare_specimen(CLI::App& app, Choice& choice) {
-  auto const positive = examples::number_from(0.0, false, 1e300);
+  auto const length = examples::number_from(1e-6, true, 1e6);
   auto* const mesh =
       app.add_option("--mesh", choice.mesh,
                      "upright rectangle, a file of Gmsh: triangles or quadrilaterals, linear or quadratic")
@@ -29,15 +29,15 @@ void declare_specimen(CLI::App& app, Choice& choice) {
       ->needs(mesh)
       ->capture_default_str();
   for (auto* const own :
-       {app.add_option("--width", choice.width, "of a specimen without --mesh [m]")->check(positive),
-        app.add_option("--height", choice.height, "[m]")->check(positive),
+       {app.add_option("--width", choice.width, "of a specimen without --mesh [m]")->check(length),
+        app.add_option("--height", choice.height, "[m]")->check(length),
         app.add_option("--columns", choice.columns, "squares of four triangles across")->check(CLI::Range(1, 1000)),
         app.add_option("--rows", choice.rows, "and up")->check(CLI::Range(1, 1000))})
     own->excludes(mesh)->capture_default_str();
 }
 
 void declare_grains(CLI::App& app, biaxial_specimen::Grains& grains) {
-  auto const positive = examples::number_from(0.0, false, 1e300);
+  auto const positive = examples::number_from(1e-12, true, 1e15);
   auto const not_negative = examples::number_from(0.0, true, 1e3);
   auto* const particles = app.add_option("--particles", grains.particles, "table of the grains that every point has")
                               ->check(CLI::ExistingFile);
@@ -65,7 +65,7 @@ void declare_grains(CLI::App& app, biaxial_specimen::Grains& grains) {
       ->check(positive)
       ->capture_default_str();
   app.add_option("--strain-per-dem-step", grains.strain_per_dem_step)
-      ->check(examples::number_from(0.0, false, 1e-3))
+      ->check(examples::number_from(1e-12, true, 1e-3))
       ->capture_default_str();
 }
 
@@ -74,13 +74,13 @@ void declare_test(CLI::App& app, Choice& choice) {
       ->check(examples::number_from(0.0, false, 1e12))
       ->capture_default_str();
   app.add_option("--axial-strain-step", choice.axial_strain_step, "of one row, relative to the first height")
-      ->check(examples::number_from(0.0, false, 0.1))
+      ->check(examples::number_from(1e-9, true, 0.1))
       ->capture_default_str();
   app.add_option("--steps", choice.steps, "rows of the table after the first")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   app.add_option("--residual", choice.residual, "unbalanced forces over reactions")
-      ->check(examples::number_from(0.0, false, 1.0))
+      ->check(examples::number_from(1e-13, true, 1.0))
       ->capture_default_str();
   app.add_option("--iterations", choice.iterations, "most of an attempt at a step")
       ->check(CLI::Range(1, 10'000))

@@ -40,9 +40,9 @@ void declare_options(CLI::App& app, Options& options) {
       ->check(examples::each_of_list(number_from(0.0, true, 10.0)));
   app.add_option("--pressure", choice.pressure, "of the consolidation and of the lateral stress [Pa]")
       ->check(number_from(0.0, false, 1e9));
-  app.add_option("--strain", choice.strain, "axial logarithmic strain at the end")->check(number_from(0.0, false, 2.0));
+  app.add_option("--strain", choice.strain, "axial logarithmic strain at the end")->check(number_from(1e-9, true, 2.0));
   app.add_option("--strain-per-dem-step", choice.strain_per_step, "axial strain of one DEM step")
-      ->check(number_from(0.0, false, 1e-3));
+      ->check(number_from(1e-12, true, 1e-3));
   app.add_option("--smoothing", options.smoothing, "strain window through which the table's peaks are read")
       ->check(number_from(0.0, false, 1.0));
   examples::declare_output(app, options.output, "folder for biaxial.csv, packing_*.csv, summary.json");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -84,7 +85,11 @@ void declare_test(CLI::App& app, Laboratory& test) {
                  "tables drawn in the figures too: test.csv of other runs, or a laboratory's with columns as "
                  "eps1_percent, epsv_percent, q_kPa, p_kPa, void_ratio")
       ->delimiter(',')
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingFile)
+      ->check([](std::string const& file) {
+        std::error_code trouble;
+        return std::filesystem::is_empty(file, trouble) ? fmt::format("'{}' is empty: leave it out", file) : "";
+      });
   examples::declare_output(app, test.output, "folder for test.csv and summary.json", "--output,-o");
 }
 

@@ -10,7 +10,7 @@
 
 namespace rve_lab {
 
-inline CLI::Validator positive(double most) { return examples::number_from(0.0, false, most); }
+inline CLI::Validator positive(double most) { return examples::number_from(1e-12, true, most); }
 
 inline void declare_path(CLI::App& app, Path& path) {
   auto const add = [&](char const* name, auto& member, char const* what) {

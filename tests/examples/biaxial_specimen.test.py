@@ -139,6 +139,8 @@ def check_refusals(folder):
             ("--mesh", *tri3, *PACKING, "--columns", "3"),
             ("--particles", *tri3, *PACKING[2:]),
             ("--confining", *tri3, *PACKING, "--confining", "nan"),
+            ("--width", *PACKING, "--width", "1e-9"),
+            ("--axial-strain-step", *tri3, *PACKING, "--axial-strain-step", "1e-300"),
             ("--steps", *tri3, *PACKING, "--steps", "0"),
             ("an input", *tri3, *PACKING, "--out", "Tri3.msh")):
         before = sorted(path.name for path in folder.iterdir())

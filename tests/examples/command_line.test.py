@@ -79,6 +79,7 @@ def check_bad_input():
         check_refusal(program, "number with a tail", "--strain-per-dem-step", "1e-5m", "--strain-per-dem-step")
         check_refusal(program, "NaN", "--strain-per-dem-step", "nan", "--strain-per-dem-step")
         check_refusal(program, "infinity", "--strain-per-dem-step", "inf", "--strain-per-dem-step")
+        check_refusal(program, "a step below round-off", "--strain-per-dem-step", "1e-300", "--strain-per-dem-step")
         check_refusal(program, "missing value", "--preparation-friction", None, "--preparation-friction")
         check_refusal(program, "folder below a file", "--output", "out/notes.txt/deep/out", "--output")
         check_refusal(program, "file as folder", "--output", "out/notes.txt", "--output")
@@ -97,7 +98,7 @@ def check_bad_input():
     check_refusal(FAULT, "unknown case", "--case", "middling", "--case")
     check_refusal(FAULT, "unknown soil", "--soil", "cheese", "--soil")
     check_refusal(FAULT, "unknown footing", "--footing", "flying", "--footing")
-    for option in ("--tolerance", "--max-displacement-gradient", "--strain-per-dem-step", "--unbalanced-tolerance", "--throw-over-depth"):
+    for option in ("--tolerance", "--max-displacement-gradient", "--unbalanced-tolerance", "--throw-over-depth"):
         check_refusal(FAULT, f"{option} below round-off", option, "1e-300", option)
     check_refusal(FAULT, "negative bearing pressure", "--bearing-pressure", "-1", "--bearing-pressure")
     check_refusal(FAULT, "a footing that no soil bears", "--bearing-pressure", "2e7", "--bearing-pressure")

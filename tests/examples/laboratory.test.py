@@ -119,6 +119,7 @@ def check_ends(folder):
     expect(json.loads((folder / "beyond" / "summary.json").read_text())["mean"]["residual"] is None, "a residual state of a test that was cut off")
     near("share of the way", reached, (1e5 * (1.0 + SINE) / (1.0 - SINE) - 1e5) / 8e5, 1e-2)
     (folder / "empty.csv").write_text("sxx,syy\n")
+    (folder / "nothing.csv").touch()
     code, said = run(folder, "empty.csv/output", "--material", "elastic")
     expect(code == 2 and "empty.csv' is a file" in said, f"an output folder below a file: ended with {code}, {said}")
     for arguments, named in ((["--young", "1e6"], "--young is given but not used"), (["--ratio", "1"], "--ratio"),
@@ -128,6 +129,8 @@ def check_ends(folder):
                              (["--material", "elastic", "--cohesion", "1"], "--cohesion"),
                              (["--material", "elastic", "--grains", "9"], "--grains"),
                              (["--path", "table"], "no table"), (["--consolidation-k0", "0.5"], "--consolidation-k0"),
+                             (["--material", "elastic", "--strain", "1e-300"], "--strain"),
+                             (["--material", "elastic", "--overlay", "nothing.csv"], "'nothing.csv' is empty"),
                              (["--material", "elastic", "--amplitude", "0.1"], "--amplitude")):
         code, said = run(folder, "rejected", *arguments)
         expect(code == 2 and named in said, f"{arguments}: ended with {code}, {said}")
