@@ -111,11 +111,11 @@ inline std::vector<std::string> other_than_prepared(std::filesystem::path const&
   Sand const own = read_sand(sand_path(packing), {}, [](auto const&) { return false; });
   std::map<std::string, std::string> before;
   for_each_option(
-      own, [&](char const* name, auto const& value, Range, char const*) { before[name] = fmt::to_string(value); });
+      own, [&](char const* name, auto const& value, Range, char const*) { before[name] = fmt::format("{}", value); });
   for_each_option(sand, [&](char const* name, auto const& value, Range, char const*) {
     bool const counts = std::ranges::find(grain_options, std::string_view(name)) != std::end(grain_options) &&
                         why_unused(sand, name).empty();
-    if (counts && fmt::to_string(value) != before[name])
+    if (counts && fmt::format("{}", value) != before[name])
       notes.push_back(fmt::format("'{}' was prepared with {} {}, and {} is given: its grains lie as they were left",
                                   packing.string(), name, before[name], value));
   });
