@@ -227,7 +227,8 @@ TEST_CASE("what has no results is rejected, and what a test does not have is no 
 
 TEST_CASE("a test that fails ends for itself, the others go on") {
   samples::ScratchFolder const folder;
-  rve_lab::Laboratory const choice{.strain = 0.01};
+  rve_lab::Laboratory choice;
+  choice.strain = 0.01;
   rve_lab::LaboratoryRun<2> run(choice, Uneven{}, 3, folder / "test.csv");
   run.run(nullptr);
   auto const& tests = run.tests();
