@@ -3,10 +3,3 @@
 #include "scarp/constitutive/detail/mohr_coulomb_return.hpp"
 #include "scarp/core/gmres.hpp"
 #include "scarp/solver/linear_solver.hpp"
-#include "scarp/tensor/finite_strain.hpp"
-#include "scarp/tensor/principal.hpp"
-
-namespace scarp {
-template struct RotatedIncrement<2>;
-template struct RotatedIncrement<3>;
-}  // namespace scarp
