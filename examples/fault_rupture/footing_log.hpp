@@ -30,7 +30,7 @@ inline BasePressure base_pressure(scarp::FootingMotion const& motion) {
     area += point.area;
     if (point.pressure > 0.0) found.pressed += point.area;
   }
-  found.pressed /= area;
+  if (area > 0.0) found.pressed /= area;
   return found;
 }
 

@@ -110,7 +110,7 @@ inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
   record("--strip-width", choice.strip_width);
 }
 
-/// Ground that its own weight squeezes to nothing, and a footing that it hardly feels or that no soil bears, have no balance.
+/// Ground that its own weight squeezes to nothing, and a footing that it hardly feels, have no balance.
 inline void require_balance(Choice const& choice) {
   double const carried = choice.surcharge + choice.unit_weight * choice.depth;
   if (choice.soil != Soil::dem && choice.young_modulus < carried)

@@ -43,8 +43,10 @@ def is_cyclic(curve):
 
 
 def mean_of(curves):
-    count = min(len(curve["strain"]) for curve in curves)
-    return {name: np.mean([curve[name][:count] for curve in curves], axis=0) for name in curves[0]}
+    """Over the tests that came farthest, as the summary has it."""
+    count = max(len(curve["strain"]) for curve in curves)
+    longest = [curve for curve in curves if len(curve["strain"]) == count]
+    return {name: np.mean([curve[name] for curve in longest], axis=0) for name in longest[0]}
 
 
 def laboratory(folder, overlays=()):

@@ -10,6 +10,7 @@
 
 namespace rve_lab {
 
+/// From 1e-12 on, far below any use.
 inline CLI::Validator positive(double most) { return examples::number_from(1e-12, true, most); }
 
 inline void declare_path(CLI::App& app, Path& path) {

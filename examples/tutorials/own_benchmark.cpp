@@ -18,10 +18,8 @@ struct OwnSprings {
   template <int Dim, class T>
   scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                       scarp::ContactMemory<Dim, T>& memory) const {
-    using scarp::broadcast;
-    T const normal = scarp::lanes::at_least(broadcast<T>(normal_stiffness) * approach.overlap, broadcast<T>(0));
-    scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip_increment, broadcast<T>(tangential_stiffness),
-                                 broadcast<T>(friction) * normal);
+    T const normal = scarp::lanes::at_least(T(normal_stiffness) * approach.overlap, T(0));
+    scarp::coulomb_slide<Dim, T>(memory.shear, approach.slip_increment, T(tangential_stiffness), T(friction) * normal);
     return {.normal = normal, .shear = memory.shear};
   }
   scarp::ContactStiffness stiffness(double, double) const {

@@ -21,8 +21,7 @@ struct ViscousDrag {
   /// One component of a velocity [m/s] or spin [1/s]; mobility = time step / inertia. T: a pack of several grains.
   template <class T>
   T next_velocity(T const& velocity, T const& force, T const& mobility) const {
-    using scarp::broadcast;
-    return (broadcast<T>(1.0 - half) * velocity + force * mobility) * broadcast<T>(1.0 / (1.0 + half));
+    return (T(1.0 - half) * velocity + force * mobility) * T(1.0 / (1.0 + half));
   }
 };
 static_assert(scarp::DampsMotion<ViscousDrag>);

@@ -40,7 +40,7 @@ struct ProjectedVelocities {
   /// Then for every component of velocity or spin; mobility = time step / inertia. T: a pack of several grains.
   template <class T>
   T next_velocity(T const&, T const& force, T const& mobility) const {
-    return scarp::broadcast<T>(push) * force * mobility;
+    return T(push) * force * mobility;
   }
 };
 static_assert(scarp::DampsMotion<ProjectedVelocities> && scarp::SeesAllGrains<ProjectedVelocities, Grains>);

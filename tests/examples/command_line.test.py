@@ -87,7 +87,7 @@ def check_bad_input():
         check_refusal(program, "missing config file", "--config", "none.ini", "none.ini")
         for title, text, named in (("unknown key", "wings = 2\n", "wings"), ("bad value", "grains = -5\n", "grains"),
                                    ("text for a number", "grains = many\n", "grains"),
-                                   ("no lines", "# nothing yet\n", "is empty"),
+                                   ("no lines", "# nothing yet\n", "has no options"),
                                    ("section", "[ground]\ngrains = 50\n", "'ground' is no section"),
                                    ("dotted key", "sand.grains = 50\n", "'sand' is no section"),
                                    ("no options at all", "\x01\x02 [[[ = = ]]\n<xml>\n", "[[[")):

@@ -52,6 +52,7 @@ TEST_CASE("other grains than those that a packing was prepared with are noted") 
   sand.tangential_stiffness = 1e5;
   auto const notes = examples::other_than_prepared(folder / "dense.packing", sand);
   REQUIRE(notes.size() == 2);
+  CHECK(notes[0] == Naming{"tangential-stiffness"});
   CHECK(notes[1] == Naming{"dense.packing' was prepared with friction 0.3, and 0.6 is given"});
   CHECK(examples::other_than_prepared(folder / "loose.packing", sand).empty());
   scarp::write_file(folder / "empty.sand", "# nothing yet\n");

@@ -53,8 +53,6 @@ TEST_CASE("a log is one object a line, and goes on where it is resumed") {
     log.add(scarp::JsonObject().add("resumed", resumed).text() + '\n');
   }
   CHECK(scarp::read_file(path) == "{\"resumed\":false}\n{\"resumed\":true}\n");
-  scarp::AppendedFile(path, "", false).add("{}\n");
-  CHECK(scarp::read_file(path) == "{}\n");
 }
 
 TEST_CASE("text that is not UTF-8 becomes JSON with replacement characters") {

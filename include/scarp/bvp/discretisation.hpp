@@ -34,17 +34,15 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   using ElementType = Element;  ///< type of all elements of the mesh
   static constexpr bool follows_motion = Motion::follows_motion;
   static constexpr int dim = Element::dim;  ///< of the elements and of space
-  /// Material points that `Scheme` places in an element.
-  static constexpr int points_per_element = static_cast<int>(material_points<Scheme, Element>);
+  static constexpr int points_per_element = static_cast<int>(material_points<Scheme, Element>);  ///< placed by `Scheme`
 
   /// thickness [m] out of the plane; in 3D it is 1
   /// \throws InputError for an invalid mesh or thickness
   explicit Discretisation(Mesh<Element> mesh, double thickness = 1.0)
       : Base((validate(mesh), mesh.nodes)), mesh_(std::move(mesh)), thickness_(thickness), sparsity_(mesh_) {
     require_positive("thickness", thickness);
-    if (dim == 3 && thickness != 1.0) {
+    if (dim == 3 && thickness != 1.0)
       reject("the thickness is {} m (a three-dimensional mesh has its own): leave it at 1", thickness);
-    }
   }
 
   Mesh<Element> const& mesh() const { return mesh_; }  ///< with the nodes where they were at the start
@@ -85,6 +83,7 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
     auto const shape = spatial_shape<Element>(corners<Element, dim>(nodes, mesh_.nodes), local_point(point));
     return corners<Element, dim>(nodes, positions()).transpose().lazyProduct(shape.gradients);
   }
+  /// See `Grid`.
   int nearest_point(Vector<dim> const& place) const override {
     for (double const coordinate : place) require_finite("place whose nearest point is looked for", coordinate);
     int nearest = 0;
@@ -102,23 +101,24 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   }
   Distortion<dim> distortion(int point) const override {
     auto const nodes = corners<Element, dim>(nodes_of(point), positions());
-    Tensor<dim> const moved = deformation(point);
-    double const volume = moved.determinant();
-    double const lengths = volume > 0.0 ? moved.squaredNorm() / std::pow(volume, 2.0 / dim) - dim : 0.0;
+    Tensor<dim> const deformed = deformation(point);
+    double const volume = deformed.determinant();
+    double const lengths = volume > 0.0 ? deformed.squaredNorm() / std::pow(volume, 2.0 / dim) - dim : 0.0;
     return {mean_ratio<Element>(nodes, local_point(point).xi), std::sqrt(std::max(lengths, 0.0)),
             point / points_per_element, nodes.colwise().mean().transpose()};
   }
 
+  /// See `Grid`.
   Eigen::VectorXd body_force(std::vector<Vector<dim>> const& per_volume) const override {
-    if (per_volume.size() != mesh_.regions.size()) {
+    if (per_volume.size() != mesh_.regions.size())
       reject("forces per volume are given for {} regions (the mesh has {}: {}): give one for each", per_volume.size(),
              mesh_.regions.size(), listed(mesh_.regions));
-    }
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
     for (std::size_t e = 0; e < mesh_.elements.size(); ++e)
       add_forces<Element>(mesh_.elements[e], per_volume[detail::index(mesh_.element_region[e])], forces);
     return forces;
   }
+  /// See `Grid`.
   Eigen::VectorXd traction(std::string_view boundary, Vector<dim> const& per_area) const override {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
     for (auto const& facet : scarp::boundary(mesh_, boundary))

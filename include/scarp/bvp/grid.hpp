@@ -49,7 +49,7 @@ class Grid {
   virtual Cells cells() const = 0;                              ///< Its elements.
   /// Nodes of a boundary, sorted, each once. \throws InputError for an unknown or empty one
   virtual std::vector<int> boundary_nodes(std::string_view name) const = 0;
-  virtual bool has_boundary(std::string_view name) const = 0;
+  virtual bool has_boundary(std::string_view name) const = 0;  ///< Whether the mesh has a boundary of this name.
   /// Facets of a boundary. \throws InputError for an unknown or empty one
   virtual Cells facets(std::string_view boundary) const = 0;
   virtual double thickness() const = 0;                               ///< out of the plane [m]; 1 in space
@@ -65,14 +65,15 @@ class Grid {
   /// Number of the point nearest to a place [m] in the initial mesh.
   /// \throws InputError for a place that is not finite
   virtual int nearest_point(Vector<Dim> const& place) const = 0;
-  virtual Distortion<Dim> distortion(int point) const = 0;  ///< Of its element, with the mean ratio at the point.
+  /// Distortion of a point's element; its mean ratio is that at the point.
+  virtual Distortion<Dim> distortion(int point) const = 0;
 
   /// Nodal forces [N], shape (dof_count), consistent with a force per volume on the initial mesh:
   /// \f$ f_a = \int N_a b\,dV \f$. A dead load: mass is conserved, so the forces stay when the mesh deforms.
   /// per_volume: b [N/m3] of every region of the mesh
   /// \throws InputError unless there is one for each region
   virtual Eigen::VectorXd body_force(std::vector<Vector<Dim>> const& per_volume) const = 0;
-  /// The same of force_of_region(number of a region): b [N/m3], shape (Dim).
+  /// Nodal forces [N], shape (dof_count), of force_of_region(number of a region): b [N/m3], shape (Dim).
   template <std::invocable<int> ForceOfRegion>
   Eigen::VectorXd body_force(ForceOfRegion const& force_of_region) const {
     std::vector<Vector<Dim>> per_volume;

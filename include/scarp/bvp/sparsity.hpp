@@ -64,6 +64,9 @@ class Sparsity {
   void build_pattern(std::vector<std::set<int>> const& neighbours, int dim) {
     int const size = dim * detail::count(neighbours);
     pattern_.resize(size, size);
+    Eigen::Index entries = 0;
+    for (auto const& near : neighbours) entries += dim * dim * detail::count(near);
+    pattern_.reserve(entries);
     for (int column = 0; column < size; ++column) {
       pattern_.startVec(column);
       for (int const node : neighbours[detail::index(column / dim)]) {

@@ -195,7 +195,8 @@ consteval bool check_provider() {
         requires(Model const& model, Site<Model::dim> const& site) { model.empty_state(site); } ||
             !names_empty_state<Model>,
         "scarp: empty_state of a provider is never called: it needs `State empty_state(Site<dim> const&) const`");
-    // Providers have these two under constraints: a member whose constraint fails has no address.
+    // Providers have these two under constraints: a member whose constraint fails has no address. Neither has one that is overloaded or
+    // a template.
     static_assert(
         requires(Model const& model, State const& state) { model.picture(state); } || !requires { &Model::picture; },
         "scarp: picture of a provider is never called: it needs `PackingPicture picture(State const&) const`");

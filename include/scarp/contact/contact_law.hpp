@@ -116,16 +116,24 @@ concept NamesContactInputs = requires {
   requires Law::inputs.scalars <= max_contact_scalars;
 };
 
-/// Friction coefficient of a law: its member `double friction`.
+namespace detail {
+/// Where a law, or the innermost law within it, has its friction coefficient; nothing for a law without one.
 template <class Law>
-  requires requires(Law& law) {
-    { (law.friction) } -> std::same_as<double&>;
+auto friction_in(Law& law) {
+  if constexpr (requires {
+                  { (law.friction) } -> std::same_as<double&>;
+                }) {
+    return &law.friction;
+  } else if constexpr (requires { law.law; }) {
+    return friction_in(law.law);
   }
-double& friction_coefficient(Law& law) { return law.friction; }
-/// Friction coefficient of the law within a law.
+}
+}  // namespace detail
+
+/// Friction coefficient of a law: its member `double friction`, or that of the law within it, `law`.
 template <class Law>
-  requires requires(Law& law) { friction_coefficient(law.law); }
-double& friction_coefficient(Law& law) { return friction_coefficient(law.law); }
+  requires std::same_as<decltype(detail::friction_in(std::declval<Law&>())), double*>
+double& friction_coefficient(Law& law) { return *detail::friction_in(law); }
 
 /// A law with a friction coefficient needs a shear force that is stored: without it none would be computed.
 template <class Law>

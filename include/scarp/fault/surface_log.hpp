@@ -41,8 +41,9 @@ class SurfaceLog : public NeverStops {
   template <class Problem>
   void write(Problem const& problem, double load) {
     auto const& grid = problem.grid();
-    std::vector<Cells> facets{grid.facets("surface")};
-    if (grid.has_boundary("footing_base")) facets.push_back(grid.facets("footing_base"));
+    std::vector<Cells> facets;
+    for (auto const& name : ground_boundaries([&](auto const& one) { return grid.has_boundary(one); }))
+      facets.push_back(grid.facets(name));
     for (auto const& point : surface_profile(grid.nodes(), facets, rest_.of(grid.nodes()), grid.positions())) {
       log_.add(load / schedule_.unit, point.x_initial, point.x, point.settlement, point.joined ? 1 : 0);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
 #include <string>
 #include <vector>
@@ -90,12 +91,17 @@ inline void require_for_each_node(char const* what, std::size_t positions, std::
 
 }  // namespace detail
 
-/// Boundaries that make the surface of the ground: "surface", and "footing_base" where the mesh has it.
+/// Boundaries that make the surface of the ground: "surface", and "footing_base" where has_boundary(name) holds.
+template <std::predicate<std::string> HasBoundary>
+std::vector<std::string> ground_boundaries(HasBoundary const& has_boundary) {
+  std::vector<std::string> names{"surface"};
+  if (has_boundary("footing_base")) names.emplace_back("footing_base");
+  return names;
+}
+/// Boundaries of a mesh that make the surface of the ground.
 template <class Element>
 std::vector<std::string> ground_boundaries(Mesh<Element> const& mesh) {
-  std::vector<std::string> names{"surface"};
-  if (mesh.boundaries.contains("footing_base")) names.emplace_back("footing_base");
-  return names;
+  return ground_boundaries([&](std::string const& name) { return mesh.boundaries.contains(name); });
 }
 
 /// Profile of the ground surface along the first axis, from left to right, made from the facets of boundaries;
@@ -131,7 +137,7 @@ std::vector<SurfacePoint> surface_profile(std::vector<Vector<Dim>> const& nodes,
   return detail::joined_places(std::move(points), spans);
 }
 
-/// Of boundaries of a mesh. \throws InputError for unknown ones and for positions of another mesh
+/// Profile along boundaries of a mesh, given by their names. \throws InputError for unknown ones and for positions of another mesh
 template <class Element>
 std::vector<SurfacePoint> surface_profile(Mesh<Element> const& mesh, std::vector<Vector<Element::dim>> const& rest,
                                           std::vector<Vector<Element::dim>> const& positions,

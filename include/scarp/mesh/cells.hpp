@@ -13,7 +13,7 @@ namespace scarp {
 /// The elements of a mesh whose kind is known at run time only.
 struct Cells {
   int nodes = 0;                             ///< of each element
-  std::uint8_t vtk_type = 0;                 ///< VTK's number of the kind
+  std::uint8_t vtk_type = 0;                 ///< VTK's number of the kind, 0 for one that names none
   std::vector<std::int32_t> connectivity{};  ///< node numbers of all elements in turn, in VTK's order
   std::vector<int> regions{};                ///< number of each element's region
 
@@ -34,7 +34,8 @@ Cells cells_of(Mesh<Element> const& mesh) {
 template <class Element>
 Cells facets_of(Mesh<Element> const& mesh, std::string_view boundary) {
   using Facet = typename Element::Facet;
-  Cells cells{Facet::nodes, static_cast<std::uint8_t>(Facet::vtk_cell_type), {}, {}};
+  Cells cells{.nodes = Facet::nodes};
+  if constexpr (HasVtkCellType<Facet>) cells.vtk_type = static_cast<std::uint8_t>(Facet::vtk_cell_type);
   for (auto const& facet : scarp::boundary(mesh, boundary))
     cells.connectivity.insert(cells.connectivity.end(), facet.begin(), facet.end());
   return cells;

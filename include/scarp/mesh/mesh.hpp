@@ -11,7 +11,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "scarp/core/error.hpp"
@@ -41,8 +40,8 @@ template <class Element>
 struct MeshSide {
   std::array<int, Element::facet_nodes> nodes;   ///< in the sense of the outward normal
   std::array<int, Element::facet_nodes> sorted;  ///< the same nodes
-  int element;
-  int facet;  ///< number of the side among `Element::facets()`
+  int element;                                   ///< number of the element
+  int facet;                                     ///< number of the side among `Element::facets()`
 };
 
 namespace detail {

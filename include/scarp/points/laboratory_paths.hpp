@@ -50,7 +50,7 @@ PathConditions<Dim> isotropic_path() {
 /// Lateral strains are `ratio` times the axial one: an oedometer for 0.
 template <int Dim>
 PathConditions<Dim> proportional_strain_path(double ratio) {
-  require_finite("ratio", ratio);
+  require_finite("ratio of the lateral to the axial strain", ratio);
   PathConditions<Dim> conditions;
   for (int k = 0; k < Dim; ++k)
     conditions.push_back({.of_strain = VoigtStress<Dim>::Unit(k), .rate = k == Dim - 1 ? -1.0 : -ratio});

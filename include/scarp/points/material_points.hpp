@@ -51,9 +51,10 @@ class SCARP_EXPORT MaterialPoints {
       : materials_(std::move(materials)) {
     if (!volumes.empty() && volumes.size() != sites.size())
       reject("{} volumes are given for {} points: give one to each, or none", volumes.size(), sites.size());
-    for (auto const& one : materials_) {
-      if (!one.batch_) reject("an AnyProvider is used that holds no provider: assign one to it first");
-    }
+    if (material_of.size() != sites.size())
+      reject("{} numbers of materials are given for {} points: give one to each", material_of.size(), sites.size());
+    if (std::ranges::any_of(materials_, [](auto const& one) { return !one.batch_; }))
+      reject("an AnyProvider is used that holds no provider: assign one to it first");
     auto const nonlocal = std::ranges::find_if(materials_, [](auto const& one) { return one.means_ != nullptr; });
     bool const search = nonlocal != materials_.end();
     for (int point = 0; point < std::ssize(sites); ++point) {
@@ -238,8 +239,7 @@ class SCARP_EXPORT MaterialPoints {
     int material;
     int local;  ///< number within the batch of the material
   };
-  /// A committed state, as a batch and the means keep it.
-  using KeptState = std::pair<std::any, MeanState<Dim>>;
+  using KeptState = std::pair<std::any, MeanState<Dim>>;  ///< a committed state, as a batch and the means keep it
 
   /// The number of a point. \throws InputError where there is no such point
   int existing(int point) const {

@@ -194,8 +194,9 @@ class PointPath {
       }
     }
     // Where a stress cannot change, as on an edge of a strength surface, the least correction is as good as any.
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;  // of one size: compiles faster
-    factors.setThreshold(1e-9);
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>
+        factors;                 // of any size, as each further size costs time to compile
+    factors.setThreshold(1e-9);  // pivots below this share of the largest count as zero
     factors.compute(matrix);
     course.step = about + factors.solve(Eigen::VectorXd(right));
     return course.step.norm() <= max_strain;

@@ -79,6 +79,7 @@ MaterialPoints<Dim> MaterialPoints<Dim>::extract(int point, std::string_view bit
   only.batch_ = batch(point).alone(local(point));
   only.means_ = material(point).means_;
   one.add(0, 0);
+  one.owned_ = {0};
   one.unpack(0, bits);
   return one;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scarp/bvp/constraints.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/linear_map.hpp"
 #include "scarp/solver/linear_solver.hpp"
@@ -42,23 +43,29 @@ struct GroundStiffness {
 /// many; means see the few that are longer.
 class LinearSystem {
  public:
-  static constexpr double stagnated = 0.1;  ///< residual of an iteration that found no solution
-
-  /// Without equations before the first stiffness.
+  /// It has no equations before the first factorize().
+  /// \throws InputError for a factory that makes no solver
   explicit LinearSystem(Constraints const& constraints, LinearSolverFactory solver = sparse_lu)
       : free_dofs_(constraints.free_dofs()),
         free_index_(detail::index(constraints.dof_count()), -1),
         make_solver_(std::move(solver)),
         solver_(make_solver_()) {
+    if (!solver_) reject("the factory of linear solvers makes none: let it return one, such as sparse_lu()");
     for (std::size_t k = 0; k < free_dofs_.size(); ++k) free_index_[detail::index(free_dofs_[k])] = static_cast<int>(k);
   }
 
   /// Number of equations.
   Eigen::Index free_count() const { return static_cast<Eigen::Index>(free_dofs_.size()); }
   /// Entries of the free degrees of freedom, shape (free_count).
-  Eigen::VectorXd gather(Eigen::VectorXd const& full) const { return full(free_dofs_); }
+  Eigen::VectorXd gather(Eigen::VectorXd const& full) const {
+    Eigen::VectorXd part(free_count());
+    for (Eigen::Index k = 0; k < part.size(); ++k) part(k) = full(free_dofs_[detail::index(k)]);
+    return part;
+  }
   /// Writes the free entries into a full vector and leaves the prescribed ones.
-  void scatter(Eigen::VectorXd const& part, Eigen::VectorXd& full) const { full(free_dofs_) = part; }
+  void scatter(Eigen::VectorXd const& part, Eigen::VectorXd& full) const {
+    for (Eigen::Index k = 0; k < part.size(); ++k) full(free_dofs_[detail::index(k)]) = part(k);
+  }
 
   /// Takes the rows and columns of the free degrees of freedom of a stiffness on all of them.
   /// \return singular_system or not_finite where there are no factors
@@ -99,6 +106,7 @@ class LinearSystem {
     double const norm = force.norm();
     residual_ = norm > 0.0 ? (product(correction) - force).norm() / norm : 0.0;
     if (!(residual_ < 1.0)) return {Status::failed, Reason::singular_system};
+    constexpr double stagnated = 0.1;  // an iteration that ends with more found no solution
     if (around_ && residual_ > stagnated) return {Status::not_converged, Reason::iterations_spent};
     scatter(gather(increment) + correction, increment);
     return {};
@@ -109,7 +117,7 @@ class LinearSystem {
   /// Estimate of the condition number of the matrix in the 1-norm, |A| |A^-1|, from a few solves: a lower bound, seldom below a
   /// third of the truth (Hager, SIAM J. Sci. Stat. Comput. 5, 1984; Higham, ACM TOMS 14, 1988). Infinite when a solve is not finite.
   double condition() const {
-    Eigen::Index const size = free_count();
+    Eigen::Index const size = matrix_.rows();
     if (size == 0) return 1.0;
     Eigen::VectorXd x = Eigen::VectorXd::Constant(size, 1.0 / static_cast<double>(size));
     double inverse_norm = 0.0;
@@ -139,7 +147,7 @@ class LinearSystem {
   /// The degree of freedom that a singular or nearly singular matrix holds least: largest entry of the vector that it maps nearest
   /// to nothing, by inverse iteration with a small shift; any one where the whole matrix is zero. -1 when that fails.
   int weakest_dof() const {
-    Eigen::Index const size = free_count();
+    Eigen::Index const size = matrix_.rows();
     if (size == 0 || !matrix_.coeffs().allFinite()) return -1;
     double const largest = matrix_.nonZeros() > 0 ? matrix_.coeffs().abs().maxCoeff() : 0.0;
     double const shift = largest > 0.0 ? 1e-9 * largest : 1.0;

@@ -69,7 +69,7 @@ class SCARP_EXPORT Model {
   /// \throws InputError for an unknown region
   std::vector<Site<Dim>> sites(std::string_view region = {}) const;
   /// Their depths [m].
-  /// \throws InputError for an unknown region, and for a top that is not level where no level was set
+  /// \throws InputError for an unknown region, and for ground that is highest in one place only where no level was set
   std::vector<double> depths(std::string_view region = {}) const;
 
   /// Holds boundaries along an axis.
@@ -117,8 +117,8 @@ class SCARP_EXPORT Model {
 
   /// Stress of level ground at rest, of one unit weight below one surcharge: those of a region, or of the first one, and of all
   /// sides with a surcharge. Others belong to the material itself.
-  /// \throws InputError for an unknown region, one without weight, surcharges that differ, and a top that is not level where no
-  /// level was set
+  /// \throws InputError for an unknown region, one without weight, surcharges that differ, and ground that is highest in one place
+  /// only where no level was set
   GeostaticStress<dim> geostatic(double k0, std::string_view region = {}) const {
     require_level_top();
     double const weight = weights_[detail::index(region.empty() ? 0 : region_number(*grid_, region))];

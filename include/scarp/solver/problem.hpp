@@ -161,7 +161,7 @@ class SCARP_EXPORT Problem {
   }
 
   /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses. Where points see means it
-  /// refers to this problem.
+  /// refers to this problem, and is void once these means are replaced.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<Dim>> const& tangents,
                         GroundStiffness& stiffness) const {
     detail::ground_stiffness(*grid_, points_, executor_, of_nodes(increment), tangents, stiffness);

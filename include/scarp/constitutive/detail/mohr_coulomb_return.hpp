@@ -6,6 +6,7 @@
 #include "scarp/tensor/tensor.hpp"
 #ifdef SCARP_DEFINITIONS
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -173,7 +174,7 @@ SCARP_DEFINITIONS PrincipalReturn mohr_coulomb_return(Strength const& strength, 
 }
 
 SCARP_DEFINITIONS double mohr_coulomb_excess(Strength const& strength, Vector<3> const& stress) {
-  return MohrCoulombReturn(strength, 0.0, 1.0).excess(stress);
+  return MohrCoulombReturn(strength, 0.0, 1.0).excess(stress);  // whatever the elasticity is
 }
 #endif
 

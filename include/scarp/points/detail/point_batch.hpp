@@ -132,7 +132,8 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
 
   void write(int k, StateWriter& writer) const override { described(writer, present(k)); }
   std::any read(int k, StateReader& reader) const override {
-    State state = scarp::empty_state(*provider_, sites_[index(k)]);
+    // What is not saved follows from the provider and the site.
+    State state = here_[index(k)] ? committed_[index(k)] : scarp::empty_state(*provider_, sites_[index(k)]);
     described(reader, state);
     require_fitting(state);
     return state;
