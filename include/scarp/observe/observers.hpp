@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <boost/hana/for_each.hpp>
+#include <boost/hana/tuple.hpp>
 #include <cmath>
 #include <functional>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -22,41 +23,52 @@ struct Observers {
   static_assert(!((requires { typename std::unwrap_reference_t<Parts>::WatchesAll; }) || ...),
                 "scarp: a CheckpointedRun watches all other observers: give it to the run itself");
 
-  std::tuple<std::unwrap_reference_t<Parts>...> parts;  ///< in the order in which they are called
+  boost::hana::tuple<Parts...> parts;  ///< in the order in which they are called
 
   explicit Observers(Parts... each) : parts(std::move(each)...) {}  ///< Takes the observers over.
 
   /// Passes an attempt on to each observer.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
-    std::apply([&](auto&... part) { (part.attempted(problem, report), ...); }, parts);
+    boost::hana::for_each(parts, [&](auto& part) { own(part).attempted(problem, report); });
   }
 
   /// Calls ended(problem, load) of those parts that have it, where a run has stopped.
   template <class Problem>
   void ended(Problem const& problem, double load) {
-    auto const end = [&](auto& part) {
-      if constexpr (requires { part.ended(problem, load); }) part.ended(problem, load);
-    };
-    std::apply([&](auto&... part) { (end(part), ...); }, parts);
+    boost::hana::for_each(parts, [&](auto& part) {
+      if constexpr (requires { own(part).ended(problem, load); }) own(part).ended(problem, load);
+    });
   }
 
   /// Whether at least one observer stops the run.
   bool wants_stop() const {
-    return std::apply([](auto const&... part) { return (part.wants_stop() || ...); }, parts);
+    bool stop = false;
+    boost::hana::for_each(parts, [&](auto const& part) { stop = stop || own(part).wants_stop(); });
+    return stop;
   }
 
   /// The parts with a state; each that is not empty has to name its members.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
-    auto const describe = [&](auto& part) {
-      using Part = std::remove_cvref_t<decltype(part)>;
+    boost::hana::for_each(self.parts, [&](auto& part) {
+      using Part = std::remove_cvref_t<decltype(own(part))>;
       static_assert(Described<Part> || std::is_empty_v<Part>,
                     "scarp: an observer of a run that is saved names its members: SCARP_MEMBERS(rows), or "
                     "SCARP_MEMBERS_EXCEPT((path)) where a resumed run sets them itself");
-      if constexpr (Described<Part>) visit("observer", part);
-    };
-    std::apply([&](auto&... part) { (describe(part), ...); }, self.parts);
+      if constexpr (Described<Part>) visit("observer", own(part));
+    });
+  }
+
+ private:
+  /// A part, or the observer that it refers to.
+  template <class Part>
+  static auto& own(Part& part) {
+    if constexpr (std::is_same_v<std::unwrap_reference_t<std::remove_const_t<Part>>, std::remove_const_t<Part>>) {
+      return part;
+    } else {
+      return part.get();
+    }
   }
 };
 
