@@ -80,7 +80,9 @@ class ConfigFile : public CLI::ConfigTOML {
     std::stringstream plain;
     for (scarp::TextLines lines(text); !lines.done();) plain << lines.take() << '\n';
     auto found = CLI::ConfigTOML::from_config(plain);
-    if (found.empty()) throw CLI::ConfigError(fmt::format("--config: the file has no options ({}): write one, or leave --config out", expected()));
+    if (found.empty())
+      throw CLI::ConfigError(
+          fmt::format("--config: the file has no options ({}): write one, or leave --config out", expected()));
     for (auto& item : found) {
       CLI::App const& command = command_of(item);
       item.name = present_name(command, item.name);

@@ -153,7 +153,7 @@ def check_stops_and_refusals():
         whole = states[-1].read_bytes()
         for title, harmed, named in (("a damaged checkpoint", whole[:99] + bytes([whole[99] ^ 1]) + whole[100:],
                                       "have changed"), ("a cut checkpoint", whole[:-7], "cut off"),
-                                     ("another version", whole[:12] + b"\x09" + whole[13:], "of version")):
+                                     ("another version", whole[:12] + b"\x63" + whole[13:], "of version")):
             states[-1].write_bytes(harmed)
             before[states[-1]] = harmed
             check_refused(title, saving(scene, 1), named)

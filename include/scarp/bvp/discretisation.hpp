@@ -28,6 +28,7 @@ template <CheckedElement Element, Kinematics Motion = UpdatedLagrangian, Integra
 class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   using Base = Grid<Element::dim>;
   using Base::moved, Base::require_length;
+  using PointNumbers = std::make_index_sequence<material_points<Scheme, Element>>;
 
  public:
   using Base::body_force, Base::dof_count, Base::node_count, Base::positions, Base::stiffness;
@@ -68,7 +69,7 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
     auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], positions());
     Vector<dim> const position = rows.transpose() * Element::shape(local_point(point).xi);
     double volume = 0.0;
-    for (auto const& shape : shapes_at(rows)) volume += std::abs(shape.volume);
+    for (auto const& shape : shapes_at(rows, PointNumbers{})) volume += std::abs(shape.volume);
     constexpr double lines_of_nodes = Element::nodes > 1 << dim ? 2.0 : 1.0;
     return {.index = point,
             .region = mesh_.element_region[detail::index(element)],
@@ -141,9 +142,7 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
     require_length("displacement increment", increment.size(), dof_count());
     std::vector<double> volumes(detail::index(point_count()));
     for_each_element(balanced(increment), [&](int element, Shapes const& shapes) {
-      for (std::size_t p = 0; p < shapes.size(); ++p) {
-        volumes[first_of(element) + p] = shapes[p].volume;
-      }
+      for (std::size_t p = 0; p < shapes.size(); ++p) volumes[first_of(element) + p] = shapes[p].volume;
     });
     return volumes;
   }
@@ -197,18 +196,21 @@ class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   template <class Visit>
   void for_each_element(std::vector<Vector<dim>> const& nodes, Visit&& visit) const {
     for (int element = 0; element < detail::count(mesh_.elements); ++element) {
-      visit(element, shapes_at(corners<Element, dim>(mesh_.elements[detail::index(element)], nodes)));
+      auto const rows = corners<Element, dim>(mesh_.elements[detail::index(element)], nodes);
+      visit(element, shapes_at(rows, PointNumbers{}));
     }
   }
 
-  Shapes shapes_at(Corners<Element, dim> const& rows) const {
+  /// A pack of points, since a loop over them changes what compilers contract, and so the last bits of stiffness.
+  template <std::size_t... Point>
+  Shapes shapes_at(Corners<Element, dim> const& rows, std::index_sequence<Point...>) const {
     auto const points = Scheme::template points<Element>();
-    Shapes shapes;
-    for (std::size_t p = 0; p < shapes.size(); ++p) {
-      shapes[p] = spatial_shape<Element>(rows, points[p]);
-      shapes[p].volume *= thickness_;
-    }
-    return shapes;
+    auto const at = [&](std::size_t p) {
+      auto shape = spatial_shape<Element>(rows, points[p]);
+      shape.volume *= thickness_;
+      return shape;
+    };
+    return {{at(Point)...}};
   }
 
   Mesh<Element> mesh_;
@@ -264,9 +266,7 @@ void Discretisation<Element, Motion, Scheme>::stiffness(Eigen::VectorXd const& i
     ElementMatrix<Element> const matrix =
         Scheme::template stiffness<Motion>(shapes, of_element(stresses, element), of_element(tangents, element));
     int const* const to = sparsity_.addresses().data() + element * matrix.size();
-    for (int entry = 0; entry < matrix.size(); ++entry) {
-      values[to[entry]] += matrix(entry);
-    }
+    for (int entry = 0; entry < matrix.size(); ++entry) values[to[entry]] += matrix(entry);
   });
 }
 
