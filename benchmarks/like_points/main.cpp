@@ -12,6 +12,7 @@
 #include "../shared/data_file.hpp"
 #include "../shared/nonlocal_fault.hpp"
 #include "scarp/io/csv.hpp"
+#include "scarp/observe/observers.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/thread_executor.hpp"
 

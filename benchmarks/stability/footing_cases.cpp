@@ -99,7 +99,7 @@ Outcome frictional(double stiffness, double friction, double width, double throw
   bool const bounded = found.watch.attempts < 1000;
   if (found.run.load < 0.0)
     return {named && bounded, found.run.load, "not placed: load factor, which is 0 once it stands", words(found)};
-  auto outcome = at_most(std::max(1e-8, 10.0 * scene.solver.tolerance), imbalance(found, footing.weight()),
+  auto outcome = at_most(std::max(1e-8, 10.0 * *scene.solver.tolerance), imbalance(found, footing.weight()),
                          "imbalance over weight once placed", words(found));
   outcome.as_expected &= (reached || named) && bounded;
   return outcome;
