@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "scarp/core/described.hpp"
-#include "scarp/fault/strip_on_surface.hpp"
+#include "scarp/fault/strip_footing.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/observers.hpp"
 

@@ -218,7 +218,7 @@ def deformation(folder):
     return fig
 
 
-def strain_development(folder):
+def strain(folder):
     return Strains(folder).animate(lambda time: f"Load factor {time:.4g}")
 
 
@@ -229,4 +229,4 @@ def stress_crosses(folder):
 
 
 if __name__ == "__main__":
-    figures.draw_all({"deformation": deformation, "strain_development": strain_development, "stress_crosses": stress_crosses})
+    figures.draw_all({"deformation": deformation, "strain": strain, "stress_crosses": stress_crosses})

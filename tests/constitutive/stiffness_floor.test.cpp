@@ -96,6 +96,14 @@ TEST_CASE("nodes with nothing but fluid points around them are held by the floor
   CHECK(fluid == 8);
   // The free top follows the middle: the floor has next to nothing to hold.
   CHECK(scarp::floor_share(problem) < 1e-3);
+  double floors = 0.0;
+  double all = 0.0;
+  for (int point = 0; point < 16; ++point) {  // of equal volumes, to the strain of 1e-3
+    floors += problem.points().floor_stress(point).norm();
+    all += problem.points().committed_stress(point).norm();
+  }
+  REQUIRE(floors > 0.0);
+  CHECK(scarp::floor_share(problem) == samples::Approx(floors / all).epsilon(1e-2));
 }
 
 TEST_CASE("points that are fluid from the start have the floor at once") {

@@ -93,7 +93,7 @@ def check_whole(folder):
     fields = shutil.copytree(folder, folder.with_name("fields"), ignore=shutil.ignore_patterns("*.csv", "*.json", "figures"))
     done = subprocess.run([sys.executable, scripts.parent / "shared/field_figures.py", fields], capture_output=True, text=True, timeout=900)
     expect(done.returncode == 0 and {path.name for path in (fields / "figures").iterdir()} ==
-           {"deformation.png", "strain_development.gif", "stress_crosses.png"}, f"figures of fields alone: {done.stdout}{done.stderr}")
+           {"deformation.png", "strain.gif", "stress_crosses.png"}, f"figures of fields alone: {done.stdout}{done.stderr}")
 
     summary = json.loads((folder / "summary.json").read_text())
     for key in ("surface_x50", "k0", "max_accepted_residual", "dem_steps"):

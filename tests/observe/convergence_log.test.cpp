@@ -102,6 +102,23 @@ TEST_CASE("every iteration and every attempt is a line of JSON beside the table"
   CHECK(table.find(",64,2,1.5,0.01\n") != std::string::npos);  // in the words of the lines
 }
 
+TEST_CASE("a resumed log goes on in both files, and a new one replaces both") {
+  ScratchFolder const folder;
+  auto const lines_after = [&](scarp::CsvStart start) {
+    scarp::ConvergenceLog(folder / "convergence.csv", {2.0, "axial_strain"}, start)
+        .attempted(NoProblem{}, two_iterations());
+    auto const count = [&](char const* file) {
+      std::string const text = content(folder / file);
+      return std::count(text.begin(), text.end(), '\n');
+    };
+    return std::pair(count("convergence.csv"), count("convergence.jsonl"));
+  };
+  // A header and a row for each iteration; a line for each iteration and for the attempt.
+  CHECK(lines_after(scarp::CsvStart::anew) == std::pair(3L, 3L));
+  CHECK(lines_after(scarp::CsvStart::resumed) == std::pair(5L, 6L));
+  CHECK(lines_after(scarp::CsvStart::anew) == std::pair(3L, 3L));
+}
+
 TEST_CASE("the slowest points are those with the most work, equal ones by number") {
   scarp::PointSurvey survey;
   int point = 0;

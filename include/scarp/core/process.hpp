@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -102,6 +103,19 @@ inline int usable_processors() {
 #endif
   double const quota = std::ceil(detail::group_processors("/proc/self/cgroup", "/sys/fs/cgroup"));
   return std::max(1, quota < count ? static_cast<int>(quota) : count);
+}
+
+/// The present moment in universal time, such as "2026-11-23T15:57:33Z" (ISO 8601).
+inline std::string time_stamp() {
+  std::time_t const now = std::time(nullptr);
+  std::tm parts{};
+#if defined(_WIN32)
+  gmtime_s(&parts, &now);
+#else
+  gmtime_r(&now, &parts);
+#endif
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
 }  // namespace scarp

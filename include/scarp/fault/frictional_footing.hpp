@@ -5,6 +5,7 @@
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/fault_scene.hpp"
+#include "scarp/fault/strip_footing.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/facets.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/fault/fault_scene.hpp"
+#include "scarp/fault/strip_footing.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/run/root_rank.hpp"
 

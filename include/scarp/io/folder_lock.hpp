@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,19 +17,6 @@
 #endif
 
 namespace scarp {
-
-/// The present moment in universal time, such as "2026-11-23T15:57:33Z" (ISO 8601).
-inline std::string time_stamp() {
-  std::time_t const now = std::time(nullptr);
-  std::tm parts{};
-#if defined(_WIN32)
-  gmtime_s(&parts, &now);
-#else
-  gmtime_r(&now, &parts);
-#endif
-  char text[32];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
-}
 
 /// A folder must not be written into, and has not been; the text reads "problem (why): suggestion".
 class FolderError : public InputError {

@@ -194,9 +194,8 @@ class PointPath {
       }
     }
     // Where a stress cannot change, as on an edge of a strength surface, the least correction is as good as any.
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>
-        factors;                 // of any size, as each further size costs time to compile
-    factors.setThreshold(1e-9);  // pivots below this share of the largest count as zero
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;  // one type for all sizes compiles once
+    factors.setThreshold(1e-9);                                       // least pivot over the largest
     factors.compute(matrix);
     course.step = about + factors.solve(Eigen::VectorXd(right));
     return course.step.norm() <= max_strain;

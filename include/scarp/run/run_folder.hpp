@@ -4,6 +4,7 @@
 #include <exception>
 #include <random>
 
+#include "scarp/core/process.hpp"
 #include "scarp/io/checkpoint_files.hpp"
 #include "scarp/io/folder_lock.hpp"
 #include "scarp/run/run_record.hpp"

@@ -20,7 +20,7 @@ struct RunRecord {
   std::string program{};     ///< name of the executable
   std::string identity{};    ///< no two runs have the same: the moment and random digits, made by RunFolder
   std::string state{};       ///< running (or killed), finished, or why it has stopped
-  std::string started{};     ///< as time_stamp() has it
+  std::string started{};     ///< ISO 8601, universal time
   std::string changed{};     ///< when `state` came about
   std::string checkpoint{};  ///< folder of its checkpoints, absolute; empty: none are made
   std::string scene{};       ///< what its checkpoints must agree with, a line for each choice
