@@ -183,6 +183,16 @@ def check_warnings():
     check_refusal(FAULT, "strip of negative width", "--strip-width", "-1", "--strip-width")
 
 
+def check_no_balance():
+    """A run that ends before the fault moves names the options of the ground at rest."""
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        code, said = run(FAULT, "--quick", "--soil", "elastic", "--max-iterations", "1", "--output", "out", folder=scratch)
+        expect(code == 3, f"ground without balance: ended with {code}\n{said}")
+        told = (scratch / "out" / "summary.txt").read_text()
+        expect(re.search("no balance before the fault moved: .*--unit-weight.*--young-modulus", told), f"ground without balance: {told}")
+
+
 def check_materials():
     """Each property of the soil changes the answer; its default, given, does not."""
     sand = {"--throw-over-depth": "0.001"}
@@ -350,7 +360,7 @@ def check_repeat():
 if not FAULT.is_file():
     print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-checks = [check_help, check_bad_input, check_warnings, check_materials, check_mesh_file, check_config, check_renamed, check_repeat,
+checks = [check_help, check_bad_input, check_warnings, check_no_balance, check_materials, check_mesh_file, check_config, check_renamed, check_repeat,
           check_time_limit, check_interrupt]
 for check in checks + [check_bad_biaxial, check_list] * BIAXIAL.is_file():
     started = time.monotonic()
