@@ -151,6 +151,34 @@ TEST_CASE("the floor's stress is found in a hidden state") {
   CHECK(scarp::MaterialPoints<2>(Any(elastic()), sites).floor_stress(0).norm() == 0.0);
 }
 
+TEST_CASE("a point that was extracted responds as the one that it was") {
+  scarp::SerialExecutor serial;
+  scarp::MaterialPoints<2> points(Any(elastic()), sites);
+  auto one = points.extract(0, points.pack(0));
+  for (auto* of : {&points, &one}) {
+    of->gradient(0) = shear(1e-4);
+    CHECK(of->respond(serial).verdict == scarp::Verdict{});
+    of->commit();
+  }
+  CHECK(one.committed_stress(0).norm() > 0.0);
+  CHECK(one.committed_stress(0) == points.committed_stress(0));
+}
+
+TEST_CASE("materials of points are numbers of the materials given, one for each") {
+  std::vector<Any> const two{Any(elastic()), Any(sand())};
+  auto const points = [&](std::vector<int> const& material_of) {
+    return scarp::MaterialPoints<2>(two, material_of, sites, {}, [](int) { return true; });
+  };
+  std::vector<int> numbers(sites.size(), 1);
+  CHECK(points(numbers).size() == static_cast<int>(sites.size()));
+  numbers.back() = 2;
+  CHECK_REFUSED(points(numbers), "the material 2", "there are 2");
+  numbers.back() = -1;
+  CHECK_REFUSED(points(numbers), "the material -1");
+  numbers.pop_back();
+  CHECK_REFUSED(points(numbers), "numbers of materials", "give one to each");
+}
+
 TEST_CASE("what a hidden provider cannot do it refuses") {
   CHECK_REFUSED((scarp::MaterialPoints<2>(Any{}, sites)), "AnyProvider", "no provider");
   scarp::MaterialPoints<2> unlisted(Any(Unlisted{}), sites);

@@ -53,6 +53,9 @@ class SCARP_EXPORT MaterialPoints {
       reject("{} volumes are given for {} points: give one to each, or none", volumes.size(), sites.size());
     if (material_of.size() != sites.size())
       reject("{} numbers of materials are given for {} points: give one to each", material_of.size(), sites.size());
+    auto const is_none = [&](int number) { return number < 0 || number >= std::ssize(materials_); };
+    if (auto const wrong = std::ranges::find_if(material_of, is_none); wrong != material_of.end())
+      reject("a point has the material {} (there are {}): use numbers from 0 on", *wrong, materials_.size());
     if (std::ranges::any_of(materials_, [](auto const& one) { return !one.batch_; }))
       reject("an AnyProvider is used that holds no provider: assign one to it first");
     auto const nonlocal = std::ranges::find_if(materials_, [](auto const& one) { return one.means_ != nullptr; });
@@ -139,18 +142,15 @@ class SCARP_EXPORT MaterialPoints {
   /// what those shared.
   /// \throws InputError for other bits, and for points that are named twice, without any change
   void unpack(std::span<int const> points, std::string_view bits);
-  /// Another committed state for one point, by bits of a point of the same provider.
-  void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }
+  void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }  ///< Of one point.
   /// Gives a point the committed state of another one, as for the children of a refined element; between load steps. In the mirror
   /// of its principal stresses if wanted: the stress stays, and one packing's accidents are not repeated.
   /// \throws InputError for a point of another type of provider, for one with means and one without, and for states that cannot be mirrored
   void copy(int to, MaterialPoints const& from, int point, bool is_mirrored = false);
   /// The point alone, with the state of these bits and without neighbours.
   MaterialPoints extract(int point, std::string_view bits) const;
-  /// Leaves a point without state, since another process owns it.
-  void release(int point) { batch(point).release(local(point)); }
-  /// What evolves: the committed states, and those of means. Read in, those of all points are here until they are released; only own
-  /// points respond.
+  void release(int point) { batch(point).release(local(point)); }  ///< Leaves its state to the process that owns it.
+  /// What evolves: committed states and those of means. Read in, all are here until they are released; only own points respond.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit);
 
