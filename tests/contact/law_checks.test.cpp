@@ -10,6 +10,11 @@
 
 namespace {
 
+template <class Law>
+concept Rubs = requires(Law& law) {
+  scarp::friction_coefficient(law);
+};
+
 /// Rubs, but forgets to say that it needs shear; it has no `friction`, by which the concept would notice.
 struct ForgetsShear : scarp::Frictionless {
   scarp::ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness, .tangential = 1e6}; }
@@ -93,6 +98,28 @@ static_assert(scarp::RespondsToApproach<AnswersOneContact> && !scarp::ContactLaw
 constexpr double radius = 5e-3;
 
 }  // namespace
+
+TEST_CASE("the friction of a law is found within laws of a program that wrap laws of a program") {
+  struct Coated {
+    scarp::LinearFrictional law;
+  };
+  struct Wet {
+    Coated law;
+    double friction = 0.7;  // the outer one counts
+  };
+  struct Outer {
+    Coated law;
+  };
+  Outer outer{{{.friction = 0.3}}};
+  CHECK(&scarp::friction_coefficient(outer) == &outer.law.law.friction);
+  Wet wet{{{.friction = 0.3}}};
+  CHECK(&scarp::friction_coefficient(wet) == &wet.friction);
+  struct Smooth {
+    scarp::Frictionless law;
+  };
+  CHECK_FALSE(Rubs<Smooth>);
+  CHECK(Rubs<Outer>);
+}
 
 TEST_CASE("a law that tells a stiffness without the need for its motion is refused") {
   CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsShear{{1e6}}, radius), doctest::Contains(".shear = true"),
