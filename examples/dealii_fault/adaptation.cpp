@@ -72,7 +72,7 @@ void Ground::adapt() {
     out_ << when << " refinement: " << mesh_.n_global_active_cells() << " cells, reaction " << reaction()
          << " N, internal work " << work_ << " J, residual " << residual_ << "\n";
   };
-  if (changes) evaluate(zero(), false), print("before");
+  if (changes) static_cast<void>(evaluate(zero(), false)), print("before");
   Vector const now(ghosted(moved_)), rest(ghosted(rest_)), last(ghosted(last_));
   Transfer transfer(dofs_);
   transfer.prepare_for_coarsening_and_refinement({&now, &rest, &last});
@@ -108,7 +108,7 @@ void Ground::adapt() {
   if (!changes) return;
   last_throw_ = 0.0;
   for (auto& of : history_) of.shear = 0.0;
-  evaluate(zero(), false);
+  static_cast<void>(evaluate(zero(), false));
   print("after");
   auto const verdict = step(0.0);
   out_ << "balanced anew (" << name(verdict.reason) << ") after";
@@ -228,7 +228,7 @@ void Ground::resume() {
     for (std::size_t k = 0; k < cell_points; ++k) history_[first + k] = {values[2 * k], values[2 * k + 1]};
   });
   start_from_moved();
-  evaluate(zero(), false);
+  static_cast<void>(evaluate(zero(), false));
   out_ << "resumed at " << throw_ << " m on " << mpi::n_mpi_processes(comm_) << " processes, saved by " << writers
        << ": reaction " << reaction() << " N, residual " << residual_ << "\n";
 }

@@ -152,7 +152,7 @@ Vector Ground::predicted(double& more) {
 Verdict Ground::step(double more) {
   bool const newton = options_.newton && more > 0.0;
   points_.discard();
-  evaluate(zero(), false);
+  static_cast<void>(evaluate(zero(), false));
   Vector const before = internal_;
   if (!newton || last_throw_ == 0.0) assemble(false);
   Vector increment = predicted(more);

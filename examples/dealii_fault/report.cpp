@@ -36,7 +36,7 @@ void Ground::report(bool complete) {
   scarp::FaultOffset const offset{.tip = options_.tip, .hanging = throw_};
   double const x50 = scarp::rupture_measures(profile, offset, ground_depth).surface_x50;
   double const mean = profile.back().x - missing / throw_;
-  evaluate(zero(), false);
+  static_cast<void>(evaluate(zero(), false));
   out_ << "deal.II " << DEAL_II_PACKAGE_VERSION << ", " << mpi::n_mpi_processes(comm_) << " processes of "
        << executor_.threads() << " threads, " << mesh_.n_global_active_cells() << " cells, "
        << cell_points * mesh_.n_global_active_cells() << " points\n"
