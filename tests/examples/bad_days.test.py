@@ -17,7 +17,7 @@ import time
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-FAULT = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
+FAULT = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve() / "fault_rupture"
 SEED = int(os.environ.get("SCARP_SEED", "1"))
 SCENE = [str(FAULT), "--quick", "--size", "12", "--soil", "mohr_coulomb", "--throw-over-depth", "0.01", "--threads", "1",
          "--output", "out"]

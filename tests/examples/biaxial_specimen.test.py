@@ -13,7 +13,7 @@ import tempfile
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
 YADE = pathlib.Path(__file__).resolve().parents[1] / "reference" / "yade"
 PACKING = ["--particles", str(YADE / "particles.csv"), "--contacts", str(YADE / "contacts.csv")]
 COLUMNS = ["step", "axial_strain", "top_force", "mean_sxx", "mean_syy", "mean_sxy", "iterations", "residual"]

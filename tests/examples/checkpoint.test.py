@@ -17,7 +17,7 @@ import time
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-FAULT = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture"
+FAULT = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve() / "fault_rupture"
 KILLS = int(os.environ.get("SCARP_KILLS", "3"))
 SEED = int(os.environ.get("SCARP_SEED", "1"))
 SCENES = {

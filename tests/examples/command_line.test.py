@@ -16,7 +16,7 @@ import xml.etree.ElementTree as xml
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 FAULT = programs / "fault_rupture"
 BIAXIAL = programs / "rve_biaxial"  # where it is built

@@ -36,7 +36,7 @@ def finish():
 
 def example(name):
     """The program of an example in the folder SCARP_EXAMPLES; ends the script as skipped (77) where it is not built."""
-    program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / name
+    program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve() / name
     if not program.is_file():
         print(f"skipped: no {name} (set SCARP_EXAMPLES and build the examples)")
         sys.exit(77)

@@ -13,7 +13,7 @@ import tempfile
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_slab"
+program = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve() / "fault_slab"
 if not program.is_file():
     print("skipped: no fault_slab (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)

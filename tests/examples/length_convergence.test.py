@@ -20,7 +20,7 @@ except ImportError as missing:
     sys.exit(77)
 from expectations import NIGHTLY, expect, finish
 
-if not (pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture").is_file():
+if not (pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve() / "fault_rupture").is_file():
     print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
 

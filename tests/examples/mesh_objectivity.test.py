@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-if not (pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture").is_file():
+if not (pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve() / "fault_rupture").is_file():
     print("skipped: no fault_rupture (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
 script = pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "mesh_objectivity" / "run"

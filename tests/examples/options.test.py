@@ -11,7 +11,7 @@ import tempfile
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
 WRONG = {"FLOAT": ("nan", "inf", "1,5", "many"), "INT": ("1.5", "99999999999", "many"), "UINT": ("-1", "many"),
          "TEXT": ("a file/such thing",), "TEXT:SEED": ("-1", "1.5", "many"), "TEXT:FILE": ("a file/such thing",)}
 TEXTS = {"--config"}  # read before anything else, refused in the words of the file

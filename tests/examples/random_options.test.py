@@ -17,7 +17,7 @@ import time
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+PROGRAMS = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
 DRAWS = int(os.environ.get("SCARP_DRAWS", "2"))
 SEED = int(os.environ.get("SCARP_SEED", "1"))
 SECONDS = 1  # that a run is given

@@ -17,7 +17,7 @@ import time
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish, troubles
 
-program = (pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "fault_rupture").resolve()
+program = (pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve() / "fault_rupture").resolve()
 scripts = pathlib.Path(__file__).resolve().parents[2] / "examples" / "fault_rupture"
 TINY = ["--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "0.01", "--frames", "4", "--threads", "1"]
 BROWSERS = ("chromium", "chromium-headless-shell", "chromium-browser", "google-chrome")

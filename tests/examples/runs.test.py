@@ -14,7 +14,7 @@ import time
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
 FAULT = ["fault_rupture", "--quick", "--size", "12", "--throw-over-depth", "0.01", "--threads", "1"]
 SOIL = [*FAULT, "--soil", "mohr_coulomb"]
 LONG = ["fault_rupture", "--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "1", "--frames", "100000"]

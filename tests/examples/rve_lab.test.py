@@ -14,7 +14,7 @@ import time
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
 from expectations import expect, finish
 
-LAB = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")) / "rve_lab"
+LAB = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve() / "rve_lab"
 YADE = pathlib.Path(__file__).resolve().parents[1] / "reference" / "yade"
 SUDODEM = YADE.parent / "sudodem"
 CELL = "0.19516606047263926,0,0.0008502401980710722,0.19043137125613024"

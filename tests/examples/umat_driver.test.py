@@ -10,7 +10,7 @@ import sys
 sys.dont_write_bytecode = True
 from expectations import expect, finish
 
-FOLDER = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+FOLDER = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
 if not (FOLDER / "umat_driver").exists():
     print("skipped: no umat_driver in SCARP_EXAMPLES")
     sys.exit(77)

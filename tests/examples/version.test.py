@@ -14,7 +14,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from compiler import compiler, root
 from expectations import expect, finish
 
-programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere"))
+programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
 VERSION = re.search(r'^#define SCARP_VERSION "(.+)"', (root / "include/scarp/core/version.hpp").read_text(), re.M)[1]
 BUILD = r"(g\+\+|clang\+\+) \d+\.\S+( .*)?, (NOT )?optimised, \S.*, \d+ lanes? in a pack"
 
