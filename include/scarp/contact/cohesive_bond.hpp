@@ -49,24 +49,25 @@ struct CohesiveBond {
 
   /// Bonds a contact, free of stress at zero overlap.
   template <int Dim, class T>
-  static void bond(ContactMemory<Dim, T>& memory) {
+  static constexpr void bond(ContactMemory<Dim, T>& memory) {
     memory.scalars[state] = broadcast<T>(intact);
   }
 
   /// Mask of the contacts whose bond is intact, `bool` for a scalar T.
   template <int Dim, class T>
-  static auto is_intact(ContactMemory<Dim, T> const& memory) {
+  static constexpr auto is_intact(ContactMemory<Dim, T> const& memory) {
     return memory.scalars[state] == broadcast<T>(intact);
   }
 
   /// Mask of the contacts whose bond has broken, `bool` for a scalar T; contacts that never had one are not among them.
   template <int Dim, class T>
-  static auto is_broken(ContactMemory<Dim, T> const& memory) {
+  static constexpr auto is_broken(ContactMemory<Dim, T> const& memory) {
     return memory.scalars[state] == broadcast<T>(broken);
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  constexpr ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach,
+                                         ContactMemory<Dim, T>& memory) const {
     T const zero = broadcast<T>(0);
     T const normal = broadcast<T>(law.normal_stiffness) * approach.overlap;
     Tangential<Dim, T> const shear = stretched<Dim, T>(memory.shear, approach.slip_increment);
@@ -85,18 +86,18 @@ struct CohesiveBond {
             .dissipated = lanes::select(holds, zero, force.dissipated + released)};
   }
 
-  ContactStiffness stiffness(double overlap, double reduced_radius) const {
+  constexpr ContactStiffness stiffness(double overlap, double reduced_radius) const {
     return law.stiffness(overlap, reduced_radius);
   }
 
   template <int Dim, class T>
-  T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+  constexpr T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     T const pulled = lanes::select(is_intact(memory), pull_energy(approach.overlap), broadcast<T>(0));
     return law.stored_energy(approach, memory) + pulled;
   }
 
-  double interaction_range() const { return tensile_strength / law.normal_stiffness; }
-  double damping_ratio() const { return damping_ratio_of(law); }
+  constexpr double interaction_range() const { return tensile_strength / law.normal_stiffness; }
+  constexpr double damping_ratio() const { return damping_ratio_of(law); }
 
  private:
   static constexpr std::size_t state = detail::index(Law::inputs.scalars);
@@ -104,7 +105,7 @@ struct CohesiveBond {
   static constexpr double broken = 2.0;
 
   template <int Dim, class T>
-  Tangential<Dim, T> stretched(Tangential<Dim, T> force, Tangential<Dim, T> const& slip) const {
+  constexpr Tangential<Dim, T> stretched(Tangential<Dim, T> force, Tangential<Dim, T> const& slip) const {
     T const stiffness = broadcast<T>(law.tangential_stiffness);
     if constexpr (Dim == 2) {
       force = force - stiffness * slip;
@@ -115,7 +116,7 @@ struct CohesiveBond {
   }
 
   template <class T>
-  T pull_energy(T const& overlap) const {
+  constexpr T pull_energy(T const& overlap) const {
     T const pulled = lanes::at_most(overlap, broadcast<T>(0));
     return broadcast<T>(law.normal_stiffness / 2.0) * pulled * pulled;
   }

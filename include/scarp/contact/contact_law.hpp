@@ -198,7 +198,7 @@ concept HasInteractionRange = requires(Law const& law) {
 
 /// A law's interaction range [m]; zero for a law without one.
 template <class Law>
-double interaction_range_of(Law const& law) {
+constexpr double interaction_range_of(Law const& law) {
   if constexpr (HasInteractionRange<Law>) return law.interaction_range();
   return 0.0;
 }
@@ -217,7 +217,7 @@ concept HasDampingRatio = requires(Law const& law) {
 
 /// A law's damping ratio; zero for a law without dashpots.
 template <class Law>
-double damping_ratio_of(Law const& law) {
+constexpr double damping_ratio_of(Law const& law) {
   if constexpr (HasDampingRatio<Law>) return law.damping_ratio();
   return 0.0;
 }

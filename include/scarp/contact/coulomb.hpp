@@ -13,7 +13,8 @@ namespace scarp {
 /// \return work against the slider minus what the spring loses by it, \f$ (f_0 + f_1)(f_{trial} - f_1)/2k \f$ [J]: with the
 /// mean of old and new force as the force of the step the energy balance closes exactly
 template <int Dim, class T>
-T coulomb_slide(Tangential<Dim, T>& force, Tangential<Dim, T> const& slip, T const& stiffness, T const& limit) {
+constexpr T coulomb_slide(Tangential<Dim, T>& force, Tangential<Dim, T> const& slip, T const& stiffness,
+                          T const& limit) {
   using std::sqrt;
   T const halved_compliance = broadcast<T>(0.5) / lanes::at_least(stiffness, smallest_normal<T>());
   if constexpr (Dim == 2) {

@@ -17,14 +17,14 @@ struct Frictionless {
   void validate() const { require_positive("normal stiffness of the contact law", normal_stiffness); }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
+  constexpr ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>&) const {
     return {.normal = lanes::at_least(broadcast<T>(normal_stiffness) * approach.overlap, broadcast<T>(0))};
   }
 
-  ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
+  constexpr ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
 
   template <int Dim, class T>
-  T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const&) const {
+  constexpr T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const&) const {
     T const closed = lanes::at_least(approach.overlap, broadcast<T>(0));
     return broadcast<T>(normal_stiffness / 2.0) * closed * closed;
   }

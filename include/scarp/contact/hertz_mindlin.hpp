@@ -26,11 +26,11 @@ struct NoContactDamping {
   static constexpr bool needs_motion = false;  ///< no input of its own
 
   template <int Dim, class T>
-  T push(T const&, ContactKinematics<Dim, T> const&) const {
+  constexpr T push(T const&, ContactKinematics<Dim, T> const&) const {
     return broadcast<T>(0);
   }
   template <int Dim, class T>
-  T drag(Tangential<Dim, T>&, T const&, T const&, ContactKinematics<Dim, T> const&) const {
+  constexpr T drag(Tangential<Dim, T>&, T const&, T const&, ContactKinematics<Dim, T> const&) const {
     return broadcast<T>(0);
   }
 };
@@ -74,13 +74,13 @@ struct HertzRestitution {
   }
 
   template <int Dim, class T>
-  T push(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
+  constexpr T push(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
     return stiffness_of_step(stiffness, approach) * approach.overlap_increment;
   }
 
   template <int Dim, class T>
-  T drag(Tangential<Dim, T>& shear, T const& stiffness, T const& limit,
-         ContactKinematics<Dim, T> const& approach) const {
+  constexpr T drag(Tangential<Dim, T>& shear, T const& stiffness, T const& limit,
+                   ContactKinematics<Dim, T> const& approach) const {
     T const work_of_spring = dot(shear, approach.tangential_increment);
     coulomb_slide<Dim, T>(shear, approach.tangential_increment, stiffness_of_step(stiffness, approach), limit);
     return work_of_spring - dot(shear, approach.tangential_increment);
@@ -89,7 +89,7 @@ struct HertzRestitution {
  private:
   /// In one step a dashpot acts like a spring of stiffness \f$ c / \Delta t \f$ without memory.
   template <int Dim, class T>
-  T stiffness_of_step(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
+  constexpr T stiffness_of_step(T const& stiffness, ContactKinematics<Dim, T> const& approach) const {
     using std::sqrt;
     T const dashpot = broadcast<T>(2.0 * damping_ratio) * sqrt(approach.reduced_mass * stiffness);
     return lanes::select(approach.time_step > broadcast<T>(0), dashpot / approach.time_step, broadcast<T>(0));
@@ -147,7 +147,8 @@ struct HertzMindlin {
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  constexpr ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach,
+                                         ContactMemory<Dim, T>& memory) const {
     using std::sqrt;
     T const overlap = lanes::at_least(approach.overlap, broadcast<T>(0));
     T const contact_radius = sqrt(approach.reduced_radius * overlap);
@@ -167,20 +168,20 @@ struct HertzMindlin {
   }
 
   /// \f$ S_n = 2 E^* a,\; S_t = 8 G^* a \f$ [N/m] at an overlap and a reduced radius [m]
-  ContactStiffness stiffness(double overlap, double reduced_radius) const {
+  constexpr ContactStiffness stiffness(double overlap, double reduced_radius) const {
     double const contact_radius = std::sqrt(reduced_radius * lanes::at_least(overlap, 0.0));
     return {.normal = 2.0 * reduced_modulus * contact_radius,
             .tangential = 8.0 * reduced_shear_modulus * contact_radius};
   }
 
-  double damping_ratio() const {
+  constexpr double damping_ratio() const {
     if constexpr (requires { damping.damping_ratio; }) return damping.damping_ratio;
     return 0.0;
   }
 
   /// \f$ \tfrac{8}{15} E^* a\,u^2 + F_t^2 / 16 G^* a \f$
   template <int Dim, class T>
-  T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+  constexpr T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     using std::sqrt;
     T const overlap = lanes::at_least(approach.overlap, broadcast<T>(0));
     T const contact_radius = sqrt(approach.reduced_radius * overlap);
@@ -190,7 +191,7 @@ struct HertzMindlin {
 
  private:
   template <int Dim, class T>
-  T shear_energy(Tangential<Dim, T> const& shear, T const& contact_radius) const {
+  constexpr T shear_energy(Tangential<Dim, T> const& shear, T const& contact_radius) const {
     // An open contact has neither force nor stiffness.
     return dot(shear, shear) /
            lanes::at_least(broadcast<T>(16.0 * reduced_shear_modulus) * contact_radius, smallest_normal<T>());
@@ -199,7 +200,7 @@ struct HertzMindlin {
   /// Gives the stored shear spring the new contact radius.
   /// \return energy [J] that leaves the spring; the last term makes up for the step's mean force, see coulomb_slide
   template <int Dim, class T>
-  T resize(T const& contact_radius, Tangential<Dim, T> const& slip, ContactMemory<Dim, T>& memory) const {
+  constexpr T resize(T const& contact_radius, Tangential<Dim, T> const& slip, ContactMemory<Dim, T>& memory) const {
     T const former_radius = memory.scalars[0];
     T const former_energy = shear_energy<Dim, T>(memory.shear, former_radius);
     T const kept =

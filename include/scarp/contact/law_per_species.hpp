@@ -36,12 +36,13 @@ struct LawPerSpecies {
 
   /// Bonds a contact under the laws of all pairs of species, which share one memory.
   template <int Dim, class T>
-  static void bond(ContactMemory<Dim, T>& memory) requires Bonds<Law> {
+  static constexpr void bond(ContactMemory<Dim, T>& memory) requires Bonds<Law> {
     Law::bond(memory);
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  constexpr ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach,
+                                         ContactMemory<Dim, T>& memory) const {
     ContactMemory<Dim, T> const before = memory;
     ContactForce<Dim, T> force = laws[0].respond(approach, memory);
     for_each_pair_but_first(approach, [&](Law const& law, auto const& is_pair) {
@@ -61,7 +62,7 @@ struct LawPerSpecies {
 
   /// The largest of all pairs at an overlap and a reduced radius [m], which bounds the time step; that of one contact is
   /// `contact_stiffness`.
-  ContactStiffness stiffness(double overlap, double reduced_radius) const {
+  constexpr ContactStiffness stiffness(double overlap, double reduced_radius) const {
     ContactStiffness most;
     for (Law const& law : laws) {
       auto const own = law.stiffness(overlap, reduced_radius);
@@ -73,9 +74,8 @@ struct LawPerSpecies {
   }
 
   template <int Dim, class T>
-    requires HasStoredEnergy<Law> T stored_energy(ContactKinematics<Dim, T> const& approach,
-                                                  ContactMemory<Dim, T> const& memory)
-  const {
+    requires HasStoredEnergy<Law>
+  constexpr T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     T energy = laws[0].stored_energy(approach, memory);
     for_each_pair_but_first(approach, [&](Law const& law, auto const& is_pair) {
       energy = lanes::select(is_pair, law.stored_energy(approach, memory), energy);
@@ -83,10 +83,10 @@ struct LawPerSpecies {
     return energy;
   }
 
-  double interaction_range() const {
+  constexpr double interaction_range() const {
     return max_of([](Law const& law) { return interaction_range_of(law); });
   }
-  double damping_ratio() const {
+  constexpr double damping_ratio() const {
     return max_of([](Law const& law) { return damping_ratio_of(law); });
   }
 
@@ -105,7 +105,7 @@ struct LawPerSpecies {
 
   /// visit(law, mask of the contacts that are of its pair of species)
   template <int Dim, class T, class Visit>
-  void for_each_pair_but_first(ContactKinematics<Dim, T> const& approach, Visit&& visit) const {
+  constexpr void for_each_pair_but_first(ContactKinematics<Dim, T> const& approach, Visit&& visit) const {
     T const low = lanes::at_most(approach.species[0], approach.species[1]);
     T const high = lanes::at_least(approach.species[0], approach.species[1]);
     for (int i = 1; i <= Species; ++i) {
@@ -115,7 +115,7 @@ struct LawPerSpecies {
   }
 
   template <class Number>
-  double max_of(Number&& number) const {
+  constexpr double max_of(Number&& number) const {
     double most = number(laws[0]);
     for (Law const& law : laws) most = std::max(most, number(law));
     return most;

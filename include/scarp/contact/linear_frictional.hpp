@@ -26,19 +26,20 @@ struct LinearFrictional {
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  constexpr ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach,
+                                         ContactMemory<Dim, T>& memory) const {
     T const normal = lanes::at_least(broadcast<T>(normal_stiffness) * approach.overlap, broadcast<T>(0));
     T const lost = coulomb_slide<Dim, T>(memory.shear, approach.slip_increment, broadcast<T>(tangential_stiffness),
                                          broadcast<T>(friction) * normal);
     return {.normal = normal, .shear = memory.shear, .dissipated = lost};
   }
 
-  ContactStiffness stiffness(double, double) const {
+  constexpr ContactStiffness stiffness(double, double) const {
     return {.normal = normal_stiffness, .tangential = tangential_stiffness};
   }
 
   template <int Dim, class T>
-  T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
+  constexpr T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     T const closed = lanes::at_least(approach.overlap, broadcast<T>(0));
     T const normal = broadcast<T>(normal_stiffness / 2.0) * closed * closed;
     if (tangential_stiffness == 0.0) return normal;

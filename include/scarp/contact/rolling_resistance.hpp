@@ -35,12 +35,13 @@ struct RollingResistance {
 
   /// Bonds a contact under the law of the forces.
   template <int Dim, class T>
-  static void bond(ContactMemory<Dim, T>& memory) requires Bonds<Law> {
+  static constexpr void bond(ContactMemory<Dim, T>& memory) requires Bonds<Law> {
     Law::bond(memory);
   }
 
   template <int Dim, class T>
-  ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T>& memory) const {
+  constexpr ContactForce<Dim, T> respond(ContactKinematics<Dim, T> const& approach,
+                                         ContactMemory<Dim, T>& memory) const {
     using std::abs;
     ContactForce<Dim, T> force = law.respond(approach, memory);
     T const limit = broadcast<T>(rolling_friction) * approach.reduced_radius * abs(force.normal);
@@ -51,23 +52,22 @@ struct RollingResistance {
     return force;
   }
 
-  ContactStiffness stiffness(double overlap, double reduced_radius) const {
+  constexpr ContactStiffness stiffness(double overlap, double reduced_radius) const {
     ContactStiffness all = law.stiffness(overlap, reduced_radius);
     all.rolling = rolling_stiffness;
     return all;
   }
 
   template <int Dim, class T>
-    requires HasStoredEnergy<Law> T stored_energy(ContactKinematics<Dim, T> const& approach,
-                                                  ContactMemory<Dim, T> const& memory)
-  const {
+    requires HasStoredEnergy<Law>
+  constexpr T stored_energy(ContactKinematics<Dim, T> const& approach, ContactMemory<Dim, T> const& memory) const {
     T const base = law.stored_energy(approach, memory);
     if (rolling_stiffness == 0.0) return base;
     return base + broadcast<T>(0.5 / rolling_stiffness) * dot(memory.moment, memory.moment);
   }
 
-  double interaction_range() const { return interaction_range_of(law); }
-  double damping_ratio() const { return damping_ratio_of(law); }
+  constexpr double interaction_range() const { return interaction_range_of(law); }
+  constexpr double damping_ratio() const { return damping_ratio_of(law); }
 };
 
 template <class Law>

@@ -61,13 +61,13 @@ struct LocalDamping {
   }
 
   template <class PackingType, class Forces>
-  void before_move(PackingType const& packing, Forces const&, double time_step) {
+  constexpr void before_move(PackingType const& packing, Forces const&, double time_step) {
     kept = std::pow(1.0 - drag, time_step / (default_time_step_share * packing.pairs.critical_step));
   }
 
   /// Velocity after a step with a net force, or spin after one with a net torque; mobility = time step / inertia.
   template <class T>
-  T next_velocity(T const& velocity, T const& force, T const& mobility) const {
+  constexpr T next_velocity(T const& velocity, T const& force, T const& mobility) const {
     using std::abs;
     using std::copysign;
     T const damped = force - broadcast<T>(factor) * copysign(abs(force), velocity);

@@ -51,7 +51,7 @@ struct Fire {
 
   /// Velocity or spin after a step: a share of the former one plus the force's effect; mobility = time step / inertia.
   template <class T>
-  T next_velocity(T const& velocity, T const& force, T const& mobility) const {
+  constexpr T next_velocity(T const& velocity, T const& force, T const& mobility) const {
     return broadcast<T>(kept) * velocity + broadcast<T>(pushed) * force * mobility;
   }
 };

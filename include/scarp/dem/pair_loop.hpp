@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/core/index.hpp"
+#include "scarp/dem/contact_response.hpp"
 #include "scarp/dem/detail/pair_block.hpp"
 #include "scarp/shape/converged_contact.hpp"
 
@@ -26,11 +27,11 @@ class PairResponse {
     LastMove<dim> const move = applied && !Law::inputs.motion ? LastMove<dim>{} : packing.last_move;
     largest_normal_change_ = packing.population->largest_normal_change();
     unique_minimum_depth_ = packing.population->unique_minimum_depth();
-    unapplied_ = broadcast<Lanes>(applied ? 0.0 : 1.0);
-    step_ = broadcast<Lanes>(move.duration);
-    affine_turn_ = affine_turn<dim, Lanes>(move.gradient);
+    move_.unapplied = broadcast<Lanes>(applied ? 0.0 : 1.0);
+    move_.duration = broadcast<Lanes>(move.duration);
+    move_.turn = affine_turn<dim, Lanes>(move.gradient);
     for (int a = 0; a < dim; ++a) {
-      for (int b = 0; b < dim; ++b) affine_[detail::index(a * dim + b)] = broadcast<Lanes>(move.gradient(a, b));
+      for (int b = 0; b < dim; ++b) move_.gradient[detail::index(a * dim + b)] = broadcast<Lanes>(move.gradient(a, b));
     }
   }
 
@@ -60,79 +61,36 @@ class PairResponse {
   /// The pairs `at` and following of the block, which are the pairs `start` and following of the list.
   void respond(Block& block, std::size_t at, std::size_t start) {
     auto const branch = block.template read<axes>(Block::branch, at);
-    auto const touch = touch_of(block, at, branch);
-    auto const& n = touch.normal;
-
-    ContactKinematics<dim, Lanes> approach{.overlap = touch.overlap, .slip_increment = {}};
+    TouchingPair<Shape, Lanes> pair{.touch = touch_of(block, at, branch),
+                                    .branch = branch,
+                                    .pose_first = pose(block, Block::pose_first, at),
+                                    .pose_second = pose(block, Block::pose_second, at)};
+    if constexpr (Law::inputs.shear || Law::inputs.motion)
+      pair.velocity = block.template read<axes>(Block::velocity, at);
+    if constexpr (Block::has_spins) {
+      pair.spin_first = spin(block, Block::spin_first, at);
+      pair.spin_second = spin(block, Block::spin_second, at);
+    }
+    if constexpr (Law::inputs.motion) pair.inverse_mass = block.template read<1>(Block::inverse_mass, at)[0];
     ContactMemory<dim, Lanes> memory;
-    auto const turn_first = turn(block, Block::spin_first, at);
-    auto const turn_second = turn(block, Block::spin_second, at);
-    auto const twist = scaled(scaled(sum(turn_first, turn_second), broadcast<Lanes>(0.5)), unapplied_);
-    if constexpr (Law::inputs.shear || Law::inputs.motion) {
-      auto const velocity = block.template read<axes>(Block::velocity, at);
-      auto const swing_first = turned_motion(turn_first, touch.arm_first);
-      auto const swing_second = turned_motion(turn_second, touch.arm_second);
-      Point<dim, Lanes> meeting;  // relative motion at the contact point
-      for (std::size_t a = 0; a < axes; ++a) {
-        meeting[a] = velocity[a] * step_ + swing_second[a] - swing_first[a];
-        for (std::size_t b = 0; b < axes; ++b) meeting[a] += affine_[a * axes + b] * branch[b];
-      }
-      if constexpr (Law::inputs.shear) {
-        approach.slip_increment = tangential_part(meeting, n);
-        load_rows(pairs_.shear, start, memory.shear);
-        if constexpr (dim == 3) carry_to_frame(memory.shear, twist, n);
-      }
-      if constexpr (Law::inputs.motion) {
-        approach.overlap_increment = -dot(meeting, n);
-        approach.tangential_increment = approach.slip_increment;
-        if constexpr (Law::inputs.shear) approach.slip_increment = scaled(approach.slip_increment, unapplied_);
-        approach.reduced_mass = broadcast<Lanes>(1.0) / block.template read<1>(Block::inverse_mass, at)[0];
-        approach.time_step = step_;
-      }
-    }
-    if constexpr (Law::inputs.moment) {
-      approach.rotation_increment = rolling_part(difference(turn_second, turn_first), n);
-      if constexpr (Law::inputs.motion) approach.rotation_increment = scaled(approach.rotation_increment, unapplied_);
-      load_rows(pairs_.moment, start, memory.moment);
-      if constexpr (dim == 3) carry_to_frame(memory.moment, twist, n);
-    }
-    if constexpr (Law::inputs.radius || what != Observe::nothing) {
-      Lanes const radius_first = Shape::contact_radius(pose(block, Block::pose_first, at));
-      Lanes const radius_second = Shape::contact_radius(pose(block, Block::pose_second, at));
-      approach.reduced_radius = radius_first * radius_second / (radius_first + radius_second);
-    }
-    if constexpr (Law::inputs.species > 0) {
-      approach.species = {Shape::species(pose(block, Block::pose_first, at)),
-                          Shape::species(pose(block, Block::pose_second, at))};
-    }
+    if constexpr (Law::inputs.shear) load_rows(pairs_.shear, start, memory.shear);
+    if constexpr (Law::inputs.moment) load_rows(pairs_.moment, start, memory.moment);
     if constexpr (Law::inputs.scalars > 0) load_rows(pairs_.scalars, start, memory.scalars);
-    auto const forces = law_.respond(approach, memory);
+    ContactKinematics<dim, Lanes> approach{.overlap = pair.touch.overlap, .slip_increment = {}};
+    auto const forces = contact_response<what, Shape>(law_, pair, move_, memory, approach);
     if constexpr (Law::inputs.shear) store_rows(memory.shear, start, pairs_.shear);
     if constexpr (Law::inputs.moment) store_rows(memory.moment, start, pairs_.moment);
     if constexpr (Law::inputs.scalars > 0) store_rows(memory.scalars, start, pairs_.scalars);
-
-    Point<dim, Lanes> force;  // on the second grain
-    for (std::size_t a = 0; a < axes; ++a) force[a] = forces.normal * n[a];
-    if constexpr (Law::inputs.shear) {
-      auto const shear = as_vector(forces.shear, n);
-      for (std::size_t a = 0; a < axes; ++a) force[a] += shear[a];
-    }
-    auto torque_first = cross(touch.arm_first, force);  // reversed, as the force is
-    auto torque_second = cross(touch.arm_second, force);
-    if constexpr (Law::inputs.moment) {
-      torque_first = sum(torque_first, forces.moment);
-      torque_second = sum(torque_second, forces.moment);
-    }
-    block.write(Block::force, at, force);
-    block.write(Block::torque_first, at, torque_first);
-    block.write(Block::torque_second, at, torque_second);
+    block.write(Block::force, at, forces.force);
+    block.write(Block::torque_first, at, forces.torque_first);
+    block.write(Block::torque_second, at, forces.torque_second);
 
     if constexpr (what != Observe::nothing) {
-      sums_.force += sqrt(dot(force, force));
+      sums_.force += sqrt(dot(forces.force, forces.force));
       sums_.contacts += lanes::select(forces.normal != broadcast<Lanes>(0), broadcast<Lanes>(1), broadcast<Lanes>(0));
-      sums_.deepest = max(sums_.deepest, touch.overlap / approach.reduced_radius);
+      sums_.deepest = max(sums_.deepest, pair.touch.overlap / approach.reduced_radius);
       for (std::size_t a = 0; a < axes; ++a) {
-        for (std::size_t b = 0; b < axes; ++b) sums_.moment[a * axes + b] += force[a] * branch[b];
+        for (std::size_t b = 0; b < axes; ++b) sums_.moment[a * axes + b] += forces.force[a] * branch[b];
       }
     }
     if constexpr (what == Observe::energy) {
@@ -195,25 +153,18 @@ class PairResponse {
     }
   }
 
-  /// Rotation during the last move; grains turn with the cell, their spin is a fluctuation about the affine one.
-  Turning<dim, Lanes> turn(Block const& block, std::size_t field, std::size_t at) const {
-    if constexpr (!Block::has_spins) return affine_turn_;
+  Turning<dim, Lanes> spin(Block const& block, std::size_t field, std::size_t at) const {
     auto const spin = block.template read<Block::turns>(field, at);
     if constexpr (dim == 2) {
-      return spin[0] * step_ + affine_turn_;
+      return spin[0];
     } else {
-      Turning<3, Lanes> values;
-      for (std::size_t k = 0; k < 3; ++k) values[k] = spin[k] * step_ + affine_turn_[k];
-      return values;
+      return spin;
     }
   }
 
   VerletList<Shape, Law, Scalar>& pairs_;
   Law law_;
-  Lanes unapplied_;
-  Lanes step_;
-  std::array<Lanes, axes * axes> affine_;
-  Turning<dim, Lanes> affine_turn_;
+  CellMove<dim, Lanes> move_;
   LaneSums<dim, Lanes> sums_;
   double largest_normal_change_;
   double unique_minimum_depth_;

@@ -273,15 +273,11 @@ class TimeStepper {
   /// Turns the axes (cos, sin) of plane grains by their own rotation and the cell's. Cayley's rotation keeps them unit
   /// vectors to round-off.
   static void turn_axes(PackingType& packing, std::size_t start, Lanes const& turn, Tensor<dim> const& strain_step) {
-    Lanes const one(Scalar(1));
-    Lanes const half = (turn + detail::affine_turn<2, Lanes>(strain_step)) * Lanes(Scalar(0.5));
-    Lanes const scale = one / (one + half * half);
-    Lanes const c = (one - half * half) * scale;
-    Lanes const s = Lanes(Scalar(2)) * half * scale;
     Lanes const x = lanes::load(packing.orientation.column(0) + start);
     Lanes const y = lanes::load(packing.orientation.column(1) + start);
-    lanes::store(x * c - y * s, packing.orientation.column(0) + start);
-    lanes::store(x * s + y * c, packing.orientation.column(1) + start);
+    auto const axis = turned_axis<Lanes>({x, y}, turn + detail::affine_turn<2, Lanes>(strain_step));
+    lanes::store(axis[0], packing.orientation.column(0) + start);
+    lanes::store(axis[1], packing.orientation.column(1) + start);
   }
 
   PairScratch<Scalar> scratch_;

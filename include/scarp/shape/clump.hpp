@@ -128,7 +128,7 @@ struct Clump {
 
   /// Offset (x, y) of disc `part` from the grain's centre in the frame of space, and its radius [m].
   template <class T>
-  static std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation, int part = 0) {
+  static constexpr std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation, int part = 0) {
     ClumpMember const& member = unit().members[detail::index(part)];
     T const x = broadcast<T>(member.x) * size[0];
     T const y = broadcast<T>(member.y) * size[0];
@@ -138,15 +138,15 @@ struct Clump {
 
   /// Radius of the disc that a part is [m].
   template <class T>
-  static T contact_radius(std::array<T, 3> const& pose) {
+  static constexpr T contact_radius(std::array<T, 3> const& pose) {
     return pose[2];
   }
 
   /// Two discs, poses of parts of both grains; `branch` [m] joins the grains' centres and the arms start there.
   /// `normal` is ignored.
   template <class T>
-  static ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
-                                     Point<2, T> const& branch, Point<2, T> const& normal) {
+  static constexpr ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
+                                               Point<2, T> const& branch, Point<2, T> const& normal) {
     Point<2, T> const between{branch[0] + second[0] - first[0], branch[1] + second[1] - first[1]};
     auto const discs = Disc::touch<T>({first[2]}, {second[2]}, between, normal);
     return {discs.overlap,

@@ -13,7 +13,7 @@ namespace detail {
 /// Whether a search's step from this normal was the last one: it left a unit vector where it was, or turned it by so small an
 /// angle that the square of it, which is left, is round-off. A shape without an estimate returns zero.
 template <int Dim>
-bool stands_still(ContactGeometry<Dim, double> const& touch, Point<Dim, double> const& before) {
+constexpr bool stands_still(ContactGeometry<Dim, double> const& touch, Point<Dim, double> const& before) {
   double change = 0.0;
   double excess = -1.0;
   for (std::size_t a = 0; a < before.size(); ++a) {

@@ -29,13 +29,13 @@ struct Ellipse {
   /// Polar second moment about the centre over the area, \f$ (a^2 + b^2)/4 \f$ [m2].
   static double gyration_squared(Size<double> const& size) { return (size[0] * size[0] + size[1] * size[1]) / 4.0; }
   /// The longer semi-axis [m].
-  static double bounding_radius(Size<double> const& size) { return std::max(size[0], size[1]); }
+  static constexpr double bounding_radius(Size<double> const& size) { return std::max(size[0], size[1]); }
   /// Largest slope of the support function, \f$ |a - b| \f$ [m] per radian.
   static double eccentricity(Size<double> const& size) { return std::abs(size[0] - size[1]); }
 
   /// (m, p, q) [m2]; the deviator (p, q) turns by twice the angle of the major axis.
   template <class T>
-  static std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
+  static constexpr std::array<T, 3> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
     T const major = size[0] * size[0];
     T const minor = size[1] * size[1];
     T const c = orientation[0];
@@ -46,27 +46,27 @@ struct Ellipse {
 
   /// Radius of the circle of equal area, \f$ \sqrt{ab} = (\det A)^{1/4} \f$.
   template <class T>
-  static T contact_radius(std::array<T, 3> const& pose) {
+  static constexpr T contact_radius(std::array<T, 3> const& pose) {
     using std::sqrt;
     return sqrt(sqrt(pose[0] * pose[0] - pose[1] * pose[1] - pose[2] * pose[2]));
   }
 
   /// Least radius of curvature b^2/a: a disc of that radius rolls along the inside of the boundary.
-  static double inner_radius(std::array<double, 3> const& pose) {
+  static constexpr double inner_radius(std::array<double, 3> const& pose) {
     double const deviator = std::sqrt(pose[1] * pose[1] + pose[2] * pose[2]);
     return (pose[0] - deviator) / std::sqrt(pose[0] + deviator);
   }
 
   /// Support function of one grain along a unit normal: value, slope and radius of curvature [m].
   template <class T>
-  static Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& normal) {
+  static constexpr Support<T> support(std::array<T, 3> const& pose, Point<2, T> const& normal) {
     return supports(pose, pose, normal)[0];
   }
 
   /// Support functions of both grains of a pair along one unit normal.
   template <class T>
-  static std::array<Support<T>, 2> supports(std::array<T, 3> const& first, std::array<T, 3> const& second,
-                                            Point<2, T> const& normal) {
+  static constexpr std::array<Support<T>, 2> supports(std::array<T, 3> const& first, std::array<T, 3> const& second,
+                                                      Point<2, T> const& normal) {
     T const product = normal[0] * normal[1];
     Point<2, T> const doubled{normal[0] * normal[0] - normal[1] * normal[1], product + product};
     Ray<T> const a = ray(first, doubled);
@@ -77,8 +77,8 @@ struct Ellipse {
 
   /// One step of Newton's method for a pair, by `support_contact`; `branch` [m], `normal` the unit vector to start from.
   template <class T>
-  static ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
-                                     Point<2, T> const& branch, Point<2, T> const& normal) {
+  static constexpr ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
+                                               Point<2, T> const& branch, Point<2, T> const& normal) {
     return support_contact<Ellipse>(first, second, branch, normal);
   }
 
@@ -92,14 +92,14 @@ struct Ellipse {
 
   /// Along the normal whose angle is half that of the unit vector `doubled`.
   template <class T>
-  static Ray<T> ray(std::array<T, 3> const& pose, Point<2, T> const& doubled) {
+  static constexpr Ray<T> ray(std::array<T, 3> const& pose, Point<2, T> const& doubled) {
     T const along = pose[1] * doubled[0] + pose[2] * doubled[1];
     return {pose[0] + along, pose[2] * doubled[0] - pose[1] * doubled[1], pose[0] - along};
   }
 
   /// \f$ h + h'' = (h_\perp^2 - h'^2)/h \f$
   template <class T>
-  static Support<T> complete(Ray<T> const& ray, lanes::SquareRoot<T> const& h) {
+  static constexpr Support<T> complete(Ray<T> const& ray, lanes::SquareRoot<T> const& h) {
     T const slope = ray.slope * h.inverse;
     return {h.value, slope, (ray.across - slope * slope) * h.inverse};
   }

@@ -92,7 +92,7 @@ concept MakesPose = (part_count<Shape>() == 1 &&
 /// Pose of a part of a grain.
 template <class Shape, class Size, class Orientation>
   requires MakesPose<Shape, Size, Orientation>
-auto part_pose(Size const& size, Orientation const& orientation, int part) {
+constexpr auto part_pose(Size const& size, Orientation const& orientation, int part) {
   if constexpr (part_count<Shape>() == 1) {
     return Shape::pose(size, orientation);
   } else {

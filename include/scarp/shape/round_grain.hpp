@@ -13,7 +13,7 @@ namespace scarp {
 /// axis.
 /// radii [m], branch from the first centre to the second [m]
 template <int Dim, class T>
-ContactGeometry<Dim, T> round_contact(T const& first, T const& second, Point<Dim, T> const& branch) {
+constexpr ContactGeometry<Dim, T> round_contact(T const& first, T const& second, Point<Dim, T> const& branch) {
   using std::sqrt;
   T squared = branch[0] * branch[0];
   for (std::size_t a = 1; a < branch.size(); ++a) squared = squared + branch[a] * branch[a];
@@ -45,25 +45,25 @@ struct RoundGrain {
   template <class T>
   using Size = std::array<T, 1>;  ///< (radius) [m]
 
-  static double bounding_radius(Size<double> const& size) { return size[0]; }  ///< The radius [m].
+  static constexpr double bounding_radius(Size<double> const& size) { return size[0]; }  ///< The radius [m].
   static double eccentricity(Size<double> const&) { return 0.0; }  ///< Zero: the support function is constant.
 
   /// The radius [m]; there is no orientation.
   template <class T>
-  static std::array<T, 1> pose(Size<T> const& size, std::array<T, 0> const&) {
+  static constexpr std::array<T, 1> pose(Size<T> const& size, std::array<T, 0> const&) {
     return size;
   }
 
   /// The radius [m].
   template <class T>
-  static T contact_radius(std::array<T, 1> const& pose) {
+  static constexpr T contact_radius(std::array<T, 1> const& pose) {
     return pose[0];
   }
 
   /// By `round_contact` of the two radii; `branch` [m] joins the centres, a start normal is ignored.
   template <class T>
-  static ContactGeometry<Dim, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
-                                       Point<Dim, T> const& branch, Point<Dim, T> const&) {
+  static constexpr ContactGeometry<Dim, T> touch(std::array<T, 1> const& first, std::array<T, 1> const& second,
+                                                 Point<Dim, T> const& branch, Point<Dim, T> const&) {
     return round_contact<Dim, T>(first[0], second[0], branch);
   }
 };

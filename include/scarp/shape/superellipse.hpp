@@ -54,7 +54,7 @@ struct Superellipse {
   }
 
   /// At a corner where the exponent is below one, on the longer axis otherwise.
-  static double bounding_radius(Size<double> const& size) {
+  static constexpr double bounding_radius(Size<double> const& size) {
     double const longer = std::max(size[0], size[1]);
     double const aspect = std::min(size[0], size[1]) / longer;
     double const bulge = 1.0 - size[2];
@@ -91,7 +91,7 @@ struct Superellipse {
 
   /// From half axes [m], exponent and axis of one grain; `q` follows from the exponent.
   template <class T>
-  static Pose<T> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
+  static constexpr Pose<T> pose(Size<T> const& size, std::array<T, 2> const& orientation) {
     T const inverse = broadcast<T>(1) - size[2] * broadcast<T>(0.5);
     T const flat = size[2] * broadcast<T>(0.5) / inverse;
     return {orientation[0], orientation[1], size[0], size[1], flat, inverse, broadcast<T>(1) / flat};
@@ -99,21 +99,21 @@ struct Superellipse {
 
   /// Geometric mean of the half axes.
   template <class T>
-  static T contact_radius(Pose<T> const& pose) {
+  static constexpr T contact_radius(Pose<T> const& pose) {
     using std::sqrt;
     return sqrt(pose[2] * pose[3]);
   }
 
   /// Support function of one grain along a unit normal: value, slope and radius of curvature [m].
   template <class T>
-  static SuperellipseSupport<T> support(Pose<T> const& pose, Point<2, T> const& normal) {
+  static constexpr SuperellipseSupport<T> support(Pose<T> const& pose, Point<2, T> const& normal) {
     return superellipse_supports<T, 1>({pose}, normal)[0];
   }
 
   /// By `superellipse_contact`: `branch` [m] joins the centres, `normal` is where the search starts.
   template <class T>
-  static ContactGeometry<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
-                                     Point<2, T> const& normal) {
+  static constexpr ContactGeometry<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
+                                               Point<2, T> const& normal) {
     return superellipse_contact(first, second, branch, normal);
   }
 };

@@ -35,9 +35,9 @@ struct SuperellipseFrame {
   T inverse_along;  ///< 1 / along [1/m]
   T ratio;          ///< the smaller r |n| over the larger one
 
-  SuperellipseFrame() = default;
+  constexpr SuperellipseFrame() = default;
   /// pose: (cos, sin, rx, ry, q - 1, 1/q, 1/(q - 1)) with half axes in [m]; `normal` a unit vector in the frame of space
-  SuperellipseFrame(std::array<T, 7> const& pose, Point<2, T> const& normal) {
+  constexpr SuperellipseFrame(std::array<T, 7> const& pose, Point<2, T> const& normal) {
     using std::abs;
     using std::max;
     using std::min;
@@ -64,8 +64,8 @@ struct SuperellipseFrame {
 /// Support functions of several grains along one normal, their powers side by side.
 /// poses: (cos, sin, rx, ry, q - 1, 1/q, 1/(q - 1)) of \f$ h(n) = (|r_x n_x|^q + |r_y n_y|^q)^{1/q} \f$
 template <class T, std::size_t Count>
-std::array<SuperellipseSupport<T>, Count> superellipse_supports(std::array<std::array<T, 7>, Count> const& poses,
-                                                                Point<2, T> const& normal) {
+constexpr std::array<SuperellipseSupport<T>, Count> superellipse_supports(
+    std::array<std::array<T, 7>, Count> const& poses, Point<2, T> const& normal) {
   using std::copysign;
   using std::max;
   T const one = broadcast<T>(1);
@@ -112,8 +112,8 @@ std::array<SuperellipseSupport<T>, Count> superellipse_supports(std::array<std::
 /// followed.
 /// `normal` is where to start; one of no use (zero, or not ahead of the branch) is replaced by the branch.
 template <class T>
-ContactGeometry<2, T> superellipse_contact(std::array<T, 7> const& first, std::array<T, 7> const& second,
-                                           Point<2, T> const& branch, Point<2, T> const& normal) {
+constexpr ContactGeometry<2, T> superellipse_contact(std::array<T, 7> const& first, std::array<T, 7> const& second,
+                                                     Point<2, T> const& branch, Point<2, T> const& normal) {
   using std::abs;
   using std::copysign;
   using std::max;

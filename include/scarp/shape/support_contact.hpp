@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/core/host_device.hpp"
 #include "scarp/shape/particle_shape.hpp"
 #include "scarp/simd/pack.hpp"
 #include "scarp/simd/select.hpp"
@@ -26,8 +27,8 @@ struct Support {
 /// vanish at rest. Repeat with the returned normal until it stands still for a new pair; `normal_error` is the angle of the step.
 /// branch d [m] from the first centre to the second; `normal` a unit vector
 template <class Shape, class Pose, class T>
-ContactGeometry<2, T> support_contact(Pose const& first, Pose const& second, Point<2, T> const& branch,
-                                      Point<2, T> const& normal) {
+SCARP_DEVICE_CONSTEXPR ContactGeometry<2, T> support_contact(Pose const& first, Pose const& second,
+                                                             Point<2, T> const& branch, Point<2, T> const& normal) {
   using std::abs;
   Point<2, T> const tangent{-normal[1], normal[0]};
   auto const [a, b] = Shape::supports(first, second, normal);

@@ -41,14 +41,14 @@ struct WithSpecies {
   /// Second moment over content [m2] by `Shape`.
   static double gyration_squared(Size<double> const& size) { return Shape::gyration_squared(bare(size)); }
   /// By `Shape` [m].
-  static double bounding_radius(Size<double> const& size) { return Shape::bounding_radius(bare(size)); }
+  static constexpr double bounding_radius(Size<double> const& size) { return Shape::bounding_radius(bare(size)); }
   /// Largest change of the support function per radian by `Shape` [m].
   static double eccentricity(Size<double> const& size) { return Shape::eccentricity(bare(size)); }
 
   /// Pose of a grain by `Shape`, or of its part `part`, with the species as last number.
   template <class T, class Orientation, class... Part>
-  static Pose<T> pose(std::array<T, static_cast<std::size_t>(size_count)> const& size, Orientation const& orientation,
-                      Part... part) {
+  static constexpr Pose<T> pose(std::array<T, static_cast<std::size_t>(size_count)> const& size,
+                                Orientation const& orientation, Part... part) {
     auto const own = Shape::pose(bare(size), orientation, part...);
     Pose<T> pose;
     std::copy(own.begin(), own.end(), pose.begin());
@@ -58,39 +58,40 @@ struct WithSpecies {
 
   /// Number of the species, from one.
   template <class T>
-  static T species(std::array<T, static_cast<std::size_t>(pose_count)> const& pose) {
+  static constexpr T species(std::array<T, static_cast<std::size_t>(pose_count)> const& pose) {
     return pose.back();
   }
   /// By `Shape` [m].
   template <class T>
-  static T contact_radius(std::array<T, static_cast<std::size_t>(pose_count)> const& pose) {
+  static constexpr T contact_radius(std::array<T, static_cast<std::size_t>(pose_count)> const& pose) {
     return Shape::contact_radius(bare(pose));
   }
   /// By `Shape` [m].
-  static double inner_radius(Pose<double> const& pose) requires HasInnerRadius<Shape> {
+  static constexpr double inner_radius(Pose<double> const& pose) requires HasInnerRadius<Shape> {
     return Shape::inner_radius(bare(pose));
   }
 
   /// By `Shape`, which does not see the species.
   template <class T>
-  static ContactGeometry<dim, T> touch(std::array<T, static_cast<std::size_t>(pose_count)> const& first,
-                                       std::array<T, static_cast<std::size_t>(pose_count)> const& second,
-                                       Point<dim, T> const& branch, Point<dim, T> const& normal) {
+  static constexpr ContactGeometry<dim, T> touch(std::array<T, static_cast<std::size_t>(pose_count)> const& first,
+                                                 std::array<T, static_cast<std::size_t>(pose_count)> const& second,
+                                                 Point<dim, T> const& branch, Point<dim, T> const& normal) {
     return Shape::touch(bare(first), bare(second), branch, normal);
   }
   /// Support function by `Shape` along a unit normal.
-  static auto support(Pose<double> const& pose, Point<2, double> const& normal) requires HasSupportOfOne<Shape> {
+  static constexpr auto support(Pose<double> const& pose,
+                                Point<2, double> const& normal) requires HasSupportOfOne<Shape> {
     return Shape::support(bare(pose), normal);
   }
   /// Support functions of a pair by `Shape` along one unit normal.
-  static auto supports(Pose<double> const& first, Pose<double> const& second,
-                       Point<2, double> const& normal) requires HasSupportOfPair<Shape> {
+  static constexpr auto supports(Pose<double> const& first, Pose<double> const& second,
+                                 Point<2, double> const& normal) requires HasSupportOfPair<Shape> {
     return Shape::supports(bare(first), bare(second), normal);
   }
 
  private:
   template <class T, std::size_t Size>
-  static std::array<T, Size - 1> bare(std::array<T, Size> const& numbers) {
+  static constexpr std::array<T, Size - 1> bare(std::array<T, Size> const& numbers) {
     std::array<T, Size - 1> own;
     std::copy_n(numbers.begin(), own.size(), own.begin());
     return own;

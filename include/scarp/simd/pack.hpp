@@ -104,10 +104,10 @@ template <class Scalar, std::size_t Width>
     __builtin_memcpy(halves, &condition.vector, bytes);
     return any_of(BasicMask<Scalar, Width / 2>(halves[0] | halves[1]));
   }
-  if constexpr (bytes == 32) return _mm256_movemask_ps(reinterpret_cast<__m256>(condition.vector)) != 0;
+  if constexpr (bytes == 32) return _mm256_movemask_ps(__builtin_bit_cast(__m256, condition.vector)) != 0;
 #endif
 #if defined(__SSE2__)
-  if constexpr (bytes == 16) return _mm_movemask_ps(reinterpret_cast<__m128>(condition.vector)) != 0;
+  if constexpr (bytes == 16) return _mm_movemask_ps(__builtin_bit_cast(__m128, condition.vector)) != 0;
 #endif
   auto found = condition.vector[0];
   for (std::size_t lane = 1; lane < Width; ++lane) found |= condition.vector[lane];
@@ -124,9 +124,11 @@ template <class Scalar, std::size_t Width>
   return !any_of(!condition);
 }
 
-inline bool any_of(bool condition) { return condition; }    ///< The condition of a single number.
-inline bool none_of(bool condition) { return !condition; }  ///< Whether the condition of a single number fails.
-inline bool all_of(bool condition) { return condition; }    ///< The condition of a single number.
+constexpr bool any_of(bool condition) { return condition; }  ///< The condition of a single number.
+constexpr bool none_of(bool condition) {
+  return !condition;
+}  ///< Whether the condition of a single number fails.
+constexpr bool all_of(bool condition) { return condition; }  ///< The condition of a single number.
 
 /// Types whose every value a pack of such scalars holds unchanged; plain integers are let in for the sake of `2 * pack`.
 template <class Number, class Scalar>

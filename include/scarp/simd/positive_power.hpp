@@ -223,22 +223,23 @@ template <class Scalar, std::size_t Width>
 
 /// base^exponent of a single number by std::pow.
 template <class Scalar>
-  requires std::is_floating_point_v<Scalar> Scalar positive_power(Scalar base, Scalar exponent) {
-    return std::pow(base, exponent);
-  }
+  requires std::is_floating_point_v<Scalar>
+constexpr Scalar positive_power(Scalar base, Scalar exponent) { return std::pow(base, exponent); }
 /// base^exponent of single numbers by std::pow, one after another.
 template <class Scalar, std::size_t Count>
-  requires std::is_floating_point_v<Scalar> std::array<Scalar, Count> positive_powers(
-      std::array<Scalar, Count> const& base, std::array<Scalar, Count> const& exponent) {
-    std::array<Scalar, Count> powers;
-    for (std::size_t k = 0; k < Count; ++k) powers[k] = std::pow(base[k], exponent[k]);
-    return powers;
-  }
+  requires std::is_floating_point_v<Scalar>
+constexpr std::array<Scalar, Count> positive_powers(std::array<Scalar, Count> const& base,
+                                                    std::array<Scalar, Count> const& exponent) {
+  std::array<Scalar, Count> powers;
+  for (std::size_t k = 0; k < Count; ++k) powers[k] = std::pow(base[k], exponent[k]);
+  return powers;
+}
 /// base^exponent of single numbers by std::pow, one after another; the narrow range that packs need is not used.
 template <class Scalar, std::size_t Count>
-  requires std::is_floating_point_v<Scalar> std::array<Scalar, Count> small_powers(
-      std::array<Scalar, Count> const& base, std::array<Scalar, Count> const& exponent) {
-    return positive_powers(base, exponent);
-  }
+  requires std::is_floating_point_v<Scalar>
+constexpr std::array<Scalar, Count> small_powers(std::array<Scalar, Count> const& base,
+                                                 std::array<Scalar, Count> const& exponent) {
+  return positive_powers(base, exponent);
+}
 
 }  // namespace scarp::lanes

@@ -11,7 +11,7 @@ namespace scarp::lanes {
 
 /// `yes` where the condition holds, `no` elsewhere; both are always computed. The condition of numbers is a bool, of packs a mask.
 template <class T>
-T select(bool condition, T const& yes, T const& no) {
+constexpr T select(bool condition, T const& yes, T const& no) {
   return condition ? yes : no;
 }
 /// Lane by lane; both alternatives are always computed.
@@ -33,7 +33,7 @@ std::array<BasicPack<Scalar, Width>, Size> select(BasicMask<Scalar, Width> const
 
 /// The greater one; not-a-number in `value` stays: of packs it is the second operand of `max`.
 template <std::floating_point T>
-T at_least(T const& value, T const& floor) {
+constexpr T at_least(T const& value, T const& floor) {
   return value < floor ? floor : value;
 }
 /// The greater one in each lane; not-a-number in `value` stays.
@@ -45,7 +45,7 @@ template <class Scalar, std::size_t Width>
 
 /// The smaller one; not-a-number in `value` stays: of packs it is the second operand of `min`.
 template <std::floating_point T>
-T at_most(T const& value, T const& ceiling) {
+constexpr T at_most(T const& value, T const& ceiling) {
   return ceiling < value ? ceiling : value;
 }
 /// The smaller one in each lane; not-a-number in `value` stays.

@@ -18,7 +18,15 @@ struct SquareRoot {
 
 /// Square roots of two positive numbers, or of packs of them; infinities and zeros are not among them. They share a division.
 template <class T>
-[[gnu::always_inline]] inline std::array<SquareRoot<T>, 2> square_roots(T const& a, T const& b) {
+[[gnu::always_inline]] inline constexpr std::array<SquareRoot<T>, 2> square_roots(T const& a, T const& b) {
+#if defined(__CUDA_ARCH__) && !defined(SCARP_DEVICE_IEEE)
+  // By the device's own inverse root, whose error is an epsilon: a root or a division would take as long again.
+  if constexpr (std::is_floating_point_v<T>) {
+    T const inverse_a = ::rsqrt(a);
+    T const inverse_b = ::rsqrt(b);
+    return {SquareRoot<T>{a * inverse_a, inverse_a}, SquareRoot<T>{b * inverse_b, inverse_b}};
+  }
+#endif
   using std::sqrt;
   T const root_a = sqrt(a);
   T const root_b = sqrt(b);
