@@ -18,8 +18,8 @@ namespace detail {
 
 /// The normal of a contact and its tangents.
 template <int Dim>
-std::array<Point<Dim, double>, static_cast<std::size_t>(Dim)> contact_axes(Point<Dim, double> const& normal) {
-  std::array<Point<Dim, double>, static_cast<std::size_t>(Dim)> axes;
+constexpr std::array<Point<Dim, double>, static_cast<std::size_t>(Dim)> contact_axes(Point<Dim, double> const& normal) {
+  std::array<Point<Dim, double>, static_cast<std::size_t>(Dim)> axes{};
   axes[0] = normal;
   if constexpr (Dim == 2) {
     axes[1] = {-axes[0][1], axes[0][0]};
@@ -35,7 +35,7 @@ std::array<Point<Dim, double>, static_cast<std::size_t>(Dim)> contact_axes(Point
 }
 
 /// Dashpots parallel to the springs of a contact, \f$ c = 2 \xi \sqrt{m^* S} \f$ [N s/m]; a spring against rolling has none.
-inline ContactStiffness dashpots_of(ContactStiffness const& stiffness, double damping_ratio, double reduced_mass) {
+constexpr ContactStiffness dashpots_of(ContactStiffness const& stiffness, double damping_ratio, double reduced_mass) {
   auto const beside = [&](double spring) { return 2.0 * damping_ratio * std::sqrt(reduced_mass * spring); };
   return {.normal = beside(stiffness.normal), .tangential = beside(stiffness.tangential)};
 }

@@ -102,6 +102,8 @@ class Population {
   double largest_radius() const { return largest_radius_; }
   /// Of one grain [m].
   double bounding_radius(std::size_t grain) const { return bounding_radius_[grain]; }
+  /// Of all grains [m].
+  std::vector<double> const& bounding_radii() const { return bounding_radius_; }
   /// Greatest change of a grain's support function per radian [m].
   double largest_eccentricity() const { return largest_eccentricity_; }
 
