@@ -6,7 +6,7 @@ import re
 import sys
 
 # From the bottom to the top: a room may include those before it.
-ROOMS = ["core", "simd", "tensor", "element", "shape", "contact", "mesh", "dem", "homogenise", "io", "io/gmsh", "io/packings",
+ROOMS = ["core", "simd", "tensor", "element", "shape", "contact", "mesh", "dem", "cuda", "homogenise", "io", "io/gmsh", "io/packings",
          "constitutive", "rve", "points", "bvp", "solver", "run", "observe", "budget", "fault"]
 COMPOSES = {"points", "solver", "observe"}
 FOLDER = pathlib.Path(__file__).resolve().parents[1] / "include" / "scarp"

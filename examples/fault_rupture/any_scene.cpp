@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "device/device_sand.hpp"
 #include "scarp/run/resources.hpp"
 
 namespace fault_rupture {
@@ -72,7 +73,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
     }
     std::fflush(stderr);
   }
-  auto soil = any_soil(choice, sites);
+  auto soil = any_soil(choice, sites, &sand_on_device);
   scene.soil.provider = std::move(soil.provider);
   scene.soil.length = choice.length;
   scene.solver = std::move(soil.solver);

@@ -233,6 +233,12 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
                  "tolerance on the unbalanced force ratio of every packing")
       ->check(number_from(1e-12, true, 1.0));
   app.add_option("--threads", choice.threads, "of each process; 0 uses all processors")->check(CLI::Range(0, 1024));
+  examples::add_named<fault_rupture::Device>(app, "--device", choice.device,
+                                             "where packings respond: none (the vector kernel), threads (the block "
+                                             "program of cards, on the processor) or cuda",
+                                             {{"none", fault_rupture::Device::none},
+                                              {"threads", fault_rupture::Device::threads},
+                                              {"cuda", fault_rupture::Device::cuda}});
   app.add_option("--frames", choice.frames, "VTU files over the run")->check(CLI::Range(1, 100'000));
   app.add_option("--probe-a-x", choice.probe_a_x, "probe A, in the band [m]")->check(fault_rupture::place());
   app.add_option("--probe-a-y", choice.probe_a_y, "height above bedrock [m]")->check(fault_rupture::place());
@@ -290,10 +296,10 @@ void warn_of_unused(CLI::App const& app, Choice const& choice) {
   unused(choice.soil == Soil::dem, "that of packings follows from their grains", {"--k0", "--young-modulus"});
   unused(choice.soil != Soil::mohr_coulomb, "the ground is not of --soil mohr_coulomb",
          {"--peak-friction-angle", "--peak-dilation-angle", "--residual-friction-angle", "--softening-strain"});
-  unused(
-      choice.soil != Soil::dem, "the ground has no packings",
-      {"--grains", "--packings", "--mirrored-packings", "--seed", "--preparation-friction", "--overconsolidation-ratio",
-       "--grain-aspect", "--grain-friction", "--strain-per-dem-step", "--min-dem-steps", "--unbalanced-tolerance"});
+  unused(choice.soil != Soil::dem, "the ground has no packings",
+         {"--grains", "--packings", "--mirrored-packings", "--seed", "--preparation-friction",
+          "--overconsolidation-ratio", "--grain-aspect", "--grain-friction", "--strain-per-dem-step", "--min-dem-steps",
+          "--unbalanced-tolerance", "--device"});
   unused(choice.pattern != MeshPattern::jittered, "the mesh is not of --pattern jittered", {"--mesh-seed"});
   unused(choice.checkpoint.empty(), "there is no --checkpoint", {"--checkpoint-every"});
 }

@@ -16,10 +16,10 @@ struct Stiffening {
   double tangential_stiffness = 0.0;
   double friction = 0.0;
 
-  // T is a double, or a pack of as many contacts as a register holds: no `if` on it, but lanes::select and its like.
+  // constexpr: also for the threads of a card. T is a double, or a pack of as many contacts as a register holds: no `if` on it, but lanes::select and its like.
   template <int Dim, class T>
-  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
-                                      scarp::ContactMemory<Dim, T>& memory) const {
+  constexpr scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                                scarp::ContactMemory<Dim, T>& memory) const {
     using std::sqrt;
     T const closed = scarp::lanes::at_least(approach.overlap, T(0));
     T const normal = T(coefficient) * closed * sqrt(closed);
@@ -27,7 +27,7 @@ struct Stiffening {
                                                 T(friction) * normal);
     return {.normal = normal, .shear = memory.shear, .dissipated = lost};
   }
-  scarp::ContactStiffness stiffness(double overlap, double) const {
+  constexpr scarp::ContactStiffness stiffness(double overlap, double) const {
     return {.normal = 1.5 * coefficient * std::sqrt(std::max(overlap, 0.0)), .tangential = tangential_stiffness};
   }
 };

@@ -10,7 +10,7 @@
 /// Support function \f$ h = r\,(1 + \epsilon\cos 2\phi) \f$, phi from the grain's axis; size is (r [m], epsilon).
 struct Oval : scarp::ConvexShape<Oval, 2> {
   template <class T>  // a number with its derivatives, of one grain or of several
-  static T support(std::array<T, 2> const& size, T const& cosine, T const& sine) {
+  static constexpr T support(std::array<T, 2> const& size, T const& cosine, T const& sine) {
     return size[0] * (1.0 + size[1] * (cosine * cosine - sine * sine));
   }
 };

@@ -24,8 +24,12 @@ struct AnySoil {
   PackingWriter write_packing{};           ///< nothing for soils without packings
 };
 
-/// sites: of all points that will be soil
+struct Sand;
+/// Puts the packings of a sand on a device.
+using SandOnDevice = scarp::AnyProvider<2>(Choice const& choice, Sand const& sand);
+
+/// sites: of all points that will be soil; on_device: called for a sand where the choice has a device
 /// \throws scarp::PreparationError
-AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites);
+AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites, SandOnDevice* on_device = nullptr);
 
 }  // namespace fault_rupture

@@ -20,6 +20,8 @@ inline constexpr double surcharge = 4e3;        ///< [Pa]
 enum class Case { free, heavy, light };
 enum class Soil { dem, mohr_coulomb, elastic };
 enum class Base { tied, frictional };
+/// Where packings respond: on cores by the vector kernel, or by the block program on the same cores or on a card.
+enum class Device { none, threads, cuda };
 enum class MeshPattern { crossed, left, right, quads, jittered };
 
 /// What a user may choose; the reference study's free field on a mesh for a ten-minute run.
@@ -75,6 +77,7 @@ struct Choice {
   double bearing_pressure = 0.0;  ///< [Pa]; 0 for the case's own, 91 kPa or 37 kPa
   double base_friction = 0.5;     ///< coefficient of the frictional base
   int threads = 0;                ///< 0 for all the machine has
+  Device device = Device::none;
   int frames = 40;
   double probe_a_x = -3.5;  ///< [m], in the band
   double probe_a_y = 6.0;

@@ -53,12 +53,23 @@ template <int Dim>
 ResponseReport MaterialPoints<Dim>::evaluate(std::vector<int> selected, Executor const& executor) {
   // The longest responses first: one that begins last would keep the other threads waiting.
   std::ranges::stable_sort(selected, std::ranges::greater{}, [&](int point) { return work(point); });
-  // Points that work are tasks of their own, others of one batch go together.
+  // Points that work are tasks of their own, others of one batch go together, and so do all of a batch that takes many.
   constexpr std::size_t max_together = 64;
   std::vector<std::pair<detail::PointBatch<Dim>*, std::vector<int>>> tasks;
+  for (auto& one : materials_) {
+    if (one.batch_->takes_many()) tasks.push_back({one.batch_.get(), {}});
+  }
+  auto const many = tasks.size();
   for (int const point : selected) {
     auto* const of = &batch(point);
-    if (tasks.empty() || work(point) > 0 || tasks.back().second.size() == max_together || tasks.back().first != of)
+    auto const whole = std::ranges::find(tasks.begin(), tasks.begin() + static_cast<std::ptrdiff_t>(many), of,
+                                         [](auto const& task) { return task.first; });
+    if (whole != tasks.begin() + static_cast<std::ptrdiff_t>(many)) {
+      whole->second.push_back(local(point));
+      continue;
+    }
+    if (tasks.size() == many || work(point) > 0 || tasks.back().second.size() == max_together ||
+        tasks.back().first != of)
       tasks.push_back({of, {}});
     tasks.back().second.push_back(local(point));
   }

@@ -192,6 +192,21 @@ struct DemRve {
     return pressure < floor ? pressure / floor : 1.0;
   }
 
+  /// Writes what was seen of a packing into its state, but for the packing itself. kinetic: sum of the principal values of the stress
+  /// that moving grains carry [Pa] \return whether the state may be committed
+  Verdict judge(State& state, StepObservation<dim> const& seen, double kinetic) const {
+    if (!seen.stress.allFinite()) return {Status::failed, Reason::not_finite};
+    state.stress = to_voigt_stress<dim>(seen.stress);
+    state.unbalanced_ratio = seen.unbalanced_ratio;
+    state.kinetic_share = -kinetic / std::max(std::abs(seen.stress.trace()), min_pressure(state.packing) * dim);
+    if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
+    if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
+    bool const is_fast = state.inertial_number > 2.0 * inertial_number;
+    if (is_fast || !(weight_of(state) * seen.unbalanced_ratio <= unbalanced_tolerance))
+      return {Status::not_converged, Reason::unbalanced};
+    return {};
+  }
+
   /// Inertial number of a response in so many DEM steps.
   double inertial_number_of(State const& committed, Gradient<dim> const& increment, Plan steps) const {
     return largest_strain(increment) * inertial_time(committed) / (time_step(committed) * steps);
@@ -226,9 +241,15 @@ struct DemRve {
       trial.verdict = stepper.step(trial.packing, law, strain_step);
     }
     if (trial.verdict.acceptable()) trial.verdict = observe(stepper, trial);
-    if (trial.verdict == Verdict{} && largest_strain(increment) > plan_slack * strain_per_step * steps)
-      trial.verdict = {Status::not_converged, Reason::too_few_steps};
+    if (trial.verdict == Verdict{}) trial.verdict = verdict_of_steps(increment, steps);
     return {trial.stress, trial.verdict};
+  }
+
+  /// Whether so many DEM steps are enough for an increment.
+  Verdict verdict_of_steps(Gradient<dim> const& increment, Plan steps) const {
+    if (largest_strain(increment) > plan_slack * strain_per_step * steps)
+      return {Status::not_converged, Reason::too_few_steps};
+    return {};
   }
 
  private:
@@ -267,17 +288,7 @@ struct DemRve {
   Verdict observe(Stepper& stepper, State& state) const {
     StepObservation<dim> seen;
     if (Verdict const verdict = stepper.observe(state.packing, law, seen); !verdict.acceptable()) return verdict;
-    if (!seen.stress.allFinite()) return {Status::failed, Reason::not_finite};
-    state.stress = to_voigt_stress<dim>(seen.stress);
-    state.unbalanced_ratio = seen.unbalanced_ratio;
-    state.kinetic_share = -kinetic_stress(state.packing).trace() /
-                          std::max(std::abs(seen.stress.trace()), min_pressure(state.packing) * dim);
-    if (seen.deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};
-    if (seen.contacts == 0.0) return {Status::fluid, Reason::no_contacts};
-    bool const is_fast = state.inertial_number > 2.0 * inertial_number;
-    if (is_fast || !(weight_of(state) * seen.unbalanced_ratio <= unbalanced_tolerance))
-      return {Status::not_converged, Reason::unbalanced};
-    return {};
+    return judge(state, seen, kinetic_stress(state.packing).trace());
   }
 };
 

@@ -23,33 +23,33 @@ struct AngleJet {
   T second{};  ///< derivative of that
 
   /// A constant, without derivatives.
-  AngleJet(double constant)
+  constexpr AngleJet(double constant)
       : AngleJet(broadcast<T>(constant), broadcast<T>(0), broadcast<T>(0)) {}  // NOLINT: as numbers mix
   /// A number of which both derivatives are known.
-  AngleJet(T const& number, T const& slope, T const& bend) : value(number), first(slope), second(bend) {}
+  constexpr AngleJet(T const& number, T const& slope, T const& bend) : value(number), first(slope), second(bend) {}
 
   /// Sum.
-  friend AngleJet operator+(AngleJet const& a, AngleJet const& b) {
+  friend constexpr AngleJet operator+(AngleJet const& a, AngleJet const& b) {
     return {a.value + b.value, a.first + b.first, a.second + b.second};
   }
   /// Difference.
-  friend AngleJet operator-(AngleJet const& a, AngleJet const& b) {
+  friend constexpr AngleJet operator-(AngleJet const& a, AngleJet const& b) {
     return {a.value - b.value, a.first - b.first, a.second - b.second};
   }
   /// Product.
-  friend AngleJet operator*(AngleJet const& a, AngleJet const& b) {
+  friend constexpr AngleJet operator*(AngleJet const& a, AngleJet const& b) {
     T const mixed = a.first * b.first;
     return {a.value * b.value, a.first * b.value + a.value * b.first,
             a.second * b.value + (mixed + mixed) + a.value * b.second};
   }
   /// Quotient.
-  friend AngleJet operator/(AngleJet const& a, AngleJet const& b) {
+  friend constexpr AngleJet operator/(AngleJet const& a, AngleJet const& b) {
     T const ratio = a.value / b.value;
     T const slope = (a.first - ratio * b.first) / b.value;
     return {ratio, slope, (a.second - (slope + slope) * b.first - ratio * b.second) / b.value};
   }
   /// Square root.
-  friend AngleJet sqrt(AngleJet const& a) {
+  friend constexpr AngleJet sqrt(AngleJet const& a) {
     using std::sqrt;
     T const root = sqrt(a.value);
     T const slope = broadcast<T>(0.5) * a.first / root;
@@ -62,7 +62,7 @@ struct AngleJet {
 /// \code
 /// struct Oval : scarp::ConvexShape<Oval, 2> {  // two numbers: r [m], epsilon
 ///   template <class T>
-///   static T support(std::array<T, 2> const& size, T const& cosine, T const& sine) {
+///   static constexpr T support(std::array<T, 2> const& size, T const& cosine, T const& sine) {
 ///     return size[0] * (1.0 + size[1] * (cosine * cosine - sine * sine));
 ///   }
 /// };
@@ -103,7 +103,7 @@ struct ConvexShape {
 
   /// Axis and numbers as they are.
   template <class T>
-  static Pose<T> pose(Size<T> const& size, std::array<T, 2> const& axis) {
+  static constexpr Pose<T> pose(Size<T> const& size, std::array<T, 2> const& axis) {
     Pose<T> made{axis[0], axis[1]};
     for (std::size_t k = 0; k < size.size(); ++k) made[k + 2] = size[k];
     return made;
@@ -111,7 +111,7 @@ struct ConvexShape {
 
   /// Mean of the support function over eight normals [m]: for a smooth grain its perimeter over that of the unit circle.
   template <class T>
-  static T contact_radius(Pose<T> const& pose) {
+  static constexpr T contact_radius(Pose<T> const& pose) {
     T sum = broadcast<T>(0);
     constexpr double half = std::numbers::sqrt2 / 2.0;
     for (auto const& [x, y] :
@@ -124,20 +124,21 @@ struct ConvexShape {
 
   /// Support functions of both grains of a pair, the first's along the normal, the second's against it.
   template <class T>
-  static std::array<Support<T>, 2> supports(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& normal) {
+  static constexpr std::array<Support<T>, 2> supports(Pose<T> const& first, Pose<T> const& second,
+                                                      Point<2, T> const& normal) {
     return {along(first, normal), along(second, {-normal[0], -normal[1]})};
   }
 
   /// One step of Newton's method for a pair, by `support_contact`; branch [m], `normal` the unit vector to start from.
   template <class T>
-  static ContactGeometry<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
-                                     Point<2, T> const& normal) {
+  static constexpr ContactGeometry<2, T> touch(Pose<T> const& first, Pose<T> const& second, Point<2, T> const& branch,
+                                               Point<2, T> const& normal) {
     return support_contact<Own>(first, second, branch, normal);
   }
 
  private:
   template <class T>
-  static Support<T> along(Pose<T> const& pose, Point<2, T> const& normal) {
+  static constexpr Support<T> along(Pose<T> const& pose, Point<2, T> const& normal) {
     using Jet = AngleJet<T>;
     T const zero = broadcast<T>(0);
     std::array<Jet, static_cast<std::size_t>(size_count)> const size = [&]<std::size_t... K>(

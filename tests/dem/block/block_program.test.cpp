@@ -41,7 +41,7 @@ struct Sample {
 
   Bytes state(PackingType const& of) const {
     Bytes bytes(scarp::BlockState<Types>::bytes(size));
-    scarp::to_block(of, scarp::BlockState<Types>(bytes.data(), size), size);
+    scarp::to_block(of, scarp::BlockState<Types>(bytes.data(), size));
     return bytes;
   }
 
@@ -110,7 +110,7 @@ void check_steps(Sample<PackingType> const& sample, double size, int steps) {
   auto const& header = sample.header(trial);
   REQUIRE(header.trouble == scarp::Trouble::none);
   PackingType packing = sample.packing;
-  scarp::from_block({trial.data(), sample.size}, sample.size, packing);
+  scarp::from_block({trial.data(), sample.size}, packing);
   Tensor<dim> const stress = -scarp::detail::as_tensor<dim>(header.moment) / packing.volume();
   // Additions in another order: round-off that 100 steps of colliding grains let grow. In single precision the vector kernel's own sum
   // of a thousand forces has an error of 1e-5.

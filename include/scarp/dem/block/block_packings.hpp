@@ -72,7 +72,7 @@ BlockSize block_size(PackingType const& packing, double room = 1.15) {
 /// Writes a packing into a state. Pairs are sorted by their grains, so that a block's threads read side by side, and a state that
 /// was a packing in between has the same list.
 template <class PackingType>
-void to_block(PackingType const& packing, BlockState<BlockTypesOf<PackingType>> const& state, BlockSize size) {
+void to_block(PackingType const& packing, BlockState<BlockTypesOf<PackingType>> const& state) {
   using Types = BlockTypesOf<PackingType>;
   constexpr int dim = PackingType::dim;
   auto const& pairs = packing.pairs;
@@ -89,7 +89,7 @@ void to_block(PackingType const& packing, BlockState<BlockTypesOf<PackingType>> 
   header.grains = static_cast<std::int32_t>(packing.grain_count());
   header.pairs = static_cast<std::int32_t>(pairs.count());
   auto const columns = [&](auto const& from, int count, auto* to) {
-    for (int k = 0; k < count; ++k) std::copy_n(from.column(k), packing.grain_count(), to + k * size.grains);
+    for (int k = 0; k < count; ++k) std::copy_n(from.column(k), packing.grain_count(), to + k * state.size.grains);
   };
   columns(packing.position, dim, state.position);
   columns(packing.velocity, dim, state.velocity);
@@ -113,7 +113,7 @@ void to_block(PackingType const& packing, BlockState<BlockTypesOf<PackingType>> 
     named.push_back(name);
   }
   std::ranges::sort(named);
-  auto const place = [&](int column, std::size_t p) { return detail::index(column * size.pairs) + p; };
+  auto const place = [&](int column, std::size_t p) { return detail::index(column * state.size.pairs) + p; };
   for (std::size_t p = 0; p < named.size(); ++p) {
     state.first[p] = static_cast<std::uint16_t>(named[p].first);
     state.second[p] = static_cast<std::uint16_t>(named[p].second);
@@ -128,14 +128,14 @@ void to_block(PackingType const& packing, BlockState<BlockTypesOf<PackingType>> 
 
 /// Reads a state into a packing, whose grains and basis of the list stay. Pairs are ordered as the loop over packs wants them.
 template <class PackingType>
-void from_block(BlockState<BlockTypesOf<PackingType>> const& state, BlockSize size, PackingType& packing) {
+void from_block(BlockState<BlockTypesOf<PackingType>> const& state, PackingType& packing) {
   using Types = BlockTypesOf<PackingType>;
   constexpr int dim = PackingType::dim;
   auto const& header = *state.header;
   packing.cell = detail::as_tensor<dim>(header.cell);
   packing.last_move = {detail::as_tensor<dim>(header.gradient), header.duration, header.applied != 0};
   auto const columns = [&](auto const* from, int count, auto& to) {
-    for (int k = 0; k < count; ++k) std::copy_n(from + k * size.grains, packing.grain_count(), to.column(k));
+    for (int k = 0; k < count; ++k) std::copy_n(from + k * state.size.grains, packing.grain_count(), to.column(k));
   };
   columns(state.position, dim, packing.position);
   columns(state.velocity, dim, packing.velocity);
@@ -160,7 +160,7 @@ void from_block(BlockState<BlockTypesOf<PackingType>> const& state, BlockSize si
   list.scalars.resize(count);
   std::size_t const rows = packing.row_count();
   std::vector<std::int32_t> ghost(rows * Types::shifts, -1);
-  auto const place = [&](int column, std::size_t p) { return detail::index(column * size.pairs) + p; };
+  auto const place = [&](int column, std::size_t p) { return detail::index(column * state.size.pairs) + p; };
   for (std::size_t p = 0; p < count; ++p) {
     auto const from = detail::index(woven[p].first);
     list.first[p] = state.first[from];

@@ -15,9 +15,8 @@ struct PairOutcome {
 };
 
 /// Calls visit(column, number) for the numbers that a contact stores.
-template <class Types, class Visit>
-SCARP_HOST_DEVICE constexpr void each_memory(ContactMemory<Types::dim, typename Types::Scalar>& memory,
-                                             Visit const& visit) {
+template <class Types, class Scalar, class Visit>
+SCARP_HOST_DEVICE constexpr void each_memory(ContactMemory<Types::dim, Scalar>& memory, Visit const& visit) {
   int k = 0;
   auto const of = [&](auto& value) {
     if constexpr (Types::dim == 2) {

@@ -6,6 +6,7 @@
 
 #include "scarp/dem/block/block_list.hpp"
 #include "scarp/dem/block/block_pairs.hpp"
+#include "scarp/dem/block/block_stiffness.hpp"
 
 namespace scarp {
 
@@ -30,7 +31,8 @@ class BlockProgram {
                                            Law const& law, Damping const& damping, double time_step_share)
       : w_{team, {team.memory(), size}, grains, law}, damping_(damping), time_step_share_(time_step_share) {}
 
-  /// From `committed` in so many steps of this displacement gradient to `trial`. A response that has a trouble ends at once.
+  /// From `committed` in so many steps of this displacement gradient to `trial`. A response that has a trouble ends at once. No
+  /// steps: the same state with its stiffness, and nothing is observed.
   SCARP_HOST_DEVICE constexpr void respond(BlockState<Types> const& committed, BlockState<Types> const& trial,
                                            int steps, detail::SmallTensor<dim> const& strain_step) {
     begin(committed, trial);
@@ -43,7 +45,8 @@ class BlockProgram {
       find_forces();
       move(cell_step, strain_step, strain_size);
     }
-    if (w_.trouble == Trouble::none) observe();
+    if (w_.trouble == Trouble::none && steps > 0) observe();
+    if (w_.trouble == Trouble::none) seen_.stiffness = detail::block_stiffness(w_);
     end(trial, step);
   }
 
@@ -65,12 +68,12 @@ class BlockProgram {
     auto const copy = [&](int columns, int rows, int stride, Scalar const* from, auto const& to) {
       for (int k = 0; k < columns; ++k) each(w_.team, rows, [&](int i) { to(k, i) = from[k * stride + i]; });
     };
-    copy(dim, w_.grain_count, b.grains, committed.position, b.position);
-    copy(dim, w_.grain_count, b.grains, committed.velocity, b.velocity);
-    copy(Types::turns, w_.grain_count, b.grains, committed.spin, b.spin);
-    copy(Types::normals, w_.pair_count, b.pairs, committed.normal, b.normal);
-    copy(Types::memories, w_.pair_count, b.pairs, committed.memory, b.memory);
-    copy(Types::axes, w_.grain_count, b.grains, committed.orientation,
+    copy(dim, w_.grain_count, committed.size.grains, committed.position, b.position);
+    copy(dim, w_.grain_count, committed.size.grains, committed.velocity, b.velocity);
+    copy(Types::turns, w_.grain_count, committed.size.grains, committed.spin, b.spin);
+    copy(Types::normals, w_.pair_count, committed.size.pairs, committed.normal, b.normal);
+    copy(Types::memories, w_.pair_count, committed.size.pairs, committed.memory, b.memory);
+    copy(Types::axes, w_.grain_count, committed.size.grains, committed.orientation,
          [&](int k, int i) -> Scalar& { return orientation_[k * b.grains + i]; });
     each(w_.team, w_.pair_count, [&](int p) {
       b.first[p] = committed.first[p];

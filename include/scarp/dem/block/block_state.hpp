@@ -8,6 +8,7 @@
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/core/host_device.hpp"
 #include "scarp/shape/particle_shape.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 namespace scarp {
 
@@ -67,6 +68,8 @@ struct BlockHeader {
   double force = 0.0;       ///< sum of the contact forces' sizes [N]
   double deepest = 0.0;     ///< overlap over reduced radius
   double unbalanced = 0.0;  ///< sum of the net forces' sizes [N]
+  /// Stiffness times volume [N m] in Voigt's notation, row by row from the diagonal on.
+  std::array<double, static_cast<std::size_t>(voigt_size<Dim>*(voigt_size<Dim> + 1) / 2)> stiffness{};
 };
 
 namespace detail {
@@ -83,6 +86,7 @@ template <class Types>
 struct BlockState {
   using Scalar = typename Types::Scalar;  ///< of coordinates and velocities
 
+  BlockSize size;  ///< rows of the columns
   BlockHeader<Types::dim>* header = nullptr;
   Scalar* position = nullptr;       ///< of grains [m]
   Scalar* velocity = nullptr;       ///< of grains [m/s]
@@ -95,26 +99,26 @@ struct BlockState {
   std::uint8_t* shift = nullptr;    ///< number of the second grain's image
 
   /// A state that begins at `at`.
-  SCARP_HOST_DEVICE constexpr BlockState(std::byte* at, BlockSize size) {
-    lay_out(size, [&]<class T>(T*& array, std::size_t count) {
+  SCARP_HOST_DEVICE constexpr BlockState(std::byte* at, BlockSize rows) : size(rows) {
+    lay_out([&]<class T>(T*& array, std::size_t count) {
       array = static_cast<T*>(static_cast<void*>(at));
       at += detail::laid_out_bytes(count, sizeof(T));
     });
   }
 
   /// Bytes of a state.
-  static SCARP_HOST_DEVICE constexpr std::size_t bytes(BlockSize size) {
+  static SCARP_HOST_DEVICE constexpr std::size_t bytes(BlockSize rows) {
     std::size_t sum = 0;
-    BlockState unplaced;
-    unplaced.lay_out(size, [&]<class T>(T*&, std::size_t count) { sum += detail::laid_out_bytes(count, sizeof(T)); });
+    BlockState unplaced(rows);
+    unplaced.lay_out([&]<class T>(T*&, std::size_t count) { sum += detail::laid_out_bytes(count, sizeof(T)); });
     return sum;
   }
 
  private:
-  BlockState() = default;
+  SCARP_HOST_DEVICE constexpr explicit BlockState(BlockSize rows) : size(rows) {}
 
   template <class Place>
-  SCARP_HOST_DEVICE constexpr void lay_out(BlockSize size, Place const& place) {
+  SCARP_HOST_DEVICE constexpr void lay_out(Place const& place) {
     auto const grains = static_cast<std::size_t>(size.grains);
     auto const pairs = static_cast<std::size_t>(size.pairs);
     place(header, 1);

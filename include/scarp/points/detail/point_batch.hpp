@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <any>
 #include <memory>
 #include <optional>
@@ -41,6 +42,8 @@ class PointBatch {
   virtual bool refine(int k) = 0;
   virtual long work(int k) const = 0;
   virtual bool has_exact_tangent() const = 0;
+  /// Whether the points are to respond in one call, since many take the time of one.
+  virtual bool takes_many() const = 0;
   /// Points that need more than `plan_slack` times the planned work plan it anew. increments and responses: of all points by
   /// their numbers among these
   virtual void respond(std::span<int const> own, std::vector<Gradient<Dim>> const& increments,
@@ -108,17 +111,30 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   }
   long work(int k) const override { return static_cast<long>(plans_[index(k)]); }
   bool has_exact_tangent() const override { return scarp::has_exact_tangent<Provider>(); }
+  bool takes_many() const override {
+    auto const present = std::ranges::find(here_, true);
+    if (present == here_.end()) return false;
+    return unwrap(*provider_, committed_[static_cast<std::size_t>(present - here_.begin())],
+                  [](auto const& inner, auto const&) {
+                    if constexpr (requires { inner.takes_many(); }) return inner.takes_many();
+                    return false;
+                  });
+  }
 
   void respond(std::span<int const> own, std::vector<Gradient<dim>> const& increments,
                std::vector<Response<dim>>& responses) override {
     for (int const one : own) {
       std::size_t const k = index(one);
-      std::size_t const number = index(numbers_[k]);
       if constexpr (HasPlan<Provider>) {
-        auto needed = provider_->plan(committed_[k], increments[number]);
+        auto needed = provider_->plan(committed_[k], increments[index(numbers_[k])]);
         if (static_cast<double>(static_cast<long>(needed)) > plan_slack * static_cast<double>(work(one)))
           plans_[k] = std::move(needed);
       }
+    }
+    if (own.size() > 1) respond_together(own, increments);
+    for (int const one : own) {
+      std::size_t const k = index(one);
+      std::size_t const number = index(numbers_[k]);
       responses[number] = respond_as_planned(*provider_, committed_[k], increments[number], trial_[k], plans_[k]);
     }
   }
@@ -206,6 +222,31 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     unwrap(*provider_, state, [](auto const& inner, auto const& own) {
       if constexpr (requires { inner.require_fitting(own); }) inner.require_fitting(own);
     });
+  }
+
+  /// Asks the provider within the adaptors for all points' responses, where it has a function for that; each point then finds its own.
+  void respond_together(std::span<int const> own, std::vector<Gradient<dim>> const& increments) {
+    using Inner = decltype(unwrap(*provider_, trial_[0], [](auto const& inner, auto&) { return inner; }));
+    if constexpr (requires { typename Inner::Request; }) {
+      std::vector<typename Inner::Request> requests;
+      for (int const one : own) {
+        std::size_t const k = index(one);
+        auto const* const from =
+            unwrap(*provider_, committed_[k], [](auto const&, auto const& state) { return &state; });
+        unwrap(*provider_, trial_[k], [&](Inner const& inner, auto& trial) {
+          requests.push_back({&inner, from, &increments[index(numbers_[k])], inner_plan(plans_[k]), &trial});
+        });
+      }
+      Inner::respond_together(requests);
+    }
+  }
+  /// The plan of the provider within adaptors.
+  static auto const& inner_plan(auto const& plan) {
+    if constexpr (requires { plan.own; }) {
+      return inner_plan(plan.own);
+    } else {
+      return plan;
+    }
   }
 
   /// Of a point that another process owns.

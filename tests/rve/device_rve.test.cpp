@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/rve/device_rve.hpp"
+
+#include <doctest/doctest.h>
+
+#include <numeric>
+
+#include "scarp/constitutive/stiffness_floor.hpp"
+#include "scarp/constitutive/varied_parameters.hpp"
+#include "scarp/points/material_points.hpp"
+#include "scarp/rve/random_packings.hpp"
+#include "scarp/solver/thread_executor.hpp"
+#include "support/packings.hpp"
+
+namespace {
+
+using Grains = samples::Ellipses;
+using Rve = scarp::DemRve<Grains, scarp::SamePacking<Grains>>;
+using OnDevice = scarp::DeviceRve<Rve>;
+using Processor = scarp::ProcessorDevice<OnDevice::Types, OnDevice::Damping>;
+
+/// The processor as a device that wants all points at once, and counts its calls.
+struct TakesMany final : scarp::BlockDevice<OnDevice::Types, OnDevice::Damping> {
+  Processor processor;
+  int calls = 0;
+  std::size_t most = 0;
+  bool takes_many() const override { return true; }
+  scarp::BlockSize room(int grains, int pairs) const override { return processor.room(grains, pairs); }
+  Bytes allocate(std::size_t bytes) override { return processor.allocate(bytes); }
+  void write(std::span<std::byte const> from, std::byte* to) override { processor.write(from, to); }
+  void read(std::byte const* from, std::span<std::byte> to) override { processor.read(from, to); }
+  scarp::BlockGrains<Types> grains(std::shared_ptr<Grains const> const& population) override {
+    return processor.grains(population);
+  }
+  void respond(std::span<scarp::BlockTask<Types> const> tasks, scarp::BlockParameters<Types, Damping> const& parameters,
+               std::span<Header> headers) override {
+    ++calls;
+    most = std::max(most, tasks.size());
+    processor.respond(tasks, parameters, headers);
+  }
+};
+
+Rve rve(int grains = 80) {
+  return {.law = samples::study_law(), .source = {samples::consolidated<Grains>(grains).packing}};
+}
+
+scarp::Gradient<2> increment(double size) {
+  scarp::Gradient<2> gradient;
+  gradient << size, 0.4 * size, 0.2 * size, -1.5 * size;
+  return gradient;
+}
+
+std::vector<scarp::Site<2>> sites(int count) {
+  std::vector<scarp::Site<2>> made(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) made[static_cast<std::size_t>(k)].index = k;
+  return made;
+}
+
+/// Load steps of points that all have another increment; the points as they are in the end.
+template <class Material>
+scarp::MaterialPoints<2> strained(Material const& material, int count, int load_steps, scarp::Executor& executor) {
+  scarp::MaterialPoints<2> points(material, sites(count));
+  for (int step = 0; step < load_steps; ++step) {
+    for (int k = 0; k < count; ++k) points.gradient(k) = increment(1e-4 * (k + 1));
+    REQUIRE(points.respond(executor).verdict.acceptable());
+    points.commit();
+  }
+  return points;
+}
+
+double difference(scarp::MaterialPoints<2> const& a, scarp::MaterialPoints<2> const& b) {
+  double most = 0.0;
+  for (int k = 0; k < a.size(); ++k)
+    most = std::max(most, (a.committed_stress(k) - b.committed_stress(k)).norm() / a.committed_stress(k).norm());
+  return most;
+}
+
+bool are_equal(scarp::MaterialPoints<2> const& a, scarp::MaterialPoints<2> const& b) {
+  for (int k = 0; k < a.size(); ++k) {
+    if (a.committed_stress(k) != b.committed_stress(k) || a.pack(k) != b.pack(k)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("points on a device plan, respond, show and are tangent as on the processor") {
+  scarp::ThreadExecutor executor(2);
+  auto const reference = strained(rve(), 3, 4, executor);
+  OnDevice const on_device{rve(), std::make_shared<Processor>()};
+  auto const points = strained(on_device, 3, 4, executor);
+  CHECK(difference(reference, points) < 1e-9);
+  for (int k = 0; k < 3; ++k) {
+    CHECK(points.work(k) == reference.work(k));
+    auto const tangent = reference.committed_tangent(k);
+    CHECK((points.committed_tangent(k) - tangent).norm() < 1e-6 * tangent.norm());
+    auto const expected = reference.quantities(k);
+    auto const found = points.quantities(k);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t q = 0; q < found.size(); ++q) {
+      CHECK(found[q].first == expected[q].first);
+      CHECK(found[q].second == doctest::Approx(expected[q].second).epsilon(1e-6));
+    }
+    CHECK(points.packing_balance(k).has_packing);
+    CHECK(points.packing_balance(k).unbalanced_ratio ==
+          doctest::Approx(reference.packing_balance(k).unbalanced_ratio).epsilon(1e-5));
+    CHECK(points.picture<scarp::PackingPicture>(k).has_value());
+  }
+}
+
+TEST_CASE("a device that takes many points gets all of them in one call, also through adaptors") {
+  scarp::ThreadExecutor executor(2);
+  OnDevice on_device{rve(), std::make_shared<Processor>()};
+  auto const alone = strained(scarp::StiffnessFloor<OnDevice>{on_device}, 4, 2, executor);
+  auto const device = std::make_shared<TakesMany>();
+  on_device.device = device;
+  auto const together = strained(scarp::StiffnessFloor<OnDevice>{on_device}, 4, 2, executor);
+  CHECK(are_equal(alone, together));
+  CHECK(device->most == 4);
+  SUBCASE("with parameters of each point") {
+    scarp::VariedParameters<OnDevice> const varied{on_device, [](OnDevice common, scarp::Site<2> const& site) {
+                                                     common.rve.law.friction = 0.4 + 0.05 * site.index;
+                                                     return common;
+                                                   }};
+    auto const points = strained(varied, 3, 2, executor);
+    scarp::VariedParameters<Rve> const reference{rve(), [](Rve common, scarp::Site<2> const& site) {
+                                                   common.law.friction = 0.4 + 0.05 * site.index;
+                                                   return common;
+                                                 }};
+    CHECK(difference(strained(reference, 3, 2, executor), points) < 1e-9);
+  }
+}
+
+TEST_CASE("points go on from what was saved on a device or on the processor") {
+  scarp::SerialExecutor executor;
+  auto const source = rve();
+  OnDevice const on_device{source, std::make_shared<Processor>()};
+  auto const go_on = [&](auto const& material, std::string const& bits) {
+    scarp::MaterialPoints<2> points(material, sites(1));
+    points.unpack(0, bits);
+    points.gradient(0) = increment(2e-4);
+    REQUIRE(points.respond(executor).verdict.acceptable());
+    points.commit();
+    return points;
+  };
+  auto points = strained(on_device, 1, 2, executor);
+  auto const bits = points.pack(0);
+  points.gradient(0) = increment(2e-4);
+  REQUIRE(points.respond(executor).verdict.acceptable());
+  points.commit();
+  CHECK(are_equal(points, go_on(on_device, bits)));
+  CHECK(difference(points, go_on(source, bits)) < 1e-9);
+  auto const of_processor = strained(source, 1, 2, executor).pack(0);
+  CHECK(difference(points, go_on(on_device, of_processor)) < 1e-8);
+}
+
+TEST_CASE("a mirrored packing goes to the device as its image") {
+  scarp::SerialExecutor executor;
+  OnDevice const on_device{rve(), std::make_shared<Processor>()};
+  auto points = strained(on_device, 2, 2, executor);
+  auto const stress = points.committed_stress(1);
+  points.copy(0, points, 1, true);
+  CHECK((points.committed_stress(0) - stress).norm() < 1e-9 * stress.norm());
+  points.gradient(0) = points.gradient(1) = increment(1e-4);
+  REQUIRE(points.respond(executor).verdict.acceptable());
+  points.commit();
+  CHECK(points.committed_stress(0) != points.committed_stress(1));
+  CHECK((points.committed_stress(0) - points.committed_stress(1)).norm() < 0.05 * stress.norm());
+}
+
+TEST_CASE("verdicts of a device are the provider's") {
+  auto source = rve();
+  source.inertial_number = 1.0;
+  source.unbalanced_tolerance = 0.5;
+  OnDevice const on_device{source, std::make_shared<Processor>()};
+  auto const state = on_device.initial_state({});
+  OnDevice::State trial;
+  auto const verdict = [&](scarp::Gradient<2> const& gradient, int steps) {
+    auto const found = on_device.respond(state, gradient, trial, steps).verdict;
+    Rve::State own;
+    CHECK(found == on_device.rve.respond(state.whole(), gradient, own, steps).verdict);
+    return found;
+  };
+  CHECK(verdict(increment(1e-4), 20) == scarp::Verdict{});
+  CHECK(verdict(increment(1e-2), 20).reason == scarp::Reason::too_few_steps);
+  CHECK(verdict(increment(std::nan("")), 20).reason == scarp::Reason::not_finite);
+  scarp::Gradient<2> apart = scarp::Gradient<2>::Zero();
+  apart(0, 0) = apart(1, 1) = 0.02;
+  CHECK(verdict(apart, 200).status == scarp::Status::fluid);
+  scarp::Gradient<2> deep = scarp::Gradient<2>::Zero();
+  deep(0, 0) = deep(1, 1) = -0.3;
+  CHECK(verdict(deep, 2000).status == scarp::Status::failed);
+}
+
+TEST_CASE("a device that responds otherwise than the processor is refused") {
+  struct Wrong final : scarp::BlockDevice<OnDevice::Types, OnDevice::Damping> {
+    Processor processor;
+    bool takes_many() const override { return false; }
+    scarp::BlockSize room(int grains, int pairs) const override { return processor.room(grains, pairs); }
+    Bytes allocate(std::size_t bytes) override { return processor.allocate(bytes); }
+    void write(std::span<std::byte const> from, std::byte* to) override { processor.write(from, to); }
+    void read(std::byte const* from, std::span<std::byte> to) override { processor.read(from, to); }
+    scarp::BlockGrains<Types> grains(std::shared_ptr<Grains const> const& population) override {
+      return processor.grains(population);
+    }
+    void respond(std::span<scarp::BlockTask<Types> const> tasks,
+                 scarp::BlockParameters<Types, Damping> const& parameters, std::span<Header> headers) override {
+      auto without_shear = parameters;
+      without_shear.law.tangential_stiffness = 0.0;
+      processor.respond(tasks, without_shear, headers);
+    }
+  };
+  OnDevice const on_device{rve(), std::make_shared<Wrong>()};
+  CHECK_THROWS_WITH_AS(on_device.initial_state({}), doctest::Contains("write `constexpr` before every function"),
+                       scarp::InputError);
+  CHECK_THROWS_WITH_AS((OnDevice{rve(), nullptr}.initial_state({})), doctest::Contains("no device"), scarp::InputError);
+}
