@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/device_sand.hpp"
+#include "device/chosen_device.hpp"
 #include "scarp/run/resources.hpp"
 
 namespace fault_rupture {
@@ -54,6 +54,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   auto scene = without_soil<SceneType>(choice);
   require_probes_inside(choice, scene);
   auto const sites = scene.soil_sites();
+  auto const to_device = choice.device == Device::none ? ToDevice{} : chosen_device(choice.device);
   auto const what = choice.soil == Soil::dem
                         ? fmt::format("ground of {} points with packings of {} grains", sites.size(), choice.grains)
                         : fmt::format("ground of {} points", sites.size());
@@ -73,7 +74,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
     }
     std::fflush(stderr);
   }
-  auto soil = any_soil(choice, sites, &sand_on_device);
+  auto soil = any_soil(choice, sites, to_device);
   scene.soil.provider = std::move(soil.provider);
   scene.soil.length = choice.length;
   scene.solver = std::move(soil.solver);

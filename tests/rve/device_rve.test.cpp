@@ -10,6 +10,7 @@
 #include "scarp/points/material_points.hpp"
 #include "scarp/rve/random_packings.hpp"
 #include "scarp/solver/thread_executor.hpp"
+#include "support/approx.hpp"
 #include "support/packings.hpp"
 
 namespace {
@@ -19,12 +20,10 @@ using Rve = scarp::DemRve<Grains, scarp::SamePacking<Grains>>;
 using OnDevice = scarp::DeviceRve<Rve>;
 using Processor = scarp::ProcessorDevice<OnDevice::Types, OnDevice::Damping>;
 
-/// The processor as a device that wants all points at once, and counts its calls.
-struct TakesMany final : scarp::BlockDevice<OnDevice::Types, OnDevice::Damping> {
+/// The processor behind a device of which a test changes one thing.
+struct Behind : scarp::BlockDevice<OnDevice::Types, OnDevice::Damping> {
   Processor processor;
-  int calls = 0;
-  std::size_t most = 0;
-  bool takes_many() const override { return true; }
+  bool takes_many() const override { return false; }
   scarp::BlockSize room(int grains, int pairs) const override { return processor.room(grains, pairs); }
   Bytes allocate(std::size_t bytes) override { return processor.allocate(bytes); }
   void write(std::span<std::byte const> from, std::byte* to) override { processor.write(from, to); }
@@ -34,9 +33,39 @@ struct TakesMany final : scarp::BlockDevice<OnDevice::Types, OnDevice::Damping> 
   }
   void respond(std::span<scarp::BlockTask<Types> const> tasks, scarp::BlockParameters<Types, Damping> const& parameters,
                std::span<Header> headers) override {
-    ++calls;
-    most = std::max(most, tasks.size());
     processor.respond(tasks, parameters, headers);
+  }
+};
+
+/// Wants all points at once, and counts them.
+struct TakesMany final : Behind {
+  std::size_t most = 0;
+  bool takes_many() const override { return true; }
+  void respond(std::span<scarp::BlockTask<Types> const> tasks, scarp::BlockParameters<Types, Damping> const& parameters,
+               std::span<Header> headers) override {
+    most = std::max(most, tasks.size());
+    Behind::respond(tasks, parameters, headers);
+  }
+};
+
+/// Has room for no longer list, and counts the lists that were too long.
+struct Narrow final : Behind {
+  int full = 0;
+  scarp::BlockSize room(int grains, int pairs) const override { return {processor.room(grains, pairs).grains, pairs}; }
+  void respond(std::span<scarp::BlockTask<Types> const> tasks, scarp::BlockParameters<Types, Damping> const& parameters,
+               std::span<Header> headers) override {
+    Behind::respond(tasks, parameters, headers);
+    for (auto const& header : headers) full += header.trouble == scarp::Trouble::list_full ? 1 : 0;
+  }
+};
+
+/// Forgets the friction.
+struct Wrong final : Behind {
+  void respond(std::span<scarp::BlockTask<Types> const> tasks, scarp::BlockParameters<Types, Damping> const& parameters,
+               std::span<Header> headers) override {
+    auto without_shear = parameters;
+    without_shear.law.tangential_stiffness = 0.0;
+    Behind::respond(tasks, without_shear, headers);
   }
 };
 
@@ -99,11 +128,11 @@ TEST_CASE("points on a device plan, respond, show and are tangent as on the proc
     REQUIRE(found.size() == expected.size());
     for (std::size_t q = 0; q < found.size(); ++q) {
       CHECK(found[q].first == expected[q].first);
-      CHECK(found[q].second == doctest::Approx(expected[q].second).epsilon(1e-6));
+      CHECK(found[q].second == samples::Approx(expected[q].second).epsilon(1e-6));
     }
     CHECK(points.packing_balance(k).has_packing);
     CHECK(points.packing_balance(k).unbalanced_ratio ==
-          doctest::Approx(reference.packing_balance(k).unbalanced_ratio).epsilon(1e-5));
+          samples::Approx(reference.packing_balance(k).unbalanced_ratio).epsilon(1e-5));
     CHECK(points.picture<scarp::PackingPicture>(k).has_value());
   }
 }
@@ -192,24 +221,22 @@ TEST_CASE("verdicts of a device are the provider's") {
   CHECK(verdict(deep, 2000).status == scarp::Status::failed);
 }
 
+TEST_CASE("a packing whose list the device has no room for responds on the processor, and returns to the device") {
+  auto const device = std::make_shared<Narrow>();
+  OnDevice const on_device{rve(), device};
+  auto state = on_device.initial_state({});
+  auto own = state.whole();
+  scarp::Gradient<2> const compressed = -1e-2 * scarp::Gradient<2>::Identity();
+  for (int step = 0; step < 4; ++step) {
+    REQUIRE(scarp::advance(on_device, state, compressed).verdict.acceptable());
+    REQUIRE(scarp::advance(on_device.rve, own, compressed).verdict.acceptable());
+    CHECK((on_device.stress(state) - own.stress).norm() < 1e-6 * own.stress.norm());
+  }
+  CHECK(device->full > 0);
+  CHECK(device->full < 4);
+}
+
 TEST_CASE("a device that responds otherwise than the processor is refused") {
-  struct Wrong final : scarp::BlockDevice<OnDevice::Types, OnDevice::Damping> {
-    Processor processor;
-    bool takes_many() const override { return false; }
-    scarp::BlockSize room(int grains, int pairs) const override { return processor.room(grains, pairs); }
-    Bytes allocate(std::size_t bytes) override { return processor.allocate(bytes); }
-    void write(std::span<std::byte const> from, std::byte* to) override { processor.write(from, to); }
-    void read(std::byte const* from, std::span<std::byte> to) override { processor.read(from, to); }
-    scarp::BlockGrains<Types> grains(std::shared_ptr<Grains const> const& population) override {
-      return processor.grains(population);
-    }
-    void respond(std::span<scarp::BlockTask<Types> const> tasks,
-                 scarp::BlockParameters<Types, Damping> const& parameters, std::span<Header> headers) override {
-      auto without_shear = parameters;
-      without_shear.law.tangential_stiffness = 0.0;
-      processor.respond(tasks, without_shear, headers);
-    }
-  };
   OnDevice const on_device{rve(), std::make_shared<Wrong>()};
   CHECK_THROWS_WITH_AS(on_device.initial_state({}), doctest::Contains("write `constexpr` before every function"),
                        scarp::InputError);

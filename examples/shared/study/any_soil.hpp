@@ -25,11 +25,11 @@ struct AnySoil {
 };
 
 struct Sand;
-/// Puts the packings of a sand on a device.
-using SandOnDevice = scarp::AnyProvider<2>(Choice const& choice, Sand const& sand);
+/// Puts the packings of a sand on a device; empty where they stay on the processor.
+using ToDevice = std::function<scarp::AnyProvider<2>(Sand const& sand)>;
 
-/// sites: of all points that will be soil; on_device: called for a sand where the choice has a device
+/// sites: of all points that will be soil
 /// \throws scarp::PreparationError
-AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites, SandOnDevice* on_device = nullptr);
+AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites, ToDevice const& to_device = {});
 
 }  // namespace fault_rupture

@@ -159,13 +159,13 @@ FrictionalSoil make_frictional_soil(Choice const& choice) {
 
 ElasticSoil make_elastic_soil(Choice const& choice) { return {{soil_elasticity(choice), ground_at_rest(choice)}}; }
 
-AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites, SandOnDevice* on_device) {
+AnySoil any_soil(Choice const& choice, std::vector<scarp::Site<2>> const& sites, ToDevice const& to_device) {
   switch (choice.soil) {
     case Soil::dem: {
       auto const sand = make_sand(choice, sites);
       auto soil = solved(choice, sand, {});
       soil.pressure_floor = sand.provider.pressure_floor;
-      if (choice.device != Device::none && on_device != nullptr) soil.provider = on_device(choice, sand);
+      if (to_device) soil.provider = to_device(sand);
       auto const& columns = sand.provider.source.sources;
       auto const& packings =
           std::ranges::find_if(columns, [](auto const& column) { return !column.packings.empty(); })->packings;

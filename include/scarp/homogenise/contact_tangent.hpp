@@ -69,4 +69,20 @@ VoigtTangent<Dim> to_voigt_tangent(FullTangent<Dim> const& full) {
   return voigt;
 }
 
+/// tangent(packing, law): stiffness [Pa] of a packing in its present state.
+template <class Tangent, class PackingType>
+concept PackingTangent = requires(Tangent const& tangent, PackingType const& packing,
+                                  typename PackingType::Law const& law) {
+  { tangent(packing, law) } -> std::convertible_to<VoigtTangent<PackingType::dim>>;
+};
+
+/// Stiffness of a packing as a provider's tangent: all contacts elastic under uniform strain (Kruyt and Rothenburg 1998).
+struct AffineTangent {
+  /// Elastic stiffness [Pa] of the packing for engineering strain.
+  template <class PackingType>
+  VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
+    return to_voigt_tangent<PackingType::dim>(contact_tangent(packing, law));
+  }
+};
+
 }  // namespace scarp

@@ -21,26 +21,10 @@
 
 namespace scarp {
 
-/// Stiffness of a packing as a provider's tangent: all contacts elastic under uniform strain (Kruyt and Rothenburg 1998).
-struct AffineTangent {
-  /// Elastic stiffness [Pa] of the packing for engineering strain.
-  template <class PackingType>
-  VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
-    return to_voigt_tangent<PackingType::dim>(contact_tangent(packing, law));
-  }
-};
-
 /// at(site): the packing that a point starts with.
 template <class Source, class PackingType>
 concept PackingSource = requires(Source const& source, Site<PackingType::dim> const& site) {
   { source.at(site) } -> std::convertible_to<PackingType>;
-};
-
-/// tangent(packing, law): stiffness [Pa] of a packing in its present state.
-template <class Tangent, class PackingType>
-concept PackingTangent = requires(Tangent const& tangent, PackingType const& packing,
-                                  typename PackingType::Law const& law) {
-  { tangent(packing, law) } -> std::convertible_to<VoigtTangent<PackingType::dim>>;
 };
 
 /// A discrete-element packing as constitutive law: the cell follows the increment at a constant velocity gradient

@@ -8,92 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/dem/block/block_device.hpp"
 #include "scarp/rve/dem_rve.hpp"
+#include "scarp/rve/stored_packing.hpp"
 
 namespace scarp {
-
-/// A packing on the processor, on a device or on both: it goes where somebody needs it first, and is never changed, so that states
-/// share it. Several threads may call it.
-/// \tparam PackingType a `Packing` \tparam Device a `BlockDevice`
-template <class PackingType, class Device>
-class StoredPacking {
- public:
-  using Law = typename PackingType::Law;                                                 ///< of the contacts
-  using State = BlockState<typename Device::Types>;                                      ///< on the device
-  using Header = typename Device::Header;                                                ///< what a response reports
-  using Parameters = BlockParameters<typename Device::Types, typename Device::Damping>;  ///< of responses
-
-  /// On the processor.
-  explicit StoredPacking(PackingType packing) : packing_(std::move(packing)) {}
-  /// On the device. outline: the packing without grains and contacts; bytes: a state of this size with this header
-  StoredPacking(std::shared_ptr<Device> device, PackingType outline, typename Device::Bytes bytes, BlockSize size,
-                Header const& header)
-      : packing_(std::move(outline)),
-        is_here_(false),
-        device_(std::move(device)),
-        bytes_(std::move(bytes)),
-        size_(size),
-        header_(header) {}
-
-  /// The packing, which is read from the device if it is not here.
-  PackingType const& packing() const {
-    std::lock_guard const lock(mutex_);
-    if (!is_here_) fetch();
-    return packing_;
-  }
-
-  /// The state on a device and its header, which has a trouble where the device cannot observe the packing. What it needs is written
-  /// there first if it is not there.
-  std::pair<State, Header> on(std::shared_ptr<Device> const& device, Parameters const& parameters) const {
-    std::lock_guard const lock(mutex_);
-    if (device_ != device) {
-      if (!is_here_) fetch();
-      place(device, parameters);
-    }
-    return {State(bytes_.get(), size_), header_};
-  }
-
- private:
-  void fetch() const {
-    AlignedVector<std::byte> bytes(State::bytes(size_));
-    device_->read(bytes_.get(), bytes);
-    auto const grains = detail::index(header_.grains);
-    packing_.position.resize(grains);
-    packing_.velocity.resize(grains);
-    packing_.spin.resize(grains);
-    packing_.orientation.resize(grains);
-    from_block(State(bytes.data(), size_), packing_);
-    is_here_ = true;
-  }
-
-  void place(std::shared_ptr<Device> const& device, Parameters const& parameters) const {
-    TimeStepper<PackingType, typename Device::Damping> const stepper;
-    header_ = {};
-    if (!stepper.refresh(packing_, parameters.law).acceptable()) {
-      header_.trouble = Trouble::unsettled_touch;  // the processor finds out what it is
-      return;
-    }
-    size_ = device->room(static_cast<int>(packing_.grain_count()), static_cast<int>(packing_.pairs.count()));
-    AlignedVector<std::byte> here(State::bytes(size_));
-    to_block(packing_, State(here.data(), size_));
-    auto const given = device->allocate(here.size());
-    bytes_ = device->allocate(here.size());
-    device->write(here, given.get());
-    BlockTask<typename Device::Types> const look{
-        State(given.get(), size_), State(bytes_.get(), size_), device->grains(packing_.population), 0, {}};
-    device->respond(std::span(&look, 1), parameters, std::span(&header_, 1));
-    device_ = device;
-  }
-
-  mutable std::mutex mutex_;
-  mutable PackingType packing_;  ///< only an outline while it is not here
-  mutable bool is_here_ = true;
-  mutable std::shared_ptr<Device> device_;  ///< null while it is on no device
-  mutable typename Device::Bytes bytes_;
-  mutable BlockSize size_{};
-  mutable Header header_{};
-};
 
 /// A `DemRve` whose packings are on a device and respond there, many at once where the device takes many. Plans, verdicts, tangents and
 /// saved states are the provider's, so that runs with and without a device resume each other; stresses agree to round-off. A packing
@@ -111,8 +29,8 @@ struct DeviceRve {
   static_assert(std::same_as<decltype(Rve::boundary), Periodic>,
                 "scarp: packings on a device have periodic boundaries: take `Periodic`");
 
-  /// A response that was asked for together with others.
-  struct Answer {
+  /// A response that was evaluated together with others.
+  struct Evaluated {
     std::shared_ptr<Stored const> from;  ///< packing before it
     Gradient<dim> increment;             ///< to which it responded
     Plan steps;                          ///< in so many DEM steps
@@ -123,12 +41,12 @@ struct DeviceRve {
   struct State {
     typename Rve::State outline;           ///< its packing has a cell and no grains
     std::shared_ptr<Stored const> stored;  ///< the whole packing
-    std::optional<Answer> answer;          ///< of which this is the state, until it is asked for
+    std::optional<Evaluated> evaluated;    ///< of which this is the state, until `respond` returns it
 
     /// For saving, see `Described`: as the provider's state.
     template <class Self, class Visit>
     static void members(Self& self, Visit&& visit) {
-      SCARP_ALL_MEMBERS(outline, stored, answer);
+      SCARP_ALL_MEMBERS(outline, stored, evaluated);
       if constexpr (std::is_const_v<Self>) {
         visit("packing", self.stored ? self.stored->packing() : self.outline.packing);
       } else {
@@ -156,7 +74,7 @@ struct DeviceRve {
     }
   };
 
-  /// One response of several. \tparam Asking the provider, which may be another one for each point
+  /// One response of several
   struct Request {
     DeviceRve const* provider;       ///< of the point
     State const* committed;          ///< of the point
@@ -211,19 +129,19 @@ struct DeviceRve {
     return respond(committed, increment, trial, plan(committed, increment));
   }
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial, Plan steps) const {
-    auto const& known = trial.answer;
+    auto const& known = trial.evaluated;
     if (!known || known->from != committed.stored || known->steps != steps || known->increment != increment) {
       Request const request{this, &committed, &increment, steps, &trial};
       respond_together(std::span(&request, 1));
     }
-    auto const response = trial.answer->response;
-    trial.answer.reset();
+    auto const response = trial.evaluated->response;
+    trial.evaluated.reset();
     return response;
   }
 
   /// Whether all points are to respond in one call.
   bool takes_many() const { return device && device->takes_many(); }
-  /// Writes the trial states of all requests, each with the answer that `respond` then returns.
+  /// Writes the trial states of all requests, each with the response that `respond` then returns.
   static void respond_together(std::span<Request const> requests) {
     for (std::size_t from = 0; from < requests.size();) {  // points with other parameters are another call
       std::size_t to = from + 1;
@@ -274,7 +192,7 @@ struct DeviceRve {
   void respond_to(std::span<Request const> requests) const {
     std::vector<BlockTask<Types>> tasks;
     std::vector<typename Device::Bytes> memory;
-    std::vector<Request const*> asked;
+    std::vector<Request const*> requested;
     for (auto const& request : requests) {
       auto const& committed = *request.committed;
       auto& outline = request.trial->outline;
@@ -296,12 +214,12 @@ struct DeviceRve {
       memory.push_back(device->allocate(BlockState<Types>::bytes(size)));
       tasks.push_back({state, BlockState<Types>(memory.back().get(), size), device->grains(outline.packing.population),
                        request.steps, detail::row_by_row<dim>(strain_step)});
-      asked.push_back(&request);
+      requested.push_back(&request);
     }
     std::vector<BlockHeader<dim>> headers(tasks.size());
     device->respond(tasks, parameters(), headers);
     for (std::size_t k = 0; k < tasks.size(); ++k)
-      finish(*asked[k], headers[k], std::move(memory[k]), tasks[k].trial.size);
+      finish(*requested[k], headers[k], std::move(memory[k]), tasks[k].trial.size);
   }
 
   void finish(Request const& request, BlockHeader<dim> const& header, typename Device::Bytes bytes,
@@ -329,23 +247,23 @@ struct DeviceRve {
     outline.verdict = rve.judge(outline, seen, -detail::as_tensor<dim>(header.kinetic).trace() / volume);
     if (outline.verdict == Verdict{}) outline.verdict = rve.verdict_of_steps(*request.increment, request.steps);
     request.trial->stored = std::make_shared<Stored const>(device, packing, std::move(bytes), size, header);
-    answer(request);
+    keep(request);
   }
 
   void respond_here(Request const& request) const {
     typename Rve::State own;
     static_cast<void>(rve.respond(request.committed->whole(), *request.increment, own, request.steps));
     *request.trial = state_of(std::move(own));
-    answer(request);
+    keep(request);
   }
   void fail(Request const& request, Reason reason) const {
     request.trial->outline.verdict = {Status::failed, reason};
     request.trial->stored = request.committed->stored;
-    answer(request);
+    keep(request);
   }
-  void answer(Request const& request) const {
+  void keep(Request const& request) const {
     auto const& outline = request.trial->outline;
-    request.trial->answer = {
+    request.trial->evaluated = {
         request.committed->stored, *request.increment, request.steps, {outline.stress, outline.verdict}};
   }
 

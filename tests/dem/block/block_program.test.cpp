@@ -15,6 +15,7 @@
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "scarp/simd/soa_array.hpp"
+#include "support/approx.hpp"
 #include "support/packings.hpp"
 
 namespace {
@@ -116,11 +117,11 @@ void check_steps(Sample<PackingType> const& sample, double size, int steps) {
   // of a thousand forces has an error of 1e-5.
   CHECK((stress - seen.stress).norm() <= (in_double ? 1e-12 : 1e-4) * seen.stress.norm());
   CHECK(std::abs(header.contacts - seen.contacts) <= (in_double ? 0.0 : 2.0));
-  CHECK(header.critical_step == doctest::Approx(reference.pairs.critical_step).epsilon(in_double ? 1e-12 : 1e-5));
+  CHECK(header.critical_step == samples::Approx(reference.pairs.critical_step).epsilon(in_double ? 1e-12 : 1e-5));
   CHECK(static_cast<std::size_t>(header.pairs) == reference.pairs.count());
   double const mean_force = header.force / header.contacts;
   CHECK(header.unbalanced / header.grains / mean_force ==
-        doctest::Approx(seen.unbalanced_ratio).epsilon(in_double ? 1e-7 : 0.1));
+        samples::Approx(seen.unbalanced_ratio).epsilon(in_double ? 1e-7 : 0.1));
 
   SUBCASE("any number of threads gives the same bits") {
     for (int const threads : {1, 2, 3, 7}) {

@@ -15,7 +15,7 @@
 
 namespace scarp {
 
-/// One response that a device is asked for.
+/// One response of a device.
 /// \tparam Types a `BlockTypes`
 template <class Types>
 struct BlockTask {
@@ -65,7 +65,7 @@ class BlockDevice {
                        std::span<Header> headers) = 0;
 };
 
-/// The processor in the place of a card: the thread that asks runs the block program alone.
+/// The processor in the place of a card: the calling thread runs the block program alone.
 template <class Types, class Damping>
 class ProcessorDevice final : public BlockDevice<Types, Damping> {
   using Base = BlockDevice<Types, Damping>;

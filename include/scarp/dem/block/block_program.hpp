@@ -133,7 +133,7 @@ class BlockProgram {
     BlockList<Work>(listed).renew();
   }
 
-  /// Tells the time step to a damping that needs nothing else, whenever a list is made.
+  /// Gives the time step to a damping that needs nothing else, whenever a list is made.
   SCARP_HOST_DEVICE constexpr void ready_damping() {
     struct Pairs {
       double critical_step;
@@ -175,7 +175,7 @@ class BlockProgram {
                                         detail::SmallTensor<dim> const& strain_step, double strain_size) {
     double const time_step = time_step_share_ * w_.critical_step;
     auto const dt = static_cast<Scalar>(time_step);
-    auto const affine_turn = static_cast<Scalar>((strain_step[axes] - strain_step[1]) / 2.0);
+    auto const turn_of_cell = static_cast<Scalar>((strain_step[axes] - strain_step[1]) / 2.0);
     std::array<Scalar, square> stretch{};
     for (std::size_t k = 0; k < square; ++k) stretch[k] = static_cast<Scalar>(cell_step[k]);
     Scalar fastest(0);
@@ -207,7 +207,7 @@ class BlockProgram {
         b.spin(t, i) = after;
         turning += after * after;
         if constexpr (Types::axes == 2) {
-          auto const axis = turned_axis<Scalar>({orientation[i], orientation[b.grains + i]}, after * dt + affine_turn);
+          auto const axis = turned_axis<Scalar>({orientation[i], orientation[b.grains + i]}, after * dt + turn_of_cell);
           orientation[i] = axis[0];
           orientation[b.grains + i] = axis[1];
         }

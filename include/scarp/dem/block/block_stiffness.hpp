@@ -48,8 +48,9 @@ SCARP_HOST_DEVICE constexpr bool acts(Work const& work, int p, double overlap, d
 
 /// Stiffness times volume [N m] of all contacts under uniform strain, see `contact_tangent`. Nothing of the work changes.
 template <class Work>
-[[gnu::noinline, gnu::cold]] SCARP_HOST_DEVICE constexpr std::array<double, static_cast<std::size_t>(stiffness_count<Work::dim>)> block_stiffness(
-    Work const& work) {
+[[gnu::noinline,
+  gnu::cold]] SCARP_HOST_DEVICE constexpr std::array<double, static_cast<std::size_t>(stiffness_count<Work::dim>)>
+block_stiffness(Work const& work) {
   using Shape = typename Work::Shape;
   constexpr int dim = Work::dim;
   constexpr std::size_t all = static_cast<std::size_t>(stiffness_count<dim>);

@@ -224,7 +224,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     });
   }
 
-  /// Asks the provider within the adaptors for all points' responses, where it has a function for that; each point then finds its own.
+  /// Lets the provider within the adaptors respond for all points, where it has a function for that; each point then finds its own.
   void respond_together(std::span<int const> own, std::vector<Gradient<dim>> const& increments) {
     using Inner = decltype(unwrap(*provider_, trial_[0], [](auto const& inner, auto&) { return inner; }));
     if constexpr (requires { typename Inner::Request; }) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "device_sand.hpp"
+#include "chosen_device.hpp"
 
 #include "../../shared/study/soils.hpp"
 #ifdef FAULT_RUPTURE_CUDA
@@ -13,7 +13,7 @@ namespace {
 
 using OnDevice = scarp::DeviceRve<decltype(Sand::provider)>;
 
-std::shared_ptr<OnDevice::Device> chosen(Device device) {
+std::shared_ptr<OnDevice::Device> made(Device device) {
   if (device == Device::threads) return std::make_shared<scarp::ProcessorDevice<OnDevice::Types, OnDevice::Damping>>();
 #ifdef FAULT_RUPTURE_CUDA
   return scarp::cuda_device<OnDevice::Types, OnDevice::Damping>();
@@ -24,8 +24,10 @@ std::shared_ptr<OnDevice::Device> chosen(Device device) {
 
 }  // namespace
 
-scarp::AnyProvider<2> sand_on_device(Choice const& choice, Sand const& sand) {
-  return scarp::StiffnessFloor<OnDevice>{{sand.provider, chosen(choice.device)}, sand.share, sand.shear_modulus};
+ToDevice chosen_device(Device device) {
+  return [on = made(device)](Sand const& sand) {
+    return scarp::StiffnessFloor<OnDevice>{{sand.provider, on}, sand.share, sand.shear_modulus};
+  };
 }
 
 }  // namespace fault_rupture
