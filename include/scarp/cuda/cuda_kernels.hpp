@@ -69,8 +69,14 @@ class CudaMemory : public std::enable_shared_from_this<CudaMemory> {
   template <class T>
   std::shared_ptr<std::byte> uploaded(T const* from, std::size_t count) {
     auto memory = allocate(count * sizeof(T));
-    require_cuda(cudaMemcpy(memory.get(), from, count * sizeof(T), cudaMemcpyHostToDevice), "copy to the card");
+    copy(from, memory.get(), count * sizeof(T), cudaMemcpyHostToDevice);
     return memory;
+  }
+
+  /// Copies in the order of the calling thread, and waits.
+  static void copy(void const* from, void* to, std::size_t bytes, cudaMemcpyKind kind) {
+    require_cuda(cudaMemcpyAsync(to, from, bytes, kind, cudaStreamPerThread), "copy");
+    require_cuda(cudaStreamSynchronize(cudaStreamPerThread), "the card");
   }
 
  private:
@@ -80,7 +86,7 @@ class CudaMemory : public std::enable_shared_from_this<CudaMemory> {
 
 }  // namespace detail
 
-/// Packings on a card, with a kernel for each of these rooms, smallest first.
+/// Packings on a card, with a kernel for each of these rooms, smallest first. Calls of several threads run side by side.
 template <class Types, class Damping, BlockSize... Rooms>
 class CudaDevice final : public BlockDevice<Types, Damping> {
   using Base = BlockDevice<Types, Damping>;
@@ -115,10 +121,10 @@ class CudaDevice final : public BlockDevice<Types, Damping> {
 
   typename Base::Bytes allocate(std::size_t bytes) override { return memory_->allocate(bytes); }
   void write(std::span<std::byte const> from, std::byte* to) override {
-    detail::require_cuda(cudaMemcpy(to, from.data(), from.size(), cudaMemcpyHostToDevice), "state to the card");
+    detail::CudaMemory::copy(from.data(), to, from.size(), cudaMemcpyHostToDevice);
   }
   void read(std::byte const* from, std::span<std::byte> to) override {
-    detail::require_cuda(cudaMemcpy(to.data(), from, to.size(), cudaMemcpyDeviceToHost), "state from the card");
+    detail::CudaMemory::copy(from, to.data(), to.size(), cudaMemcpyDeviceToHost);
   }
 
   BlockGrains<Types> grains(std::shared_ptr<typename Base::Grains const> const& population) override {
@@ -140,7 +146,6 @@ class CudaDevice final : public BlockDevice<Types, Damping> {
 
   void respond(std::span<BlockTask<Types> const> tasks, BlockParameters<Types, Damping> const& parameters,
                std::span<typename Base::Header> headers) override {
-    std::lock_guard const lock(mutex_);
     (respond_in<Rooms>(tasks, parameters, headers), ...);
   }
 
@@ -171,12 +176,11 @@ class CudaDevice final : public BlockDevice<Types, Damping> {
                          "shared memory of the kernel");
     auto const on_card = memory_->uploaded(own.data(), own.size());
     auto const reports = memory_->allocate(own.size() * sizeof(Header));
-    kernel<<<static_cast<unsigned>(own.size()), threads, shared>>>(
+    kernel<<<static_cast<unsigned>(own.size()), threads, shared, cudaStreamPerThread>>>(
         reinterpret_cast<BlockTask<Types> const*>(on_card.get()), parameters, reinterpret_cast<Header*>(reports.get()));
     detail::require_cuda(cudaGetLastError(), "start of the kernel");
     std::vector<Header> found(own.size());
-    detail::require_cuda(cudaMemcpy(found.data(), reports.get(), found.size() * sizeof(Header), cudaMemcpyDeviceToHost),
-                         "the kernel");
+    detail::CudaMemory::copy(reports.get(), found.data(), found.size() * sizeof(Header), cudaMemcpyDeviceToHost);
     for (std::size_t k = 0; k < found.size(); ++k) headers[numbers[k]] = found[k];
   }
 
