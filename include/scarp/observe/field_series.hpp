@@ -48,6 +48,7 @@ ElementFields element_fields(Problem const& problem) {
   std::size_t const elements = index(grid.cells().count());
   ElementFields fields;
   auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  auto const quantities = all_quantities(problem);
   for (std::size_t e = 0; e < elements; ++e) {
     VoigtStress<dim> stress = VoigtStress<dim>::Zero();
     geo::Strain strain{};
@@ -64,8 +65,9 @@ ElementFields element_fields(Problem const& problem) {
       worst = std::max(worst, problem.responses()[static_cast<std::size_t>(point)].verdict.status);
       visit_point(problem, point, [&](auto const& points, int number) {
         stress += volume * points.committed_stress(number);
-        for (auto const& [name, value] : points.quantities(number)) means[std::string(name)].add(volume, value);
       });
+      for (auto const& [name, value] : quantities[static_cast<std::size_t>(point)])
+        means[std::string(name)].add(volume, value);
     }
     stress /= whole;
     fields.stress.insert(fields.stress.end(), stress.begin(), stress.end());

@@ -25,10 +25,13 @@ void for_each_volume(Problem const& problem, Visit const& visit) {
 template <class Problem>
 double solid_volume(Problem const& problem) {
   double sum = 0.0;
-  detail::for_each_volume(problem, [&](double volume, auto const& points, int k) {
-    for (auto const& [quantity, value] : points.quantities(k))
-      if (quantity == "void_ratio") sum += volume / (1.0 + value);
-  });
+  auto const& grid = problem.grid();
+  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
+  auto const quantities = all_quantities(problem);
+  for (std::size_t point = 0; point < quantities.size(); ++point) {
+    for (auto const& [quantity, value] : quantities[point])
+      if (quantity == "void_ratio") sum += volumes[point] / (1.0 + value);
+  }
   return sum;
 }
 

@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "scarp/constitutive/unwrap.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/executor.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -25,6 +27,24 @@ VoigtStress<Problem::dim> committed_stress(Problem const& problem, int point) {
   VoigtStress<Problem::dim> stress;
   visit_point(problem, point, [&](auto const& points, int k) { stress = points.committed_stress(k); });
   return stress;
+}
+
+/// Named numbers of every point's committed state, by the executor's threads for the points of this process.
+template <class Problem>
+std::vector<Quantities> all_quantities(Problem const& problem) {
+  auto const& executor = problem.executor();
+  std::vector<Quantities> values(static_cast<std::size_t>(problem.points().size()));
+  auto const evaluate = [&](int point) {
+    visit_point(problem, point,
+                [&](auto const& points, int k) { values[static_cast<std::size_t>(point)] = points.quantities(k); });
+  };
+  executor.for_each(problem.points().size(), [&](int point) {
+    if (executor.owns(point)) evaluate(point);
+  });
+  for (int point = 0; point < problem.points().size(); ++point) {
+    if (!executor.owns(point)) evaluate(point);
+  }
+  return values;
 }
 
 /// Whether this process is the first, or the only one.
