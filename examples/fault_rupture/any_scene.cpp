@@ -54,7 +54,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   auto scene = without_soil<SceneType>(choice);
   require_probes_inside(choice, scene);
   auto const sites = scene.soil_sites();
-  auto const to_device = choice.device == Device::none ? ToDevice{} : chosen_device(choice.device);
+  auto const to_device = choice.device == Device::none ? ToDevice{} : chosen_device(choice, sites.size());
   auto const what = choice.soil == Soil::dem
                         ? fmt::format("ground of {} points with packings of {} grains", sites.size(), choice.grains)
                         : fmt::format("ground of {} points", sites.size());

@@ -25,6 +25,7 @@ struct Behind : scarp::BlockDevice<OnDevice::Types, OnDevice::Damping> {
   Processor processor;
   bool takes_many() const override { return false; }
   scarp::BlockSize room(int grains, int pairs) const override { return processor.room(grains, pairs); }
+  std::size_t free_bytes() const override { return processor.free_bytes(); }
   Bytes allocate(std::size_t bytes) override { return processor.allocate(bytes); }
   void write(std::span<std::byte const> from, std::byte* to) override { processor.write(from, to); }
   void read(std::byte const* from, std::span<std::byte> to) override { processor.read(from, to); }

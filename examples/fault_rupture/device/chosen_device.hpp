@@ -5,8 +5,8 @@
 
 namespace fault_rupture {
 
-/// Puts packings on the device; one of two sources defines it.
-/// \throws scarp::InputError for a device that this program or this machine does not have
-ToDevice chosen_device(Device device);
+/// Puts the packings of so many points on the chosen device, before they are prepared; one of two sources defines it.
+/// \throws scarp::InputError for a device that this program or this machine does not have, or without room for them
+ToDevice chosen_device(Choice const& choice, std::size_t points);
 
 }  // namespace fault_rupture

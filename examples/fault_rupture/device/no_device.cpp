@@ -5,7 +5,7 @@
 
 namespace fault_rupture {
 
-ToDevice chosen_device(Device) {
+ToDevice chosen_device(Choice const&, std::size_t) {
   scarp::reject(
       "--device is given to a program without devices: start it by ./examples/run, which builds fault_rupture_device");
 }

@@ -119,6 +119,11 @@ class CudaDevice final : public BlockDevice<Types, Damping> {
     return found;
   }
 
+  std::size_t free_bytes() const override {
+    std::size_t free = 0, all = 0;
+    detail::require_cuda(cudaMemGetInfo(&free, &all), "memory of the card");
+    return free;
+  }
   typename Base::Bytes allocate(std::size_t bytes) override { return memory_->allocate(bytes); }
   void write(std::span<std::byte const> from, std::byte* to) override {
     detail::CudaMemory::copy(from.data(), to, from.size(), cudaMemcpyHostToDevice);

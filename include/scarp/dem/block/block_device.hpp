@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -55,6 +56,7 @@ class BlockDevice {
   /// Rows of a state for so many grains and near pairs, with room for a longer list; it follows from these two numbers alone.
   /// \throws InputError for more than it has room for
   virtual BlockSize room(int grains, int pairs) const = 0;
+  virtual std::size_t free_bytes() const = 0;                              ///< That states may still have.
   virtual Bytes allocate(std::size_t bytes) = 0;                           ///< \throws std::bad_alloc
   virtual void write(std::span<std::byte const> from, std::byte* to) = 0;  ///< Copies to the device.
   virtual void read(std::byte const* from, std::span<std::byte> to) = 0;   ///< Copies from the device.
@@ -78,6 +80,7 @@ class ProcessorDevice final : public BlockDevice<Types, Damping> {
     auto const rounded_up = [](int number) { return (number + row - 1) / row * row; };
     return {rounded_up(grains), rounded_up(std::max(pairs + pairs / 4, 2 * grains))};
   }
+  std::size_t free_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
   typename Base::Bytes allocate(std::size_t bytes) override {
     auto memory = std::make_shared<Memory>(bytes);
     return {memory, memory->data()};
