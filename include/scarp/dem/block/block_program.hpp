@@ -83,8 +83,7 @@ class BlockProgram {
     each(w_.team, w_.grain_count, [&](int i) { w_.write_pose(orientation_, i); });
     w_.write_offsets();
     if (w_.team.rank() == 0) b.unsettled[0] = 0;
-    w_.team.barrier();
-    detail::write_incidence(w_);
+    detail::write_incidence(w_);  // begins and ends with barriers
     ready_damping();
   }
 
