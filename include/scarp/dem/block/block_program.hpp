@@ -47,7 +47,7 @@ class BlockProgram {
     }
     if (w_.trouble == Trouble::none && steps > 0) observe();
     if (w_.trouble == Trouble::none) seen_.stiffness = detail::block_stiffness(w_);
-    end(trial, step);
+    end(trial, step);  // after the barriers of a sum, of a list or of a move
   }
 
  private:
@@ -89,7 +89,6 @@ class BlockProgram {
 
   SCARP_HOST_DEVICE constexpr void end(BlockState<Types> const& trial, int steps) {
     auto const& b = w_.bench;
-    w_.team.barrier();
     auto const copy = [&](int columns, int rows, int stride, auto const& from, Scalar* to) {
       for (int k = 0; k < columns; ++k) each(w_.team, rows, [&](int i) { to[k * stride + i] = from(k, i); });
     };
