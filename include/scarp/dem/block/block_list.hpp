@@ -94,7 +94,7 @@ class BlockList {
     return sum;
   }
 
-  /// Gives the present pairs the names that they have in the new cell.
+  /// Gives the present pairs the names that they have in the new cell; the bins follow with their barriers.
   SCARP_HOST_DEVICE constexpr void rename() {
     auto const old_to_new = detail::adjugate_of<dim>(change_);  // its determinant is one
     each(w_.team, w_.pair_count, [&](int p) {
@@ -118,7 +118,6 @@ class BlockList {
       }
       b_.shift[p] = static_cast<std::uint8_t>(Work::code_of(shift));
     });
-    w_.team.barrier();
   }
 
   SCARP_HOST_DEVICE constexpr int bin_count() const {
