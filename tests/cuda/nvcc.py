@@ -14,6 +14,7 @@ FLAGS = ["-std=c++20", "-arch=sm_90", "-O3", "--expt-relaxed-constexpr", "-Werro
          f"-I{ROOT / 'examples' / 'tutorials'}"]
 HEAD = '#include "scarp/cuda/cuda_kernels.hpp"\n#include "scarp/dem/damping.hpp"\n'
 
+
 def tutorial(name):
     """What stands in a tutorial before its main."""
     return (ROOT / "examples" / "tutorials" / f"{name}.cpp").read_text().split("int main(")[0]
