@@ -242,7 +242,8 @@ class BlockList {
     if (next_count_ > b_.pairs) w_.trouble = Trouble::list_full;
   }
 
-  /// Writes the list, sorted by names: it follows from the pairs alone, and with it every sum of forces.
+  /// Writes the list, sorted by names: it follows from the pairs alone, and with it every sum of forces. `write_incidence` follows with its
+  /// barriers.
   SCARP_HOST_DEVICE constexpr void write_pairs() {
     each(w_.team, w_.grain_count, [&](int i) {
       int at = 0;
@@ -271,7 +272,6 @@ class BlockList {
       for (int k = 0; k < Types::normals; ++k) b_.normal(k, p) = b_.new_normal(k, p);
       for (int k = 0; k < Types::memories; ++k) b_.memory(k, p) = b_.new_memory(k, p);
     });
-    w_.team.barrier();
   }
   static SCARP_HOST_DEVICE constexpr std::int64_t name(int first, int second, int image) {
     return (static_cast<std::int64_t>(first) << 32) + (second << 8) + image;
