@@ -5,7 +5,8 @@
 
 namespace scarp::detail {
 
-/// Lists for each grain its pairs, in their order, so that its forces are added up in one order whatever the number of threads.
+/// Lists for each grain its pairs, in their order, so that its forces are added up in one order whatever the number of threads. To be followed
+/// by a barrier, such as that after the forces.
 template <class Types, class Team>
 [[gnu::noinline]] SCARP_HOST_DEVICE constexpr void write_incidence(BlockWork<Types, Team>& work) {
   auto const& b = work.bench;
@@ -39,7 +40,6 @@ template <class Types, class Team>
       b.incident[to] = entry;
     }
   });
-  team.barrier();
 }
 
 }  // namespace scarp::detail

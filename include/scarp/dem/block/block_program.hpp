@@ -83,7 +83,7 @@ class BlockProgram {
     each(w_.team, w_.grain_count, [&](int i) { w_.write_pose(orientation_, i); });
     w_.write_offsets();
     if (w_.team.rank() == 0) b.unsettled[0] = 0;
-    detail::write_incidence(w_);  // begins and ends with barriers
+    detail::write_incidence(w_);  // with barriers, after which all threads see what was copied
     ready_damping();
   }
 
