@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """figures.py [NAME...]: figures of docs/figures from the data files of the benchmarks.
 
-NAME: beyond_map, beyond_dips, objectivity, or error_vs_time_SUBJECT; all for which there are data without any.
+NAME: beyond_map, beyond_dips, device, objectivity, or error_vs_time_SUBJECT; all for which there are data without any.
 """
 import itertools
 import pathlib
@@ -83,6 +83,30 @@ def objectivity(rows):
     return drawn
 
 
+def device(rows):
+    """DEM steps a second over points on a device, predicted and measured, and those of the vector kernel on all processors."""
+    drawn, axis = plt.subplots(figsize=(6.4, 4.4))
+    rate, shades = "million steps/s", {"double": figures.BLUE, "float": figures.VERMILION}
+    for precision, colour in shades.items():
+        for grains, style in (("400", "o-"), ("100", "s:")):
+            own = [row for row in rows if (row["precision"], row["grains"]) == (precision, grains)]
+            runs = [row for row in own if row["work"] == "like"]
+            if runs:
+                axis.plot([number(row["points"]) for row in runs], [number(row[rate]) for row in runs], style, color=colour, ms=4, label=f"{precision}, {grains} grains")
+            predicted = [row for row in runs if row.get("expected to [million steps/s]")]
+            if predicted:
+                points, *bounds = ([number(row[column]) for row in predicted] for column in (
+                    "points", "expected from [million steps/s]", "expected to [million steps/s]", "limit [million steps/s]"))
+                axis.fill_between(points, *bounds[:2], color=colour, alpha=0.15, label=f"{precision}, 400 grains, expected")
+                axis.plot(points, bounds[2], "--", color=colour, lw=0.8, label=f"{precision}, 400 grains, limit by shared memory")
+            kernel = [row for row in own if row["work"] == "vector kernel"]
+            if kernel and grains == "400":
+                axis.axhline(number(kernel[-1][rate]), color=colour, lw=0.8, ls="-.", label=f"{precision}, vector kernel on {kernel[-1]['threads']} threads")
+    axis.set(xscale="log", yscale="log", xlabel="points in one call", ylabel="million DEM steps per second", title=rows[0]["device"])
+    axis.legend(fontsize=7)
+    return drawn
+
+
 COST = "CPU time over the base setting [-]"
 
 
@@ -121,7 +145,7 @@ def error_vs_time(rows):
     return drawn
 
 
-DRAWN = {"beyond_map": beyond_map, "beyond_dips": beyond_dips, "objectivity": objectivity}
+DRAWN = {"beyond_map": beyond_map, "beyond_dips": beyond_dips, "device": device, "objectivity": objectivity}
 there = sorted(path.stem for path in data_folder().glob("*.csv") if path.stem in DRAWN or path.stem.startswith("error_vs_time_"))
 wanted = sys.argv[1:] or there
 if unknown := set(wanted) - set(there):
