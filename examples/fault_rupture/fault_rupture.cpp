@@ -5,6 +5,7 @@
 #include <map>
 
 #include "../shared/command_line.hpp"
+#include "../shared/device/device_option.hpp"
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/sand/options.hpp"
@@ -233,12 +234,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
                  "tolerance on the unbalanced force ratio of every packing")
       ->check(number_from(1e-12, true, 1.0));
   app.add_option("--threads", choice.threads, "of each process; 0 uses all processors")->check(CLI::Range(0, 1024));
-  examples::add_named<fault_rupture::Device>(app, "--device", choice.device,
-                                             "where packings respond: none (the vector kernel), threads (the block "
-                                             "program of cards, on the processor) or cuda",
-                                             {{"none", fault_rupture::Device::none},
-                                              {"threads", fault_rupture::Device::threads},
-                                              {"cuda", fault_rupture::Device::cuda}});
+  examples::declare_device(app, choice.device);
   app.add_option("--frames", choice.frames, "VTU files over the run")->check(CLI::Range(1, 100'000));
   app.add_option("--probe-a-x", choice.probe_a_x, "probe A, in the band [m]")->check(fault_rupture::place());
   app.add_option("--probe-a-y", choice.probe_a_y, "height above bedrock [m]")->check(fault_rupture::place());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../device/device.hpp"
 #include "../sand/sand.hpp"
 #include "scarp/tensor/tensor.hpp"
 
@@ -17,11 +18,11 @@ inline constexpr double study_depth = 25.0;     ///< [m]
 inline constexpr double unit_weight = 15.68e3;  ///< [N/m3]
 inline constexpr double surcharge = 4e3;        ///< [Pa]
 
+using examples::Device;
+
 enum class Case { free, heavy, light };
 enum class Soil { dem, mohr_coulomb, elastic };
 enum class Base { tied, frictional };
-/// Where packings respond: on cores by the vector kernel, or by the block program on the same cores or on a card.
-enum class Device { none, threads, cuda };
 enum class MeshPattern { crossed, left, right, quads, jittered };
 
 /// What a user may choose; the reference study's free field on a mesh for a ten-minute run.
