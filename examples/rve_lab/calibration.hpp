@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "calibration_data.hpp"
+#include "packings.hpp"
 #include "scarp/dem/preparation.hpp"
-#include "scarp/rve/random_packings.hpp"
 #include "scarp/solver/thread_executor.hpp"
 
 namespace rve_lab {
@@ -52,11 +52,6 @@ struct Evaluation {
 
   bool feasible() const { return reason.empty(); }
 };
-
-/// Seed number k of a calibration; the first is the sand's own.
-inline std::uint64_t seed_of(Sand const& sand, int k) {
-  return k == 0 ? sand.seed : scarp::family_seed(sand.seed, static_cast<std::uint64_t>(k));
-}
 
 /// A place whose packings cannot be prepared or tested.
 inline Evaluation infeasible(Calibration const& calibration, Eigen::VectorXd const& shares, std::string reason) {

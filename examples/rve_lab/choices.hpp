@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "../shared/device/device.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/sand/sand.hpp"
 
 namespace rve_lab {
 
+using examples::Device;
 using examples::Sand;
 
 struct Path {
@@ -76,6 +79,7 @@ struct Laboratory {
   Sand sand;
   std::string sand_file{};
   std::vector<std::string> packings{};
+  int seeds = 1;  ///< of packings that are prepared
   double young = 20e6;
   double poisson = 0.3;
   double friction = 30.0;
@@ -98,11 +102,17 @@ struct Laboratory {
   double tolerance = 1e-4;
   double window = 5e-3;
   std::optional<double> void_ratio{};
-  int threads = 2;
+  Device device = Device::none;
+  std::optional<int> threads{};
   std::vector<std::string> overlays{};
   examples::Output output{"output/rve_lab"};
 
   bool is_packing() const { return provider == "packing"; }
+  /// Threads for so many points: on a card their calls run side by side.
+  int threads_for(int points) const {
+    constexpr int on_cores = 2, on_card = 128;
+    return std::min(points, threads.value_or(device == Device::cuda ? on_card : on_cores));
+  }
 };
 
 }  // namespace rve_lab

@@ -32,7 +32,9 @@ def read_curves(path):
         axial = table["axial_stress"] - table["lateral_stress"] if {"axial_stress", "lateral_stress"} <= set(table) else np.zeros(count)
         curve["q"] = 1e-3 * (axial if np.ptp(axial) > np.ptp(shear) else shear)
     points = table.get("point", np.zeros(count))
-    curves = [{name: values[points == point] for name, values in curve.items()} for point in np.unique(points)]
+    rows = np.argsort(points, kind="stable")
+    rows_of_points = np.split(rows, np.flatnonzero(np.diff(points[rows])) + 1)
+    curves = [{name: values[own] for name, values in curve.items()} for own in rows_of_points]
     for one in curves:  # the total lateral stress is held
         one["pore"] = one["lateral"][0] - one["lateral"]
     return curves

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "../shared/device/device_option.hpp"
 #include "commands.hpp"
 #include "options.hpp"
 
@@ -36,6 +37,9 @@ void declare_test(CLI::App& app, Laboratory& test) {
       app.add_option("--packing", test.packings, "files of `prepare`, all tested alike; without, a packing is prepared")
           ->delimiter(',');
   sand_file->excludes(packings);
+  app.add_option("--seeds", test.seeds, "packings that are prepared and tested alike, each with a seed of its own")
+      ->check(CLI::Range(1, 100'000))
+      ->excludes(packings);
   for (auto* const option : app.get_options()) {
     if (option->get_group() == "Preparation") option->excludes(packings);
   }
@@ -80,7 +84,11 @@ void declare_test(CLI::App& app, Laboratory& test) {
   how("--tolerance", test.tolerance, "of held stresses, relative")->check(examples::number_from(1e-12, true, 0.1));
   how("--window", test.window, "length over which peak and residual are means; 0 for single rows")
       ->check(from_zero(1.0));
-  how("--threads", test.threads, "that test several packings")->check(CLI::Range(1, 1024));
+  how("--threads", test.threads,
+      "that prepare and test packings, at most one for each; with --device cuda so many tests are on the card at the "
+      "same time. When not given: 2, with cuda 128")
+      ->check(CLI::Range(1, 1024));
+  examples::declare_device(app, test.device);
   app.add_option("--overlay", test.overlays,
                  "tables drawn in the figures too: test.csv of other runs, or a laboratory's with columns as "
                  "eps1_percent, epsv_percent, q_kPa, p_kPa, void_ratio")
@@ -97,7 +105,8 @@ void require_used(CLI::App const& app, Laboratory const& test) {
   for (auto const* const option : app.get_options()) {
     auto const& group = option->get_group();
     bool const of_packing = group == "Preparation" || group == "Material" || option->get_name() == "--packing" ||
-                            option->get_name() == "--sand";
+                            option->get_name() == "--sand" || option->get_name() == "--seeds" ||
+                            option->get_name() == "--device";
     bool const of_soil = group == "Mohr-Coulomb and elastic material";
     bool const of_both = option->get_name() == "--pressure";
     if (!of_both && (test.is_packing() ? of_soil : of_packing))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "laboratory_run.hpp"
 
+#include <numeric>
+
 #include "../shared/print.hpp"
 #include "laboratory_tests.hpp"
 #include "mohr_coulomb_reading.hpp"
@@ -50,6 +52,26 @@ void print_results(std::string const& name, nlohmann::json const& json) {  // na
       name, number({"peak", "friction_angle"}), number({"peak", "strain"}), number({"peak", "void_ratio"}),
       number({"peak_dilation_angle"}), number({"residual", "friction_angle"}), number({"residual", "void_ratio"}),
       number({"phase_transformation", "strain"}), number({"E50"}), number({"G0"}), number({"K0"}));
+}
+
+constexpr std::size_t most_lines = 10;  ///< of points, beyond which the summary alone has them
+
+/// Peak friction of the points, without those whose stress ratio still rose at the end: printed, and kept in the summary.
+void read_scatter(nlohmann::json& summary) {
+  std::vector<double> angles;
+  for (auto const& result : summary["results"]) {
+    if (result.contains("peak") && !result["peak"].is_null())
+      angles.push_back(result["peak"]["friction_angle"].get<double>());
+  }
+  auto const count = static_cast<double>(angles.size());
+  double const mean = std::accumulate(angles.begin(), angles.end(), 0.0) / count;  // nan without any
+  double squares = 0.0;
+  for (double const angle : angles) squares += (angle - mean) * (angle - mean);
+  double const deviation = std::sqrt(squares / (count - 1.0));
+  summary["peak_friction"] = {{"points", angles.size()}, {"mean", mean}, {"standard_deviation", deviation}};
+  if (angles.size() > 1)
+    examples::print(stdout, "peak friction of {} of {} points: mean {:.2f}, standard deviation {:.2f} degrees\n",
+                    angles.size(), summary["results"].size(), mean, deviation);
 }
 
 /// Mohr-Coulomb parameters of a drained test's results: printed as options of this command, and kept in the summary.
@@ -122,11 +144,14 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
       nlohmann::json json;
       if (test.rows.size() > 1) {
         json = json_of(laboratory_results<Dim>(test.rows, window(test)), test.void_ratio, test.verdict.acceptable());
-        print_results(std::to_string(k), json);
+        if (k < most_lines) print_results(std::to_string(k), json);
       }
       json.update({{"ended", scarp::name(test.verdict.reason)}, {"length", test.length()}});
       summary["results"].push_back(json);
     }
+    if (run.tests().size() > most_lines)
+      examples::print(stdout, "{} more points are in '{}'\n", run.tests().size() - most_lines,
+                      (own.path() / "summary.json").string());
     double mean_void_ratio = 0.0;
     std::vector<std::vector<LaboratoryRow<Dim>>> rows;
     for (auto const* test : farthest) {
@@ -137,7 +162,10 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
     auto const mean = laboratory_results<Dim>(mean_rows<Dim>(rows), window(*farthest.front()));
     summary["mean"] = json_of(mean, mean_void_ratio, whole);
     summary["mean"]["points"] = farthest.size();
-    if (count > 1) print_results("mean", summary["mean"]);
+    if (count > 1) {
+      print_results("mean", summary["mean"]);
+      read_scatter(summary);
+    }
     if (!mean.rises) summary["peak_friction_angle"] = mean.peak.friction() / degree;
     if (whole) summary["residual_friction_angle"] = mean.residual.friction() / degree;
     for (auto const* key : {"peak_dilation_angle", "E50", "G0"}) summary[key] = summary["mean"][key];
@@ -145,14 +173,16 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
   }
   examples::write_json(own.path() / "summary.json", summary);
   own.end(finished ? "finished" : std::string(ended));
+  std::size_t cut_off = 0;
   for (std::size_t k = 0; k < run.tests().size(); ++k) {
     auto const& test = run.tests()[k];
-    if (test.verdict.acceptable()) continue;
+    if (test.verdict.acceptable() || ++cut_off > most_lines) continue;
     examples::print(stderr,
                     "rve_lab: the test{} was cut off at the length {:.6g} ({}, {}): its rows so far are in '{}'\n",
                     count > 1 ? fmt::format(" of point {}", k) : "", test.length(), scarp::name(test.verdict.status),
                     scarp::name(test.verdict.reason), (own.path() / "test.csv").string());
   }
+  if (cut_off > most_lines) examples::print(stderr, "rve_lab: {} more tests were cut off\n", cut_off - most_lines);
   return finished;
 }
 

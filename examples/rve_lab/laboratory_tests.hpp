@@ -81,7 +81,7 @@ class LaboratoryRun {
   LaboratoryRun(Laboratory const& choice, scarp::AnyProvider<Dim> const& material, int count,
                 std::filesystem::path const& table)
       : choice_(choice),
-        executor_(std::min(choice.threads, count)),
+        executor_(choice.threads_for(count)),
         log_(table, {"point", "length", "axial_strain", "volumetric_strain", "shear_strain", "axial_stress",
                      "lateral_stress", "shear_stress", "p", "q", "friction_angle", "void_ratio"}) {
     for (int k = 0; k < count; ++k) tests_.emplace_back(material, k);

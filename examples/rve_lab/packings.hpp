@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "../shared/sand/built.hpp"
 #include "options.hpp"
+#include "scarp/rve/random_packings.hpp"
 
 namespace rve_lab {
 
@@ -21,6 +25,11 @@ using Spheres = examples::Built<examples::Linear<scarp::Sphere>, scarp::Packing<
 
 inline bool is_in_space(Sand const& sand) { return sand.shape == "sphere"; }
 
+/// Seed number k of several packings of a sand; the first is the sand's own.
+inline std::uint64_t seed_of(Sand const& sand, int k) {
+  return k == 0 ? sand.seed : scarp::family_seed(sand.seed, static_cast<std::uint64_t>(k));
+}
+
 /// Prepares packings of a sand.
 template <class PackingType>
 struct Preparation {
@@ -28,6 +37,9 @@ struct Preparation {
 
   /// What is done is printed. \throws InputError, PreparationError
   static PackingType printed(Sand const& sand, Law const& law);
+  /// Packings of several seeds, at the same time where threads are requested; it is printed how many there are.
+  static std::vector<PackingType> of_seeds(Sand const& sand, Law const& law, std::vector<std::uint64_t> const& seeds,
+                                           int threads);
   /// The densest or loosest packing where the sand's void ratio lies beyond it.
   /// isotropic_void_ratio: becomes that at the isotropic pressure
   /// \throws InputError, PreparationError
