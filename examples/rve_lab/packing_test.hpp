@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -17,7 +18,8 @@ template <class PackingType>
 ToDevice<PackingType> to_device(Laboratory const& choice) {
   if (choice.device == Device::none) return [](Tested<PackingType> sand) { return sand; };
   if constexpr (runs_on_devices<PackingType>) {
-    return chosen_device<PackingType>(choice.device);
+    return chosen_device<PackingType>(choice.device, choice.sand.grains,
+                                      std::max(choice.packings.size(), static_cast<std::size_t>(choice.seeds)));
   } else {
     scarp::reject(
         "--device is given for '{}' grains with law '{}' (devices have disc linear and ellipse linear): choose one of "

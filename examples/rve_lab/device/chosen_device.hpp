@@ -34,9 +34,9 @@ using ToDevice = std::function<scarp::AnyProvider<PackingType::dim>(Tested<Packi
 template <class PackingType>
 inline constexpr bool runs_on_devices = std::is_same_v<PackingType, Discs> || std::is_same_v<PackingType, Ellipses>;
 
-/// Puts packings on the device; one of two sources defines it.
-/// \throws scarp::InputError for a device that this program or this machine does not have
+/// Puts the packings of so many points on the device; one of two sources defines it.
+/// \throws scarp::InputError for a device that this program or this machine does not have, or that has no room for them
 template <class PackingType>
-ToDevice<PackingType> chosen_device(Device device);
+ToDevice<PackingType> chosen_device(Device device, int grains, std::size_t points);
 
 }  // namespace rve_lab
