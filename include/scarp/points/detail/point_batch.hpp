@@ -226,19 +226,20 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
 
   /// Lets the provider within the adaptors respond for all points, where it has a function for that; each point then finds its own.
   void respond_together(std::span<int const> own, std::vector<Gradient<dim>> const& increments) {
-    using Inner = decltype(unwrap(*provider_, trial_[0], [](auto const& inner, auto&) { return inner; }));
-    if constexpr (requires { typename Inner::Request; }) {
-      std::vector<typename Inner::Request> requests;
-      for (int const one : own) {
-        std::size_t const k = index(one);
-        auto const* const from =
-            unwrap(*provider_, committed_[k], [](auto const&, auto const& state) { return &state; });
-        unwrap(*provider_, trial_[k], [&](Inner const& inner, auto& trial) {
-          requests.push_back({&inner, from, &increments[index(numbers_[k])], inner_plan(plans_[k]), &trial});
-        });
+    unwrap(*provider_, trial_[index(own.front())], [&]<class Inner>(Inner const&, auto const&) {
+      if constexpr (requires { typename Inner::Request; }) {
+        std::vector<typename Inner::Request> requests;
+        for (int const one : own) {
+          std::size_t const k = index(one);
+          auto const* const from =
+              unwrap(*provider_, committed_[k], [](auto const&, auto const& state) { return &state; });
+          unwrap(*provider_, trial_[k], [&](Inner const& inner, auto& trial) {
+            requests.push_back({&inner, from, &increments[index(numbers_[k])], inner_plan(plans_[k]), &trial});
+          });
+        }
+        Inner::respond_together(requests);
       }
-      Inner::respond_together(requests);
-    }
+    });
   }
   /// The plan of the provider within adaptors.
   static auto const& inner_plan(auto const& plan) {
