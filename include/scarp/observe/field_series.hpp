@@ -63,9 +63,8 @@ ElementFields element_fields(Problem const& problem) {
       strain.volumetric += volume * here.volumetric;
       strain.deviatoric += volume * here.deviatoric;
       worst = std::max(worst, problem.responses()[static_cast<std::size_t>(point)].verdict.status);
-      visit_point(problem, point, [&](auto const& points, int number) {
-        stress += volume * points.committed_stress(number);
-      });
+      visit_point(problem, point,
+                  [&](auto const& points, int number) { stress += volume * points.committed_stress(number); });
       for (auto const& [name, value] : quantities[static_cast<std::size_t>(point)])
         means[std::string(name)].add(volume, value);
     }

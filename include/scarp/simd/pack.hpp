@@ -124,11 +124,9 @@ template <class Scalar, std::size_t Width>
   return !any_of(!condition);
 }
 
-constexpr bool any_of(bool condition) { return condition; }  ///< The condition of a single number.
-constexpr bool none_of(bool condition) {
-  return !condition;
-}  ///< Whether the condition of a single number fails.
-constexpr bool all_of(bool condition) { return condition; }  ///< The condition of a single number.
+constexpr bool any_of(bool condition) { return condition; }    ///< The condition of a single number.
+constexpr bool none_of(bool condition) { return !condition; }  ///< Whether the condition of a single number fails.
+constexpr bool all_of(bool condition) { return condition; }    ///< The condition of a single number.
 
 /// Types whose every value a pack of such scalars holds unchanged; plain integers are let in for the sake of `2 * pack`.
 template <class Number, class Scalar>
