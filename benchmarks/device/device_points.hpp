@@ -32,7 +32,8 @@ class DevicePoints {
       : device_(std::move(device)), parameters_{law_of_study<PackingType>(), {}, scarp::default_time_step_share} {
     for (std::size_t k = 0; k < points; ++k) {
       auto const& packing = packings[k % packings.size()];
-      auto const size = rooms.room(static_cast<int>(packing.grain_count()), static_cast<int>(packing.pairs.count()));
+      auto const size =
+          rooms.room(static_cast<int>(packing.grain_count()), static_cast<int>(packing.pairs.count())).value();
       scarp::AlignedVector<std::byte> here(State::bytes(size));
       scarp::to_block(packing, State(here.data(), size));
       auto const memory_of = [&] { return memory_.emplace_back(device_->allocate(here.size())).get(); };

@@ -20,15 +20,16 @@ using State = scarp::BlockState<Types>;
 using Bytes = scarp::AlignedVector<std::byte>;
 
 template <int Threads>
-Bytes respond_on_block(Bytes& committed, scarp::BlockSize size, scarp::BlockGrains<Types> const& grains,
-                       scarp::detail::SmallTensor<2> const& strain_step, int steps) {
-  Bytes trial(committed.size());
+Bytes respond_on_block(Bytes& committed, scarp::BlockSize of_committed, scarp::BlockSize size,
+                       scarp::BlockGrains<Types> const& grains, scarp::detail::SmallTensor<2> const& strain_step,
+                       int steps) {
+  Bytes trial(State::bytes(size));
   emulated::run(Threads, [&] {
     using Team = scarp::CudaTeam<Threads>;
     Team const team;
     scarp::BlockProgram<Types, scarp::LocalDamping, Team> program(team, size, grains, samples::study_law(), {},
                                                                   scarp::default_time_step_share);
-    program.respond(State(committed.data(), size), State(trial.data(), size), steps, strain_step);
+    program.respond(State(committed.data(), of_committed), State(trial.data(), size), steps, strain_step);
   });
   return trial;
 }
@@ -56,6 +57,11 @@ TEST_CASE("a block of a card, emulated, has the bits of one thread") {
   program.respond(State(committed.data(), size), State(alone.data(), size), steps, strain_step);
   REQUIRE(State(alone.data(), size).header->trouble == scarp::Trouble::none);
   REQUIRE(State(alone.data(), size).header->lists > 0);
-  CHECK(respond_on_block<32>(committed, size, grains, strain_step, steps) == alone);
-  CHECK(respond_on_block<128>(committed, size, grains, strain_step, steps) == alone);
+  CHECK(respond_on_block<32>(committed, size, size, grains, strain_step, steps) == alone);
+  CHECK(respond_on_block<128>(committed, size, size, grains, strain_step, steps) == alone);
+  // A state may come from a smaller room than its response goes to.
+  scarp::BlockSize const smaller{size.grains, static_cast<int>(packing.pairs.count())};
+  Bytes narrow(State::bytes(smaller));
+  scarp::to_block(packing, State(narrow.data(), smaller));
+  CHECK(respond_on_block<32>(narrow, smaller, size, grains, strain_step, steps) == alone);
 }

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <numeric>
+#include <optional>
 
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
@@ -24,7 +24,7 @@ using Processor = scarp::ProcessorDevice<OnDevice::Types, OnDevice::Damping>;
 struct Behind : scarp::BlockDevice<OnDevice::Types, OnDevice::Damping> {
   Processor processor;
   bool takes_many() const override { return false; }
-  scarp::BlockSize room(int grains, int pairs) const override { return processor.room(grains, pairs); }
+  std::optional<scarp::BlockSize> room(int grains, int pairs) const override { return processor.room(grains, pairs); }
   std::size_t free_bytes() const override { return processor.free_bytes(); }
   Bytes allocate(std::size_t bytes) override { return processor.allocate(bytes); }
   void write(std::span<std::byte const> from, std::byte* to) override { processor.write(from, to); }
@@ -51,8 +51,12 @@ struct TakesMany final : Behind {
 
 /// Has room for no longer list, and counts the lists that were too long.
 struct Narrow final : Behind {
+  int most = 1'000'000;  // pairs that it has room for
   int full = 0;
-  scarp::BlockSize room(int grains, int pairs) const override { return {processor.room(grains, pairs).grains, pairs}; }
+  std::optional<scarp::BlockSize> room(int grains, int pairs) const override {
+    if (pairs > most) return std::nullopt;
+    return scarp::BlockSize{processor.room(grains, pairs)->grains, pairs};
+  }
   void respond(std::span<scarp::BlockTask<Types> const> tasks, scarp::BlockParameters<Types, Damping> const& parameters,
                std::span<Header> headers) override {
     Behind::respond(tasks, parameters, headers);
@@ -235,6 +239,25 @@ TEST_CASE("a packing whose list the device has no room for responds on the proce
   }
   CHECK(device->full > 0);
   CHECK(device->full < 4);
+}
+
+TEST_CASE("a packing that outgrows the device responds on the processor from then on") {
+  auto const device = std::make_shared<Narrow>();
+  OnDevice const on_device{rve(), device};
+  auto state = on_device.initial_state({});
+  device->most = static_cast<int>(state.whole().packing.pairs.count());
+  auto own = state.whole();
+  scarp::Gradient<2> const compressed = -1e-2 * scarp::Gradient<2>::Identity();
+  for (int step = 0; step < 6; ++step) {
+    REQUIRE(scarp::advance(on_device, state, compressed).verdict.acceptable());
+    REQUIRE(scarp::advance(on_device.rve, own, compressed).verdict.acceptable());
+    CHECK((on_device.stress(state) - own.stress).norm() < 1e-6 * own.stress.norm());
+    CHECK((on_device.tangent(state) - on_device.rve.tangent(own)).norm() < 1e-6 * on_device.tangent(state).norm());
+  }
+  CHECK(static_cast<int>(state.whole().packing.pairs.count()) > device->most);
+  device->most = 10;
+  CHECK_THROWS_WITH_AS(on_device.initial_state({}), doctest::Contains("the device has no such room"),
+                       scarp::InputError);
 }
 
 TEST_CASE("a device that responds otherwise than the processor is refused") {

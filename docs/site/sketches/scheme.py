@@ -78,7 +78,7 @@ ROOMS = [
     ("equilibrium", ["solver"], "problems, load steps, iterations, executors", house.BLUE),
     ("continuum", ["bvp", "points"], "assembly, loads, interfaces; batches of points", house.BLUE),
     ("materials", ["rve", "constitutive"], "packings as providers; laws and adaptors", house.VERMILION),
-    ("grains", ["io/packings", "homogenise", "dem"], "stress and tangent of a packing; time stepping", house.VERMILION),
+    ("grains", ["io/packings", "homogenise", "cuda", "dem"], "stress and tangent of a packing; time stepping", house.VERMILION),
     ("parts", ["io/gmsh", "io", "mesh", "element", "contact", "shape"], "elements, contact laws, grain shapes, files", house.GREEN),
     ("base", ["tensor", "simd", "core"], "tensors, packs of numbers, verdicts, errors", house.BLACK)]
 

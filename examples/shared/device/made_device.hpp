@@ -31,10 +31,11 @@ template <class OnDevice>
 std::shared_ptr<typename OnDevice::Device> made_device(Device device, int grains, std::size_t points) {
   auto const made = device_named<typename OnDevice::Types, typename OnDevice::Damping>(device);
   constexpr int pairs_of_a_grain = 3;
+  auto const room = made->room(grains, pairs_of_a_grain * grains);
+  if (!room) scarp::reject("packings have {} grains (the device has no such room): take fewer grains", grains);
   constexpr std::size_t states = 2;  // committed and trial
-  auto const state = scarp::BlockState<typename OnDevice::Types>::bytes(made->room(grains, pairs_of_a_grain * grains));
   auto const free = made->free_bytes();
-  if (auto const wanted = states * points * state; wanted > free) {
+  if (auto const wanted = states * points * scarp::BlockState<typename OnDevice::Types>::bytes(*room); wanted > free) {
     scarp::reject("packings of {} grains at {} points need {} (the device has {} left): take fewer points or grains",
                   grains, points, scarp::memory_text(static_cast<double>(wanted)),
                   scarp::memory_text(static_cast<double>(free)));

@@ -23,9 +23,9 @@ struct CellMove {
 /// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class Shape, class T>
 struct TouchingPair {
-  static constexpr int dim = Shape::dim;
+  static constexpr int dim = Shape::dim;  ///< of space
 
-  ContactGeometry<dim, T> touch;
+  ContactGeometry<dim, T> touch;  ///< where they touch
   Point<dim, T> branch;           ///< from the first centre to the second [m]
   PoseOf<Shape, T> pose_first;    ///< of the first grain
   PoseOf<Shape, T> pose_second;   ///< of the second grain
@@ -39,11 +39,11 @@ struct TouchingPair {
 /// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
 struct PairForces {
-  Point<Dim, T> force;
-  Turning<Dim, T> torque_first;
-  Turning<Dim, T> torque_second;
-  T normal;      ///< [N], positive where it pushes the grains apart
-  T dissipated;  ///< [J]
+  Point<Dim, T> force;            ///< [N]
+  Turning<Dim, T> torque_first;   ///< [N m]
+  Turning<Dim, T> torque_second;  ///< [N m]
+  T normal;                       ///< [N], positive where it pushes the grains apart
+  T dissipated;                   ///< [J]
 };
 
 /// Rotation of a grain during the last move: grains turn with the cell, and their spin is a fluctuation about the affine one.

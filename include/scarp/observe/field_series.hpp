@@ -48,7 +48,7 @@ ElementFields element_fields(Problem const& problem) {
   std::size_t const elements = index(grid.cells().count());
   ElementFields fields;
   auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
-  auto const quantities = all_quantities(problem);
+  auto const quantities = own_quantities(problem);
   for (std::size_t e = 0; e < elements; ++e) {
     VoigtStress<dim> stress = VoigtStress<dim>::Zero();
     geo::Strain strain{};
@@ -63,10 +63,12 @@ ElementFields element_fields(Problem const& problem) {
       strain.volumetric += volume * here.volumetric;
       strain.deviatoric += volume * here.deviatoric;
       worst = std::max(worst, problem.responses()[static_cast<std::size_t>(point)].verdict.status);
-      visit_point(problem, point,
-                  [&](auto const& points, int number) { stress += volume * points.committed_stress(number); });
-      for (auto const& [name, value] : quantities[static_cast<std::size_t>(point)])
-        means[std::string(name)].add(volume, value);
+      visit_point(problem, point, [&](auto const& points, int number) {
+        stress += volume * points.committed_stress(number);
+        auto const& own = quantities[static_cast<std::size_t>(point)];
+        for (auto const& [name, value] : own ? *own : points.quantities(number))
+          means[std::string(name)].add(volume, value);
+      });
     }
     stress /= whole;
     fields.stress.insert(fields.stress.end(), stress.begin(), stress.end());

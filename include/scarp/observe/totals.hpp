@@ -25,13 +25,13 @@ void for_each_volume(Problem const& problem, Visit const& visit) {
 template <class Problem>
 double solid_volume(Problem const& problem) {
   double sum = 0.0;
-  auto const& grid = problem.grid();
-  auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
-  auto const quantities = all_quantities(problem);
-  for (std::size_t point = 0; point < quantities.size(); ++point) {
-    for (auto const& [quantity, value] : quantities[point])
-      if (quantity == "void_ratio") sum += volumes[point] / (1.0 + value);
-  }
+  auto const quantities = own_quantities(problem);
+  std::size_t point = 0;
+  detail::for_each_volume(problem, [&](double volume, auto const& points, int k) {
+    auto const& own = quantities[point++];
+    for (auto const& [quantity, value] : own ? *own : points.quantities(k))
+      if (quantity == "void_ratio") sum += volume / (1.0 + value);
+  });
   return sum;
 }
 

@@ -29,21 +29,14 @@ VoigtStress<Problem::dim> committed_stress(Problem const& problem, int point) {
   return stress;
 }
 
-/// Named numbers of every point's committed state, by the executor's threads for the points of this process.
+/// Named numbers of the committed states of this process' points, by the executor's threads; nothing for points of other processes.
 template <class Problem>
-std::vector<Quantities> all_quantities(Problem const& problem) {
+std::vector<std::optional<Quantities>> own_quantities(Problem const& problem) {
   auto const& executor = problem.executor();
-  std::vector<Quantities> values(static_cast<std::size_t>(problem.points().size()));
-  auto const evaluate = [&](int point) {
-    visit_point(problem, point,
-                [&](auto const& points, int k) { values[static_cast<std::size_t>(point)] = points.quantities(k); });
-  };
+  std::vector<std::optional<Quantities>> values(static_cast<std::size_t>(problem.points().size()));
   executor.for_each(problem.points().size(), [&](int point) {
-    if (executor.owns(point)) evaluate(point);
+    if (executor.owns(point)) values[static_cast<std::size_t>(point)] = problem.points().quantities(point);
   });
-  for (int point = 0; point < problem.points().size(); ++point) {
-    if (!executor.owns(point)) evaluate(point);
-  }
   return values;
 }
 

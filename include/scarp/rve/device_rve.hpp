@@ -69,14 +69,14 @@ struct DeviceRve {
     }
     /// Another packing, which is on the processor.
     void take(PackingType packing) {
-      outline.packing = outline_of(packing);
+      outline.packing = detail::outline_of(packing);
       stored = std::make_shared<Stored const>(std::move(packing));
     }
   };
 
   /// One response of several
   struct Request {
-    DeviceRve const* provider;       ///< of the point
+    DeviceRve const* provider;       ///< of all points
     State const* committed;          ///< of the point
     Gradient<dim> const* increment;  ///< since that state
     Plan steps;                      ///< DEM steps
@@ -97,11 +97,21 @@ struct DeviceRve {
   State initial_state(Site<dim> const& site) const {
     validate();
     State state = state_of(rve.initial_state(site));
+    auto const& packing = state.stored->packing();
+    auto const grains = static_cast<int>(packing.grain_count());
+    auto const pairs = static_cast<int>(packing.pairs.count());
+    if (!device->room(grains, pairs))
+      reject(
+          "the packing of point {} has {} grains and {} near pairs (the device has no such room): take fewer grains, "
+          "or "
+          "add a BlockSize to SCARP_CUDA_DEVICE",
+          site.index, grains, pairs);
     if (state.outline.verdict.status != Status::fluid)
       std::call_once(device->compared, [&] { require_equal_response(state); });
     return state;
   }
 
+  /// The provider's stress [Pa].
   VoigtStress<dim> stress(State const& state) const { return rve.stress(state.outline); }
 
   /// Stiffness [Pa] of the state's packing for engineering strain, as the provider's tangent.
@@ -120,14 +130,17 @@ struct DeviceRve {
     }
   }
 
+  /// DEM steps of a response, as the provider plans them.
   Plan plan(State const& committed, Gradient<dim> const& increment) const {
     return with_list(committed, [&](auto const& own) { return rve.plan(own, increment); });
   }
-  Plan refined(Plan steps) const { return rve.refined(steps); }
+  Plan refined(Plan steps) const { return rve.refined(steps); }  ///< Twice the steps.
 
+  /// Response to a displacement gradient in as many DEM steps as plan() gives.
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial) const {
     return respond(committed, increment, trial, plan(committed, increment));
   }
+  /// Response in so many DEM steps, with the provider's verdicts.
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial, Plan steps) const {
     auto const& known = trial.evaluated;
     if (!known || known->from != committed.stored || known->steps != steps || known->increment != increment) {
@@ -141,36 +154,19 @@ struct DeviceRve {
 
   /// Whether all points are to respond in one call.
   bool takes_many() const { return device && device->takes_many(); }
-  /// Writes the trial states of all requests, each with the response that `respond` then returns.
-  static void respond_together(std::span<Request const> requests) {
-    for (std::size_t from = 0; from < requests.size();) {  // points with other parameters are another call
-      std::size_t to = from + 1;
-      while (to < requests.size() && requests[to].provider == requests[from].provider) ++to;
-      requests[from].provider->respond_to(requests.subspan(from, to - from));
-      from = to;
-    }
-  }
+  /// Writes the trial states of all requests, which have one provider, each with the response that `respond` then returns.
+  static void respond_together(std::span<Request const> requests) { requests.front().provider->respond_to(requests); }
 
+  /// The provider's, of the packing that is read from the device.
   auto quantities(State const& state) const { return rve.quantities(state.whole()); }
+  /// The packing as a drawing needs it.
   auto picture(State const& state) const requires requires { rve.picture(state.outline); }
   { return rve.picture(state.whole()); }
-  auto balance(State const& state) const { return rve.balance(state.outline); }
+  auto balance(State const& state) const { return rve.balance(state.outline); }  ///< The provider's.
+  /// \throws InputError as the provider's
   void require_fitting(State const& state) const { rve.require_fitting(state.whole()); }
 
  private:
-  /// Cell, grains that never change and age of the list of a packing.
-  static PackingType outline_of(PackingType const& packing) {
-    PackingType outline;
-    outline.population = packing.population;
-    outline.cell = packing.cell;
-    outline.last_move = packing.last_move;
-    outline.pairs.drift = packing.pairs.drift;
-    outline.pairs.skin = packing.pairs.skin;
-    outline.pairs.critical_step = packing.pairs.critical_step;
-    outline.pairs.basis = packing.pairs.basis;
-    return outline;
-  }
-
   static State state_of(typename Rve::State own) {
     State state;
     PackingType packing = std::move(own.packing);
@@ -193,7 +189,10 @@ struct DeviceRve {
     std::vector<BlockTask<Types>> tasks;
     std::vector<typename Device::Bytes> memory;
     std::vector<Request const*> requested;
+    std::vector<Request const*> for_processor;
     for (auto const& request : requests) {
+      request.trial->stored.reset();  // its memory serves the new state
+      request.trial->evaluated.reset();
       auto const& committed = *request.committed;
       auto& outline = request.trial->outline;
       double const rate = with_list(
@@ -206,11 +205,12 @@ struct DeviceRve {
         continue;
       }
       auto const [state, header] = committed.stored->on(device, parameters());
-      if (header.trouble != Trouble::none) {
-        respond_here(request);
+      auto const room = device->room(header.grains, header.pairs);
+      if (header.trouble != Trouble::none || !room) {
+        for_processor.push_back(&request);
         continue;
       }
-      auto const size = device->room(header.grains, header.pairs);
+      auto const size = *room;
       memory.push_back(device->allocate(BlockState<Types>::bytes(size)));
       tasks.push_back({state, BlockState<Types>(memory.back().get(), size), device->grains(outline.packing.population),
                        request.steps, detail::row_by_row<dim>(strain_step)});
@@ -220,6 +220,7 @@ struct DeviceRve {
     device->respond(tasks, parameters(), headers);
     for (std::size_t k = 0; k < tasks.size(); ++k)
       finish(*requested[k], headers[k], std::move(memory[k]), tasks[k].trial.size);
+    for (auto const* request : for_processor) respond_here(*request);
   }
 
   void finish(Request const& request, BlockHeader<dim> const& header, typename Device::Bytes bytes,
@@ -237,7 +238,9 @@ struct DeviceRve {
     packing.cell = detail::as_tensor<dim>(header.cell);
     packing.last_move = {detail::as_tensor<dim>(header.gradient), header.duration, header.applied != 0};
     packing.pairs.drift = header.drift;
+    packing.pairs.skin = header.skin;
     packing.pairs.critical_step = header.critical_step;
+    packing.pairs.basis = list_basis(packing, rve.law, header.skin);
     double const volume = packing.volume();
     StepObservation<dim> seen{.stress = -detail::as_tensor<dim>(header.moment) / volume,
                               .contacts = header.contacts,
@@ -278,6 +281,10 @@ struct DeviceRve {
     State there;
     Response<dim> const expected = rve.respond(state.whole(), strain, here, steps);
     Response<dim> const found = respond(state, strain, there, steps);
+    if (!there.stored->is_on(device))
+      reject(
+          "the device cannot follow its first packing (a touch is not found, as where a function of the shape lacks "
+          "`constexpr`): write the word before every function of the shape");
     if ((found.stress - expected.stress).norm() <= tolerance * expected.stress.norm()) return;
     reject(
         "a packing on the device responds with {:.6g} Pa (xx; the processor finds {:.6g}): write `constexpr` before "

@@ -11,6 +11,22 @@
 
 namespace scarp {
 
+namespace detail {
+/// Cell, grains that never change and age of the list of a packing.
+template <class PackingType>
+PackingType outline_of(PackingType const& packing) {
+  PackingType outline;
+  outline.population = packing.population;
+  outline.cell = packing.cell;
+  outline.last_move = packing.last_move;
+  outline.pairs.drift = packing.pairs.drift;
+  outline.pairs.skin = packing.pairs.skin;
+  outline.pairs.critical_step = packing.pairs.critical_step;
+  outline.pairs.basis = packing.pairs.basis;
+  return outline;
+}
+}  // namespace detail
+
 /// A packing on the processor, on a device or on both: it goes where somebody needs it first, and is never changed, so that states
 /// share it. Several threads may call it.
 /// \tparam PackingType a `Packing` \tparam Device a `BlockDevice`
@@ -52,6 +68,12 @@ class StoredPacking {
     return {State(bytes_.get(), size_), header_};
   }
 
+  /// Whether it is on this device.
+  bool is_on(std::shared_ptr<Device> const& device) const {
+    std::lock_guard const lock(mutex_);
+    return device_ == device;
+  }
+
  private:
   void fetch() const {
     AlignedVector<std::byte> bytes(State::bytes(size_));
@@ -68,13 +90,14 @@ class StoredPacking {
   void place(std::shared_ptr<Device> const& device, Parameters const& parameters) const {
     TimeStepper<PackingType, typename Device::Damping> const stepper;
     header_ = {};
-    if (!stepper.refresh(packing_, parameters.law).acceptable()) {
-      header_.trouble = Trouble::unsettled_touch;  // the processor finds out what it is
-      return;
-    }
-    size_ = device->room(static_cast<int>(packing_.grain_count()), static_cast<int>(packing_.pairs.count()));
+    header_.trouble = Trouble::unsettled_touch;  // until the device has it, the processor responds
+    PackingType listed = packing_;
+    if (!stepper.refresh(listed, parameters.law).acceptable()) return;
+    auto const room = device->room(static_cast<int>(listed.grain_count()), static_cast<int>(listed.pairs.count()));
+    if (!room) return;
+    size_ = *room;
     AlignedVector<std::byte> here(State::bytes(size_));
-    to_block(packing_, State(here.data(), size_));
+    to_block(listed, State(here.data(), size_));
     auto const given = device->allocate(here.size());
     bytes_ = device->allocate(here.size());
     device->write(here, given.get());

@@ -56,6 +56,13 @@ TEST_CASE("a block ends with its trouble") {
     sample.packing.velocity(3, 0) = std::numeric_limits<double>::quiet_NaN();
     CHECK(trouble_of(sample, blocks::shear_step<2>(1e-5)) == scarp::Trouble::not_finite);
   }
+  SUBCASE("velocities that are no numbers, of a grain without contacts") {
+    sample.packing.velocity(0, 1) = std::numeric_limits<double>::quiet_NaN();
+    sample.packing.pairs = {};
+    sample.packing.pairs.skin = 1e-3;
+    sample.packing.pairs.critical_step = 1e-6;
+    CHECK(trouble_of(sample, Tensor<2>::Zero()) == scarp::Trouble::not_finite);
+  }
   SUBCASE("a touch that needs a slow search") {
     sample.size.pairs *= 8;
     Tensor<2> strain = Tensor<2>::Zero();

@@ -51,13 +51,13 @@ struct BlockBench {
   Array<int> unsettled{};           ///< touches whose normal was not found
   Array<Scalar> force{};            ///< of pairs: force, torque on the first, torque on the second
   Array<int> moved{};               ///< cells that a grain is moved by; before the new list
-  Array<Scalar> new_normal{};
-  Array<Scalar> new_memory{};
-  Array<std::uint16_t> new_first{};
-  Array<std::uint16_t> new_second{};
-  Array<std::uint8_t> new_shift{};
-  Array<std::uint16_t> bin{};    ///< of each grain
-  Array<std::uint16_t> order{};  ///< grains by bins
+  Array<Scalar> new_normal{};       ///< of the new list's pairs
+  Array<Scalar> new_memory{};       ///< of the new list's pairs
+  Array<std::uint16_t> new_first{};   ///< of the new list's pairs
+  Array<std::uint16_t> new_second{};  ///< of the new list's pairs
+  Array<std::uint8_t> new_shift{};    ///< of the new list's pairs
+  Array<std::uint16_t> bin{};         ///< of each grain
+  Array<std::uint16_t> order{};       ///< grains by bins
 
   /// Arrays for so many grains and pairs.
   SCARP_HOST_DEVICE constexpr BlockBench(Memory shared, BlockSize size) : grains(size.grains), pairs(size.pairs) {
@@ -86,12 +86,14 @@ struct BlockBench {
     place(force, Types::forces, pairs);
     at = scratch;
     place(moved, Types::dim, grains);
+    int const behind_moved = at;
     at = scratch;
     place(new_normal, Types::normals, pairs);
     place(new_memory, Types::memories, pairs);
     place(new_first, 1, pairs);
     place(new_second, 1, pairs);
     place(new_shift, 1, pairs);
+    if (at < behind_moved) at = behind_moved;  // bins are written while others read where grains were moved
     place(bin, 1, grains);
     place(order, 1, grains);
   }

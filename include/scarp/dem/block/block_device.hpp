@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "scarp/core/interruption.hpp"
@@ -15,6 +16,11 @@
 #include "scarp/simd/soa_array.hpp"
 
 namespace scarp {
+
+/// Rows of grains, and twice the pairs, are numbers of 16 bits.
+template <class Types>
+inline constexpr int most_grains = 65'535 / Types::parts;
+inline constexpr int most_pairs = 32'760;  ///< see `most_grains`
 
 /// One response of a device.
 /// \tparam Types a `BlockTypes`
@@ -53,9 +59,9 @@ class BlockDevice {
   virtual ~BlockDevice() = default;
   /// Whether it responds to many tasks in the time of one, so that all points are to come in one call.
   virtual bool takes_many() const = 0;
-  /// Rows of a state for so many grains and near pairs, with room for a longer list; it follows from these two numbers alone.
-  /// \throws InputError for more than it has room for
-  virtual BlockSize room(int grains, int pairs) const = 0;
+  /// Rows of a state for so many grains and near pairs, with room for a longer list; it follows from these two numbers alone. Nothing for
+  /// more than there is room for.
+  virtual std::optional<BlockSize> room(int grains, int pairs) const = 0;
   virtual std::size_t free_bytes() const = 0;                              ///< That states may still have.
   virtual Bytes allocate(std::size_t bytes) = 0;                           ///< \throws std::bad_alloc
   virtual void write(std::span<std::byte const> from, std::byte* to) = 0;  ///< Copies to the device.
@@ -75,10 +81,11 @@ class ProcessorDevice final : public BlockDevice<Types, Damping> {
 
  public:
   bool takes_many() const override { return false; }
-  BlockSize room(int grains, int pairs) const override {
+  std::optional<BlockSize> room(int grains, int pairs) const override {
     constexpr int row = 8;
     auto const rounded_up = [](int number) { return (number + row - 1) / row * row; };
-    return {rounded_up(grains), rounded_up(std::max(pairs + pairs / 4, 2 * grains))};
+    if (grains > most_grains<Types> || pairs > most_pairs) return std::nullopt;
+    return BlockSize{rounded_up(grains), std::min(rounded_up(std::max(pairs + pairs / 4, 2 * grains)), most_pairs)};
   }
   std::size_t free_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
   typename Base::Bytes allocate(std::size_t bytes) override {
@@ -87,9 +94,11 @@ class ProcessorDevice final : public BlockDevice<Types, Damping> {
   }
   void write(std::span<std::byte const> from, std::byte* to) override { std::memcpy(to, from.data(), from.size()); }
   void read(std::byte const* from, std::span<std::byte> to) override { std::memcpy(to.data(), from, to.size()); }
+  /// Views of the population itself.
   BlockGrains<Types> grains(std::shared_ptr<typename Base::Grains const> const& population) override {
     return block_grains<typename Types::Shape, typename Types::Law>(*population);
   }
+  /// One task after the other.
   void respond(std::span<BlockTask<Types> const> tasks, BlockParameters<Types, Damping> const& parameters,
                std::span<typename Base::Header> headers) override {
     thread_local Memory bench;

@@ -72,7 +72,7 @@ class BlockList {
       for (std::size_t a = 0; a < axes; ++a) {
         double const cells = std::floor(fraction(i, a));
         double const size = cells < 0.0 ? -cells : cells;
-        farthest = size <= farthest ? farthest : size;  // not-a-number stays
+        if (farthest == farthest && !(size <= farthest)) farthest = size;  // not-a-number stays
         b_.moved(a, i) = size <= farthest_cell ? static_cast<int>(cells) : 0;
       }
       for (std::size_t a = 0; a < axes; ++a) {

@@ -7,6 +7,7 @@
 #include "scarp/dem/block/block_list.hpp"
 #include "scarp/dem/block/block_pairs.hpp"
 #include "scarp/dem/block/block_stiffness.hpp"
+#include "scarp/dem/damping.hpp"
 
 namespace scarp {
 
@@ -133,14 +134,18 @@ class BlockProgram {
 
   /// Gives the time step to a damping that needs nothing else, whenever a list is made.
   SCARP_HOST_DEVICE constexpr void ready_damping() {
-    struct Pairs {
-      double critical_step;
-    };
     struct Listed {
-      Pairs pairs;
+      struct {
+        double critical_step;
+      } pairs;
     };
-    if constexpr (requires { damping_.before_move(Listed{}, 0, 1.0); })
+    if constexpr (requires { damping_.before_move(Listed{}, 0, 1.0); }) {
       damping_.before_move(Listed{{w_.critical_step}}, 0, time_step_share_ * w_.critical_step);
+    } else {
+      static_assert(!detail::names_before_move<Damping>,
+                    "scarp: a damping on a device learns the time step only: before_move must take any packing and "
+                    "forces and use no more than pairs.critical_step");
+    }
   }
 
   /// The last move as contacts see it: dashpots use it in every evaluation, springs once.
@@ -178,6 +183,7 @@ class BlockProgram {
     for (std::size_t k = 0; k < square; ++k) stretch[k] = static_cast<Scalar>(cell_step[k]);
     Scalar fastest(0);
     Scalar fastest_spin(0);
+    bool const is_settled = w_.bench.unsettled[0] == 0;  // before the barrier after which the next step counts
     auto const here = w_;
     auto const damping = damping_;
     auto* const orientation = orientation_;
@@ -213,8 +219,8 @@ class BlockProgram {
       if constexpr (Types::axes > 0) here.write_pose(orientation, i);
       everything += speed + turning;
       if (everything - everything != Scalar(0)) speed = std::numeric_limits<Scalar>::quiet_NaN();
-      fastest = speed <= fastest ? fastest : speed;  // not-a-number stays
-      fastest_spin = turning <= fastest_spin ? fastest_spin : turning;
+      if (fastest == fastest && !(speed <= fastest)) fastest = speed;  // not-a-number stays
+      if (fastest_spin == fastest_spin && !(turning <= fastest_spin)) fastest_spin = turning;
     });
     w_.cell = detail::product_of<dim>(cell_step, w_.cell);
     w_.write_offsets();
@@ -225,7 +231,7 @@ class BlockProgram {
     w_.drift += 2.0 * time_step * (speed + spin * w_.grains.largest_eccentricity);
     w_.drift += strain_size * (2.0 * w_.grains.largest_radius + w_.skin + w_.reach);
     if (!(speed < std::numeric_limits<double>::infinity())) w_.trouble = Trouble::not_finite;
-    if (w_.bench.unsettled[0] != 0) w_.trouble = Trouble::unsettled_touch;
+    if (!is_settled) w_.trouble = Trouble::unsettled_touch;
     last_gradient_ = strain_step;
     last_duration_ = time_step;
     applied_ = false;

@@ -49,25 +49,25 @@ template <int Dim>
 struct BlockHeader {
   using Square = std::array<double, static_cast<std::size_t>(Dim* Dim)>;  ///< a tensor, row by row
 
-  Square cell{};               ///< base vectors as columns [m]
-  Square gradient{};           ///< displacement gradient of the last move
-  double duration = 0.0;       ///< of the last move [s]
-  double drift = 0.0;          ///< see VerletList [m]
-  double skin = 0.0;           ///< see VerletList [m]
-  double reach = 0.0;          ///< of the law [m]
-  double critical_step = 0.0;  ///< [s]
-  std::int32_t grains = 0;     ///< in the packing
-  std::int32_t pairs = 0;      ///< in the list
-  std::int32_t applied = 0;    ///< 1 where the contacts' memory contains the last move
-  Trouble trouble = Trouble::none;
-  std::int32_t steps = 0;   ///< of the last response
-  std::int32_t lists = 0;   ///< made in the last response
-  Square moment{};          ///< sum of force (x) branch [N m]
-  Square kinetic{};         ///< sum of m v (x) v [N m]
-  double contacts = 0.0;    ///< that carry a force
-  double force = 0.0;       ///< sum of the contact forces' sizes [N]
-  double deepest = 0.0;     ///< overlap over reduced radius
-  double unbalanced = 0.0;  ///< sum of the net forces' sizes [N]
+  Square cell{};                    ///< base vectors as columns [m]
+  Square gradient{};                ///< displacement gradient of the last move
+  double duration = 0.0;            ///< of the last move [s]
+  double drift = 0.0;               ///< see VerletList [m]
+  double skin = 0.0;                ///< see VerletList [m]
+  double reach = 0.0;               ///< of the law [m]
+  double critical_step = 0.0;       ///< [s]
+  std::int32_t grains = 0;          ///< in the packing
+  std::int32_t pairs = 0;           ///< in the list
+  std::int32_t applied = 0;         ///< 1 where the contacts' memory contains the last move
+  Trouble trouble = Trouble::none;  ///< why the response ended early
+  std::int32_t steps = 0;           ///< of the last response
+  std::int32_t lists = 0;           ///< made in the last response
+  Square moment{};                  ///< sum of force (x) branch [N m]
+  Square kinetic{};                 ///< sum of m v (x) v [N m]
+  double contacts = 0.0;            ///< that carry a force
+  double force = 0.0;               ///< sum of the contact forces' sizes [N]
+  double deepest = 0.0;             ///< overlap over reduced radius
+  double unbalanced = 0.0;          ///< sum of the net forces' sizes [N]
   /// Stiffness times volume [N m] in Voigt's notation, row by row from the diagonal on.
   std::array<double, static_cast<std::size_t>(voigt_size<Dim>*(voigt_size<Dim> + 1) / 2)> stiffness{};
 };
@@ -86,17 +86,17 @@ template <class Types>
 struct BlockState {
   using Scalar = typename Types::Scalar;  ///< of coordinates and velocities
 
-  BlockSize size;  ///< rows of the columns
-  BlockHeader<Types::dim>* header = nullptr;
-  Scalar* position = nullptr;       ///< of grains [m]
-  Scalar* velocity = nullptr;       ///< of grains [m/s]
-  Scalar* spin = nullptr;           ///< of grains [rad/s]
-  Scalar* orientation = nullptr;    ///< of grains
-  Scalar* normal = nullptr;         ///< of pairs
-  Scalar* memory = nullptr;         ///< of pairs: shear, moment, scalars
-  std::uint16_t* first = nullptr;   ///< row of a pair's first grain part
-  std::uint16_t* second = nullptr;  ///< row of a pair's second grain part
-  std::uint8_t* shift = nullptr;    ///< number of the second grain's image
+  BlockSize size;                             ///< rows of the columns
+  BlockHeader<Types::dim>* header = nullptr;  ///< what is no array
+  Scalar* position = nullptr;                 ///< of grains [m]
+  Scalar* velocity = nullptr;                 ///< of grains [m/s]
+  Scalar* spin = nullptr;                     ///< of grains [rad/s]
+  Scalar* orientation = nullptr;              ///< of grains
+  Scalar* normal = nullptr;                   ///< of pairs
+  Scalar* memory = nullptr;                   ///< of pairs: shear, moment, scalars
+  std::uint16_t* first = nullptr;             ///< row of a pair's first grain part
+  std::uint16_t* second = nullptr;            ///< row of a pair's second grain part
+  std::uint8_t* shift = nullptr;              ///< number of the second grain's image
 
   /// A state that begins at `at`.
   SCARP_HOST_DEVICE constexpr BlockState(std::byte* at, BlockSize rows) : size(rows) {

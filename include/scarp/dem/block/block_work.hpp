@@ -54,18 +54,18 @@ struct BlockWork {
   static constexpr auto axes = static_cast<std::size_t>(dim);  ///< of space
   using Shift = std::array<int, axes>;                         ///< cells between a grain and its image
 
-  Team team;
-  BlockBench<Types, typename Team::Memory> bench;
-  BlockGrains<Types> grains;
-  Law law;
-  int grain_count = 0;
-  int pair_count = 0;
-  detail::SmallTensor<dim> cell{};  ///< base vectors as columns [m]
-  double drift = 0.0;               ///< see VerletList [m]
-  double skin = 0.0;                ///< see VerletList [m]
-  double reach = 0.0;               ///< of the law [m]
-  double critical_step = 0.0;       ///< [s]
-  Trouble trouble = Trouble::none;
+  Team team;                                       ///< that works
+  BlockBench<Types, typename Team::Memory> bench;  ///< shared memory
+  BlockGrains<Types> grains;                       ///< what never changes of the grains
+  Law law;                                         ///< of the contacts
+  int grain_count = 0;                             ///< in the packing
+  int pair_count = 0;                              ///< in the list
+  detail::SmallTensor<dim> cell{};                 ///< base vectors as columns [m]
+  double drift = 0.0;                              ///< see VerletList [m]
+  double skin = 0.0;                               ///< see VerletList [m]
+  double reach = 0.0;                              ///< of the law [m]
+  double critical_step = 0.0;                      ///< [s]
+  Trouble trouble = Trouble::none;                 ///< why the response ends early
 
   /// What the contact search sees of a part of a grain.
   template <class T>

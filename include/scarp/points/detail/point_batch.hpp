@@ -112,6 +112,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
   long work(int k) const override { return static_cast<long>(plans_[index(k)]); }
   bool has_exact_tangent() const override { return scarp::has_exact_tangent<Provider>(); }
   bool takes_many() const override {
+    if constexpr (has_own_parameters<State>()) return false;
     auto const present = std::ranges::find(here_, true);
     if (present == here_.end()) return false;
     return unwrap(*provider_, committed_[static_cast<std::size_t>(present - here_.begin())],
@@ -240,6 +241,17 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
         Inner::respond_together(requests);
       }
     });
+  }
+  /// Whether every state has a provider of its own, which is no part of one call.
+  template <class Inner>
+  static constexpr bool has_own_parameters() {
+    if constexpr (requires(Inner const& state) { *state.provider; }) {
+      return true;
+    } else if constexpr (requires(Inner const& state) { state.own; }) {
+      return has_own_parameters<std::remove_cvref_t<decltype(std::declval<Inner const&>().own)>>();
+    } else {
+      return false;
+    }
   }
   /// The plan of the provider within adaptors.
   static auto const& inner_plan(auto const& plan) {
