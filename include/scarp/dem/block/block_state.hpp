@@ -98,8 +98,9 @@ struct BlockState {
   std::uint16_t* second = nullptr;            ///< row of a pair's second grain part
   std::uint8_t* shift = nullptr;              ///< number of the second grain's image
 
-  /// A state that begins at `at`.
+  /// A state that begins at `at`; without arrays where that is null.
   SCARP_HOST_DEVICE constexpr BlockState(std::byte* at, BlockSize rows) : size(rows) {
+    if (at == nullptr) return;
     lay_out([&]<class T>(T*& array, std::size_t count) {
       array = static_cast<T*>(static_cast<void*>(at));
       at += detail::laid_out_bytes(count, sizeof(T));
