@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "dem/block/block_samples.hpp"
 #include "scarp/dem/block/block_device.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "support/packings.hpp"
@@ -42,7 +43,7 @@ TEST_CASE("a block of a card, emulated, has the bits of one thread") {
   scarp::TimeStepper<Grains> stepper;
   scarp::StepObservation<2> seen;
   REQUIRE(stepper.observe(packing, law, seen).acceptable());
-  auto const size = scarp::block_size(packing, 1.4);
+  auto const size = blocks::roomy(packing);
   auto const grains = scarp::block_grains<Types::Shape, Types::Law>(*packing.population);
   Bytes committed(State::bytes(size));
   scarp::to_block(packing, State(committed.data(), size));

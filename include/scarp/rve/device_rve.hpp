@@ -74,7 +74,7 @@ struct DeviceRve {
     }
   };
 
-  /// One response of several
+  /// One response of several.
   struct Request {
     DeviceRve const* provider;       ///< of all points
     State const* committed;          ///< of the point
@@ -103,8 +103,7 @@ struct DeviceRve {
     if (!device->room(grains, pairs))
       reject(
           "the packing of point {} has {} grains and {} near pairs (the device has no such room): take fewer grains, "
-          "or "
-          "add a BlockSize to SCARP_CUDA_DEVICE",
+          "or add a BlockSize to SCARP_CUDA_DEVICE",
           site.index, grains, pairs);
     if (state.outline.verdict.status != Status::fluid)
       std::call_once(device->compared, [&] { require_equal_response(state); });

@@ -23,6 +23,14 @@ namespace blocks {
 using scarp::Tensor;
 using Bytes = scarp::AlignedVector<std::byte>;
 
+/// Rows for a packing and a longer list.
+template <class PackingType>
+scarp::BlockSize roomy(PackingType const& packing) {
+  auto const rounded_up = [](double number) { return static_cast<int>(std::ceil(number / 8.0)) * 8; };
+  return {rounded_up(static_cast<double>(packing.grain_count())),
+          rounded_up(1.4 * static_cast<double>(packing.pairs.count()))};
+}
+
 /// A packing under pressure whose list is of now.
 template <class PackingType>
 struct Sample {
@@ -37,7 +45,7 @@ struct Sample {
     scarp::TimeStepper<PackingType> stepper;
     scarp::StepObservation<PackingType::dim> seen;
     REQUIRE(stepper.observe(packing, law, seen).acceptable());
-    size = scarp::block_size(packing, 1.4);
+    size = roomy(packing);
   }
 
   Bytes state(PackingType const& of) const {

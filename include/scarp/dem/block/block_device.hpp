@@ -73,7 +73,7 @@ class BlockDevice {
                        std::span<Header> headers) = 0;
 };
 
-/// The processor in the place of a card: the calling thread runs the block program alone.
+/// Packings respond on the processor instead of a card: the calling thread runs the block program.
 template <class Types, class Damping>
 class ProcessorDevice final : public BlockDevice<Types, Damping> {
   using Base = BlockDevice<Types, Damping>;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <vector>
 
@@ -60,14 +59,6 @@ int image_code(Shift const& shift) {
 }
 
 }  // namespace detail
-
-/// Size of a block that holds a packing and a longer list. room: pairs over the present ones
-template <class PackingType>
-BlockSize block_size(PackingType const& packing, double room = 1.15) {
-  auto const rounded_up = [](double number) { return static_cast<int>(std::ceil(number / 8.0)) * 8; };
-  return {rounded_up(static_cast<double>(packing.grain_count())),
-          rounded_up(room * static_cast<double>(packing.pairs.count()))};
-}
 
 /// Writes a packing into a state. Pairs are sorted by their grains, so that a block's threads read side by side, and a state that
 /// was a packing in between has the same list.
